@@ -1,0 +1,76 @@
+#include "estimator/common/geo.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace macadam {
+namespace {
+
+// WGS 84 (NIMA TR8350.2, third edition, table 3.1).
+constexpr double equator_radius_m = 6378137.0;
+constexpr double flattening = 1 / 298.257223563;
+constexpr double eccentricity_squared = flattening * (2 - flattening);
+constexpr double rad_per_deg = std::numbers::pi / 180;
+
+/// Metres per degree of longitude and of latitude at a latitude.
+PointEn metres_per_degree(double lat_deg) {
+    const double sine = std::sin(lat_deg * rad_per_deg);
+    const double w = 1 - eccentricity_squared * sine * sine;
+    const double n = equator_radius_m / std::sqrt(w);                 // Snyder eq. 4-20
+    const double m = n * (1 - eccentricity_squared) / w;              // Snyder eq. 4-19
+    return {n * std::cos(lat_deg * rad_per_deg) * rad_per_deg, m * rad_per_deg};
+}
+
+/// From `a` to `b` in the plane of their middle latitude, the short way round the globe.
+PointEn step(const GeoPoint& a, const GeoPoint& b) {
+    const auto scale = metres_per_degree((a.lat_deg + b.lat_deg) / 2);
+    const double lon_deg = std::remainder(b.lon_deg - a.lon_deg, 360.0);
+    return {lon_deg * scale.east_m, (b.lat_deg - a.lat_deg) * scale.north_m};
+}
+
+} // namespace
+
+bool is_empty(const GeoBox& box) {
+    return box.west_deg > box.east_deg || box.south_deg > box.north_deg;
+}
+
+bool contains(const GeoBox& box, const GeoPoint& point) {
+    return box.west_deg <= point.lon_deg && point.lon_deg <= box.east_deg &&
+           box.south_deg <= point.lat_deg && point.lat_deg <= box.north_deg;
+}
+
+GeoBox including(const GeoBox& box, const GeoPoint& point) {
+    return {std::min(box.west_deg, point.lon_deg),
+            std::min(box.south_deg, point.lat_deg),
+            std::max(box.east_deg, point.lon_deg),
+            std::max(box.north_deg, point.lat_deg)};
+}
+
+GeoBox grown(const GeoBox& box, double margin_m) {
+    const double farthest_deg = std::min(89.0, std::max(-box.south_deg, box.north_deg));
+    const auto scale = metres_per_degree(farthest_deg);
+    const double lon_deg = margin_m / scale.east_m;
+    const double lat_deg = margin_m / scale.north_m;
+    return {std::max(-180.0, box.west_deg - lon_deg),
+            std::max(-90.0, box.south_deg - lat_deg),
+            std::min(180.0, box.east_deg + lon_deg),
+            std::min(90.0, box.north_deg + lat_deg)};
+}
+
+double distance_m(const GeoPoint& a, const GeoPoint& b) {
+    const auto d = step(a, b);
+    return std::hypot(d.east_m, d.north_m);
+}
+
+double course_deg(const GeoPoint& a, const GeoPoint& b) {
+    const auto d = step(a, b);
+    const double course = std::atan2(d.east_m, d.north_m) / rad_per_deg;
+    return course < 0 ? course + 360 : course;
+}
+
+GeoPoint between(const GeoPoint& a, const GeoPoint& b, double fraction) {
+    return {std::lerp(a.lat_deg, b.lat_deg, fraction), std::lerp(a.lon_deg, b.lon_deg, fraction)};
+}
+
+} // namespace macadam

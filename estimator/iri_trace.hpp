@@ -1,0 +1,91 @@
+#pragma once
+
+#include "estimator/stretch.hpp"
+#include "estimator/vehicle.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+enum class Method : std::uint8_t {
+    kf, ///< the published Kalman filter on a quarter car or lateral half-car
+};
+
+/// Which accelerations the method is given.
+enum class Channels : std::uint8_t {
+    automatic, ///< both where the vehicle's IMU height is known, else vertical, else lateral
+    vertical,
+    lateral,
+    both,
+};
+
+struct EstimatorConfig {
+    Method method = Method::kf;
+    Channels channels = Channels::automatic;
+    bool filters = true; ///< the paper's 13, 11 and 0.5 Hz filters
+    double q_over_r = 1e9;
+    double lateral_regression = 1.39; ///< reference = 1.39 * estimate, paper section VI-B
+    double cell_m = 0.25;             ///< of the trace
+    double lead_in_m = 60; ///< after a start: 0.1 % of the golden car's transient is left
+};
+
+/// Why a value is not what it could be; flags that add up.
+namespace validity {
+inline constexpr std::uint8_t ok = 0;
+inline constexpr std::uint8_t too_slow = 1;
+inline constexpr std::uint8_t start_up = 2;
+inline constexpr std::uint8_t gap = 4;
+inline constexpr std::uint8_t indicative = 8;
+} // namespace validity
+
+/// "ok", or the names of the flags joined by '|', in the order above.
+std::string name_of_validity(std::uint8_t flags);
+
+/// The rectified suspension stroke of the golden car over one stretch, in cells of even length.
+/// IRI of any piece is the mean of its cells, so segments can be cut wherever the road has them.
+struct IriRun {
+    double start_travel_m; ///< of the first cell: where the centre of gravity stood over that road
+    double cell_m;
+    std::vector<float> left_mm_per_m;   ///< empty: not observed
+    std::vector<float> right_mm_per_m;
+    std::vector<float> centre_mm_per_m; ///< of the mean profile (HRI)
+    std::vector<float> speed_mps;
+    double lead_in_m;
+    bool indicative; ///< from lateral vibration alone
+};
+
+/// In the order of travel, not overlapping; between two runs nothing is known.
+struct IriTrace {
+    std::vector<IriRun> runs;
+};
+
+/// Method and vehicle behind one function: what a stretch says of the road under it.
+IriRun estimate_iri(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config);
+
+/// What the estimate says of one piece of road. Nothing: not observed there.
+struct IriMean {
+    std::optional<double> left_mm_per_m;
+    std::optional<double> right_mm_per_m;
+    std::optional<double> mri_mm_per_m;
+    std::optional<double> hri_mm_per_m;
+    double sd_mm_per_m = 0; ///< of mri where there is one, else of hri
+    double speed_mps = 0;
+    double covered_m = 0; ///< of the piece, by cells past their lead-in
+    std::uint8_t validity = validity::ok;
+};
+
+/// The mean over travel [from_m, to_m], of the cells past their lead-in. Where none is, the
+/// validity says why and covered_m is 0.
+IriMean mean_over(const IriTrace& trace, double from_m, double to_m, const Vehicle& vehicle);
+
+/// Standard deviation of an estimate of `iri_mm_per_m` over `length_m` of road.
+///
+/// Two relative parts: what changes along the road and averages out with length, and what the car's
+/// parameters shift alike everywhere. See docs/method.md for the figures and where they come from.
+double sd_of_kf_mm_per_m(double iri_mm_per_m, double length_m, bool lateral_only, const Vehicle& vehicle);
+
+} // namespace macadam

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "estimator/common/trip.hpp"
+
+#include <vector>
+
+namespace macadam {
+
+struct OdometerConfig {
+    double max_gap_s = 2.5;       ///< longest silence of speed that is bridged
+    double max_speed_mps = 90;    ///< more is not a car
+    double max_accel_mps2 = 12;   ///< of the speed from one reading to the next; more is a fault
+};
+
+/// Travel distance over the time of one trip: the one ruler that roughness and place share.
+///
+/// Wheel speed carries it where there is some, scaled to agree with GNSS over the whole trip;
+/// otherwise GNSS speed, or failing that the way between fixes. Stamps are corrected by the trip's
+/// latencies. Across a gap in the speeds the travel goes on by what the fixes on both sides say.
+class Odometer {
+public:
+    /// Knots of a piecewise linear speed. Sizes agree, t_s rises, travel_m never falls.
+    struct Knots {
+        std::vector<double> t_s;
+        std::vector<double> travel_m;
+        std::vector<float> speed_mps;       ///< NaN in gaps: not known between this knot and the next
+        std::vector<std::uint8_t> reversing; ///< 1: the wheels turned backward
+    };
+
+    explicit Odometer(Knots knots, double scale = 1);
+
+    /// Never falls; held still before the first and after the last knot.
+    double travel_m(double t_s) const;
+
+    /// NaN where not known.
+    double speed_mps(double t_s) const;
+
+    /// Time at which the trip had gone so far: the first, if it stood there.
+    double t_s(double travel_m) const;
+
+    double whole_m() const;
+    double start_s() const;
+    double end_s() const;
+
+    /// By how much wheel speed was multiplied; 1 where it was not compared.
+    double scale() const { return scale_; }
+
+    const Knots& knots() const { return knots_; }
+
+private:
+    Knots knots_;
+    double scale_;
+};
+
+/// The odometer of a trip; marks in `use` the speeds and the fixes (for their speed or place) that
+/// entered it, and the reason for those that did not. `use` must have been made by `unused(trip)`.
+///
+/// \throws InputError  if the trip has neither speeds nor two fixes.
+Odometer make_odometer(const TripLog& trip, const OdometerConfig& config, TripUse& use);
+
+/// Nothing used yet: every sample `unused_channel`.
+TripUse unused(const TripLog& trip);
+
+} // namespace macadam

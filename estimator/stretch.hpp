@@ -1,0 +1,66 @@
+#pragma once
+
+#include "estimator/common/trip.hpp"
+#include "estimator/odometer.hpp"
+#include "estimator/vehicle.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace macadam {
+
+/// The rotation from the sensor's axes to the vehicle's, and how it was found.
+struct Mounting {
+    Eigen::Matrix3d to_vehicle; ///< vehicle = to_vehicle * sensor
+    double gravity_mps2;        ///< mean specific force along the vehicle's z when included, else 0
+    double tilt_deg;            ///< how far the stated axes stood from level
+    bool moved;                 ///< gravity wandered by more than the road's camber explains
+};
+
+/// The mounting that the log states, corrected so that the mean specific force of the trip points
+/// up: gravity and tilt are estimated, not assumed. Heading of the axes is taken as stated, or found
+/// from braking and accelerating where the log says `mount: auto` or `frame: sensor`.
+Mounting estimate_mounting(const TripLog& trip, const Odometer& odometer);
+
+struct StretchConfig {
+    double rate_hz = 0;        ///< of the even grid; 0: the log's own rate, at most most_rate_hz
+    double most_rate_hz = 200;
+    double least_rate_hz = 40; ///< below it a log cannot carry the wavelengths that IRI weighs
+    double min_speed_mps = 5;
+    double max_gap_s = 0.3;    ///< longest hole in the vibration that is interpolated
+    double least_length_m = 60; ///< shorter ones would be all start-up
+};
+
+/// Where a stretch lies: samples [first, last] of trip.acc.
+struct StretchSpan {
+    std::size_t first;
+    std::size_t last;
+};
+
+/// A part of a trip without gaps, at speed, on one even time grid. Sizes agree.
+struct Stretch {
+    double start_s;
+    double step_s;
+    std::vector<float> vertical_mps2; ///< vehicle's z, up, gravity removed; empty if not sampled
+    std::vector<float> lateral_mps2;  ///< vehicle's y, left; empty if not sampled
+    std::vector<float> speed_mps;
+    std::vector<double> travel_m; ///< of the centre of gravity
+};
+
+/// Cuts a trip at gaps, stops, reversing and where no speed is known; says in `use.acc` why the
+/// samples outside did not serve.
+///
+/// \throws InputError  if vibration was sampled slower than least_rate_hz.
+std::vector<StretchSpan>
+find_stretches(const TripLog& trip, const Odometer& odometer, const StretchConfig& config, TripUse& use);
+
+/// One stretch on its even grid: rotated by `mounting`, low-passed against aliasing where the grid
+/// is coarser than the log, interpolated by a cubic. One at a time, to hold little memory.
+Stretch make_stretch(const TripLog& trip,
+                     const StretchSpan& span,
+                     const Odometer& odometer,
+                     const Mounting& mounting,
+                     const StretchConfig& config);
+
+} // namespace macadam

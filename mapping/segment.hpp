@@ -1,0 +1,40 @@
+#pragma once
+
+#include "mapping/road_network.hpp"
+
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+/// The name of about 20 m of road in one direction that outlives the loaded network: its way, its
+/// direction, its number along the way.
+struct SegmentKey {
+    std::int64_t way_id;
+    bool forward;
+    std::uint32_t index;
+    friend auto operator<=>(const SegmentKey&, const SegmentKey&) = default;
+};
+
+/// "123456+0007" forward, "123456-0007" backward. At least four digits.
+std::string name_of(const SegmentKey& key);
+
+/// \throws InputError  if the text is not such a name.
+SegmentKey parse_segment_key(std::string_view text);
+
+/// A segment in its place. from_m < to_m along the way from its first node, whatever the driving
+/// direction; `line` runs in driving direction.
+struct Segment {
+    SegmentKey key;
+    double from_m;
+    double to_m;
+    std::vector<GeoPoint> line;
+};
+
+/// The segments of one edge, in driving direction.
+std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge);
+
+} // namespace macadam

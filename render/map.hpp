@@ -1,0 +1,66 @@
+#pragma once
+
+#include "estimator/common/geo.hpp"
+#include "mapping/iri_class.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+/// A piece of road on the map, in driving direction. Consecutive pieces that touch and look alike
+/// are joined before they are drawn.
+struct MapLine {
+    std::vector<GeoPoint> line;
+    int iri_class = -1;     ///< in the class table; -1: road without a measurement, drawn quietly
+    bool both_ways = false; ///< the other direction is a line of its own: each keeps to its side
+    bool forward = true;    ///< along its way; of a pair of both_ways lines one is false
+    int rank = 0;           ///< 0 motorway .. 5 service: of the width
+    bool certain = true;    ///< false: few passes or a wide interval, drawn with a narrower core
+    std::string name;       ///< of the road, for its label
+};
+
+struct MapStyle {
+    enum class Theme { light, dark, print };
+    Theme theme = Theme::light;
+    std::string ramp = "rdylbu"; ///< rdylbu, cividis, viridis
+    const ClassTable* classes = nullptr; ///< null: fhwa
+    bool left_hand_traffic = false;
+    bool in_per_mi = false; ///< legend in in/mi
+};
+
+struct MapScene {
+    GeoBox box; ///< what must be in the picture; widened to its shape
+    std::vector<MapLine> lines;
+    std::string title;
+    std::string subtitle;    ///< period, kilometres, cars
+    std::string attribution; ///< whose data
+};
+
+/// Eight-bit RGB, top row first.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb; ///< width * height * 3
+};
+
+inline constexpr int least_image_px = 256;
+inline constexpr int most_image_px = 16384; ///< what OSMesa can draw; more silently fails
+
+/// The map with title, legend, scale bar, north arrow and attribution. Text and lines scale with the
+/// picture, so that 512 and 8192 px read alike.
+///
+/// \throws InputError  for a size out of range, an empty box, an unknown ramp, a missing font, or if
+///                     OSMesa cannot draw.
+Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
+
+/// The picture as the bytes of a PNG file.
+std::vector<std::uint8_t> encode_png(const Image& image);
+
+/// sRGB of each class from smooth to rough, as 0xRRGGBB. \throws InputError for an unknown ramp.
+std::vector<std::uint32_t> ramp_colours(std::string_view ramp, std::size_t classes);
+
+} // namespace macadam

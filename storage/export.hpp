@@ -1,0 +1,48 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "storage/road_store.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+/// One property of a segment as every output names it, in the order of docs/formats.md.
+struct Field {
+    enum class Type { text, integer, real };
+    std::string_view name;
+    Type type;
+    int decimals; ///< of a real
+};
+std::span<const Field> segment_fields();
+
+/// The value of each of segment_fields() as text; nothing: not known.
+std::vector<std::optional<std::string>> field_values(const SegmentRecord& record,
+                                                     const ClassTable& classes);
+
+/// One GeoJSON Feature on one line (RFC 7946: longitude first, 7 decimals; `id` = segment).
+std::string geojson_feature(const SegmentRecord& record, const ClassTable& classes);
+
+/// A CSV row of the field values, quoted where RFC 4180 needs it, without the line's end.
+std::string csv_row(const SegmentRecord& record, const ClassTable& classes);
+std::string csv_header();
+
+/// Writes segments to a file; its kind is its suffix: .geojson, .geojsonl, .csv, .gpkg (the layer
+/// `roughness` with its style, without passes, trips or vehicles). The file appears when it is
+/// whole, or not at all. \returns how many segments were written.
+///
+/// \throws InputError  for a suffix that is not known, or if the file cannot be written.
+std::size_t export_segments(const RoadStore& store,
+                            const SegmentFilter& filter,
+                            const std::filesystem::path& file,
+                            const Progress& progress = {});
+
+/// Suffixes that export_segments knows.
+std::span<const std::string_view> export_suffixes();
+
+} // namespace macadam

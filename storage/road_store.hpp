@@ -1,0 +1,145 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "mapping/fusion.hpp"
+#include "mapping/iri_class.hpp"
+#include "mapping/pass.hpp"
+#include "mapping/road_network.hpp"
+#include "mapping/segment.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// What a store is made with and keeps.
+struct StoreSettings {
+    double segment_length_m = 20;
+    std::string class_table = "fhwa";
+    std::string network_source; ///< file name of the map, or "traced from N trips"
+    std::string attribution;    ///< whom a picture of these roads must name
+};
+
+/// What the store keeps of a trip: no positions, no log.
+struct TripRecord {
+    std::string sha256; ///< unique
+    std::string trip_id;
+    std::string vehicle_id; ///< kept only as a pseudonym; "" = not stated
+    std::string file_name;
+    std::optional<std::int64_t> t0_utc_ms; ///< nothing: undated
+    std::string vehicle_model; ///< name of the Vehicle that was used
+    std::string method;
+    std::int64_t distance_mm = 0;
+    std::int64_t matched_mm = 0;
+    std::size_t rows_read = 0;
+    std::size_t rows_used = 0;
+};
+
+/// A segment in its place with what is known of it.
+struct SegmentRecord {
+    Segment segment;
+    std::string name;
+    std::string highway;
+    std::optional<SegmentState> state; ///< nothing: no pass yet
+};
+
+/// Which segments to visit; all conditions hold together.
+struct SegmentFilter {
+    std::optional<GeoBox> box;
+    std::optional<std::int64_t> way_id;
+    std::optional<SegmentKey> key;
+    std::string name_part;       ///< of the road's name, any case; "" = any
+    bool with_state_only = true; ///< false: also those without a pass
+    std::size_t worst = 0;       ///< n > 0: only the n with the highest iri, highest first
+};
+
+/// One pass with where it came from: a line of a segment's history.
+struct PassRecord {
+    Pass pass;
+    std::string trip_sha256;
+    std::string vehicle; ///< pseudonym
+    std::optional<std::int64_t> utc_ms;
+};
+
+struct ClassLength {
+    std::string name;
+    double km;
+};
+
+struct StoreInfo {
+    StoreSettings settings;
+    std::size_t trips = 0;
+    std::size_t undated_trips = 0;
+    std::size_t passes = 0;
+    std::vector<std::string> vehicles; ///< pseudonyms, in byte order
+    std::size_t segments = 0;
+    std::size_t segments_with_passes = 0;
+    double km = 0;             ///< of segments with passes
+    double network_km = 0;     ///< of all segments, each direction counted
+    std::vector<ClassLength> classes;
+    std::optional<std::int64_t> first_seen_ms;
+    std::optional<std::int64_t> last_seen_ms;
+    std::size_t waiting = 0; ///< segments whose new passes are not yet fused
+    int generation = 1;
+    GeoBox box; ///< of segments with passes; of all if there are none
+};
+
+/// Where the passes of many cars meet: one GeoPackage file (docs/store.md). Each call that writes is
+/// one transaction, all of it or nothing, on disk when it returns.
+///
+/// \throws InputError  from every call, if the file is missing, no store, locked for more than 20 s,
+///                     or cannot be written (the message names the file and the cause).
+class RoadStore {
+public:
+    /// Makes a new store with the segments of a network. \throws InputError if the file exists;
+    /// leaves nothing behind if it fails.
+    static RoadStore create(const std::filesystem::path& file,
+                            const RoadNetwork& roads,
+                            const StoreSettings& settings,
+                            const Progress& progress = {});
+
+    enum class Access { read, write };
+    static RoadStore open(const std::filesystem::path& file, Access access);
+
+    RoadStore(RoadStore&&) noexcept;
+    RoadStore& operator=(RoadStore&&) noexcept;
+    ~RoadStore();
+
+    const StoreSettings& settings() const;
+
+    /// The network this store was made for; its segments are cut from it.
+    RoadNetwork roads() const;
+
+    bool knows_trip(const std::string& sha256) const;
+
+    /// \returns false, and changes nothing, if the trip is already there.
+    bool add_trip(const TripRecord& trip, std::span<const Pass> passes);
+
+    /// Fuses every segment that has passes newer than its state. \returns how many.
+    std::size_t refresh(const FusionConfig& config, const Progress& progress = {});
+
+    /// In the order of keys (way, forward before backward, index), or worst first.
+    void visit(const SegmentFilter& filter,
+               const std::function<void(const SegmentRecord&)>& visit) const;
+
+    /// Passes over one segment, in the order of (trip hash, occurrence).
+    std::vector<PassRecord> history(const SegmentKey& key) const;
+
+    StoreInfo info() const;
+
+    /// SHA-256 over passes and states as text: the same content gives the same digest on any machine
+    /// (docs/store.md says how the text is made).
+    std::string digest() const;
+
+private:
+    struct Impl;
+    explicit RoadStore(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace macadam

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "estimator/common/trip.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Which sensors to keep; the rows of the others are counted, not held.
+struct TripNeeds {
+    bool acc = false;
+    bool gyro = false;
+    bool speed = false;
+    bool fixes = false;
+
+    /// Columns that must be in the header, as groups of which one is enough: {{"t_s"}, {"acc_z_mps2",
+    /// "acc_y_mps2"}}.
+    std::vector<std::vector<std::string>> columns;
+};
+
+TripNeeds needs_of_match();
+TripNeeds needs_of_trace();
+TripNeeds needs_of_import();
+
+/// A file that holds a trip, or one inside an archive.
+struct TripSource {
+    std::filesystem::path file;
+    std::string member; ///< of the archive; "" for a file of its own
+
+    std::string name() const; ///< as messages call it
+};
+
+struct TripSearch {
+    std::vector<TripSource> trips; ///< in byte order of their relative paths
+    std::size_t other_files = 0;   ///< seen and not read
+};
+
+/// The trips that a path stands for: itself, every *.trip.csv[.gz|.zst] under a folder, or every
+/// such member of a .zip, .tar, .tar.gz or .tar.zst archive.
+///
+/// \throws InputError  if there is no such file or folder.
+TripSearch find_trips(const std::filesystem::path& path);
+
+/// SHA-256 of the decompressed content of a trip, without reading it as one: to know quickly whether
+/// it is known.
+std::string content_sha256(const TripSource& source);
+
+/// Reads a "macadam-trip 1" log, plain, .gz or .zst, as a stream: its samples, and for every data row
+/// what it gave or why it gave nothing.
+///
+/// \throws InputError  "file:line: ..." if it is not such a log, lacks a needed column, or does not end
+///                     with "# end rows: N" and the right N.
+TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress = {});
+
+} // namespace macadam
