@@ -82,6 +82,7 @@ enum class RowReason : std::uint8_t {
     no_speed,      ///< vibration with no speed known at its time
     implausible,   ///< a position or speed that the neighbours contradict
     inaccurate,    ///< a position that the receiver itself gives little for
+    repeated_fix,  ///< the fix before it once more, as loggers write on every fast row
 };
 const char* name_of(RowReason reason);
 
