@@ -1,0 +1,139 @@
+#include "app/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <ranges>
+
+namespace macadam {
+namespace {
+
+/// "--output" of "-o,--output".
+std::string long_name(std::string_view name) {
+    return std::string{name.substr(name.rfind(',') + 1)};
+}
+
+double number_in(std::string_view name, std::string_view word) {
+    double number = 0;
+    const auto from = word.starts_with('+') ? word.substr(1) : word;
+    const auto [stop, error] = std::from_chars(from.data(), from.data() + from.size(), number);
+    if (error != std::errc{} || stop != from.data() + from.size()) {
+        throw UsageError{fmt::format("{} is '{}', expected a number", name, word)};
+    }
+    return number;
+}
+
+void add_options(CLI::App& parser,
+                 std::span<const Option> options,
+                 std::map<std::string, std::vector<std::string>, std::less<>>& words) {
+    for (const auto& option : options) {
+        auto& values = words[long_name(option.name)];
+        if (option.value.empty()) {
+            parser.add_flag_function(std::string{option.name},
+                                     [&values](std::int64_t) { values = {"yes"}; });
+        } else if (option.many) {
+            parser.add_option(std::string{option.name}, values)->expected(1, -1);
+        } else {
+            parser.add_option(std::string{option.name}, values)->expected(1)->allow_extra_args(false)->take_last();
+        }
+    }
+}
+
+} // namespace
+
+Arguments::Arguments(std::span<const Option> options,
+                     std::span<const Operand> operands,
+                     std::vector<std::string> words) {
+    CLI::App parser;
+    parser.set_help_flag();
+    add_options(parser, options, words_);
+    for (const auto& operand : operands) {
+        auto* const added = parser.add_option(std::string{operand.name}, words_[std::string{operand.name}]);
+        added->required()->expected(1, operand.many ? -1 : 1);
+    }
+    try {
+        std::ranges::reverse(words); // CLI11 takes them from the back
+        parser.parse(std::move(words));
+    } catch (const CLI::RequiredError&) {
+        const auto missing = std::ranges::find_if(
+            operands, [this](const Operand& operand) { return this->operands(operand.name).empty(); });
+        throw UsageError{fmt::format("{} is missing", missing->name)};
+    } catch (const CLI::ExtrasError& error) {
+        throw UsageError{fmt::format("not understood: {}", error.what())};
+    } catch (const CLI::ParseError& error) {
+        throw UsageError{error.what()};
+    }
+}
+
+bool Arguments::flag(std::string_view name) const {
+    return !values(name).empty();
+}
+
+std::vector<std::string> Arguments::values(std::string_view name) const {
+    return words_.find(name)->second;
+}
+
+std::optional<std::string> Arguments::value(std::string_view name) const {
+    const auto found = values(name);
+    return found.empty() ? std::nullopt : std::optional{found.back()};
+}
+
+std::optional<double> Arguments::number(std::string_view name) const {
+    const auto word = value(name);
+    return word ? std::optional{number_in(name, *word)} : std::nullopt;
+}
+
+double Arguments::number(std::string_view name, double fallback) const {
+    return number(name).value_or(fallback);
+}
+
+std::optional<std::int64_t> Arguments::integer(std::string_view name) const {
+    const auto word = value(name);
+    if (!word) {
+        return std::nullopt;
+    }
+    std::int64_t number = 0;
+    const auto* const end = word->data() + word->size();
+    if (const auto [stop, error] = std::from_chars(word->data(), end, number);
+        error != std::errc{} || stop != end) {
+        throw UsageError{fmt::format("{} is '{}', expected a whole number", name, *word)};
+    }
+    return number;
+}
+
+std::optional<std::vector<double>> Arguments::numbers(std::string_view name, std::size_t count) const {
+    const auto word = value(name);
+    if (!word) {
+        return std::nullopt;
+    }
+    std::vector<double> numbers;
+    for (const auto part : std::views::split(*word, ',')) {
+        numbers.push_back(number_in(name, std::string_view{part.begin(), part.end()}));
+    }
+    if (numbers.size() != count) {
+        throw UsageError{
+            fmt::format("{} is '{}', expected {} numbers with commas between", name, *word, count)};
+    }
+    return numbers;
+}
+
+std::string Arguments::choice(std::string_view name, std::span<const std::string_view> words) const {
+    const auto word = value(name).value_or(std::string{words.front()});
+    if (std::ranges::find(words, word) == words.end()) {
+        throw UsageError{
+            fmt::format("{} is '{}', expected {}", name, word, fmt::join(words, " or "))};
+    }
+    return word;
+}
+
+const std::string& Arguments::operand(std::string_view name) const {
+    return operands(name).front();
+}
+
+const std::vector<std::string>& Arguments::operands(std::string_view name) const {
+    return words_.find(name)->second;
+}
+
+} // namespace macadam

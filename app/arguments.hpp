@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+/// The command line was wrong; main() answers with the command's usage and exit status 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// An option as the table of a command lists it: enough to parse it, and to explain it.
+struct Option {
+    std::string_view name;        ///< "--length", or "-o,--output"
+    std::string_view value;       ///< what its value is, "METRES"; "" for a flag
+    std::string_view help;        ///< one sentence
+    std::string_view fallback{};  ///< the value without the option, as help shows it; "" = none
+    bool many = false;            ///< takes all the words up to the next option
+};
+
+/// A word that is not an option.
+struct Operand {
+    std::string_view name; ///< "STORE"
+    std::string_view help;
+    bool many = false; ///< one or more; only the last operand may be
+};
+
+/// The words after the command's name, sorted by a command's table. Values are text until a command
+/// asks for what it needs; a word that does not fit is a UsageError that quotes it.
+class Arguments {
+public:
+    /// \throws UsageError  for an unknown option, a missing value or operand, or a word too many.
+    Arguments(std::span<const Option> options,
+              std::span<const Operand> operands,
+              std::vector<std::string> words);
+
+    bool flag(std::string_view name) const;
+    std::optional<std::string> value(std::string_view name) const;
+    std::vector<std::string> values(std::string_view name) const;
+    std::optional<double> number(std::string_view name) const;
+    double number(std::string_view name, double fallback) const;
+    std::optional<std::int64_t> integer(std::string_view name) const;
+
+    /// Comma-separated numbers: `--bbox W,S,E,N`. \throws UsageError if there are not `count`.
+    std::optional<std::vector<double>> numbers(std::string_view name, std::size_t count) const;
+
+    /// One of a few words; the first is the fallback.
+    std::string choice(std::string_view name, std::span<const std::string_view> words) const;
+
+    const std::string& operand(std::string_view name) const;
+    const std::vector<std::string>& operands(std::string_view name) const;
+
+private:
+    std::map<std::string, std::vector<std::string>, std::less<>> words_;
+};
+
+} // namespace macadam

@@ -1,0 +1,103 @@
+#include "app/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace macadam {
+namespace {
+
+constexpr Option quiet{"--quiet", "", "Say nothing but warnings and errors."};
+
+std::vector<Option> options_of(const Command& command) {
+    std::vector<Option> options{command.options.begin(), command.options.end()};
+    options.push_back(quiet);
+    return options;
+}
+
+std::string described(std::string_view term, std::string_view text) {
+    constexpr std::size_t column = 26;
+    if (term.size() + 2 >= column) {
+        return fmt::format("  {}\n  {:{}}{}\n", term, "", column, text);
+    }
+    return fmt::format("  {:{}}{}\n", term, column, text);
+}
+
+std::string described(const Option& option) {
+    auto term = std::string{option.name};
+    std::replace(term.begin(), term.end(), ',', ' ');
+    if (!option.value.empty()) {
+        term += fmt::format(" {}{}", option.value, option.many ? "..." : "");
+    }
+    auto text = std::string{option.help};
+    if (!option.fallback.empty()) {
+        text += fmt::format(" [{}]", option.fallback);
+    }
+    return described(term, text);
+}
+
+} // namespace
+
+std::span<const Command> commands() {
+    static const std::array table{init_command,
+                                  import_command,
+                                  query_command,
+                                  export_command,
+                                  render_command,
+                                  info_command,
+                                  iri_command,
+                                  trace_command,
+                                  match_command};
+    return table;
+}
+
+const Command* command_named(std::string_view name) {
+    const auto found = std::ranges::find(commands(), name, &Command::name);
+    return found == commands().end() ? nullptr : &*found;
+}
+
+std::string usage_of(const Command& command) {
+    auto usage = fmt::format("macadam {}", command.name);
+    for (const auto& operand : command.operands) {
+        usage += fmt::format(" {}{}", operand.name, operand.many ? "..." : "");
+    }
+    return usage + " [OPTION...]";
+}
+
+std::string help_of(const Command& command) {
+    auto help = fmt::format("{}\n\nusage: {}\n\n{}\n", command.summary, usage_of(command), command.about);
+    if (!command.operands.empty()) {
+        help += '\n';
+        for (const auto& operand : command.operands) {
+            help += described(operand.name, operand.help);
+        }
+    }
+    help += "\noptions\n";
+    for (const auto& option : options_of(command)) {
+        help += described(option);
+    }
+    return help + fmt::format("\nexample\n{}\n", command.example);
+}
+
+std::string help_of_all() {
+    std::string help = "Macadam: road roughness maps from the sensors that ordinary cars already have\n\n"
+                       "usage: macadam COMMAND ...    macadam COMMAND --help    macadam --version\n\n";
+    for (const auto& command : commands()) {
+        help += described(command.name, command.summary);
+    }
+    return help + "\nFrom a trip to a map:\n"
+                  "  macadam init roads.gpkg --network town.osm.pbf\n"
+                  "  macadam import roads.gpkg trips/\n"
+                  "  macadam render roads.gpkg -o map.png\n\n"
+                  "Exit status: 0 done, 1 failed, 2 misused.\n";
+}
+
+void run(const Command& command, std::vector<std::string> words) {
+    const auto options = options_of(command);
+    const Arguments arguments{options, command.operands, std::move(words)};
+    command.run(arguments, Console{arguments.flag("--quiet")});
+    flush_results();
+}
+
+} // namespace macadam

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "app/arguments.hpp"
+#include "app/console.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+/// A command of the program. One table of them feeds the parser, the help and the tests.
+struct Command {
+    std::string_view name;
+    std::string_view summary; ///< one line, for the list of commands
+    std::string_view about;   ///< what it does and what comes out
+    std::string_view example; ///< command lines that work, and what they are good for
+    std::span<const Operand> operands;
+    std::span<const Option> options;
+    void (*run)(const Arguments&, const Console&);
+};
+
+/// Every command, in the order of the work.
+std::span<const Command> commands();
+
+/// Null if there is none of that name.
+const Command* command_named(std::string_view name);
+
+/// "macadam iri [OPTION...] PROFILE"
+std::string usage_of(const Command& command);
+
+/// What `macadam COMMAND --help` prints.
+std::string help_of(const Command& command);
+
+/// What `macadam --help` prints.
+std::string help_of_all();
+
+/// Splits the words by the command's table (and --quiet, which every command takes) and runs it.
+void run(const Command& command, std::vector<std::string> words);
+
+extern const Command init_command;   // app/command_init.cpp
+extern const Command import_command; // app/command_import.cpp
+extern const Command query_command;  // app/command_query.cpp
+extern const Command export_command; // app/command_export.cpp
+extern const Command render_command; // app/command_render.cpp
+extern const Command info_command;   // app/command_info.cpp
+extern const Command iri_command;    // app/command_iri.cpp
+extern const Command trace_command;  // app/command_trace.cpp
+extern const Command match_command;  // app/command_match.cpp
+
+} // namespace macadam

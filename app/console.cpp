@@ -1,0 +1,68 @@
+#include "app/console.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include <unistd.h>
+
+namespace macadam {
+namespace {
+
+constexpr int bar_width = 30;
+
+void require_written(bool written) {
+    if (!written) {
+        throw InputError{fmt::format("standard output: {}", std::strerror(errno))};
+    }
+}
+
+} // namespace
+
+Console::Console(bool quiet) : quiet_{quiet}, terminal_{isatty(STDERR_FILENO) == 1} {}
+
+void Console::say(std::string_view line) const {
+    if (!quiet_) {
+        fmt::print(stderr, "{}\n", line);
+    }
+}
+
+void Console::warn(std::string_view line) const { // NOLINT(*-convert-member-functions-to-static)
+    fmt::print(stderr, "macadam: warning: {}\n", line);
+}
+
+Progress Console::progress(std::string label) const {
+    if (quiet_ || !terminal_) {
+        return {};
+    }
+    auto shown = std::make_shared<int>(-1);
+    return {.report = [label = std::move(label), shown](std::size_t done, std::size_t whole) {
+                const int percent = whole == 0 ? 0 : static_cast<int>(100 * done / whole);
+                if (percent == *shown) {
+                    return;
+                }
+                *shown = percent;
+                const int full = bar_width * percent / 100;
+                fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3d} %", label, "", full, "", bar_width - full, percent);
+                if (done == whole) {
+                    fmt::print(stderr, "\r\033[K");
+                }
+                std::fflush(stderr);
+            },
+            .stop = {}};
+}
+
+void print(std::string_view text) {
+    require_written(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
+}
+
+void flush_results() {
+    require_written(std::fflush(stdout) == 0);
+}
+
+} // namespace macadam

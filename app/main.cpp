@@ -1,0 +1,65 @@
+#include "app/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace {
+
+enum ExitStatus { done = 0, failed = 1, misused = 2 };
+
+/// Runs a command and turns what it throws into words and an exit status: the only place that does.
+int run_command(const macadam::Command& command, std::vector<std::string> words) {
+    try {
+        macadam::run(command, std::move(words));
+        return done;
+    } catch (const macadam::UsageError& error) {
+        fmt::print(stderr,
+                   "macadam {}: {}\nusage: {}\nmore:  macadam {} --help\n",
+                   command.name,
+                   error.what(),
+                   macadam::usage_of(command),
+                   command.name);
+        return misused;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "macadam {}: not enough memory\n", command.name);
+        return failed;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "macadam {}: {}\n", command.name, error.what());
+        return failed;
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    std::vector<std::string> words{argv + 1, argv + argc};
+    if (words.empty()) {
+        fmt::print(stderr, "{}", macadam::help_of_all());
+        return misused;
+    }
+    const auto name = words.front();
+    words.erase(words.begin());
+
+    if (name == "--version") {
+        fmt::print("macadam {}\n", MACADAM_VERSION);
+        return done;
+    }
+    if (name == "--help" || name == "-h" || name == "help") {
+        fmt::print("{}", macadam::help_of_all());
+        return done;
+    }
+    const auto* const command = macadam::command_named(name);
+    if (command == nullptr) {
+        fmt::print(stderr, "macadam: no command '{}'; macadam --help lists them\n", name);
+        return misused;
+    }
+    if (std::ranges::find(words, "--help") != words.end() || std::ranges::find(words, "-h") != words.end()) {
+        fmt::print("{}", macadam::help_of(*command));
+        return done;
+    }
+    return run_command(*command, std::move(words));
+}

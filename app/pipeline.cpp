@@ -1,0 +1,91 @@
+#include "app/pipeline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr double slow_sampling_hz = 80;     // below it the shortest waves of IRI begin to be missed
+constexpr double steep_tilt_deg = 15;       // more than a careless mounting
+constexpr double odd_scale = 0.05;          // wheel speed against GNSS
+
+/// The typical rate of the vibration, from the middle step of its stamps.
+double rate_hz(const TriaxialSamples& acc) {
+    if (acc.t_s.size() < 2) {
+        return 0;
+    }
+    std::vector<double> steps_s(acc.t_s.size() - 1);
+    for (std::size_t i = 0; i < steps_s.size(); ++i) {
+        steps_s[i] = acc.t_s[i + 1] - acc.t_s[i];
+    }
+    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+    std::ranges::nth_element(steps_s, middle);
+    return 1 / *middle;
+}
+
+std::vector<std::string>
+warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
+    std::vector<std::string> warnings;
+    if (const double hz = rate_hz(trip.acc); hz < slow_sampling_hz) {
+        warnings.push_back(fmt::format("vibration was sampled at {:.0f} Hz; below {:.0f} Hz short waves are missed",
+                                       hz,
+                                       slow_sampling_hz));
+    }
+    if (mounting.moved) {
+        warnings.emplace_back("gravity changed its direction: the sensor moved during the trip");
+    }
+    if (mounting.tilt_deg > steep_tilt_deg) {
+        warnings.push_back(fmt::format("the sensor stood {:.0f} degrees from level; corrected", mounting.tilt_deg));
+    }
+    if (std::abs(odometer.scale() - 1) > odd_scale) {
+        warnings.push_back(fmt::format("wheel speed was off from GNSS by {:+.1f} %; corrected",
+                                       100 * (1 / odometer.scale() - 1)));
+    }
+    for (const auto& column : trip.unknown_columns) {
+        warnings.push_back(fmt::format("column '{}' is not known and was not read", column));
+    }
+    return warnings;
+}
+
+double length_on_roads_m(const MatchedTrace& matched) {
+    double length_m = 0;
+    for (const auto& piece : matched) {
+        length_m += piece.kind == PieceKind::road ? piece.to_travel_m - piece.from_travel_m : 0;
+    }
+    return length_m;
+}
+
+} // namespace
+
+TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config) {
+    auto use = unused(trip);
+    auto odometer = make_odometer(trip, config.odometer, use);
+    const auto mounting = estimate_mounting(trip, odometer);
+
+    IriTrace roughness;
+    for (const auto& span : find_stretches(trip, odometer, config.stretch, use)) {
+        const auto stretch = make_stretch(trip, span, odometer, mounting, config.stretch);
+        roughness.runs.push_back(estimate_iri(stretch, vehicle, config.estimator));
+    }
+    auto warnings = warnings_of(trip, odometer, mounting);
+    return {std::move(odometer), std::move(roughness), std::move(use), std::move(warnings)};
+}
+
+TripResult passes_of(const TripLog& trip,
+                     const Vehicle& vehicle,
+                     const RoadNetwork& roads,
+                     const PipelineConfig& config) {
+    auto trace = trace_of(trip, vehicle, config);
+    const auto matched = map_match(trip, trace.odometer, roads, config.match, trace.use);
+
+    return {.passes = cut_passes(trace.roughness, matched, roads, vehicle, config.pass),
+            .rows = account(trip, trace.use),
+            .distance_m = trace.odometer.whole_m(),
+            .matched_m = length_on_roads_m(matched),
+            .warnings = std::move(trace.warnings)};
+}
+
+} // namespace macadam

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "estimator/iri_trace.hpp"
+#include "estimator/stretch.hpp"
+#include "mapping/map_match.hpp"
+#include "mapping/pass.hpp"
+
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+struct PipelineConfig {
+    OdometerConfig odometer;
+    StretchConfig stretch;
+    EstimatorConfig estimator;
+    MatchConfig match;
+    PassConfig pass;
+};
+
+/// Roughness along one trip, and what it was made of.
+struct TripTrace {
+    Odometer odometer;
+    IriTrace roughness;
+    TripUse use;
+    std::vector<std::string> warnings;
+};
+
+/// The engine alone: what one trip says of the road along its own travel. No map.
+TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config);
+
+/// What one trip gives to the store, with every row of its log accounted for.
+struct TripResult {
+    std::vector<Pass> passes;
+    RowCount rows;
+    double distance_m = 0;
+    double matched_m = 0; ///< on roads of the network
+    std::vector<std::string> warnings;
+};
+
+/// The whole of the science: one trip in, its passes out. No files, no clock, no globals.
+TripResult passes_of(const TripLog& trip,
+                     const Vehicle& vehicle,
+                     const RoadNetwork& roads,
+                     const PipelineConfig& config);
+
+} // namespace macadam
