@@ -36,7 +36,10 @@ void add_options(CLI::App& parser,
         } else if (option.many) {
             parser.add_option(std::string{option.name}, values)->expected(1, -1);
         } else {
-            parser.add_option(std::string{option.name}, values)->expected(1)->allow_extra_args(false)->take_last();
+            parser.add_option(std::string{option.name}, values)
+                ->expected(1)
+                ->allow_extra_args(false)
+                ->take_last();
         }
     }
 }
@@ -50,15 +53,17 @@ Arguments::Arguments(std::span<const Option> options,
     parser.set_help_flag();
     add_options(parser, options, words_);
     for (const auto& operand : operands) {
-        auto* const added = parser.add_option(std::string{operand.name}, words_[std::string{operand.name}]);
+        auto* const added =
+            parser.add_option(std::string{operand.name}, words_[std::string{operand.name}]);
         added->required()->expected(1, operand.many ? -1 : 1);
     }
     try {
         std::ranges::reverse(words); // CLI11 takes them from the back
         parser.parse(std::move(words));
     } catch (const CLI::RequiredError&) {
-        const auto missing = std::ranges::find_if(
-            operands, [this](const Operand& operand) { return this->operands(operand.name).empty(); });
+        const auto missing = std::ranges::find_if(operands, [this](const Operand& operand) {
+            return this->operands(operand.name).empty();
+        });
         throw UsageError{fmt::format("{} is missing", missing->name)};
     } catch (const CLI::ExtrasError& error) {
         throw UsageError{fmt::format("not understood: {}", error.what())};
@@ -103,7 +108,8 @@ std::optional<std::int64_t> Arguments::integer(std::string_view name) const {
     return number;
 }
 
-std::optional<std::vector<double>> Arguments::numbers(std::string_view name, std::size_t count) const {
+std::optional<std::vector<double>> Arguments::numbers(std::string_view name,
+                                                      std::size_t count) const {
     const auto word = value(name);
     if (!word) {
         return std::nullopt;
@@ -119,7 +125,8 @@ std::optional<std::vector<double>> Arguments::numbers(std::string_view name, std
     return numbers;
 }
 
-std::string Arguments::choice(std::string_view name, std::span<const std::string_view> words) const {
+std::string Arguments::choice(std::string_view name,
+                              std::span<const std::string_view> words) const {
     const auto word = value(name).value_or(std::string{words.front()});
     if (std::ranges::find(words, word) == words.end()) {
         throw UsageError{

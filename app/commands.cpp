@@ -66,7 +66,8 @@ std::string usage_of(const Command& command) {
 }
 
 std::string help_of(const Command& command) {
-    auto help = fmt::format("{}\n\nusage: {}\n\n{}\n", command.summary, usage_of(command), command.about);
+    auto help =
+        fmt::format("{}\n\nusage: {}\n\n{}\n", command.summary, usage_of(command), command.about);
     if (!command.operands.empty()) {
         help += '\n';
         for (const auto& operand : command.operands) {
@@ -81,8 +82,9 @@ std::string help_of(const Command& command) {
 }
 
 std::string help_of_all() {
-    std::string help = "Macadam: road roughness maps from the sensors that ordinary cars already have\n\n"
-                       "usage: macadam COMMAND ...    macadam COMMAND --help    macadam --version\n\n";
+    std::string help =
+        "Macadam: road roughness maps from the sensors that ordinary cars already have\n\n"
+        "usage: macadam COMMAND ...    macadam COMMAND --help    macadam --version\n\n";
     for (const auto& command : commands()) {
         help += described(command.name, command.summary);
     }

@@ -41,19 +41,27 @@ Progress Console::progress(std::string label) const {
         return {};
     }
     auto shown = std::make_shared<int>(-1);
-    return {.report = [label = std::move(label), shown](std::size_t done, std::size_t whole) {
-                const int percent = whole == 0 ? 0 : static_cast<int>(100 * done / whole);
-                if (percent == *shown) {
-                    return;
-                }
-                *shown = percent;
-                const int full = bar_width * percent / 100;
-                fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3d} %", label, "", full, "", bar_width - full, percent);
-                if (done == whole) {
-                    fmt::print(stderr, "\r\033[K");
-                }
-                std::fflush(stderr);
-            },
+    return {.report =
+                [label = std::move(label), shown](std::size_t done, std::size_t whole) {
+                    const int percent = whole == 0 ? 0 : static_cast<int>(100 * done / whole);
+                    if (percent == *shown) {
+                        return;
+                    }
+                    *shown = percent;
+                    const int full = bar_width * percent / 100;
+                    fmt::print(stderr,
+                               "\r{} [{:=<{}}{: <{}}] {:3d} %",
+                               label,
+                               "",
+                               full,
+                               "",
+                               bar_width - full,
+                               percent);
+                    if (done == whole) {
+                        fmt::print(stderr, "\r\033[K");
+                    }
+                    std::fflush(stderr);
+                },
             .stop = {}};
 }
 

@@ -57,7 +57,8 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "macadam: no command '{}'; macadam --help lists them\n", name);
         return misused;
     }
-    if (std::ranges::find(words, "--help") != words.end() || std::ranges::find(words, "-h") != words.end()) {
+    if (std::ranges::find(words, "--help") != words.end() ||
+        std::ranges::find(words, "-h") != words.end()) {
         fmt::print("{}", macadam::help_of(*command));
         return done;
     }

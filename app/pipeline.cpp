@@ -8,9 +8,9 @@
 namespace macadam {
 namespace {
 
-constexpr double slow_sampling_hz = 80;     // below it the shortest waves of IRI begin to be missed
-constexpr double steep_tilt_deg = 15;       // more than a careless mounting
-constexpr double odd_scale = 0.05;          // wheel speed against GNSS
+constexpr double slow_sampling_hz = 80; // below it the shortest waves of IRI begin to be missed
+constexpr double steep_tilt_deg = 15;   // more than a careless mounting
+constexpr double odd_scale = 0.05;      // wheel speed against GNSS
 
 /// The typical rate of the vibration, from the middle step of its stamps.
 double rate_hz(const TriaxialSamples& acc) {
@@ -30,15 +30,17 @@ std::vector<std::string>
 warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
     std::vector<std::string> warnings;
     if (const double hz = rate_hz(trip.acc); hz < slow_sampling_hz) {
-        warnings.push_back(fmt::format("vibration was sampled at {:.0f} Hz; below {:.0f} Hz short waves are missed",
-                                       hz,
-                                       slow_sampling_hz));
+        warnings.push_back(fmt::format(
+            "vibration was sampled at {:.0f} Hz; below {:.0f} Hz short waves are missed",
+            hz,
+            slow_sampling_hz));
     }
     if (mounting.moved) {
         warnings.emplace_back("gravity changed its direction: the sensor moved during the trip");
     }
     if (mounting.tilt_deg > steep_tilt_deg) {
-        warnings.push_back(fmt::format("the sensor stood {:.0f} degrees from level; corrected", mounting.tilt_deg));
+        warnings.push_back(fmt::format("the sensor stood {:.0f} degrees from level; corrected",
+                                       mounting.tilt_deg));
     }
     if (std::abs(odometer.scale() - 1) > odd_scale) {
         warnings.push_back(fmt::format("wheel speed was off from GNSS by {:+.1f} %; corrected",

@@ -1,0 +1,192 @@
+#include "app/commands.hpp"
+#include "app/estimation_options.hpp"
+#include "app/import_trips.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/json.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+namespace macadam {
+namespace {
+
+struct ImportOptions {
+    std::filesystem::path store;
+    std::vector<std::filesystem::path> paths;
+    std::size_t jobs;
+    bool json;
+    PipelineConfig pipeline;
+};
+
+constexpr std::int64_t most_jobs = 256;
+
+ImportOptions parse_import(const Arguments& arguments) {
+    const auto jobs = arguments.integer("--jobs").value_or(1);
+    if (jobs < 1 || jobs > most_jobs) {
+        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, most_jobs)};
+    }
+    const auto& paths = arguments.operands("PATH");
+    return {.store = arguments.operand("STORE"),
+            .paths = {paths.begin(), paths.end()},
+            .jobs = static_cast<std::size_t>(jobs),
+            .json = arguments.flag("--json"),
+            .pipeline = pipeline_config_of(arguments)};
+}
+
+std::string reasons_json(const RowCount& rows) {
+    JsonObject reasons;
+    for (const auto& [reason, count] : rows.reasons) {
+        reasons.add(reason, static_cast<std::int64_t>(count));
+    }
+    return reasons.text();
+}
+
+std::string json_line(const TripOutcome& outcome) {
+    const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+    const auto& trip = outcome.trip;
+    JsonObject line;
+    line.add("file", outcome.file)
+        .add("trip_id", outcome.trip_id)
+        .add("sha256", outcome.sha256)
+        .add("result", std::string{name_of(outcome.result)})
+        .add("rows_read", whole(trip.rows.read))
+        .add("rows_used", whole(trip.rows.used))
+        .add("rows_rejected", whole(trip.rows.rejected))
+        .add("reasons", JsonRaw{reasons_json(trip.rows)})
+        .add("distance_m", JsonNumber{trip.distance_m, 1})
+        .add("matched_m", JsonNumber{trip.matched_m, 1})
+        .add("passes", whole(trip.passes.size()))
+        .add("vehicle", outcome.vehicle)
+        .add("warnings", JsonRaw{json_string_array(trip.warnings)});
+    if (!outcome.error.empty()) {
+        line.add("error", outcome.error);
+    }
+    return line.text() + "\n";
+}
+
+std::string spoken(const RowCount& rows) {
+    auto words = fmt::format("{} rows, {} used", rows.read, rows.used);
+    std::string_view before = ", rejected: ";
+    for (const auto& [reason, count] : rows.reasons) {
+        words += fmt::format("{}{} {}", before, count, reason);
+        before = ", ";
+    }
+    return words;
+}
+
+std::string text_lines(const TripOutcome& outcome) {
+    if (outcome.result == TripOutcome::Result::rejected) {
+        return fmt::format("rejected  {}\n", outcome.error);
+    }
+    if (outcome.result == TripOutcome::Result::known) {
+        return fmt::format("known     {}\n", outcome.file);
+    }
+    const auto& trip = outcome.trip;
+    auto lines = fmt::format(
+        "imported  {}: {} passes; {:.2f} km driven, {:.2f} km on the network; car '{}'\n"
+        "          {}\n",
+        outcome.file,
+        trip.passes.size(),
+        trip.distance_m / 1000,
+        trip.matched_m / 1000,
+        outcome.vehicle,
+        spoken(trip.rows));
+    for (const auto& warning : trip.warnings) {
+        lines += fmt::format("          note: {}\n", warning);
+    }
+    return lines;
+}
+
+std::vector<TripSource> trips_in(const std::vector<std::filesystem::path>& paths,
+                                 const Console& console) {
+    std::vector<TripSource> trips;
+    for (const auto& path : paths) {
+        auto found = find_trips(path);
+        if (found.trips.empty()) {
+            console.warn(
+                fmt::format("{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst)",
+                            path.string()));
+        }
+        if (found.other_files > 0) {
+            console.say(
+                fmt::format("{}: {} other files were not read", path.string(), found.other_files));
+        }
+        trips.insert(trips.end(), found.trips.begin(), found.trips.end());
+    }
+    return trips;
+}
+
+void run_import(const Arguments& arguments, const Console& console) {
+    const auto options = parse_import(arguments);
+    VehicleChoice vehicles{arguments};
+    auto store = RoadStore::open(options.store, RoadStore::Access::write);
+    const auto trips = trips_in(options.paths, console);
+
+    const auto tell = [&](const TripOutcome& outcome) {
+        print(options.json ? json_line(outcome) : text_lines(outcome));
+        flush_results();
+    };
+    const auto totals = import_trips(store,
+                                     trips,
+                                     vehicles,
+                                     options.pipeline,
+                                     options.jobs,
+                                     console.progress("importing"),
+                                     tell);
+    const auto fused = store.refresh({}, console.progress("fusing"));
+
+    console.say(
+        fmt::format("{} trips imported, {} known, {} rejected; {} passes, {} segments fused",
+                    totals.imported,
+                    totals.known,
+                    totals.rejected,
+                    totals.passes,
+                    fused));
+    if (totals.rejected > 0) {
+        throw InputError{fmt::format(
+            "{} of {} trips rejected; the others are in the store", totals.rejected, trips.size())};
+    }
+}
+
+constexpr std::array operands{
+    Operand{"STORE", "The road store, a .gpkg file made by 'macadam init'."},
+    Operand{
+        "PATH",
+        "Trip logs, folders of them (searched to any depth), or archives (.zip, .tar, .tar.gz).",
+        true}};
+
+constexpr std::array options{
+    vehicle_option,
+    vehicles_option,
+    Option{"--jobs", "N", "Trips to work on at once.", "1"},
+    method_option,
+    channels_option,
+    no_filters_option,
+    rate_option,
+    Option{"--json", "", "One JSON object a trip on standard output, one a line."}};
+
+} // namespace
+
+const Command import_command{
+    .name = "import",
+    .summary = "Bring trip logs into a store: each trip once, every row accounted for",
+    .about = "Each trip is read, its road roughness estimated, its way matched to the store's "
+             "network and cut\n"
+             "into passes over segments; then all passes over a segment are fused. One transaction "
+             "a trip: what\n"
+             "is reported as imported is on disk. A trip that is already in the store, under any "
+             "name or\n"
+             "compression, is 'known' and changes nothing. A trip that cannot be used is "
+             "'rejected' with its\n"
+             "reason and does not stop the others; the exit status is then 1.",
+    .example = "  macadam import roads.gpkg trips/                     every log under trips/\n"
+               "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"
+               "  macadam import roads.gpkg trips/ --jobs 2 --json > import.jsonl",
+    .operands = operands,
+    .options = options,
+    .run = run_import};
+
+} // namespace macadam

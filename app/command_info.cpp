@@ -1,0 +1,106 @@
+#include "app/commands.hpp"
+#include "app/segment_options.hpp"
+
+#include "storage/json.hpp"
+#include "storage/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace macadam {
+namespace {
+
+double share(double part, double whole) {
+    return whole > 0 ? part / whole : 0;
+}
+
+std::string json_of(const StoreInfo& info, const std::string& digest) {
+    const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+    std::vector<std::string> classes;
+    for (const auto& [name, km] : info.classes) {
+        JsonObject entry;
+        entry.add("class", name)
+            .add("km", JsonNumber{km, 3})
+            .add("share", JsonNumber{share(km, info.km), 4});
+        classes.push_back(entry.text());
+    }
+    JsonObject object;
+    object.add("trips", whole(info.trips))
+        .add("undated_trips", whole(info.undated_trips))
+        .add("passes", whole(info.passes))
+        .add("vehicles", JsonRaw{json_string_array(info.vehicles)})
+        .add("segments", whole(info.segments))
+        .add("segments_with_passes", whole(info.segments_with_passes))
+        .add("km", JsonNumber{info.km, 3})
+        .add("network_km", JsonNumber{info.network_km, 3})
+        .add("classes", JsonRaw{json_array(classes)})
+        .add("generation", std::int64_t{info.generation})
+        .add("digest", digest);
+    return object.text() + "\n";
+}
+
+std::string period_of(const StoreInfo& info) {
+    if (!info.first_seen_ms || !info.last_seen_ms) {
+        return "not dated";
+    }
+    const auto first = utc_text(*info.first_seen_ms).substr(0, 10);
+    const auto last = utc_text(*info.last_seen_ms).substr(0, 10);
+    return first == last ? first : fmt::format("{} to {}", first, last);
+}
+
+std::string text_of(const StoreInfo& info) {
+    auto text = fmt::format(
+        "network     {}, {:.1f} km counting each direction, {} segments of about {:g} m\n"
+        "trips       {} ({} undated), {} vehicles, {} passes\n"
+        "period      {}\n"
+        "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n",
+        info.settings.network_source,
+        info.network_km,
+        info.segments,
+        info.settings.segment_length_m,
+        info.trips,
+        info.undated_trips,
+        info.vehicles.size(),
+        info.passes,
+        period_of(info),
+        info.km,
+        info.segments_with_passes,
+        100 * share(info.km, info.network_km));
+    for (const auto& [name, km] : info.classes) {
+        text += fmt::format("{:<12}{:.2f} km, {:.1f} %\n", name, km, 100 * share(km, info.km));
+    }
+    return text;
+}
+
+void run_info(const Arguments& arguments, const Console& console) {
+    const auto store = RoadStore::open(arguments.operand("STORE"), RoadStore::Access::read);
+    warn_of_waiting(store, arguments.operand("STORE"), console);
+    if (arguments.flag("--digest")) {
+        print(store.digest() + "\n");
+    } else {
+        const auto info = store.info();
+        print(arguments.flag("--json") ? json_of(info, store.digest()) : text_of(info));
+    }
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{
+    Option{"--json", "", "The same as one JSON object, with the digest."},
+    Option{"--digest",
+           "",
+           "Only the digest: 64 hex digits, the same for the same content on any machine."}};
+
+} // namespace
+
+const Command info_command{
+    .name = "info",
+    .summary = "What a store holds: coverage, passes, vehicles, kilometres per class",
+    .about = "Lengths count each direction by itself.",
+    .example = "  macadam info roads.gpkg\n"
+               "  macadam info roads.gpkg --digest       has anything changed?",
+    .operands = operands,
+    .options = options,
+    .run = run_info};
+
+} // namespace macadam

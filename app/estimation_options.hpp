@@ -1,0 +1,25 @@
+#pragma once
+
+#include "app/arguments.hpp"
+#include "app/pipeline.hpp"
+
+namespace macadam {
+
+// The options that steer the estimation, for the tables of trace and import.
+inline constexpr Option method_option{
+    "--method", "kf", "How the road is estimated: kf, the published Kalman filter.", "kf"};
+inline constexpr Option channels_option{
+    "--channels",
+    "NAME",
+    "Accelerations to use: vertical, lateral, both (gives both wheel tracks), or automatic: both "
+    "where the car's IMU height is known, else vertical, else lateral.",
+    "automatic"};
+inline constexpr Option no_filters_option{
+    "--no-filters", "", "Leave out the method's own filters, for noise-free simulated logs."};
+inline constexpr Option rate_option{
+    "--rate", "HZ", "Rate of the even grid on which the method runs.", "the log's, at most 200"};
+
+/// \throws UsageError  for a word or a number that does not fit.
+PipelineConfig pipeline_config_of(const Arguments& arguments);
+
+} // namespace macadam

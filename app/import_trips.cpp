@@ -1,0 +1,199 @@
+#include "app/import_trips.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <new>
+#include <thread>
+
+namespace macadam {
+namespace {
+
+std::int64_t thousandths(double value) {
+    return std::llround(value * 1000);
+}
+
+TripRecord record_of(const TripSource& source,
+                     const TripLog& trip,
+                     const Vehicle& vehicle,
+                     const TripResult& result) {
+    TripRecord record;
+    record.sha256 = trip.sha256;
+    record.trip_id = trip.meta.trip_id;
+    record.vehicle_id = trip.meta.vehicle_id;
+    record.file_name = source.file.filename().string();
+    if (trip.meta.t0_utc_s) {
+        record.t0_utc_ms = thousandths(*trip.meta.t0_utc_s);
+    }
+    record.vehicle_model = vehicle.name;
+    record.method = "kf";
+    record.distance_mm = thousandths(result.distance_m);
+    record.matched_mm = thousandths(result.matched_m);
+    record.rows_read = result.rows.read;
+    record.rows_used = result.rows.used;
+    return record;
+}
+
+/// One trip from file to passes. What is wrong with it becomes part of the outcome.
+TripOutcome worked_out(const TripSource& source,
+                       const std::string& sha256,
+                       VehicleChoice& vehicles,
+                       const RoadNetwork& roads,
+                       const PipelineConfig& config) {
+    TripOutcome outcome;
+    outcome.file = source.name();
+    outcome.sha256 = sha256;
+    try {
+        const auto trip = read_trip(source, needs_of_import());
+        outcome.trip_id = trip.meta.trip_id;
+        const auto chosen = vehicles(source.file, trip.meta.vehicle_id);
+        outcome.vehicle = chosen.vehicle.name;
+        outcome.trip.rows.read = outcome.trip.rows.rejected = trip.rows.size();
+        outcome.trip = passes_of(trip, chosen.vehicle, roads, config);
+        outcome.record = record_of(source, trip, chosen.vehicle, outcome.trip);
+        outcome.result = TripOutcome::Result::imported;
+        if (!chosen.warning.empty()) {
+            outcome.trip.warnings.push_back(chosen.warning);
+        }
+        if (!trip.meta.t0_utc_s) {
+            outcome.trip.warnings.emplace_back("t0_utc is not known: the trip counts as undated");
+        }
+    } catch (const InputError& error) {
+        outcome.error = error.what();
+    } catch (const std::bad_alloc&) {
+        outcome.error = outcome.file + ": not enough memory";
+    }
+    return outcome;
+}
+
+/// Workers take trips in order and hand outcomes back under their number; the writer takes them in
+/// order. Workers stay at most `ahead` trips before the writer, so that memory is bounded.
+class Workshop {
+public:
+    using Work = std::function<TripOutcome(std::size_t)>;
+
+    Workshop(std::size_t count, std::size_t jobs, Work work)
+        : count_{count}, ahead_{2 * jobs}, work_{std::move(work)} {
+        for (std::size_t i = 0; i < jobs; ++i) {
+            workers_.emplace_back([this](const std::stop_token& stop) { toil(stop); });
+        }
+    }
+
+    TripOutcome take(std::size_t number) {
+        std::unique_lock lock{mutex_};
+        changed_.wait(lock, [&] { return done_.contains(number) || failure_; });
+        if (failure_) {
+            std::rethrow_exception(failure_);
+        }
+        auto outcome = std::move(done_.extract(number).mapped());
+        taken_ = number + 1;
+        changed_.notify_all();
+        return outcome;
+    }
+
+private:
+    void toil(const std::stop_token& stop) {
+        try {
+            for (std::size_t number = next_++; number < count_; number = next_++) {
+                {
+                    std::unique_lock lock{mutex_};
+                    if (!changed_.wait(lock, stop, [&] { return number < taken_ + ahead_; })) {
+                        return;
+                    }
+                }
+                auto outcome = work_(number);
+                const std::scoped_lock lock{mutex_};
+                done_.emplace(number, std::move(outcome));
+                changed_.notify_all();
+            }
+        } catch (...) {
+            const std::scoped_lock lock{mutex_};
+            failure_ = std::current_exception();
+            changed_.notify_all();
+        }
+    }
+
+    std::size_t count_;
+    std::size_t ahead_;
+    Work work_;
+    std::atomic<std::size_t> next_ = 0;
+    std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::map<std::size_t, TripOutcome> done_;
+    std::size_t taken_ = 0;
+    std::exception_ptr failure_;
+    std::vector<std::jthread> workers_; // last: they stop before what they use goes
+};
+
+} // namespace
+
+std::string_view name_of(TripOutcome::Result result) {
+    switch (result) {
+    case TripOutcome::Result::imported:
+        return "imported";
+    case TripOutcome::Result::known:
+        return "known";
+    case TripOutcome::Result::rejected:
+        break;
+    }
+    return "rejected";
+}
+
+ImportTotals import_trips(RoadStore& store,
+                          const std::vector<TripSource>& trips,
+                          VehicleChoice& vehicles,
+                          const PipelineConfig& config,
+                          std::size_t jobs,
+                          const Progress& progress,
+                          const std::function<void(const TripOutcome&)>& tell) {
+    const auto roads = store.roads();
+    std::mutex store_in_use;
+
+    const auto work = [&](std::size_t number) {
+        TripOutcome outcome;
+        outcome.file = trips[number].name();
+        try {
+            outcome.sha256 = content_sha256(trips[number]);
+        } catch (const InputError& error) {
+            outcome.error = error.what();
+            return outcome;
+        }
+        {
+            const std::scoped_lock lock{store_in_use};
+            if (store.knows_trip(outcome.sha256)) {
+                outcome.result = TripOutcome::Result::known;
+                return outcome;
+            }
+        }
+        return worked_out(trips[number], outcome.sha256, vehicles, roads, config);
+    };
+
+    ImportTotals totals;
+    Workshop workshop{trips.size(), jobs, work};
+    for (std::size_t i = 0; i < trips.size(); ++i) {
+        auto outcome = workshop.take(i);
+        if (outcome.result == TripOutcome::Result::imported) {
+            const std::scoped_lock lock{store_in_use};
+            if (!store.add_trip(outcome.record, outcome.trip.passes)) {
+                outcome.result = TripOutcome::Result::known; // twice in one call
+            }
+        }
+        totals.imported += outcome.result == TripOutcome::Result::imported ? 1U : 0U;
+        totals.known += outcome.result == TripOutcome::Result::known ? 1U : 0U;
+        totals.rejected += outcome.result == TripOutcome::Result::rejected ? 1U : 0U;
+        totals.passes +=
+            outcome.result == TripOutcome::Result::imported ? outcome.trip.passes.size() : 0U;
+        tell(outcome);
+        progress(i + 1, trips.size());
+    }
+    return totals;
+}
+
+} // namespace macadam

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "app/console.hpp"
+#include "app/pipeline.hpp"
+#include "app/vehicle_choice.hpp"
+#include "storage/road_store.hpp"
+#include "storage/trip_reader.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// What became of one trip.
+struct TripOutcome {
+    enum class Result { imported, known, rejected };
+    std::string file;
+    std::string trip_id;
+    std::string sha256;
+    Result result = Result::rejected;
+    TripResult trip;
+    std::string vehicle;
+    std::string error; ///< why it was rejected
+    TripRecord record;
+};
+
+std::string_view name_of(TripOutcome::Result result);
+
+struct ImportTotals {
+    std::size_t imported = 0;
+    std::size_t known = 0;
+    std::size_t rejected = 0;
+    std::size_t passes = 0;
+};
+
+/// Brings trips into a store: read and estimated by `jobs` threads, written by this one in the
+/// order of `trips`, one transaction each. A trip that cannot be used is an outcome and never stops
+/// the others; an error of the store itself is thrown and leaves the trips before it in place.
+ImportTotals import_trips(RoadStore& store,
+                          const std::vector<TripSource>& trips,
+                          VehicleChoice& vehicles,
+                          const PipelineConfig& config,
+                          std::size_t jobs,
+                          const Progress& progress,
+                          const std::function<void(const TripOutcome&)>& tell);
+
+} // namespace macadam

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "app/arguments.hpp"
+#include "app/console.hpp"
+#include "storage/road_store.hpp"
+
+#include <filesystem>
+
+namespace macadam {
+
+// What commands that read a store have in common.
+inline constexpr Operand store_operand{"STORE",
+                                       "The road store, a .gpkg file made by 'macadam init'."};
+inline constexpr Option bbox_option{"--bbox", "W,S,E,N", "Only segments in this box, in degrees."};
+inline constexpr Option way_option{"--way", "ID", "Only segments of this way."};
+inline constexpr Option name_option{
+    "--name", "TEXT", "Only roads whose name holds this text, in any case."};
+inline constexpr Option all_option{"--all", "", "Also segments that nobody has driven yet."};
+
+/// A box from degrees W,S,E,N. \throws UsageError if it is not one.
+GeoBox box_of(const std::vector<double>& degrees);
+
+/// Of --bbox, --way, --name and --all. \throws UsageError for values that do not fit.
+SegmentFilter parse_filter(const Arguments& arguments);
+
+/// Says so if an import was cut off before its passes were fused.
+void warn_of_waiting(const RoadStore& store,
+                     const std::filesystem::path& file,
+                     const Console& console);
+
+} // namespace macadam
