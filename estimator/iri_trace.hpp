@@ -50,7 +50,7 @@ std::string name_of_validity(std::uint8_t flags);
 struct IriRun {
     double start_travel_m; ///< of the first cell: where the centre of gravity stood over that road
     double cell_m;
-    std::vector<float> left_mm_per_m;   ///< empty: not observed
+    std::vector<float> left_mm_per_m; ///< empty: not observed
     std::vector<float> right_mm_per_m;
     std::vector<float> centre_mm_per_m; ///< of the mean profile (HRI)
     std::vector<float> speed_mps;
@@ -86,6 +86,7 @@ IriMean mean_over(const IriTrace& trace, double from_m, double to_m, const Vehic
 ///
 /// Two relative parts: what changes along the road and averages out with length, and what the car's
 /// parameters shift alike everywhere. See docs/method.md for the figures and where they come from.
-double sd_of_kf_mm_per_m(double iri_mm_per_m, double length_m, bool lateral_only, const Vehicle& vehicle);
+double
+sd_of_kf_mm_per_m(double iri_mm_per_m, double length_m, bool lateral_only, const Vehicle& vehicle);
 
 } // namespace macadam

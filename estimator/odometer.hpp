@@ -7,9 +7,9 @@
 namespace macadam {
 
 struct OdometerConfig {
-    double max_gap_s = 2.5;       ///< longest silence of speed that is bridged
-    double max_speed_mps = 90;    ///< more is not a car
-    double max_accel_mps2 = 12;   ///< of the speed from one reading to the next; more is a fault
+    double max_gap_s = 2.5;     ///< longest silence of speed that is bridged
+    double max_speed_mps = 90;  ///< more is not a car
+    double max_accel_mps2 = 12; ///< of the speed from one reading to the next; more is a fault
 };
 
 /// Travel distance over the time of one trip: the one ruler that roughness and place share.
@@ -23,7 +23,7 @@ public:
     struct Knots {
         std::vector<double> t_s;
         std::vector<double> travel_m;
-        std::vector<float> speed_mps;       ///< NaN in gaps: not known between this knot and the next
+        std::vector<float> speed_mps; ///< NaN in gaps: not known between this knot and the next
         std::vector<std::uint8_t> reversing; ///< 1: the wheels turned backward
     };
 

@@ -19,16 +19,16 @@ struct Mounting {
 };
 
 /// The mounting that the log states, corrected so that the mean specific force of the trip points
-/// up: gravity and tilt are estimated, not assumed. Heading of the axes is taken as stated, or found
-/// from braking and accelerating where the log says `mount: auto` or `frame: sensor`.
+/// up: gravity and tilt are estimated, not assumed. Heading of the axes is taken as stated, or
+/// found from braking and accelerating where the log says `mount: auto` or `frame: sensor`.
 Mounting estimate_mounting(const TripLog& trip, const Odometer& odometer);
 
 struct StretchConfig {
-    double rate_hz = 0;        ///< of the even grid; 0: the log's own rate, at most most_rate_hz
+    double rate_hz = 0; ///< of the even grid; 0: the log's own rate, at most most_rate_hz
     double most_rate_hz = 200;
     double least_rate_hz = 40; ///< below it a log cannot carry the wavelengths that IRI weighs
     double min_speed_mps = 5;
-    double max_gap_s = 0.3;    ///< longest hole in the vibration that is interpolated
+    double max_gap_s = 0.3;     ///< longest hole in the vibration that is interpolated
     double least_length_m = 60; ///< shorter ones would be all start-up
 };
 
@@ -52,8 +52,10 @@ struct Stretch {
 /// samples outside did not serve.
 ///
 /// \throws InputError  if vibration was sampled slower than least_rate_hz.
-std::vector<StretchSpan>
-find_stretches(const TripLog& trip, const Odometer& odometer, const StretchConfig& config, TripUse& use);
+std::vector<StretchSpan> find_stretches(const TripLog& trip,
+                                        const Odometer& odometer,
+                                        const StretchConfig& config,
+                                        TripUse& use);
 
 /// One stretch on its even grid: rotated by `mounting`, low-passed against aliasing where the grid
 /// is coarser than the log, interpolated by a cubic. One at a time, to hold little memory.
