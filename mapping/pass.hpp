@@ -17,18 +17,18 @@ using IriUm = std::int32_t;
 /// One passage of one trip over one segment: the truth that the store keeps.
 struct Pass {
     SegmentKey segment;
-    std::uint32_t occurrence;       ///< 0 for the trip's first passage of the segment, then 1, 2, ...
+    std::uint32_t occurrence; ///< 0 for the trip's first passage of the segment, then 1, 2, ...
     std::optional<IriUm> iri_left_um;
     std::optional<IriUm> iri_right_um;
     std::optional<IriUm> iri_centre_um; ///< HRI
-    IriUm iri_um;                   ///< the headline: MRI, or what HRI says of it
-    IriUm sd_um;                    ///< of the headline, > 0
-    bool centre_only;               ///< MRI was inferred from HRI ("HRI>MRI")
-    std::uint8_t validity;          ///< flags of macadam::validity
-    std::int32_t speed_mmps;        ///< mean, mm/s
-    std::int32_t covered_mm;        ///< of the segment's length
-    std::int32_t confidence_ppm;    ///< of the match, 0..1,000,000
-    std::int64_t t_ms;              ///< middle of the passage, since the trip's t0
+    IriUm iri_um;                       ///< the headline: MRI, or what HRI says of it
+    IriUm sd_um;                        ///< of the headline, > 0
+    bool centre_only;                   ///< MRI was inferred from HRI ("HRI>MRI")
+    std::uint8_t validity;              ///< flags of macadam::validity
+    std::int32_t speed_mmps;            ///< mean, mm/s
+    std::int32_t covered_mm;            ///< of the segment's length
+    std::int32_t confidence_ppm;        ///< of the match, 0..1,000,000
+    std::int64_t t_ms;                  ///< middle of the passage, since the trip's t0
 };
 
 struct PassConfig {
@@ -36,14 +36,20 @@ struct PassConfig {
     double least_confidence = 0.5; ///< of the match
 };
 
-/// MRI that the mean profile speaks for: real roads have HRI / MRI of 0.86 to 0.96 (docs/method.md).
+/// MRI that the mean profile speaks for: real roads have HRI / MRI of 0.86 to 0.96
+/// (docs/method.md).
 inline constexpr double hri_over_mri = 0.91;
 inline constexpr double sd_hri_over_mri = 0.035;
 
 /// Roughness and place meet again on the ruler of travel: the trace's mean over each segment that
 /// the trip drove. Ordered as driven.
 ///
-/// A fix is of the antenna; `antenna_ahead_m` is how far it sits ahead of the centre of gravity.
+/// Both branches speak of where the centre of gravity is, so nothing is shifted here. What several
+/// pieces of one passage say is added up, weighted by the length they cover. A silence of less than
+/// the segment's length does not end a passage; coming back later is the next occurrence.
+///
+/// A passage is left out if less of the segment than `least_cover` has an estimate, or if the match
+/// is less certain than `least_confidence`.
 std::vector<Pass> cut_passes(const IriTrace& roughness,
                              const MatchedTrace& matched,
                              const RoadNetwork& roads,

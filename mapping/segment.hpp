@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace macadam {
@@ -16,7 +17,13 @@ struct SegmentKey {
     std::int64_t way_id;
     bool forward;
     std::uint32_t index;
-    friend auto operator<=>(const SegmentKey&, const SegmentKey&) = default;
+    friend bool operator==(const SegmentKey&, const SegmentKey&) = default;
+
+    /// By way, forward before backward, index: the order of every output.
+    friend std::strong_ordering operator<=>(const SegmentKey& a, const SegmentKey& b) {
+        return std::tuple{a.way_id, !a.forward, a.index} <=>
+               std::tuple{b.way_id, !b.forward, b.index};
+    }
 };
 
 /// "123456+0007" forward, "123456-0007" backward. At least four digits.
@@ -34,7 +41,7 @@ struct Segment {
     std::vector<GeoPoint> line;
 };
 
-/// The segments of one edge, in driving direction.
+/// The segments of one edge, in driving direction: equal parts of it.
 std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge);
 
 } // namespace macadam

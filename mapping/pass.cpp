@@ -1,0 +1,255 @@
+#include "mapping/pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double millionths = 1e6;
+constexpr double thousandths = 1e3;
+constexpr double largest_um = 1e9; // 1000 m/km is no road
+
+struct TravelRange {
+    double from_m;
+    double to_m;
+};
+
+/// One drive over one segment, as the match has it.
+struct Passage {
+    SegmentKey segment;
+    double segment_m;                ///< its length
+    std::vector<TravelRange> travel; ///< apart from one another
+    double offset_m = 0;             ///< driven along the road
+    double confident_m = 0;          ///< the same, times the confidence of the match
+    double t_enter_s;
+    double t_leave_s;
+};
+
+/// A matched piece's part on one segment.
+struct Part {
+    SegmentKey segment;
+    double segment_m;
+    double offset_m;
+    TravelRange travel;
+    double t_enter_s;
+    double t_leave_s;
+    double confidence;
+};
+
+double share(double value, double from, double to) {
+    return (value - from) / (to - from);
+}
+
+/// The part of a piece between two offsets along its edge.
+Part part_of(
+    const MatchedPiece& piece, const SegmentKey& key, double segment_m, double a, double b) {
+    const double first = share(a, piece.from_offset_m, piece.to_offset_m);
+    const double last = share(b, piece.from_offset_m, piece.to_offset_m);
+    return {key,
+            segment_m,
+            b - a,
+            {std::lerp(piece.from_travel_m, piece.to_travel_m, first),
+             std::lerp(piece.from_travel_m, piece.to_travel_m, last)},
+            std::lerp(piece.t_enter_s, piece.t_leave_s, first),
+            std::lerp(piece.t_enter_s, piece.t_leave_s, last),
+            piece.confidence};
+}
+
+/// A road piece cut at the borders of segments, in driving direction.
+std::vector<Part> parts_of(const MatchedPiece& piece, const RoadNetwork& roads) {
+    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(piece.edge))];
+    const bool forward = is_forward(piece.edge);
+    const double segment_m = (link.to_m - link.from_m) / link.segments;
+    std::vector<Part> parts;
+    const auto first =
+        static_cast<std::uint32_t>(std::max(0.0, piece.from_offset_m / segment_m - 1));
+    for (auto i = first; i < link.segments && i * segment_m < piece.to_offset_m; ++i) {
+        const double a = std::max(piece.from_offset_m, i * segment_m);
+        const double b = std::min(piece.to_offset_m, (i + 1) * segment_m);
+        if (a < b) {
+            const auto along = forward ? i : link.segments - 1 - i;
+            const SegmentKey key{roads.ways[link.way].id, forward, link.first_segment + along};
+            parts.push_back(part_of(piece, key, segment_m, a, b));
+        }
+    }
+    return parts;
+}
+
+bool goes_on(const Passage& passage, const Part& part) {
+    return passage.segment == part.segment &&
+           part.travel.from_m - passage.travel.back().to_m < passage.segment_m;
+}
+
+Passage longer_by(Passage passage, const Part& part) {
+    if (!passage.travel.empty() && passage.travel.back().to_m == part.travel.from_m) {
+        passage.travel.back().to_m = part.travel.to_m;
+    } else {
+        passage.travel.push_back(part.travel);
+    }
+    passage.offset_m += part.offset_m;
+    passage.confident_m += part.offset_m * part.confidence;
+    passage.t_leave_s = part.t_leave_s;
+    return passage;
+}
+
+std::vector<Passage> passages_of(const MatchedTrace& matched, const RoadNetwork& roads) {
+    std::vector<Passage> passages;
+    for (const auto& piece : matched) {
+        if (piece.kind != PieceKind::road) {
+            continue;
+        }
+        for (const auto& part : parts_of(piece, roads)) {
+            if (passages.empty() || !goes_on(passages.back(), part)) {
+                passages.push_back({.segment = part.segment,
+                                    .segment_m = part.segment_m,
+                                    .travel = {},
+                                    .t_enter_s = part.t_enter_s,
+                                    .t_leave_s = part.t_leave_s});
+            }
+            passages.back() = longer_by(std::move(passages.back()), part);
+        }
+    }
+    return passages;
+}
+
+using Known = std::optional<double>;
+
+/// What was read of a segment in one passage; sums over its ranges, weighted by covered length.
+/// A side counts only where every range has it.
+struct Reading {
+    double covered_m = 0; ///< along the trip
+    double iri = 0;
+    double sd = 0;
+    Known left = 0;
+    Known right = 0;
+    Known centre = 0;
+    double speed = 0;
+    bool centre_only = false;
+    std::uint8_t validity = validity::ok;
+};
+
+struct Headline {
+    double iri;
+    double sd;
+    bool centre_only;
+};
+
+std::optional<Headline> headline_of(const IriMean& mean) {
+    if (mean.mri_mm_per_m) {
+        return Headline{*mean.mri_mm_per_m, mean.sd_mm_per_m, false};
+    }
+    if (!mean.hri_mm_per_m) {
+        return std::nullopt;
+    }
+    // Of a quotient the relative variances add up: (hri sd / ratio)^2 + (iri * sd of ratio /
+    // ratio)^2.
+    const double iri = *mean.hri_mm_per_m / hri_over_mri;
+    return Headline{
+        iri,
+        std::hypot(mean.sd_mm_per_m / hri_over_mri, iri * sd_hri_over_mri / hri_over_mri),
+        true};
+}
+
+Known sum_of(const Known& sum, const Known& value, double weight) {
+    return sum && value ? Known{*sum + weight * *value} : std::nullopt;
+}
+
+Reading read(const Passage& passage, const IriTrace& roughness, const Vehicle& vehicle) {
+    Reading reading;
+    for (const auto& range : passage.travel) {
+        const auto mean = mean_over(roughness, range.from_m, range.to_m, vehicle);
+        const auto headline = headline_of(mean);
+        const double w = mean.covered_m;
+        if (!headline || !(w > 0)) {
+            continue;
+        }
+        reading.covered_m += w;
+        reading.iri += w * headline->iri;
+        reading.sd += w * headline->sd; // one car: its ranges err alike
+        reading.speed += w * mean.speed_mps;
+        reading.left = sum_of(reading.left, mean.left_mm_per_m, w);
+        reading.right = sum_of(reading.right, mean.right_mm_per_m, w);
+        reading.centre = sum_of(reading.centre, mean.hri_mm_per_m, w);
+        reading.centre_only = reading.centre_only || headline->centre_only;
+        reading.validity |= mean.validity;
+    }
+    return reading;
+}
+
+IriUm whole_um(double mm_per_m) {
+    return static_cast<IriUm>(std::lround(mm_per_m * thousandths));
+}
+
+std::optional<IriUm> whole_um(const Known& sum, double weights) {
+    return sum ? std::optional{whole_um(*sum / weights)} : std::nullopt;
+}
+
+double driven_m(const Passage& passage) {
+    double sum_m = 0;
+    for (const auto& range : passage.travel) {
+        sum_m += range.to_m - range.from_m;
+    }
+    return sum_m;
+}
+
+Pass quantised(const Passage& passage, const Reading& r, double covered_m) {
+    const double confidence = passage.confident_m / passage.offset_m;
+    const auto flags = r.centre_only ? r.validity | validity::indicative : int{r.validity};
+    return {
+        .segment = passage.segment,
+        .occurrence = 0,
+        .iri_left_um = whole_um(r.left, r.covered_m),
+        .iri_right_um = whole_um(r.right, r.covered_m),
+        .iri_centre_um = whole_um(r.centre, r.covered_m),
+        .iri_um = whole_um(r.iri / r.covered_m),
+        .sd_um = std::max(1, whole_um(r.sd / r.covered_m)),
+        .centre_only = r.centre_only,
+        .validity = static_cast<std::uint8_t>(flags),
+        .speed_mmps = static_cast<std::int32_t>(std::lround(r.speed / r.covered_m * thousandths)),
+        .covered_mm = static_cast<std::int32_t>(std::lround(covered_m * thousandths)),
+        .confidence_ppm =
+            static_cast<std::int32_t>(std::lround(std::clamp(confidence, 0.0, 1.0) * millionths)),
+        .t_ms = std::llround((passage.t_enter_s + passage.t_leave_s) / 2 * thousandths)};
+}
+
+std::optional<Pass> pass_of(const Passage& passage,
+                            const IriTrace& roughness,
+                            const Vehicle& vehicle,
+                            const PassConfig& config) {
+    if (passage.confident_m < config.least_confidence * passage.offset_m) {
+        return std::nullopt;
+    }
+    const auto reading = read(passage, roughness, vehicle);
+    // Metres of the trip stand for metres of the road; a match that stepped back covers none twice.
+    const double covered_m =
+        std::min(passage.segment_m, reading.covered_m * passage.offset_m / driven_m(passage));
+    const bool is_read = reading.iri / reading.covered_m * thousandths < largest_um &&
+                         reading.sd / reading.covered_m * thousandths < largest_um;
+    if (!is_read || covered_m < config.least_cover * passage.segment_m) {
+        return std::nullopt;
+    }
+    return quantised(passage, reading, covered_m);
+}
+
+} // namespace
+
+std::vector<Pass> cut_passes(const IriTrace& roughness,
+                             const MatchedTrace& matched,
+                             const RoadNetwork& roads,
+                             const Vehicle& vehicle,
+                             const PassConfig& config) {
+    std::vector<Pass> passes;
+    std::map<SegmentKey, std::uint32_t> occurrences;
+    for (const auto& passage : passages_of(matched, roads)) {
+        if (auto pass = pass_of(passage, roughness, vehicle, config)) {
+            pass->occurrence = occurrences[pass->segment]++;
+            passes.push_back(*std::move(pass));
+        }
+    }
+    return passes;
+}
+
+} // namespace macadam

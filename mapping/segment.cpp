@@ -1,0 +1,94 @@
+#include "mapping/segment.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+namespace macadam {
+namespace {
+
+/// The way's place `at_m` from its first node, which lies on the link.
+GeoPoint place_at(const RoadNetwork& roads, const Link& link, double at_m) {
+    const auto& along_m = roads.way_point_m[link.way];
+    const auto& line = roads.ways[link.way].line;
+    const auto next = std::upper_bound(
+        along_m.begin() + link.first_point + 1, along_m.begin() + link.last_point, at_m);
+    const auto i = static_cast<std::size_t>(next - along_m.begin());
+    const double step_m = along_m[i] - along_m[i - 1];
+    return between(line[i - 1], line[i], step_m > 0 ? (at_m - along_m[i - 1]) / step_m : 0.0);
+}
+
+/// The link's border between its segments `number` - 1 and `number`, from the way's first node.
+double border_m(const Link& link, std::uint32_t number) {
+    return number == link.segments
+               ? link.to_m
+               : link.from_m + (link.to_m - link.from_m) * number / link.segments;
+}
+
+std::vector<GeoPoint>
+line_between(const RoadNetwork& roads, const Link& link, double from_m, double to_m) {
+    const auto& along_m = roads.way_point_m[link.way];
+    std::vector<GeoPoint> line{place_at(roads, link, from_m)};
+    for (auto i = link.first_point + 1; i < link.last_point; ++i) {
+        if (from_m < along_m[i] && along_m[i] < to_m) {
+            line.push_back(roads.ways[link.way].line[i]);
+        }
+    }
+    line.push_back(place_at(roads, link, to_m));
+    return line;
+}
+
+/// Nothing if `text` is not all a number.
+template <typename Number>
+std::optional<Number> number_in(std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole = error == std::errc{} && end == text.data() + text.size();
+    return whole ? std::optional{number} : std::nullopt;
+}
+
+} // namespace
+
+std::string name_of(const SegmentKey& key) {
+    return fmt::format("{}{}{:04}", key.way_id, key.forward ? '+' : '-', key.index);
+}
+
+SegmentKey parse_segment_key(std::string_view text) {
+    const auto sign = text.find_last_of("+-");
+    if (sign != std::string_view::npos && text.size() - sign - 1 >= 4) {
+        const auto way_id = number_in<std::int64_t>(text.substr(0, sign));
+        const auto index = number_in<std::uint32_t>(text.substr(sign + 1));
+        if (way_id && index) {
+            return {*way_id, text[sign] == '+', *index};
+        }
+    }
+    throw InputError{fmt::format("'{}' is no segment, expected a key such as 123456+0007", text)};
+}
+
+std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge) {
+    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
+    const bool forward = is_forward(edge);
+    std::vector<Segment> segments;
+    segments.reserve(link.segments);
+    for (std::uint32_t i = 0; i < link.segments; ++i) {
+        const double from_m = border_m(link, i);
+        const double to_m = border_m(link, i + 1);
+        segments.push_back({{roads.ways[link.way].id, forward, link.first_segment + i},
+                            from_m,
+                            to_m,
+                            line_between(roads, link, from_m, to_m)});
+    }
+    if (!forward) {
+        std::reverse(segments.begin(), segments.end());
+        for (auto& segment : segments) {
+            std::reverse(segment.line.begin(), segment.line.end());
+        }
+    }
+    return segments;
+}
+
+} // namespace macadam
