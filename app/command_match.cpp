@@ -1,0 +1,264 @@
+#include "app/commands.hpp"
+#include "app/trip_place.hpp"
+
+#include "estimator/common/error.hpp"
+#include "mapping/map_match.hpp"
+#include "storage/atomic_file.hpp"
+#include "storage/json.hpp"
+#include "storage/network_reader.hpp"
+#include "storage/trip_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace macadam {
+namespace {
+
+struct MatchOptions {
+    std::filesystem::path trip;
+    std::filesystem::path network;
+    std::optional<std::filesystem::path> output;
+    LayerColumns columns;
+    bool arcs;
+};
+
+MatchOptions parse_match(const Arguments& arguments) {
+    const auto network = arguments.value("--network");
+    if (!network) {
+        throw UsageError{"--network FILE is missing"};
+    }
+    MatchOptions options{.trip = arguments.operand("TRIP"),
+                         .network = *network,
+                         .output = arguments.value("--output"),
+                         .columns = {.layer = arguments.value("--layer").value_or(""),
+                                     .id = arguments.value("--id-column").value_or(""),
+                                     .name = "",
+                                     .highway = "",
+                                     .oneway = arguments.value("--oneway-column").value_or("")},
+                         .arcs = arguments.flag("--arcs")};
+    if (options.output) {
+        const auto suffix = options.output->extension();
+        if (suffix != ".csv" && (suffix != ".geojson" || options.arcs)) {
+            throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv{}",
+                                         options.output->string(),
+                                         options.arcs ? "" : " or .geojson")};
+        }
+    }
+    return options;
+}
+
+std::string_view kind_name(PieceKind kind) {
+    switch (kind) {
+    case PieceKind::road:
+        return "road";
+    case PieceKind::off_network:
+        return "off_network";
+    case PieceKind::gap:
+        break;
+    }
+    return "gap";
+}
+
+std::int64_t end_node_id(const RoadNetwork& roads, EdgeId edge, bool at_start) {
+    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
+    const auto point = is_forward(edge) == at_start ? link.first_point : link.last_point;
+    return roads.ways[link.way].node_ids[point];
+}
+
+/// Where along the way, from its first node, an offset on one of its edges lies.
+double along_way_m(const RoadNetwork& roads, EdgeId edge, double offset_m) {
+    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
+    return is_forward(edge) ? link.from_m + offset_m : link.to_m - offset_m;
+}
+
+/// A matched piece in the words of the output. from_m < to_m along the way, whatever the direction.
+struct RoadCells {
+    std::int64_t way_id;
+    std::int64_t from_node;
+    std::int64_t to_node;
+    std::string_view direction;
+    double from_m;
+    double to_m;
+};
+
+RoadCells road_cells(const MatchedPiece& piece, const RoadNetwork& roads) {
+    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(piece.edge))];
+    const double a_m = along_way_m(roads, piece.edge, piece.from_offset_m);
+    const double b_m = along_way_m(roads, piece.edge, piece.to_offset_m);
+    return {.way_id = roads.ways[link.way].id,
+            .from_node = end_node_id(roads, piece.edge, true),
+            .to_node = end_node_id(roads, piece.edge, false),
+            .direction = is_forward(piece.edge) ? "forward" : "backward",
+            .from_m = std::min(a_m, b_m),
+            .to_m = std::max(a_m, b_m)};
+}
+
+std::string csv_of(const MatchedTrace& trace, const RoadNetwork& roads) {
+    std::string csv = "way_id,from_node,to_node,direction,from_m,to_m,t_enter_s,t_leave_s,"
+                      "confidence,kind,reason\n";
+    for (const auto& piece : trace) {
+        if (piece.kind == PieceKind::road) {
+            const auto cells = road_cells(piece, roads);
+            csv += fmt::format("{},{},{},{},{:.2f},{:.2f}",
+                               cells.way_id,
+                               cells.from_node,
+                               cells.to_node,
+                               cells.direction,
+                               cells.from_m,
+                               cells.to_m);
+        } else {
+            csv += ",,,,,";
+        }
+        csv += fmt::format(",{:.3f},{:.3f},{:.4f},{},{}\n",
+                           piece.t_enter_s,
+                           piece.t_leave_s,
+                           piece.confidence,
+                           kind_name(piece.kind),
+                           piece.reason);
+    }
+    return csv;
+}
+
+std::string arcs_csv(const MatchedTrace& trace, const RoadNetwork& roads) {
+    std::string csv = "from_node,to_node,way_id,t_enter_s\n";
+    for (const auto& arc : arcs_of(trace, roads)) {
+        csv +=
+            fmt::format("{},{},{},{:.3f}\n", arc.from_node, arc.to_node, arc.way_id, arc.t_enter_s);
+    }
+    return csv;
+}
+
+/// The part of an edge that a piece went along.
+std::vector<GeoPoint> line_of_piece(const MatchedPiece& piece, const RoadNetwork& roads) {
+    std::vector<GeoPoint> line{place_on(roads, piece.edge, piece.from_offset_m)};
+    double offset_m = 0;
+    const auto whole = line_of(roads, piece.edge);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        offset_m += i == 0 ? 0 : distance_m(whole[i - 1], whole[i]);
+        if (offset_m > piece.from_offset_m && offset_m < piece.to_offset_m) {
+            line.push_back(whole[i]);
+        }
+    }
+    line.push_back(place_on(roads, piece.edge, piece.to_offset_m));
+    return line;
+}
+
+std::string coordinates(const std::vector<GeoPoint>& line) {
+    std::vector<std::string> points;
+    for (const auto& point : line) {
+        points.push_back(fmt::format("[{:.7f},{:.7f}]", point.lon_deg, point.lat_deg));
+    }
+    return json_array(points);
+}
+
+std::string geojson_feature(const MatchedPiece& piece, const RoadNetwork& roads) {
+    JsonObject properties;
+    JsonValue geometry = nullptr;
+    if (piece.kind == PieceKind::road) {
+        const auto cells = road_cells(piece, roads);
+        properties.add("way_id", cells.way_id)
+            .add("from_node", cells.from_node)
+            .add("to_node", cells.to_node)
+            .add("direction", std::string{cells.direction})
+            .add("from_m", JsonNumber{cells.from_m, 2})
+            .add("to_m", JsonNumber{cells.to_m, 2});
+        JsonObject line;
+        line.add("type", std::string{"LineString"})
+            .add("coordinates", JsonRaw{coordinates(line_of_piece(piece, roads))});
+        geometry = JsonRaw{line.text()};
+    }
+    properties.add("t_enter_s", JsonNumber{piece.t_enter_s, 3})
+        .add("t_leave_s", JsonNumber{piece.t_leave_s, 3})
+        .add("confidence", JsonNumber{piece.confidence, 4})
+        .add("kind", std::string{kind_name(piece.kind)})
+        .add("reason", piece.reason);
+    JsonObject feature;
+    feature.add("type", std::string{"Feature"})
+        .add("geometry", geometry)
+        .add("properties", JsonRaw{properties.text()});
+    return feature.text();
+}
+
+std::string geojson_of(const MatchedTrace& trace, const RoadNetwork& roads) {
+    std::vector<std::string> features;
+    for (const auto& piece : trace) {
+        features.push_back(geojson_feature(piece, roads));
+    }
+    JsonObject collection;
+    collection.add("type", std::string{"FeatureCollection"})
+        .add("features", JsonRaw{json_array(features)});
+    return collection.text() + "\n";
+}
+
+std::string spoken(const MatchedTrace& trace) {
+    double on_m = 0;
+    double off_m = 0;
+    double gap_m = 0;
+    for (const auto& piece : trace) {
+        auto& sum_m = piece.kind == PieceKind::road  ? on_m
+                      : piece.kind == PieceKind::gap ? gap_m
+                                                     : off_m;
+        sum_m += piece.to_travel_m - piece.from_travel_m;
+    }
+    return fmt::format("{:.2f} km on roads, {:.2f} km off the network, {:.2f} km in gaps",
+                       on_m / 1000,
+                       off_m / 1000,
+                       gap_m / 1000);
+}
+
+void run_match(const Arguments& arguments, const Console& console) {
+    const auto options = parse_match(arguments);
+    const auto roads = build_network(
+        read_network(options.network, options.columns, console.progress("reading roads")));
+    const auto trip =
+        read_trip(one_trip(options.trip), needs_of_match(), console.progress("reading"));
+
+    auto use = unused(trip);
+    const auto odometer = make_odometer(trip, {}, use);
+    const auto trace = map_match(trip, odometer, roads, {}, use);
+    console.say(spoken(trace));
+
+    const bool geojson = options.output && options.output->extension() == ".geojson";
+    const auto text = options.arcs ? arcs_csv(trace, roads)
+                      : geojson    ? geojson_of(trace, roads)
+                                   : csv_of(trace, roads);
+    if (!options.output) {
+        print(text);
+        return;
+    }
+    AtomicFile file{*options.output};
+    file.write(text);
+    file.commit();
+}
+
+constexpr std::array operands{
+    Operand{"TRIP", "One trip log; its positions are enough, speed makes it better."}};
+constexpr std::array options{
+    Option{"--network", "FILE", "The roads: .osm.pbf, .osm, or any line layer that GDAL reads."},
+    Option{"--arcs", "", "Every pair of consecutive nodes as driven, instead of pieces of edges."},
+    Option{"-o,--output", "FILE", "A .csv or .geojson file instead of CSV on standard output."},
+    Option{"--layer", "NAME", "Of a line layer file: which layer.", "the first with lines"},
+    Option{"--id-column",
+           "NAME",
+           "Of a line layer: the column with a whole-number road id.",
+           "the feature's id"},
+    Option{"--oneway-column", "NAME", "Of a line layer: the column that says yes, no or -1."}};
+
+} // namespace
+
+const Command match_command{
+    .name = "match",
+    .summary = "Which roads a trip drove, and when",
+    .about = "One row for each piece of an edge, in driving order, with a confidence from 0 to 1; "
+             "parts off the\n"
+             "network and gaps in the positions are rows of their own that say why.",
+    .example = "  macadam match drive.trip.csv --network town.osm.pbf\n"
+               "  macadam match drive.trip.csv --network town.osm.pbf -o match.geojson\n"
+               "  macadam match drive.trip.csv --network town.osm.pbf --arcs > arcs.csv",
+    .operands = operands,
+    .options = options,
+    .run = run_match};
+
+} // namespace macadam

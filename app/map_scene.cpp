@@ -1,0 +1,109 @@
+#include "app/map_scene.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace macadam {
+namespace {
+
+constexpr double margin_share = 0.05; // of the driven extent, so that nothing touches the frame
+constexpr double least_margin_m = 50;
+constexpr double certain_sd = 0.35; // of the value; beyond it the line is drawn with a narrower core
+
+/// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
+int rank_of(std::string_view highway) {
+    struct Rank {
+        std::string_view prefix;
+        int rank;
+    };
+    constexpr std::array ranks{Rank{"motorway", 0},
+                               Rank{"trunk", 0},
+                               Rank{"primary", 1},
+                               Rank{"secondary", 2},
+                               Rank{"tertiary", 3},
+                               Rank{"service", 5},
+                               Rank{"track", 5}};
+    const auto found =
+        std::ranges::find_if(ranks, [&](const Rank& r) { return highway.starts_with(r.prefix); });
+    return found != ranks.end() ? found->rank : highway.empty() ? 2 : 4;
+}
+
+GeoBox box_with_margin(const GeoBox& box) {
+    const double diagonal_m =
+        distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
+    return grown(box, std::max(least_margin_m, margin_share * diagonal_m));
+}
+
+std::string subtitle_of(const StoreInfo& info) {
+    std::string period = "dates not known";
+    if (info.first_seen_ms && info.last_seen_ms) {
+        const auto first = utc_text(*info.first_seen_ms).substr(0, 10);
+        const auto last = utc_text(*info.last_seen_ms).substr(0, 10);
+        period = first == last ? first : first + " to " + last;
+    }
+    const auto count = [](std::size_t n, std::string_view one) {
+        return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
+    };
+    return fmt::format("{}  ·  {:.1f} km  ·  {}  ·  {}",
+                       period,
+                       info.km,
+                       count(info.trips, "trip"),
+                       count(info.vehicles.size(), "car"));
+}
+
+} // namespace
+
+MapScene map_scene(const RoadStore& store,
+                   const std::optional<GeoBox>& box,
+                   const ClassTable& classes,
+                   const std::string& title) {
+    const auto info = store.info();
+    MapScene scene;
+    scene.box = box ? *box : box_with_margin(info.box);
+    scene.title = title;
+    scene.subtitle = subtitle_of(info);
+    scene.attribution = info.settings.attribution;
+
+    // Each direction is a segment of its own; what was driven one way only is still a road of two
+    // sides where the map lets cars go both ways.
+    std::set<std::pair<std::int64_t, std::uint32_t>> backward;
+    SegmentFilter filter;
+    filter.box = scene.box;
+    filter.with_state_only = false;
+    store.visit(filter, [&](const SegmentRecord& record) {
+        if (!record.segment.key.forward) {
+            backward.emplace(record.segment.key.way_id, record.segment.key.index);
+        }
+    });
+    store.visit(filter, [&](const SegmentRecord& record) {
+        const auto& key = record.segment.key;
+        MapLine line;
+        line.line = record.segment.line;
+        line.forward = key.forward;
+        line.both_ways = !key.forward || backward.contains({key.way_id, key.index});
+        line.rank = rank_of(record.highway);
+        line.name = record.name;
+        if (record.state) {
+            line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
+            line.certain = record.state->sd_um <= certain_sd * record.state->iri_um;
+        }
+        scene.lines.push_back(std::move(line));
+    });
+    if (scene.lines.empty()) {
+        throw InputError{fmt::format(
+            "nothing to draw: the store has no road between {:.5f},{:.5f} and {:.5f},{:.5f}",
+            scene.box.south_deg,
+            scene.box.west_deg,
+            scene.box.north_deg,
+            scene.box.east_deg)};
+    }
+    return scene;
+}
+
+} // namespace macadam

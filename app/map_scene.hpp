@@ -1,0 +1,20 @@
+#pragma once
+
+#include "render/map.hpp"
+#include "storage/road_store.hpp"
+
+#include <optional>
+#include <string>
+
+namespace macadam {
+
+/// What a picture of a store shows: its segments in the box (nothing: all that was driven), with
+/// their classes, the roads without a measurement, and the words around them.
+///
+/// \throws InputError  if the store has no segment there.
+MapScene map_scene(const RoadStore& store,
+                   const std::optional<GeoBox>& box,
+                   const ClassTable& classes,
+                   const std::string& title);
+
+} // namespace macadam

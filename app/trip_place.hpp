@@ -1,0 +1,28 @@
+#pragma once
+
+#include "estimator/common/trip.hpp"
+#include "storage/trip_reader.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace macadam {
+
+/// The one trip of a path. \throws InputError if it is a folder or an archive of several.
+TripSource one_trip(const std::filesystem::path& path);
+
+/// Where the car was at a time, straight between its fixes, their latency taken off.
+class TripPlace {
+public:
+    explicit TripPlace(const TripLog& trip);
+
+    /// Nothing before the first and after the last fix, and in silences of more than ten seconds.
+    std::optional<GeoPoint> operator()(double t_s) const;
+
+private:
+    std::vector<double> t_s_;
+    std::vector<GeoPoint> at_;
+};
+
+} // namespace macadam
