@@ -1,0 +1,101 @@
+#include "app/pipeline.hpp"
+
+#include "support/drive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+namespace macadam {
+namespace {
+
+using testing::Drive;
+
+/// One road of 1,200 m to the east, both directions, and a rough patch from 500 to 600 m.
+class OneRoad : public ::testing::Test {
+protected:
+    static constexpr double length_m = 1200;
+
+    RoadNetwork roads() const {
+        const Drive along{.length_m = length_m};
+        Way way{.id = 7, .name = "", .highway = "primary", .node_ids = {}, .line = {}};
+        for (int i = 0; i <= 12; ++i) {
+            way.node_ids.push_back(i + 1);
+            way.line.push_back(testing::place_of(along, 100.0 * i));
+        }
+        return build_network({way});
+    }
+
+    static bool is_rough(double x_m) { return x_m >= 500 && x_m < 600; }
+
+    /// The headline by segment index of a drive to the east, or back to the west.
+    std::map<std::uint32_t, double> driven(bool east, double latency_s = 0.2) const {
+        const auto road = testing::patched_road(
+            [east](double x_m) { return is_rough(east ? x_m : length_m - x_m); }, 4);
+        Drive drive{.length_m = length_m, .gnss_latency_s = latency_s};
+        if (!east) {
+            drive.start = testing::place_of(drive, length_m);
+            drive.course_deg = 270;
+        }
+        const auto& car = *built_in_vehicle("golden-car");
+        const auto trip = testing::drive_over(road, drive, car);
+        const auto result = passes_of(trip, car, roads(), {});
+        std::map<std::uint32_t, double> iri;
+        for (const auto& pass : result.passes) {
+            EXPECT_EQ(pass.segment.forward, east);
+            iri[pass.segment.index] = pass.iri_um / 1000.0;
+        }
+        return iri;
+    }
+
+    /// Middle of the roughness along the road, by its excess over the smooth level.
+    static double centre_m(const std::map<std::uint32_t, double>& iri) {
+        double sum = 0;
+        double moment = 0;
+        const double smooth = iri.begin()->second;
+        for (const auto& [index, value] : iri) {
+            const double excess = std::max(0.0, value - 1.5 * smooth);
+            sum += excess;
+            moment += excess * (20.0 * index + 10);
+        }
+        return moment / sum;
+    }
+};
+
+TEST_F(OneRoad, ShowsTheRoughPatchInTheSegmentsWhereItLies) {
+    const auto iri = driven(true);
+    for (const auto& [index, value] : iri) {
+        const double middle_m = 20.0 * index + 10;
+        if (middle_m > 520 && middle_m < 580) {
+            EXPECT_GT(value, 3 * iri.begin()->second) << index;
+        }
+        // The golden car still sways some metres behind the patch.
+        if (middle_m < 480 || middle_m > 660) {
+            EXPECT_LT(value, 1.5 * iri.begin()->second) << index;
+        }
+    }
+}
+
+TEST_F(OneRoad, HoldsTheSameMetreInTheSameSegmentWhicheverWayItIsDriven) {
+    // The sway behind the patch shifts the centre some metres along, each time in driving
+    // direction.
+    EXPECT_NEAR(centre_m(driven(true)), centre_m(driven(false)), 16);
+}
+
+TEST_F(OneRoad, TakesTheLatencyOfTheReceiverOff) {
+    EXPECT_NEAR(centre_m(driven(true, 0)), centre_m(driven(true, 1.0)), 2);
+}
+
+TEST_F(OneRoad, AccountsForEveryRowOfTheTrip) {
+    const auto& car = *built_in_vehicle("golden-car");
+    const auto trip =
+        testing::drive_over(testing::patched_road(is_rough, 4), {.length_m = length_m}, car);
+    const auto rows = passes_of(trip, car, roads(), {}).rows;
+    EXPECT_EQ(rows.read, trip.rows.size());
+    EXPECT_EQ(rows.read, rows.used + rows.rejected);
+    EXPECT_GT(rows.used, trip.rows.size() * 9 / 10);
+}
+
+} // namespace
+} // namespace macadam

@@ -1,0 +1,180 @@
+// What the program says to files that are not what they should be, and what it leaves behind.
+
+#include "support/drive.hpp"
+#include "support/program.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A folder with a good trip, a store of its road with the trip in it, and room for bad files.
+class Refusals : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fresh_folder();
+        const Drive drive{.length_m = 600};
+        good_text_ = text_of(drive_over(patched_road([](double) { return false; }, 1),
+                                        drive,
+                                        *built_in_vehicle("golden-car")),
+                             drive);
+        good_ = file("good.trip.csv", good_text_);
+        store_ = (folder_ / "roads.gpkg").string();
+        ASSERT_EQ(run_macadam({"init", store_, "--trace", good_}).exit_status, 0);
+        ASSERT_EQ(run_macadam({"import", store_, good_}).exit_status, 0);
+        digest_ = run_macadam({"info", store_, "--digest"}).out;
+    }
+
+    std::string file(const std::string& name, const std::string& text) const {
+        write_file(folder_ / name, text);
+        return (folder_ / name).string();
+    }
+
+    /// Another trip on the same road, which the store does not know.
+    std::string other_trip() const {
+        const Drive drive{.length_m = 600, .speed_mps = 17, .trip_id = "other"};
+        return file("other.trip.csv",
+                    text_of(drive_over(patched_road([](double) { return false; }, 2),
+                                       drive,
+                                       *built_in_vehicle("golden-car")),
+                            drive));
+    }
+
+    void expect_store_unchanged() const {
+        EXPECT_EQ(run_macadam({"info", store_, "--digest"}).out, digest_);
+        EXPECT_FALSE(fs::exists(store_ + "-journal"));
+    }
+
+    fs::path folder_;
+    std::string good_text_;
+    std::string good_;
+    std::string store_;
+    std::string digest_;
+};
+
+TEST_F(Refusals, OfAnEmptyTripSayWhatWasExpected) {
+    const auto run = run_macadam({"trace", file("empty.trip.csv", "")});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("empty.trip.csv: is empty, expected"));
+    EXPECT_THAT(run.out, IsEmpty());
+}
+
+TEST_F(Refusals, OfATruncatedTripNameTheLineWhereItEnds) {
+    const auto cut = good_text_.substr(0, good_text_.find("# end rows"));
+    const auto run = run_macadam({"import", store_, file("cut.trip.csv", cut), "--json"});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.out, HasSubstr("\"result\":\"rejected\""));
+    EXPECT_THAT(run.out, ::testing::ContainsRegex("cut.trip.csv:[0-9]+: "));
+    EXPECT_THAT(run.out, HasSubstr("# end rows"));
+    expect_store_unchanged();
+}
+
+TEST_F(Refusals, OfABinaryTripShowItsFirstBytes) {
+    const auto run =
+        run_macadam({"match",
+                     file("picture.trip.csv", std::string{"\x89PNG\r\n\x1a\n\0\0", 10}),
+                     "--network",
+                     store_});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("expected '# macadam-trip 1'"));
+}
+
+TEST_F(Refusals, OfAMisheadedTripNameTheColumnsThatItLacks) {
+    auto text = good_text_;
+    text.replace(text.find("acc_z_mps2"), 10, "acc_q_mps2");
+    const auto run = run_macadam({"trace", file("misheaded.trip.csv", text)});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, ::testing::ContainsRegex("misheaded.trip.csv:8: "));
+}
+
+TEST_F(Refusals, OfOneBadTripLetTheOthersIn) {
+    const auto run =
+        run_macadam({"import", store_, file("bad.trip.csv", "hello\n"), other_trip(), "--json"});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.out, HasSubstr("\"result\":\"imported\""));
+    EXPECT_THAT(run.err, HasSubstr("1 of 2 trips rejected"));
+}
+
+TEST_F(Refusals, NameAMissingFile) {
+    EXPECT_THAT(run_macadam({"trace", "nowhere.trip.csv"}).err, HasSubstr("nowhere.trip.csv: "));
+    EXPECT_THAT(
+        run_macadam({"init", (folder_ / "new.gpkg").string(), "--network", "nowhere.osm.pbf"}).err,
+        HasSubstr("nowhere.osm.pbf: "));
+    EXPECT_THAT(run_macadam({"info", "nowhere.gpkg"}).err, HasSubstr("nowhere.gpkg: "));
+    EXPECT_THAT(run_macadam({"iri", "nowhere.csv"}).err, HasSubstr("nowhere.csv: "));
+    EXPECT_THAT(run_macadam({"trace", good_, "--vehicle", "nowhere.toml"}).err,
+                HasSubstr("nowhere.toml: "));
+}
+
+TEST_F(Refusals, LeaveNoStoreBehindWithoutANetwork) {
+    const auto store = folder_ / "new.gpkg";
+    EXPECT_EQ(
+        run_macadam({"init", store.string(), "--network", file("map.osm", "no map")}).exit_status,
+        1);
+    EXPECT_FALSE(fs::exists(store));
+}
+
+TEST_F(Refusals, OfAStoreThatExistsKeepIt) {
+    const auto run = run_macadam({"init", store_, "--trace", good_});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("roads.gpkg: "));
+    expect_store_unchanged();
+}
+
+TEST_F(Refusals, OfAFileThatIsNoStoreSayWhoMakesOne) {
+    const auto run = run_macadam({"query", file("text.gpkg", "just text"), "--worst", "3"});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("macadam init"));
+}
+
+TEST_F(Refusals, OfAFullDiskLeaveTheStoreAsItWas) {
+    const auto room = fs::file_size(store_); // not a byte more
+    const auto trip = other_trip();
+    const auto run = run_macadam({"import", store_, trip}, room);
+    EXPECT_EQ(run.exit_status, 1) << run.out << run.err;
+    EXPECT_THAT(run.err, HasSubstr("roads.gpkg: "));
+    expect_store_unchanged();
+    EXPECT_EQ(run_macadam({"import", store_, trip}).exit_status, 0);
+}
+
+TEST_F(Refusals, OfAFullDiskLeaveNoHalfExport) {
+    const auto out = folder_ / "roads.geojson";
+    const auto run = run_macadam({"export", store_, "-o", out.string()}, 100);
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("roads.geojson"));
+    for (const auto& entry : fs::directory_iterator{folder_}) {
+        EXPECT_THAT(entry.path().filename().string(), ::testing::Not(HasSubstr("geojson")));
+    }
+}
+
+TEST_F(Refusals, OfAFullStandardOutputAreAFailure) {
+    const auto run = run_macadam_into("/dev/full", {"trace", good_});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("standard output: "));
+}
+
+TEST_F(Refusals, OfABoxInDisorderAreMisuse) {
+    const auto run = run_macadam(
+        {"export", store_, "-o", (folder_ / "a.csv").string(), "--bbox", "12,48,11,49"});
+    EXPECT_EQ(run.exit_status, 2);
+    EXPECT_THAT(run.err, HasSubstr("west < east"));
+}
+
+TEST_F(Refusals, OfASizeOutOfRangeAreMisuse) {
+    for (const auto* size : {"0x0", "big", "20000x100", "512"}) {
+        EXPECT_EQ(
+            run_macadam({"render", store_, "-o", (folder_ / "a.png").string(), "--size", size})
+                .exit_status,
+            2)
+            << size;
+    }
+}
+
+} // namespace
+} // namespace macadam::testing

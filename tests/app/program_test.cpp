@@ -1,0 +1,190 @@
+// The program as users run it: the whole line from real logs to maps.
+
+#include "support/drive.hpp"
+#include "support/program.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const fs::path sample_data = fs::path{MACADAM_SOURCE_DIR} / "sample_data";
+const auto rav4 = (sample_data / "comma2k19/comma2k19_rav4.trip.csv").string();
+const auto gyor = (sample_data / "gyor/gyor_q3_00.trip.csv").string();
+
+Run expect_done(const std::vector<std::string>& words) {
+    auto run = run_macadam(words);
+    EXPECT_EQ(run.exit_status, 0) << words.front() << ": " << run.err;
+    return run;
+}
+
+std::string digest_of(const fs::path& store) {
+    return expect_done({"info", store.string(), "--digest"}).out;
+}
+
+std::size_t lines_in(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+/// A store of the RAV4's road with its trip in it.
+fs::path store_of_rav4(const fs::path& folder) {
+    const auto store = folder / "roads.gpkg";
+    expect_done({"init", store.string(), "--trace", rav4});
+    expect_done({"import", store.string(), rav4});
+    return store;
+}
+
+TEST(Program, SaysItsVersion) {
+    EXPECT_THAT(expect_done({"--version"}).out, MatchesRegex("macadam [0-9.]+\n"));
+}
+
+TEST(Program, ExplainsEveryCommand) {
+    for (const auto* name :
+         {"init", "import", "query", "export", "render", "info", "iri", "trace", "match"}) {
+        EXPECT_THAT(expect_done({name, "--help"}).out, HasSubstr("example"));
+    }
+}
+
+TEST(Program, IsMisusedByWhatItDoesNotKnow) {
+    EXPECT_EQ(run_macadam({}).exit_status, 2);
+    EXPECT_EQ(run_macadam({"fly"}).exit_status, 2);
+    EXPECT_EQ(run_macadam({"info"}).exit_status, 2);
+    EXPECT_EQ(run_macadam({"info", "roads.gpkg", "--fast"}).exit_status, 2);
+}
+
+TEST(Program, MapsARealTripFromItsLogToItsPicture) {
+    const auto folder = fresh_folder();
+    const auto store = store_of_rav4(folder);
+
+    const auto geojson = folder / "roads.geojson";
+    expect_done({"export", store.string(), "-o", geojson.string()});
+    EXPECT_THAT(read_file(geojson), StartsWith("{\"type\":\"FeatureCollection\""));
+    EXPECT_THAT(read_file(geojson), HasSubstr("\"iri\":"));
+
+    const auto picture = folder / "map.png";
+    expect_done({"render", store.string(), "-o", picture.string(), "--size", "512x512"});
+    EXPECT_THAT(read_file(picture), StartsWith("\x89PNG"));
+
+    EXPECT_THAT(expect_done({"info", store.string()}).out, HasSubstr("1 vehicles"));
+}
+
+TEST(Program, AccountsForEveryRowOfTheRealTrips) {
+    const auto folder = fresh_folder();
+    const auto store = folder / "roads.gpkg";
+    expect_done({"init", store.string(), "--trace", rav4, gyor});
+    const auto lines = expect_done({"import", store.string(), rav4, gyor, "--json"}).out;
+    EXPECT_THAT(lines, HasSubstr("\"rows_read\":11808"));
+    EXPECT_THAT(lines, HasSubstr("\"rows_read\":25770"));
+    EXPECT_EQ(lines_in(lines), 2U);
+}
+
+TEST(Program, LetsAKnownTripChangeNothing) {
+    const auto store = store_of_rav4(fresh_folder());
+    const auto before = digest_of(store);
+    const auto again = expect_done({"import", store.string(), rav4, "--json"});
+    EXPECT_THAT(again.out, HasSubstr("\"result\":\"known\""));
+    EXPECT_EQ(digest_of(store), before);
+}
+
+TEST(Program, GivesOneDigestWhateverTheOrderAndTheJobs) {
+    const auto folder = fresh_folder();
+    const auto first = folder / "a.gpkg";
+    const auto second = folder / "b.gpkg";
+    expect_done({"init", first.string(), "--trace", rav4, gyor});
+    expect_done({"init", second.string(), "--trace", rav4, gyor});
+    expect_done({"import", first.string(), rav4, gyor});
+    expect_done({"import", second.string(), gyor, rav4, "--jobs", "2"});
+    EXPECT_EQ(digest_of(first), digest_of(second));
+    EXPECT_THAT(digest_of(first), MatchesRegex("[0-9a-f]{64}\n"));
+}
+
+TEST(Program, ImportsAFolderOfSimulatedCarsAndFindsTheRoughPatch) {
+    const auto folder = fresh_folder();
+    fs::create_directories(folder / "trips/monday");
+    const auto road = patched_road([](double x_m) { return x_m >= 500 && x_m < 600; }, 4);
+    for (const double speed_mps : {15.0, 22.0}) {
+        const Drive drive{
+            .length_m = 1200, .speed_mps = speed_mps, .trip_id = fmt::format("at-{}", speed_mps)};
+        write_file(folder / fmt::format("trips/monday/{}.trip.csv", drive.trip_id),
+                   text_of(drive_over(road, drive, *built_in_vehicle("golden-car")), drive));
+    }
+    write_file(folder / "trips/notes.txt", "not a trip");
+
+    const auto store = (folder / "roads.gpkg").string();
+    expect_done({"init", store, "--trace", (folder / "trips").string()});
+    const auto import = expect_done({"import", store, (folder / "trips").string()});
+    EXPECT_THAT(import.err, HasSubstr("2 trips imported"));
+
+    const auto worst = expect_done({"query", store, "--worst", "1", "--format", "csv"}).out;
+    EXPECT_EQ(lines_in(worst), 2U);
+    EXPECT_THAT(worst, HasSubstr(",poor,2,1,"));
+}
+
+TEST(Program, TracesATripWithoutAMap) {
+    const auto csv = expect_done({"trace", rav4, "--vehicle", "generic"}).out;
+    EXPECT_THAT(csv,
+                StartsWith("from_m,to_m,t_s,lat_deg,lon_deg,speed_mps,iri,iri_sd,iri_low,iri_high,"
+                           "iri_left,iri_right,mri,hri,index,validity\n0.000,20.000,"));
+    EXPECT_NEAR(
+        static_cast<double>(lines_in(csv)), 50, 3); // 1.00 km in pieces of 20 m, and the header
+}
+
+TEST(Program, WarnsThatItDoesNotKnowTheCar) {
+    const auto run = expect_done({"trace", rav4});
+    EXPECT_THAT(run.err, HasSubstr("warning: no vehicle file for 'b0c9d2329ad1606b'"));
+}
+
+TEST(Program, FindsTheVehicleFileOfATripInTheFolderBeside) {
+    const auto folder = fresh_folder();
+    fs::create_directories(folder / "trips");
+    fs::create_directories(folder / "vehicles");
+    const Drive drive{.length_m = 600, .vehicle_id = "taxi-9"};
+    const auto road = patched_road([](double) { return false; }, 1);
+    const auto trip = folder / "trips/a.trip.csv";
+    write_file(trip, text_of(drive_over(road, drive, *built_in_vehicle("golden-car")), drive));
+    write_file(folder / "vehicles/taxi.toml",
+               "name = \"taxi-9\"\n[half_car]\nms_kg = 1000\nmu_kg = 37.5\nks_n_per_m = 15825\n"
+               "cs_ns_per_m = 1500\nkt_n_per_m = 163250\nis_kgm2 = 400\nl_m = 0.75\n");
+    EXPECT_THAT(expect_done({"trace", trip.string()}).err, IsEmpty());
+}
+
+TEST(Program, SaysIriOfASineAsTheClosedFormDoes) {
+    const auto folder = fresh_folder();
+    std::string csv = "station_m,left_m,right_m\n";
+    for (int i = 0; i <= 8000; ++i) {
+        const double x_m = 0.05 * i;
+        const double z_m = 0.001 * std::sin(2 * 3.14159265358979 * x_m / 2.4);
+        csv += fmt::format("{:.3f},{:.9f},{:.9f}\n", x_m, z_m, z_m);
+    }
+    write_file(folder / "sine.csv", csv);
+    // 2.7241 mm/m is the closed form for 1 mm at 2.4 m; the 0.05 m grid reads 2.7223.
+    const auto out =
+        expect_done(
+            {"iri", (folder / "sine.csv").string(), "--from", "100", "--to", "388", "--json"})
+            .out;
+    EXPECT_THAT(out, HasSubstr("\"mri\":2.722"));
+    EXPECT_THAT(out, HasSubstr("\"envelope_samples\":5"));
+}
+
+TEST(Program, MatchesARealTripToARoadOfItsOwn) {
+    const auto folder = fresh_folder();
+    const auto store = store_of_rav4(folder);
+    const auto roads = (folder / "roads.geojson").string();
+    expect_done({"export", store.string(), "-o", roads, "--all"});
+    const auto pieces = expect_done({"match", rav4, "--network", roads, "--id-column", "way_id"});
+    EXPECT_THAT(pieces.out, HasSubstr(",road,"));
+}
+
+} // namespace
+} // namespace macadam::testing

@@ -1,0 +1,96 @@
+#include "support/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+void redirect(const fs::path& file, int to) {
+    const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(descriptor, to);
+    close(descriptor);
+}
+
+[[noreturn]] void become_macadam(const std::vector<std::string>& words,
+                                 const fs::path& out,
+                                 const fs::path& err,
+                                 std::size_t most_file_bytes) {
+    redirect(out, STDOUT_FILENO);
+    redirect(err, STDERR_FILENO);
+    if (most_file_bytes > 0) {
+        std::signal(SIGXFSZ, SIG_IGN); // the write fails instead, as on a full disk
+        const rlimit limit{most_file_bytes, most_file_bytes};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)};
+    for (const auto& word : words) {
+        argv.push_back(const_cast<char*>(word.c_str()));
+    }
+    argv.push_back(nullptr);
+    execv(MACADAM_PROGRAM, argv.data());
+    _exit(127);
+}
+
+Run run(const std::vector<std::string>& words, const fs::path& out, std::size_t most_file_bytes) {
+    const auto err = fs::path{::testing::TempDir()} / ("macadam_err_" + std::to_string(getpid()));
+    const pid_t child = fork();
+    if (child == 0) {
+        become_macadam(words, out, err, most_file_bytes);
+    }
+    int status = 0;
+    if (child < 0 || waitpid(child, &status, 0) != child) {
+        throw std::runtime_error{"cannot run " MACADAM_PROGRAM};
+    }
+    Run result{
+        WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), "", read_file(err)};
+    fs::remove(err);
+    return result;
+}
+
+} // namespace
+
+Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_bytes) {
+    const auto out = fs::path{::testing::TempDir()} / ("macadam_out_" + std::to_string(getpid()));
+    auto result = run(words, out, most_file_bytes);
+    result.out = read_file(out);
+    fs::remove(out);
+    return result;
+}
+
+Run run_macadam_into(const fs::path& out, const std::vector<std::string>& words) {
+    return run(words, out, 0);
+}
+
+fs::path fresh_folder() {
+    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+    const auto folder = fs::path{::testing::TempDir()} /
+                        ("macadam_" + std::string{test->test_suite_name()} + "_" + test->name());
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    return folder;
+}
+
+std::string read_file(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream{file, std::ios::binary}.rdbuf();
+    return text.str();
+}
+
+void write_file(const fs::path& file, const std::string& text) {
+    std::ofstream{file, std::ios::binary} << text;
+}
+
+} // namespace macadam::testing

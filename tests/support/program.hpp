@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+
+/// What a run of the program left behind.
+struct Run {
+    int exit_status; ///< 128 + n if signal n ended it
+    std::string out;
+    std::string err;
+};
+
+/// Runs the built program with the words after its name.
+/// \param most_file_bytes  what a file may grow to before writing fails, as a full disk does; 0 =
+/// any.
+Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_bytes = 0);
+
+/// Standard output goes to this file instead of Run::out.
+Run run_macadam_into(const std::filesystem::path& out, const std::vector<std::string>& words);
+
+/// An empty folder of the running test's own.
+std::filesystem::path fresh_folder();
+
+std::string read_file(const std::filesystem::path& file);
+void write_file(const std::filesystem::path& file, const std::string& text);
+
+} // namespace macadam::testing
