@@ -1,0 +1,200 @@
+#include "mapping/map_match.hpp"
+
+#include "mapping/match/lattice.hpp"
+#include "mapping/match/offsets.hpp"
+#include "mapping/match/path.hpp"
+#include "mapping/match/positions.hpp"
+#include "mapping/match/road_plane.hpp"
+#include "mapping/match/routes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr double straight_m = 0.25; // pieces keep the place along the edge within this
+
+/// Travel at which the trip came to a place of the path; the ends of the knots for one beyond them.
+double travel_at(const std::vector<Knot>& knots, double along_m) {
+    const auto next =
+        std::lower_bound(knots.begin(), knots.end(), along_m, [](const Knot& knot, double m) {
+            return knot.along_m < m;
+        });
+    if (next == knots.begin() || next == knots.end()) {
+        return next == knots.end() ? knots.back().travel_m : next->travel_m;
+    }
+    const auto& before = *(next - 1);
+    const double share = (along_m - before.along_m) / (next->along_m - before.along_m);
+    return std::lerp(before.travel_m, next->travel_m, share);
+}
+
+/// The knots between two places of the path, with new ones at both.
+std::vector<Knot> clipped(const std::vector<Knot>& knots, double from_m, double to_m) {
+    from_m = std::max(from_m, knots.front().along_m);
+    to_m = std::min(to_m, knots.back().along_m);
+    if (!(from_m < to_m)) {
+        return {};
+    }
+    std::vector<Knot> inside{{travel_at(knots, from_m), from_m}};
+    const Knot last{travel_at(knots, to_m), to_m};
+    for (auto knot = std::upper_bound(knots.begin(),
+                                      knots.end(),
+                                      inside.front().travel_m,
+                                      [](double m, const Knot&k) { return m < k.travel_m; });
+         knot != knots.end() && knot->travel_m < last.travel_m;
+         ++knot) {
+        inside.push_back(*knot);
+    }
+    inside.push_back(last);
+    return inside;
+}
+
+bool is_straight(std::span<const Knot> knots) {
+    const auto& a = knots.front();
+    const auto& b = knots.back();
+    const double slope = (b.along_m - a.along_m) / (b.travel_m - a.travel_m);
+    return std::all_of(knots.begin(), knots.end(), [&](const Knot& knot) {
+        return std::abs(a.along_m + slope * (knot.travel_m - a.travel_m) - knot.along_m) <=
+               straight_m;
+    });
+}
+
+/// Of the first knots, as many as one straight line serves; at least two.
+std::size_t straight_count(std::span<const Knot> knots) {
+    std::size_t good = 2;
+    std::size_t step = 1;
+    while (good < knots.size()) { // growing steps, then halved ones
+        const auto tried = std::min(good + step, knots.size());
+        if (is_straight(knots.first(tried))) {
+            good = tried;
+            step *= 2;
+        } else if (tried == good + 1) {
+            break;
+        } else {
+            step = std::max<std::size_t>(1, (tried - good) / 2);
+        }
+    }
+    return good;
+}
+
+void add_leg(MatchedTrace& trace,
+             const Leg& leg,
+             const std::vector<Knot>& knots,
+             const Odometer& odometer) {
+    auto rest = std::span{knots};
+    const auto offset_m = [&](const Knot& knot) {
+        return std::clamp(leg.from_m + knot.along_m - leg.start_m, leg.from_m, leg.to_m);
+    };
+    while (rest.size() >= 2) {
+        const auto count = straight_count(rest);
+        const auto& from = rest.front();
+        const auto& to = rest[count - 1];
+        if (from.travel_m < to.travel_m) {
+            trace.push_back({PieceKind::road,
+                             leg.edge,
+                             from.travel_m,
+                             to.travel_m,
+                             offset_m(from),
+                             offset_m(to),
+                             odometer.t_s(from.travel_m),
+                             odometer.t_s(to.travel_m),
+                             leg.confidence,
+                             ""});
+        }
+        rest = rest.subspan(count - 1);
+    }
+}
+
+MatchedTrace
+pieces_of(const RoadPath& path, const std::vector<Knot>& knots, const Odometer& odometer) {
+    MatchedTrace pieces;
+    for (const auto& leg : path.legs) {
+        add_leg(pieces,
+                leg,
+                clipped(knots, leg.start_m, leg.start_m + leg.to_m - leg.from_m),
+                odometer);
+    }
+    return pieces;
+}
+
+/// What fills the trip up to `to_travel_m`, where no road does.
+void fill(MatchedTrace& trace,
+          PieceKind kind,
+          double to_travel_m,
+          const std::string& reason,
+          double from_travel_m,
+          const Odometer& odometer) {
+    const double from_m = trace.empty() ? from_travel_m : trace.back().to_travel_m;
+    if (from_m < to_travel_m) {
+        trace.push_back({kind,
+                         EdgeId{},
+                         from_m,
+                         to_travel_m,
+                         0,
+                         0,
+                         odometer.t_s(from_m),
+                         odometer.t_s(to_travel_m),
+                         0,
+                         reason});
+    }
+}
+
+struct Hole {
+    PieceKind kind;
+    std::string reason;
+};
+
+/// Why there is no road between two samples of the chain.
+Hole hole_between(const std::vector<Chosen>& chain,
+                  std::size_t from,
+                  std::size_t to,
+                  const MatchConfig& config) {
+    const auto off = [](const Chosen& chosen) { return chosen.candidate.off_network; };
+    const auto begin = chain.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto end = chain.begin() + static_cast<std::ptrdiff_t>(to);
+    if (std::any_of(begin, end, off)) {
+        return {PieceKind::off_network,
+                fmt::format("no fitting road within {:g} m", config.off_network_m)};
+    }
+    return {PieceKind::gap, "no way on the network joins the positions"};
+}
+
+} // namespace
+
+MatchedTrace map_match(const TripLog& trip,
+                       const Odometer& odometer,
+                       const RoadNetwork& roads,
+                       const MatchConfig& config,
+                       TripUse& use) {
+    const auto positions = positions_of(trip, odometer, config, use);
+    if (positions.samples.empty()) {
+        return {};
+    }
+    RoadPlane plane{roads, positions.frame};
+    Routes routes{roads, config.u_turn_cost_m};
+    const auto chain = cheapest_chain(roads, plane, routes, positions, config);
+    const auto paths = paths_of(roads, routes, positions, chain, config);
+
+    const double begin_m = positions.all.front().travel_m;
+    const double end_m = positions.all.back().travel_m;
+    MatchedTrace trace;
+    std::size_t sample = 0; // of the chain, up to which the trace is filled
+    for (const auto& path : paths) {
+        auto pieces = pieces_of(path, smoothed_knots(path, roads, plane, positions), odometer);
+        if (pieces.empty()) {
+            continue;
+        }
+        const auto hole = hole_between(chain, sample, path.first_sample, config);
+        fill(trace, hole.kind, pieces.front().from_travel_m, hole.reason, begin_m, odometer);
+        trace.insert(trace.end(), pieces.begin(), pieces.end());
+        sample = path.last_sample;
+    }
+    const auto hole = hole_between(chain, sample, chain.size(), config);
+    fill(trace, hole.kind, end_m, hole.reason, begin_m, odometer);
+    return trace;
+}
+
+} // namespace macadam

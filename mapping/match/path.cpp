@@ -1,0 +1,150 @@
+#include "mapping/match/path.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace macadam {
+namespace {
+
+constexpr std::size_t longest_bad_run = 2; // samples
+constexpr double bad_run_nats = 6;         // of the passage over it: more is an excursion
+
+/// A passage with the edges between.
+struct Connection {
+    Passage passage;
+    std::vector<EdgeId> edges;
+};
+
+class PathBuilder {
+public:
+    PathBuilder(const RoadNetwork& roads,
+                Routes& routes,
+                const Positions& positions,
+                const std::vector<Chosen>& chain,
+                const MatchConfig& config)
+        : roads_{roads}, routes_{routes}, positions_{positions}, chain_{chain}, config_{config} {}
+
+    std::vector<RoadPath> build() && {
+        for (std::size_t sample = 0; sample < chain_.size(); ++sample) {
+            if (chain_[sample].candidate.off_network) {
+                continue;
+            }
+            if (paths_.empty() || !extend(sample)) {
+                begin(sample);
+            }
+        }
+        for (auto& path : paths_) {
+            path.legs.back().to_m = length_m(roads_, path.legs.back().edge);
+        }
+        return std::move(paths_);
+    }
+
+private:
+    void begin(std::size_t sample) {
+        const auto& candidate = chain_[sample].candidate;
+        paths_.push_back({{}, {}, {}, sample, sample});
+        paths_.back().legs.push_back({candidate.edge, 0, 0, 0, 1});
+        place(sample);
+    }
+
+    /// On the path's last leg.
+    void place(std::size_t sample) {
+        auto& path = paths_.back();
+        auto& leg = path.legs.back();
+        path.positions.push_back(chain_[sample].position);
+        path.sample_m.push_back(leg.start_m + chain_[sample].candidate.offset_m - leg.from_m);
+        path.last_sample = sample;
+        leg.confidence = std::min(leg.confidence, chain_[sample].confidence);
+    }
+
+    bool extend(std::size_t sample) {
+        const auto last = paths_.back().last_sample;
+        const auto skipped = sample - last - 1;
+        if (skipped > longest_bad_run || (skipped == 0 && !chain_[sample].joined)) {
+            return false;
+        }
+        const auto between =
+            between_samples(positions_, chain_[last].position, chain_[sample].position);
+        const auto connection = connect(last, sample, between);
+        if (!connection ||
+            (skipped > 0 && cost_of(connection->passage, between, config_) > bad_run_nats)) {
+            return false;
+        }
+        follow(*connection, last, sample);
+        place(sample);
+        return true;
+    }
+
+    std::optional<Connection>
+    connect(std::size_t from_sample, std::size_t to_sample, const Between& between) {
+        const auto& from = chain_[from_sample].candidate;
+        const auto& to = chain_[to_sample].candidate;
+        const auto& reached =
+            reached_from(routes_, from.edge, std::span{&to.edge, 1}, between, config_);
+        const auto passage = passage_of(roads_, reached, from, to, between, config_);
+        if (!passage) {
+            return {};
+        }
+        return Connection{*passage,
+                          passage->kind == Passage::Kind::around
+                              ? edges_before(reached, from.edge, to.edge)
+                              : std::vector<EdgeId>{}};
+    }
+
+    void follow(const Connection& connection, std::size_t last, std::size_t sample) {
+        const auto& from = chain_[last].candidate;
+        const auto& to = chain_[sample].candidate;
+        const double confidence = std::min(chain_[last].confidence, chain_[sample].confidence);
+        switch (connection.passage.kind) {
+        case Passage::Kind::along:
+            break;
+        case Passage::Kind::turned: {
+            // The way there and back is what was travelled; it leaves the turning point open.
+            const double edge_m = length_m(roads_, from.edge);
+            const double turn_m =
+                (from.offset_m + edge_m - to.offset_m + connection.passage.way_m) / 2;
+            go_on(to.edge, turn_m, edge_m - turn_m, 1);
+            break;
+        }
+        case Passage::Kind::around:
+            for (const auto edge : connection.edges) {
+                go_on(edge, length_m(roads_, paths_.back().legs.back().edge), 0, confidence);
+            }
+            go_on(to.edge, length_m(roads_, paths_.back().legs.back().edge), 0, 1);
+            break;
+        }
+    }
+
+    /// Ends the last leg at `end_m` of its edge and begins the next at `begin_m` of its own.
+    void go_on(EdgeId edge, double end_m, double begin_m, double confidence) {
+        auto& legs = paths_.back().legs;
+        auto& leg = legs.back();
+        leg.to_m = std::max(end_m, leg.from_m);
+        const double start_m = leg.start_m + leg.to_m - leg.from_m;
+        legs.push_back({edge, begin_m, begin_m, start_m, confidence});
+    }
+
+    const RoadNetwork& roads_;
+    Routes& routes_;
+    const Positions& positions_;
+    const std::vector<Chosen>& chain_;
+    const MatchConfig& config_;
+    std::vector<RoadPath> paths_;
+};
+
+} // namespace
+
+double length_m(const RoadPath& path) {
+    const auto& leg = path.legs.back();
+    return leg.start_m + leg.to_m - leg.from_m;
+}
+
+std::vector<RoadPath> paths_of(const RoadNetwork& roads,
+                               Routes& routes,
+                               const Positions& positions,
+                               const std::vector<Chosen>& chain,
+                               const MatchConfig& config) {
+    return PathBuilder{roads, routes, positions, chain, config}.build();
+}
+
+} // namespace macadam

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "mapping/local_frame.hpp"
+#include "mapping/map_match.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace macadam {
+
+/// A position that may enter the matching.
+struct Position {
+    double t_s; ///< when the antenna was there, the receiver's latency taken off
+    double travel_m;
+    PointEn at; ///< in Positions::frame
+    GeoPoint place;
+    float sd_m;       ///< across the road: receiver, map and lane together
+    float own_sd_m;   ///< of the receiver alone
+    float course_rad; ///< clockwise from north; NaN where it says nothing
+};
+
+/// The positions of a trip, and which of them are matched.
+struct Positions {
+    LocalFrame frame;          ///< in the middle of the trip
+    bool odometer;             ///< travel is measured, not drawn from the positions themselves
+    std::vector<Position> all; ///< in the order of time
+    std::vector<std::size_t> samples; ///< of `all`: first, last, and one each spacing_m between
+};
+
+/// Sorts the fixes of a trip into those that serve and, in `use`, the reasons of the others.
+Positions positions_of(const TripLog& trip,
+                       const Odometer& odometer,
+                       const MatchConfig& config,
+                       TripUse& use);
+
+} // namespace macadam

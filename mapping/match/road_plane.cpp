@@ -1,0 +1,134 @@
+#include "mapping/match/road_plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace macadam {
+namespace {
+
+constexpr double look_ahead_m = 150; // of one look into the index, for the positions to come
+constexpr double hairpin_m = 25;     // a line that left by so much and came back is near twice
+
+struct OnStep {
+    double fraction;
+    double distance_m;
+};
+
+OnStep nearest_on(const PointEn& a, const PointEn& b, const PointEn& at) {
+    const double east_m = b.east_m - a.east_m;
+    const double north_m = b.north_m - a.north_m;
+    const double square = east_m * east_m + north_m * north_m;
+    const double along = (at.east_m - a.east_m) * east_m + (at.north_m - a.north_m) * north_m;
+    const double fraction = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+    const double off_east_m = a.east_m + fraction * east_m - at.east_m;
+    const double off_north_m = a.north_m + fraction * north_m - at.north_m;
+    return {fraction, std::sqrt(off_east_m * off_east_m + off_north_m * off_north_m)};
+}
+
+NearPlace place_at(LinkId link, const LinePoint& a, const LinePoint& b, const OnStep& on) {
+    return {link,
+            std::lerp(a.along_m, b.along_m, on.fraction),
+            on.distance_m,
+            std::atan2(b.at.east_m - a.at.east_m, b.at.north_m - a.at.north_m)};
+}
+
+/// The places where the line's distance is at a minimum, with a hill of hairpin_m between two.
+void add_minima(std::vector<NearPlace>& places,
+                LinkId link,
+                std::span<const LinePoint> line,
+                const PointEn& at,
+                double radius_m) {
+    constexpr double far_m = std::numeric_limits<double>::infinity();
+    OnStep best{0, far_m};
+    std::size_t best_step = 0;
+    double farthest_since_m = far_m; // a new minimum lies well below it
+    const auto add_best = [&] {
+        if (best.distance_m <= radius_m) {
+            places.push_back(place_at(link, line[best_step], line[best_step + 1], best));
+        }
+        best = {0, far_m};
+    };
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const auto on = nearest_on(line[i].at, line[i + 1].at, at);
+        const double end_m =
+            std::hypot(line[i + 1].at.east_m - at.east_m, line[i + 1].at.north_m - at.north_m);
+        if (on.distance_m < best.distance_m && on.distance_m < farthest_since_m - hairpin_m) {
+            best = on;
+            best_step = i;
+        }
+        if (best.distance_m < far_m && end_m > best.distance_m + hairpin_m) {
+            add_best();
+            farthest_since_m = end_m;
+        }
+        if (best.distance_m == far_m) {
+            farthest_since_m = std::max(farthest_since_m, end_m);
+        }
+    }
+    add_best();
+}
+
+} // namespace
+
+RoadPlane::Drawn RoadPlane::drawn(LinkId link) {
+    const auto [found, is_new] = drawn_.try_emplace(static_cast<std::uint32_t>(link));
+    if (!is_new) {
+        return found->second;
+    }
+    const auto& there = roads_.links[static_cast<std::uint32_t>(link)];
+    const auto& along_m = roads_.way_point_m[there.way];
+    const auto line = std::span{roads_.ways[there.way].line}.subspan(
+        there.first_point, there.last_point - there.first_point + 1);
+    auto& drawn = found->second;
+    drawn.first = static_cast<std::uint32_t>(points_.size());
+    drawn.count = static_cast<std::uint32_t>(line.size());
+    const auto local = frame_.to_local(line);
+    drawn.low = drawn.high = local.front();
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        points_.push_back({local[i], along_m[there.first_point + i] - there.from_m});
+        drawn.low = {std::min(drawn.low.east_m, local[i].east_m),
+                     std::min(drawn.low.north_m, local[i].north_m)};
+        drawn.high = {std::max(drawn.high.east_m, local[i].east_m),
+                      std::max(drawn.high.north_m, local[i].north_m)};
+    }
+    return drawn;
+}
+
+std::span<const LinePoint> RoadPlane::line(LinkId link) {
+    const auto there = drawn(link);
+    return std::span{points_}.subspan(there.first, there.count);
+}
+
+void RoadPlane::look_around(const PointEn& at, const GeoPoint& place, double radius_m) {
+    const double moved_m =
+        std::hypot(at.east_m - nearby_at_.east_m, at.north_m - nearby_at_.north_m);
+    if (moved_m + radius_m <= nearby_radius_m_) {
+        return;
+    }
+    nearby_at_ = at;
+    nearby_radius_m_ = radius_m + look_ahead_m;
+    nearby_.clear();
+    for (const auto link : links_near(roads_, grown(including({}, place), nearby_radius_m_))) {
+        nearby_.push_back({link, drawn(link)});
+    }
+}
+
+std::vector<NearPlace> RoadPlane::near(const PointEn& at, const GeoPoint& place, double radius_m) {
+    look_around(at, place, radius_m);
+    std::vector<NearPlace> places;
+    for (const auto& [link, there] : nearby_) {
+        if (at.east_m < there.low.east_m - radius_m || at.east_m > there.high.east_m + radius_m ||
+            at.north_m < there.low.north_m - radius_m ||
+            at.north_m > there.high.north_m + radius_m) {
+            continue;
+        }
+        add_minima(
+            places, link, std::span{points_}.subspan(there.first, there.count), at, radius_m);
+    }
+    std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) {
+        return a.distance_m < b.distance_m;
+    });
+    return places;
+}
+
+} // namespace macadam

@@ -1,0 +1,109 @@
+#include "mapping/match/routes.hpp"
+
+#include <algorithm>
+
+namespace macadam {
+namespace {
+
+constexpr double dead_end_share = 0.25; // of the price of a U-turn, where there is no other way
+
+} // namespace
+
+double Routes::turn_m(EdgeId edge) const {
+    const auto out = out_edges(roads_, to_node(roads_, edge));
+    const bool dead_end = out.size() == 1 && out.front() == reversed(edge);
+    return dead_end ? dead_end_share * u_turn_cost_m_ : u_turn_cost_m_;
+}
+
+void Routes::leave(EdgeId edge, float way_m, float turn_m_so_far, double longest_m) {
+    for (const auto next : out_edges(roads_, to_node(roads_, edge))) {
+        const auto turn = next == reversed(edge) ? turn_m_so_far + static_cast<float>(turn_m(edge))
+                                                 : turn_m_so_far;
+        if (way_m + turn > longest_m) {
+            continue;
+        }
+        const Reached reached{next, edge, way_m, turn};
+        const auto [label, is_new] =
+            labels_.try_emplace(static_cast<std::uint32_t>(next), Label{reached, false});
+        if (!is_new) {
+            const auto& known = label->second.reached;
+            if (label->second.settled || known.way_m + known.turn_m <= way_m + turn) {
+                continue;
+            }
+            label->second.reached = reached;
+        }
+        waiting_.push_back({way_m + turn, next});
+        std::push_heap(waiting_.begin(), waiting_.end(), [](const auto& a, const auto& b) {
+            return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
+        });
+    }
+}
+
+std::vector<Reached>
+Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
+    labels_.clear();
+    waiting_.clear();
+    leave(edge, 0, 0, longest_m);
+    std::vector<Reached> settled;
+    auto missing = targets.size();
+    while (!waiting_.empty()) {
+        std::pop_heap(waiting_.begin(), waiting_.end(), [](const auto& a, const auto& b) {
+            return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
+        });
+        const auto next = waiting_.back().edge;
+        waiting_.pop_back();
+        auto& label = labels_.find(static_cast<std::uint32_t>(next))->second;
+        if (label.settled) {
+            continue;
+        }
+        label.settled = true;
+        const auto reached = label.reached; // leave() may move the labels
+        settled.push_back(reached);
+        if (std::binary_search(targets.begin(), targets.end(), next) && --missing == 0) {
+            break;
+        }
+        leave(next,
+              reached.way_m + static_cast<float>(length_m(roads_, next)),
+              reached.turn_m,
+              longest_m);
+    }
+    std::sort(settled.begin(), settled.end(), [](const auto& a, const auto& b) {
+        return a.edge < b.edge;
+    });
+    return settled;
+}
+
+const std::vector<Reached>& Routes::around(EdgeId edge) {
+    const auto [found, is_new] = around_.try_emplace(static_cast<std::uint32_t>(edge));
+    if (is_new) {
+        found->second = search(edge, {}, kept_m);
+    }
+    return found->second;
+}
+
+const std::vector<Reached>&
+Routes::towards(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
+    towards_ = search(edge, targets, longest_m);
+    return towards_;
+}
+
+const Reached* find(const std::vector<Reached>& reached, EdgeId edge) {
+    const auto found = std::lower_bound(
+        reached.begin(), reached.end(), edge, [](const auto& a, EdgeId id) { return a.edge < id; });
+    return found != reached.end() && found->edge == edge ? &*found : nullptr;
+}
+
+std::vector<EdgeId> edges_before(const std::vector<Reached>& reached, EdgeId departure, EdgeId to) {
+    std::vector<EdgeId> edges;
+    // The way may come back to the edge it left; only its first edge was entered from there at
+    // once.
+    for (const auto* at = find(reached, to);
+         at != nullptr && !(at->before == departure && at->way_m == 0);
+         at = find(reached, at->before)) {
+        edges.push_back(at->before);
+    }
+    std::reverse(edges.begin(), edges.end());
+    return edges;
+}
+
+} // namespace macadam

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "mapping/road_network.hpp"
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace macadam {
+
+/// An edge that can be driven to.
+struct Reached {
+    EdgeId edge;
+    EdgeId before; ///< from which it was entered
+    float way_m;   ///< between the end of the edge of departure and the beginning of this one
+    float turn_m;  ///< what turning round on the way was worth
+};
+
+/// Ways between edges on the network, the shortest with U-turns at their price.
+///
+/// As a car goes along, its candidates ask for the same ways again and again, so the ways out of an
+/// edge are found once and kept; only distant targets are searched one by one.
+class Routes {
+public:
+    Routes(const RoadNetwork& roads, double u_turn_cost_m)
+        : roads_{roads}, u_turn_cost_m_{u_turn_cost_m} {}
+
+    /// Everything within kept_m after the end of `edge`, in the order of edges. Valid as long as
+    /// this object lives.
+    const std::vector<Reached>& around(EdgeId edge);
+    static constexpr double kept_m = 450;
+
+    /// The same up to `longest_m`, ending as soon as all `targets` (in order) are reached. Valid
+    /// until the next call.
+    const std::vector<Reached>&
+    towards(EdgeId edge, std::span<const EdgeId> targets, double longest_m);
+
+    /// What turning round at the end of `edge` is worth in metres: little at a dead end.
+    double turn_m(EdgeId edge) const;
+
+private:
+    struct Label {
+        Reached reached;
+        bool settled;
+    };
+    struct Waiting {
+        float cost_m;
+        EdgeId edge;
+    };
+
+    std::vector<Reached> search(EdgeId edge, std::span<const EdgeId> targets, double longest_m);
+    void leave(EdgeId edge, float way_m, float turn_m, double longest_m);
+
+    const RoadNetwork& roads_;
+    double u_turn_cost_m_;
+    std::unordered_map<std::uint32_t, std::vector<Reached>> around_; ///< by EdgeId
+    std::vector<Reached> towards_;
+    std::unordered_map<std::uint32_t, Label> labels_; ///< of the search under way
+    std::vector<Waiting> waiting_;                    ///< a heap, the cheapest first
+};
+
+/// Null if `edge` is not among them.
+const Reached* find(const std::vector<Reached>& reached, EdgeId edge);
+
+/// The edges between departure and `to`, without both. `to` is among the reached.
+std::vector<EdgeId> edges_before(const std::vector<Reached>& reached, EdgeId departure, EdgeId to);
+
+} // namespace macadam
