@@ -2,6 +2,8 @@
 
 #include "estimator/common/trip.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace macadam {
@@ -35,6 +37,9 @@ public:
     /// NaN where not known.
     double speed_mps(double t_s) const;
 
+    /// Whether the wheels turned backward, as far as the log tells.
+    bool reversing(double t_s) const;
+
     /// Time at which the trip had gone so far: the first, if it stood there.
     double t_s(double travel_m) const;
 
@@ -48,6 +53,8 @@ public:
     const Knots& knots() const { return knots_; }
 
 private:
+    std::size_t piece_at(double t_s) const;
+
     Knots knots_;
     double scale_;
 };

@@ -30,7 +30,17 @@ struct StretchConfig {
     double min_speed_mps = 5;
     double max_gap_s = 0.3;     ///< longest hole in the vibration that is interpolated
     double least_length_m = 60; ///< shorter ones would be all start-up
+    double longest_s = 3600;    ///< cut there, to hold little memory
 };
+
+/// A part of a trip's travel, from_m < to_m.
+struct TravelSpan {
+    double from_m;
+    double to_m;
+};
+
+/// Where the trip went below `min_speed_mps` or backward, in order, not overlapping.
+std::vector<TravelSpan> slow_parts(const Odometer& odometer, double min_speed_mps);
 
 /// Where a stretch lies: samples [first, last] of trip.acc.
 struct StretchSpan {

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace macadam {
+
+enum class Link : std::uint8_t {
+    dropped,  ///< its neighbours contradict it
+    follows,  ///< from the one kept before it
+    restarts, ///< the world jumped: nothing is known between it and the one kept before it
+};
+
+/// How many that agree among themselves outvote what was believed before.
+inline constexpr std::size_t outvoting = 3;
+
+/// Sorts single faults from true jumps in a row of readings.
+///
+/// A reading that cannot follow from the last one kept waits. If `outvoting` readings that wait
+/// follow from each other they are kept, and the first of them restarts; if a later one follows
+/// from the last one kept again, those that waited were faults.
+///
+/// \param follows  whether reading j can come after reading i < j; false for i = j if the reading
+/// is
+///                 worth nothing by itself.
+template <typename Follows>
+std::vector<Link> plausible_chain(std::size_t count, Follows follows) {
+    std::vector<Link> links(count, Link::dropped);
+    std::vector<std::size_t> waiting;
+    bool begun = false;
+    std::size_t last = 0;
+    const auto keep_waiting = [&] {
+        for (const auto i : waiting) {
+            links[i] = Link::follows;
+        }
+        links[waiting.front()] = begun ? Link::restarts : Link::follows;
+        last = waiting.back();
+        begun = true;
+        waiting.clear();
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!follows(i, i)) {
+            continue;
+        }
+        if (begun && follows(last, i)) {
+            links[i] = Link::follows;
+            last = i;
+            waiting.clear();
+            continue;
+        }
+        if (!waiting.empty() && !follows(waiting.back(), i)) {
+            waiting.clear();
+        }
+        waiting.push_back(i);
+        if (waiting.size() >= outvoting) {
+            keep_waiting();
+        }
+    }
+    if (!begun && !waiting.empty()) {
+        keep_waiting();
+    }
+    return links;
+}
+
+} // namespace macadam
