@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Bytes that come once, from front to back.
+class ByteStream {
+public:
+    ByteStream() = default;
+    ByteStream(const ByteStream&) = delete;
+    ByteStream& operator=(const ByteStream&) = delete;
+    virtual ~ByteStream() = default;
+
+    /// Fills the front of `into`. \returns how many bytes; 0 only at the end, or for an empty span.
+    ///
+    /// \throws InputError  with the name of the file and the cause.
+    virtual std::size_t read(std::span<char> into) = 0;
+
+    /// Bytes of the file on disk that were read so far, as they stand there: perhaps compressed.
+    virtual std::uint64_t consumed() const = 0;
+};
+
+/// The bytes of a file.
+std::unique_ptr<ByteStream> file_bytes(const std::filesystem::path& file);
+
+/// The bytes of one member of a .zip or .tar archive, itself perhaps compressed. Nothing is written
+/// to disk, so a member's name can be anything.
+std::unique_ptr<ByteStream> member_bytes(const std::filesystem::path& archive,
+                                         const std::string& member);
+
+/// The names of an archive's regular files, in the archive's order.
+std::vector<std::string> members_of(const std::filesystem::path& archive);
+
+/// What `from` holds: decompressed if it begins like gzip or Zstandard, and otherwise as it is. A
+/// compressed stream that ends too early or fails its checksum is an error, and so is one that
+/// grows beyond all reason (a bomb): over 1 GiB, or over 100 times what was read from disk
+/// once 16 MiB have come out.
+///
+/// \param name  for messages.
+std::unique_ptr<ByteStream> decompressed(std::unique_ptr<ByteStream> from, const std::string& name);
+
+/// `from`, limited in the same way: for what an archive has decompressed already.
+std::unique_ptr<ByteStream> bounded(std::unique_ptr<ByteStream> from, const std::string& name);
+
+inline constexpr std::uint64_t most_decompressed_bytes = std::uint64_t{1} << 30; // 30 h at 100 Hz
+inline constexpr std::uint64_t free_decompressed_bytes = std::uint64_t{16} << 20;
+inline constexpr std::uint64_t most_expansion = 100; // trip logs reach 3 to 5
+
+} // namespace macadam

@@ -1,0 +1,343 @@
+#include "storage/late/ogr.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/osm_tags.hpp"
+#include "storage/text.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <fmt/core.h>
+#include <ogrsf_frmts.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+namespace macadam {
+
+namespace {
+
+/// GDAL's complaints go into our messages, not to the console.
+class Quiet {
+public:
+    Quiet() {
+        CPLPushErrorHandler(CPLQuietErrorHandler);
+        CPLErrorReset();
+    }
+    Quiet(const Quiet&) = delete;
+    Quiet& operator=(const Quiet&) = delete;
+    ~Quiet() { CPLPopErrorHandler(); }
+};
+
+std::string gdal_said(std::string_view otherwise) {
+    const char* const text = CPLGetLastErrorMsg();
+    return text != nullptr && *text != '\0' ? text : std::string{otherwise};
+}
+
+GDALDatasetUniquePtr open(const std::filesystem::path& file) {
+    // Files only, and nothing that leads to other files or to the network.
+    static const char* const drivers[] = {"GPKG",
+                                          "ESRI Shapefile",
+                                          "GeoJSON",
+                                          "GeoJSONSeq",
+                                          "FlatGeobuf",
+                                          "GML",
+                                          "SQLite",
+                                          "OpenFileGDB",
+                                          "MapInfo File",
+                                          "LIBKML",
+                                          "KML",
+                                          nullptr};
+    // GML would fetch the schema that the file names.
+    CPLSetConfigOption("GML_DOWNLOAD_SCHEMA", "NO");
+    GDALAllRegister();
+    GDALDatasetUniquePtr dataset{GDALDataset::Open(std::filesystem::absolute(file).c_str(),
+                                                   GDAL_OF_VECTOR | GDAL_OF_READONLY,
+                                                   drivers,
+                                                   nullptr,
+                                                   nullptr)};
+    if (!dataset) {
+        throw InputError{fmt::format("{}: cannot be read as a line layer: {}",
+                                     file.string(),
+                                     gdal_said("no known format of maps"))};
+    }
+    return dataset;
+}
+
+bool may_hold_lines(OGRLayer& layer) {
+    const auto kind = wkbFlatten(layer.GetGeomType());
+    return kind == wkbLineString || kind == wkbMultiLineString || kind == wkbUnknown ||
+           kind == wkbGeometryCollection;
+}
+
+OGRLayer& layer_of(GDALDataset& dataset, const std::string& name, const std::string& file) {
+    std::string names;
+    for (auto* const layer : dataset.GetLayers()) {
+        if (name.empty() ? may_hold_lines(*layer) : name == layer->GetName()) {
+            return *layer;
+        }
+        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", layer->GetName());
+    }
+    if (name.empty()) {
+        throw InputError{fmt::format("{}: has no layer of lines, only {}", file, names)};
+    }
+    throw InputError{fmt::format("{}: has no layer '{}', only {}", file, name, names)};
+}
+
+/// The number of the column that is asked for, or of the first usual one there is; -1 for none.
+int column(OGRLayer& layer,
+           const std::string& asked,
+           std::initializer_list<const char*> usual,
+           const std::string& file) {
+    auto* const definition = layer.GetLayerDefn();
+    if (!asked.empty()) {
+        const int index = definition->GetFieldIndex(asked.c_str());
+        if (index < 0) {
+            throw InputError{
+                fmt::format("{}: layer '{}' has no column '{}'", file, layer.GetName(), asked)};
+        }
+        return index;
+    }
+    for (const char* const name : usual) {
+        if (const int index = definition->GetFieldIndex(name); index >= 0) {
+            return index;
+        }
+    }
+    return -1;
+}
+
+std::string text_in(const OGRFeature& feature, int column) {
+    return column >= 0 && feature.IsFieldSetAndNotNull(column) ? feature.GetFieldAsString(column)
+                                                               : "";
+}
+
+std::optional<Oneway> parse_oneway(std::string_view text) {
+    struct Spelling {
+        std::string_view text;
+        Oneway oneway;
+    };
+    // OSM's words, osmnx's and other flags, Geofabrik's letters, and from-to as in Esri's networks.
+    static constexpr Spelling spellings[] = {
+        {"", Oneway::no},
+        {"no", Oneway::no},
+        {"0", Oneway::no},
+        {"false", Oneway::no},
+        {"False", Oneway::no},
+        {"B", Oneway::no},
+        {"reversible", Oneway::no},
+        {"alternating", Oneway::no},
+        {"yes", Oneway::forward},
+        {"1", Oneway::forward},
+        {"true", Oneway::forward},
+        {"True", Oneway::forward},
+        {"F", Oneway::forward},
+        {"FT", Oneway::forward},
+        {"-1", Oneway::backward},
+        {"T", Oneway::backward},
+        {"TF", Oneway::backward},
+        {"reverse", Oneway::backward},
+    };
+    for (const auto& spelling : spellings) {
+        if (spelling.text == text) {
+            return spelling.oneway;
+        }
+    }
+    return {};
+}
+
+/// Two vertices that are equal to 1e-7 degrees (1 cm) are one node.
+class Nodes {
+public:
+    std::int64_t number_of(const GeoPoint& point) {
+        constexpr double per_deg = 1e7;
+        const Key key{std::llround(point.lat_deg * per_deg), std::llround(point.lon_deg * per_deg)};
+        return numbers_.try_emplace(key, static_cast<std::int64_t>(numbers_.size()) + 1)
+            .first->second;
+    }
+
+private:
+    struct Key {
+        std::int64_t lat;
+        std::int64_t lon;
+        bool operator==(const Key&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& key) const {
+            constexpr std::uint64_t mix = 0x9e3779b97f4a7c15; // 2^64 over the golden ratio
+            return (static_cast<std::uint64_t>(key.lat) * mix ^
+                    static_cast<std::uint64_t>(key.lon)) *
+                   mix;
+        }
+    };
+    std::unordered_map<Key, std::int64_t, Hash> numbers_;
+};
+
+struct Columns {
+    int id;
+    int name;
+    int highway;
+    int oneway;
+};
+
+class LayerReader {
+public:
+    LayerReader(std::string file, OGRLayer& layer, const LayerColumns& asked)
+        : file_{std::move(file)}, layer_{layer},
+          columns_{
+              .id = column(layer, asked.id, {}, file_),
+              .name =
+                  column(layer, asked.name, {"name", "namn", "road_name", "street", "ref"}, file_),
+              .highway = column(layer, asked.highway, {"highway", "fclass", "road_class"}, file_),
+              .oneway = column(layer, asked.oneway, {"oneway", "one_way"}, file_)} {
+        auto* const system = layer.GetSpatialRef();
+        if (system == nullptr) {
+            return; // taken for degrees; whatever is none is found out below
+        }
+        OGRSpatialReference wgs84;
+        wgs84.importFromEPSG(4326);
+        wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        system->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        to_wgs84_.reset(OGRCreateCoordinateTransformation(system, &wgs84));
+        if (!to_wgs84_) {
+            fail(fmt::format("its coordinates cannot be converted: {}", gdal_said("not known")));
+        }
+    }
+
+    void read(const std::function<void(Way)>& take) {
+        layer_.ResetReading();
+        for (;;) {
+            CPLErrorReset();
+            const OGRFeatureUniquePtr feature{layer_.GetNextFeature()};
+            if (!feature) {
+                if (CPLGetLastErrorType() >= CE_Failure) {
+                    fail(gdal_said("damaged"));
+                }
+                return;
+            }
+            read(*feature, take);
+        }
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw InputError{fmt::format("{}: layer '{}': {}", file_, layer_.GetName(), what)};
+    }
+
+    void read(const OGRFeature& feature, const std::function<void(Way)>& take) {
+        auto way = attributes_of(feature);
+        const auto* const geometry = feature.GetGeometryRef();
+        if (geometry == nullptr || is_for_others(way.highway)) {
+            return;
+        }
+        const auto kind = wkbFlatten(geometry->getGeometryType());
+        if (kind == wkbLineString) {
+            give(way, *geometry->toLineString(), 0, take);
+        } else if (kind == wkbMultiLineString) {
+            std::int64_t part = 0;
+            for (const auto* const line : *geometry->toMultiLineString()) {
+                give(way, *line, part++, take);
+            }
+        }
+    }
+
+    Way attributes_of(const OGRFeature& feature) const {
+        const auto oneway = text_in(feature, columns_.oneway);
+        const auto parsed = parse_oneway(oneway);
+        if (!parsed) {
+            fail(fmt::format("feature {}: oneway is {}, expected yes, no or -1, 1 or 0, F, T or B, "
+                             "FT or TF",
+                             feature.GetFID(),
+                             in_quotes(oneway)));
+        }
+        return {.id = id_of(feature),
+                .name = text_in(feature, columns_.name),
+                .highway = text_in(feature, columns_.highway),
+                .oneway = *parsed,
+                .node_ids = {},
+                .line = {}};
+    }
+
+    std::int64_t id_of(const OGRFeature& feature) const {
+        if (columns_.id < 0) {
+            return feature.GetFID();
+        }
+        const auto text = text_in(feature, columns_.id);
+        const char* const end = text.data() + text.size();
+        std::int64_t id = 0;
+        const auto [stop, error] = std::from_chars(text.data(), end, id);
+        if (error != std::errc{} || stop != end) {
+            fail(fmt::format("feature {}: its id is {}, expected a whole number",
+                             feature.GetFID(),
+                             in_quotes(text)));
+        }
+        return id;
+    }
+
+    void give(Way way,
+              const OGRLineString& line,
+              std::int64_t part,
+              const std::function<void(Way)>& take) {
+        way.id += part * layer_part_id_step;
+        if (!ids_.insert(way.id).second) {
+            fail(fmt::format("the id {} stands twice, expected each once", way.id));
+        }
+        for (const auto& point : places_of(line)) {
+            const auto node = nodes_.number_of(point);
+            if (way.node_ids.empty() || way.node_ids.back() != node) {
+                way.node_ids.push_back(node);
+                way.line.push_back(point);
+            }
+        }
+        if (way.line.size() >= 2) {
+            take(std::move(way));
+        }
+    }
+
+    std::vector<GeoPoint> places_of(const OGRLineString& line) const {
+        std::vector<GeoPoint> places;
+        for (int i = 0; i < line.getNumPoints(); ++i) {
+            double lon_deg = line.getX(i);
+            double lat_deg = line.getY(i);
+            if (to_wgs84_ && !to_wgs84_->Transform(1, &lon_deg, &lat_deg)) {
+                fail(fmt::format(
+                    "{}, {} cannot be converted to degrees", line.getX(i), line.getY(i)));
+            }
+            if (!(std::abs(lat_deg) <= 90 && std::abs(lon_deg) <= 180)) {
+                fail(fmt::format("{}, {} is no place in degrees", line.getX(i), line.getY(i)));
+            }
+            places.push_back({lat_deg, lon_deg});
+        }
+        return places;
+    }
+
+    std::string file_;
+    OGRLayer& layer_;
+    Columns columns_;
+    struct Free {
+        void operator()(OGRCoordinateTransformation* transformation) const {
+            OGRCoordinateTransformation::DestroyCT(transformation);
+        }
+    };
+    std::unique_ptr<OGRCoordinateTransformation, Free> to_wgs84_;
+    Nodes nodes_;
+    std::unordered_set<std::int64_t> ids_;
+};
+
+} // namespace
+
+} // namespace macadam
+
+extern "C" void macadam_ogr_read_lines(const std::filesystem::path& file,
+                                       const macadam::LayerColumns& columns,
+                                       const std::function<void(macadam::Way)>& take) {
+    const macadam::Quiet quiet;
+    const auto dataset = macadam::open(file);
+    auto& layer = macadam::layer_of(*dataset, columns.layer, file.string());
+    macadam::LayerReader{file.string(), layer, columns}.read(take);
+}

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "mapping/road_network.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace macadam {
+
+/// Is it an OSM file by its name: .pbf, .osm, .osm.xml, .osm.gz, .osm.bz2?
+bool is_osm_file(const std::filesystem::path& file);
+
+/// The drivable ways of an OSM file, in the order of their ids. Where the file lacks a way's nodes,
+/// as at the border of an extract, the way's longest part without a missing node stands for it.
+std::vector<Way> read_osm(const std::filesystem::path& file, const Progress& progress);
+
+} // namespace macadam

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "estimator/common/trip.hpp"
+#include "storage/trip_reader.hpp"
+#include "storage/trip_row.hpp"
+
+namespace macadam {
+
+/// Puts the rows of a log one after the other into the streams of a trip.
+class TripStreams {
+public:
+    TripStreams(const TripNeeds& needs, const TripHeader& header);
+
+    void add(const TripRow& row);
+
+    std::size_t rows() const { return trip_.rows.size(); }
+
+    /// The trip, without what its head says.
+    TripLog take() { return std::move(trip_); }
+
+private:
+    /// What a row gave to one stream: a flag of row_content, a RowReason, or 0 for an empty place.
+    using Gift = std::uint8_t;
+
+    Gift add_triaxial(TriaxialSamples& to, const TripRow& row, TripColumn x, Gift flag) const;
+    Gift add_acc(const TripRow& row);
+    Gift add_gyro(const TripRow& row);
+    Gift add_speed(const TripRow& row);
+    Gift add_fix(const TripRow& row);
+    double speed_in(const TripRow& row) const;
+    std::uint8_t gifts_of(const TripRow& row);
+
+    TripNeeds needs_;
+    bool wheels_stand_for_speed_;
+    TripLog trip_;
+    double last_fix_utc_s_;
+};
+
+} // namespace macadam
