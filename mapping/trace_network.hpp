@@ -9,10 +9,10 @@
 namespace macadam {
 
 struct TraceConfig {
-    double spacing_m = 10;     ///< of the points of a traced way
-    double joins_m = 15;       ///< nearer than this to a traced way that runs alike: the same road
-    double joins_deg = 40;     ///< how alike
-    double least_way_m = 50;   ///< shorter pieces are noise
+    double spacing_m = 10;   ///< of the points of a traced way
+    double joins_m = 15;     ///< nearer than this to a traced way that runs alike: the same road
+    double joins_deg = 40;   ///< how alike
+    double least_way_m = 50; ///< shorter pieces are noise
     double worst_accuracy_m = 30;
     double longest_gap_s = 10; ///< no road is drawn through a longer silence
 };

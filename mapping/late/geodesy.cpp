@@ -2,6 +2,8 @@
 
 #include <mrpt/topography/conversions.h>
 
+#include <vector>
+
 using macadam::GeoPoint;
 using macadam::PointEn;
 
@@ -17,11 +19,15 @@ extern "C" void macadam_geodesy_to_local(const GeoPoint& origin,
                                          const GeoPoint* points,
                                          std::size_t count,
                                          PointEn* local) {
-    const auto base = on_ellipsoid(origin);
+    std::vector<mrpt::math::TPoint3D> geocentric(count);
     for (std::size_t i = 0; i < count; ++i) {
-        mrpt::math::TPoint3D enu;
-        mrpt::topography::geodeticToENU_WGS84(on_ellipsoid(points[i]), enu, base);
-        local[i] = {enu.x, enu.y};
+        mrpt::topography::geodeticToGeocentric_WGS84(on_ellipsoid(points[i]), geocentric[i]);
+    }
+    // All at once: the frame's own axes cost as much as a point.
+    std::vector<mrpt::math::TPoint3D> enu;
+    mrpt::topography::geocentricToENU_WGS84(geocentric, enu, on_ellipsoid(origin));
+    for (std::size_t i = 0; i < count; ++i) {
+        local[i] = {enu[i].x, enu[i].y};
     }
 }
 

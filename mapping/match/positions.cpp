@@ -12,7 +12,7 @@ namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180;
 
-constexpr double worst_accuracy_m = 100;  // such a fix could be on any road of the quarter
+constexpr double worst_radius_m = 100;    // such a fix could be on any road of the quarter
 constexpr double fastest_mps = 90;        // more is not a car
 constexpr double jump_slack_m = 30;       // of noise, which at 10 Hz looks like 300 m/s
 constexpr std::size_t longest_fault = 10; // fixes; a longer run that jumps is kept and leaves a gap
@@ -25,7 +25,8 @@ bool is_same(const GnssFix& a, const GnssFix& b) {
 }
 
 /// What can be said of each fix by itself and by the one before it; nothing: it may serve.
-std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixes) {
+std::vector<std::optional<RowReason>> own_faults(const std::vector<GnssFix>& fixes,
+                                                 double worst_accuracy_m) {
     std::vector<std::optional<RowReason>> faults(fixes.size());
     const GnssFix* before = nullptr;
     for (std::size_t i = 0; i < fixes.size(); ++i) {
@@ -150,13 +151,19 @@ std::vector<std::size_t> thinned(const Positions& positions, double spacing_m) {
 
 } // namespace
 
+std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixes,
+                                                double worst_accuracy_m) {
+    auto faults = own_faults(fixes, worst_accuracy_m);
+    mark_jumps(faults, fixes);
+    return faults;
+}
+
 Positions positions_of(const TripLog& trip,
                        const Odometer& odometer,
                        const MatchConfig& config,
                        TripUse& use) {
     assert(use.fixes.size() == trip.fixes.size());
-    auto faults = faults_of(trip.fixes);
-    mark_jumps(faults, trip.fixes);
+    const auto faults = faults_of(trip.fixes, worst_radius_m);
 
     Positions positions{{}, has_speed(trip), {}, {}};
     std::vector<GeoPoint> places;

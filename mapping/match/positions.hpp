@@ -4,6 +4,7 @@
 #include "mapping/map_match.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace macadam {
@@ -26,6 +27,11 @@ struct Positions {
     std::vector<Position> all; ///< in the order of time
     std::vector<std::size_t> samples; ///< of `all`: first, last, and one each spacing_m between
 };
+
+/// Why each fix does not serve: no position, worse accuracy than `worst_accuracy_m`, the fix before
+/// it once more, or a jump that no car can have made. Nothing: it serves.
+std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixes,
+                                                double worst_accuracy_m);
 
 /// Sorts the fixes of a trip into those that serve and, in `use`, the reasons of the others.
 Positions positions_of(const TripLog& trip,

@@ -1,13 +1,41 @@
 #include "mapping/match/routes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace macadam {
 namespace {
 
+constexpr std::size_t first_labels = 1024;
 constexpr double dead_end_share = 0.25; // of the price of a U-turn, where there is no other way
 
 } // namespace
+
+Routes::Routes(const RoadNetwork& roads, double u_turn_cost_m)
+    : roads_{roads}, u_turn_cost_m_{u_turn_cost_m}, labels_(first_labels) {}
+
+bool Routes::dearer(const Waiting& a, const Waiting& b) {
+    return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
+}
+
+Routes::Label& Routes::label_of(EdgeId edge) {
+    const auto mask = labels_.size() - 1;
+    auto at =
+        (static_cast<std::size_t>(edge) * 0x9e3779b97f4a7c15U >> 32U) & mask; // Fibonacci hashing
+    while (labels_[at].search == search_ && labels_[at].reached.edge != edge) {
+        at = (at + 1) & mask;
+    }
+    return labels_[at];
+}
+
+void Routes::grow_labels() {
+    const auto old = std::exchange(labels_, std::vector<Label>(2 * labels_.size()));
+    for (const auto& label : old) {
+        if (label.search == search_) {
+            label_of(label.reached.edge) = label;
+        }
+    }
+}
 
 double Routes::turn_m(EdgeId edge) const {
     const auto out = out_edges(roads_, to_node(roads_, edge));
@@ -22,37 +50,35 @@ void Routes::leave(EdgeId edge, float way_m, float turn_m_so_far, double longest
         if (way_m + turn > longest_m) {
             continue;
         }
-        const Reached reached{next, edge, way_m, turn};
-        const auto [label, is_new] =
-            labels_.try_emplace(static_cast<std::uint32_t>(next), Label{reached, false});
-        if (!is_new) {
-            const auto& known = label->second.reached;
-            if (label->second.settled || known.way_m + known.turn_m <= way_m + turn) {
-                continue;
-            }
-            label->second.reached = reached;
+        auto& label = label_of(next);
+        const auto& known = label.reached;
+        if (label.search == search_ &&
+            (label.settled || known.way_m + known.turn_m <= way_m + turn)) {
+            continue;
         }
+        labelled_ += label.search == search_ ? 0 : 1;
+        label = {{next, edge, way_m, turn}, search_, false};
         waiting_.push_back({way_m + turn, next});
-        std::push_heap(waiting_.begin(), waiting_.end(), [](const auto& a, const auto& b) {
-            return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
-        });
+        std::push_heap(waiting_.begin(), waiting_.end(), dearer);
+        if (2 * labelled_ > labels_.size()) {
+            grow_labels();
+        }
     }
 }
 
 std::vector<Reached>
 Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
-    labels_.clear();
+    ++search_;
+    labelled_ = 0;
     waiting_.clear();
     leave(edge, 0, 0, longest_m);
     std::vector<Reached> settled;
     auto missing = targets.size();
     while (!waiting_.empty()) {
-        std::pop_heap(waiting_.begin(), waiting_.end(), [](const auto& a, const auto& b) {
-            return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
-        });
+        std::pop_heap(waiting_.begin(), waiting_.end(), dearer);
         const auto next = waiting_.back().edge;
         waiting_.pop_back();
-        auto& label = labels_.find(static_cast<std::uint32_t>(next))->second;
+        auto& label = label_of(next);
         if (label.settled) {
             continue;
         }

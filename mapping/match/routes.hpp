@@ -23,8 +23,7 @@ struct Reached {
 /// edge are found once and kept; only distant targets are searched one by one.
 class Routes {
 public:
-    Routes(const RoadNetwork& roads, double u_turn_cost_m)
-        : roads_{roads}, u_turn_cost_m_{u_turn_cost_m} {}
+    Routes(const RoadNetwork& roads, double u_turn_cost_m);
 
     /// Everything within kept_m after the end of `edge`, in the order of edges. Valid as long as
     /// this object lives.
@@ -42,6 +41,7 @@ public:
 private:
     struct Label {
         Reached reached;
+        std::uint32_t search; ///< the label is of this one; of an older one it is free
         bool settled;
     };
     struct Waiting {
@@ -49,15 +49,20 @@ private:
         EdgeId edge;
     };
 
+    static bool dearer(const Waiting& a, const Waiting& b);
     std::vector<Reached> search(EdgeId edge, std::span<const EdgeId> targets, double longest_m);
     void leave(EdgeId edge, float way_m, float turn_m, double longest_m);
+    Label& label_of(EdgeId edge);
+    void grow_labels();
 
     const RoadNetwork& roads_;
     double u_turn_cost_m_;
     std::unordered_map<std::uint32_t, std::vector<Reached>> around_; ///< by EdgeId
     std::vector<Reached> towards_;
-    std::unordered_map<std::uint32_t, Label> labels_; ///< of the search under way
-    std::vector<Waiting> waiting_;                    ///< a heap, the cheapest first
+    std::vector<Label> labels_; ///< a hash table with open addressing, a power of two long
+    std::size_t labelled_ = 0;
+    std::uint32_t search_ = 0;
+    std::vector<Waiting> waiting_; ///< a heap, the cheapest first
 };
 
 /// Null if `edge` is not among them.
