@@ -26,7 +26,7 @@ struct MapLine {
 struct MapStyle {
     enum class Theme { light, dark, print };
     Theme theme = Theme::light;
-    std::string ramp = "rdylbu"; ///< rdylbu, cividis, viridis
+    std::string ramp = "rdylbu";         ///< rdylbu, cividis, viridis
     const ClassTable* classes = nullptr; ///< null: fhwa
     bool left_hand_traffic = false;
     bool in_per_mi = false; ///< legend in in/mi
@@ -36,8 +36,9 @@ struct MapScene {
     GeoBox box; ///< what must be in the picture; widened to its shape
     std::vector<MapLine> lines;
     std::string title;
-    std::string subtitle;    ///< period, kilometres, cars
-    std::string attribution; ///< whose data
+    std::string subtitle;         ///< period, kilometres, cars
+    std::string attribution;      ///< whose data
+    std::vector<double> class_km; ///< length of each class, for the legend; empty: not shown
 };
 
 /// Eight-bit RGB, top row first.
@@ -50,10 +51,11 @@ struct Image {
 inline constexpr int least_image_px = 256;
 inline constexpr int most_image_px = 16384; ///< what OSMesa can draw; more silently fails
 
-/// The map with title, legend, scale bar, north arrow and attribution. Text and lines scale with the
-/// picture, so that 512 and 8192 px read alike.
+/// The map with title, legend, scale bar, north arrow and attribution. Text and lines scale with
+/// the picture, so that 512 and 8192 px read alike.
 ///
-/// \throws InputError  for a size out of range, an empty box, an unknown ramp, a missing font, or if
+/// \throws InputError  for a size out of range, an empty box, an unknown ramp, a missing font, or
+/// if
 ///                     OSMesa cannot draw.
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
 

@@ -1,0 +1,96 @@
+#include "render/colour.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace macadam {
+namespace {
+
+// ColorBrewer 2.0 by Cynthia A. Brewer, "RdYlBu", 5 and 3 classes from the blue end; of 3 the ends
+// are those of 5, which are stronger, and the middle a yellow that holds on white.
+constexpr std::array<std::uint32_t, 5> rdylbu{0x2c7bb6, 0xabd9e9, 0xffffbf, 0xfdae61, 0xd7191c};
+constexpr std::array<std::uint32_t, 3> rdylbu_of_3{0x2c7bb6, 0xfee090, 0xd7191c};
+
+// Matplotlib's colour maps at 0, 1/4, 1/2, 3/4 and 1. viridis: S. van der Walt and N. Smith (2015);
+// cividis: J. R. Nunez, C. R. Anderton, R. S. Renslow, PLoS ONE 13(7): e0199239 (2018).
+constexpr std::array<std::uint32_t, 5> viridis{0x440154, 0x3b528b, 0x21918c, 0x5ec962, 0xfde725};
+constexpr std::array<std::uint32_t, 5> cividis{0x00224e, 0x434e6c, 0x7d7c78, 0xbcae6c, 0xfee838};
+
+std::uint32_t mixed(std::uint32_t a, std::uint32_t b, double fraction) {
+    std::uint32_t rgb = 0;
+    for (const int shift : {16, 8, 0}) {
+        const double channel =
+            std::lerp(double(a >> shift & 255U), double(b >> shift & 255U), fraction);
+        rgb |= std::uint32_t(std::lround(channel)) << shift;
+    }
+    return rgb;
+}
+
+std::uint32_t colour_at(std::span<const std::uint32_t> anchors, double fraction) {
+    const double place = fraction * double(anchors.size() - 1);
+    const auto before = std::min(anchors.size() - 2, std::size_t(place));
+    return mixed(anchors[before], anchors[before + 1], place - double(before));
+}
+
+std::span<const std::uint32_t> anchors_of(std::string_view ramp, std::size_t classes) {
+    if (ramp == "rdylbu") {
+        return classes == 3 ? std::span<const std::uint32_t>{rdylbu_of_3} : rdylbu;
+    }
+    if (ramp == "viridis") {
+        return viridis;
+    }
+    if (ramp == "cividis") {
+        return cividis;
+    }
+    throw InputError{
+        fmt::format("unknown colour ramp '{}', expected rdylbu, cividis or viridis", ramp)};
+}
+
+} // namespace
+
+std::vector<std::uint32_t> ramp_colours(std::string_view ramp, std::size_t classes) {
+    const auto anchors = anchors_of(ramp, classes);
+    std::vector<std::uint32_t> colours;
+    for (std::size_t i = 0; i < classes; ++i) {
+        colours.push_back(colour_at(anchors, classes > 1 ? double(i) / double(classes - 1) : 0));
+    }
+    return colours;
+}
+
+Palette palette(MapStyle::Theme theme) {
+    switch (theme) {
+    case MapStyle::Theme::dark:
+        return {.page = 0x141518,
+                .ground = 0x1e1e22,
+                .border = 0x3a3b41,
+                .ink = 0xf2f2ef,
+                .quiet_ink = 0xa9adb4,
+                .casing = 0xd4d7da,
+                .unmeasured = 0x55575e};
+    case MapStyle::Theme::print:
+        return {.page = 0xffffff,
+                .ground = 0xffffff,
+                .border = 0x9a9a9a,
+                .ink = 0x000000,
+                .quiet_ink = 0x404040,
+                .casing = 0x1c1c1c,
+                .unmeasured = 0xb4b4b4};
+    case MapStyle::Theme::light:
+        break;
+    }
+    return {.page = 0xffffff,
+            .ground = 0xf4f4f2,
+            .border = 0xd6d6d1,
+            .ink = 0x1e2328,
+            .quiet_ink = 0x5c646c,
+            .casing = 0x333b43,
+            .unmeasured = 0xb7b8b4};
+}
+
+} // namespace macadam

@@ -1,0 +1,198 @@
+#include "render/furniture.hpp"
+
+#include "render/scale_bar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+// Sizes at 1000 px.
+constexpr double margin_px = 30;      // between the data and the map's edge
+constexpr double card_margin_px = 18; // between the legend and the map's edge
+constexpr double label_px = 14;
+
+/// Whether the line from `a` to `b` passes through the box: Liang and Barsky's clipping.
+bool passes_through(const PixelBox& box, const PixelPoint& a, const PixelPoint& b) {
+    double from = 0;
+    double to = 1;
+    const auto clip = [&](double start, double step, double low, double high) {
+        if (step == 0) {
+            return low <= start && start <= high;
+        }
+        const auto [enter, leave] = std::minmax((low - start) / step, (high - start) / step);
+        from = std::max(from, enter);
+        to = std::min(to, leave);
+        return from <= to;
+    };
+    return clip(a.x, b.x - a.x, box.left, box.right) && clip(a.y, b.y - a.y, box.top, box.bottom);
+}
+
+using Corners = std::array<PixelPoint, 4>;
+
+/// Where the card could stand, the best place first.
+Corners corners_of(const PixelBox& map, const LegendCard& card) {
+    const double margin = std::round(card_margin_px * card.unit);
+    const double left = map.left + margin;
+    const double right = map.right - margin - card.width_px;
+    const double top = map.top + margin;
+    const double bottom = map.bottom - margin - card.height_px;
+    return {{{right, bottom}, {left, bottom}, {right, top}, {left, top}}};
+}
+
+PixelBox ground_of(const LegendCard& card, const PixelPoint& corner) {
+    const double air = 10 * card.unit;
+    return inset({corner.x, corner.y, corner.x + card.width_px, corner.y + card.height_px}, -air);
+}
+
+/// How many pieces of road each corner would hide.
+std::array<std::size_t, 4> hidden_by(const MapScene& scene,
+                                     const MapFrame& frame,
+                                     const LegendCard& card,
+                                     const Corners& corners) {
+    std::array<std::size_t, 4> hidden{};
+    for (const auto& line : scene.lines) {
+        for (std::size_t i = 0; i + 1 < line.line.size(); ++i) {
+            const auto a = to_pixel(frame, line.line[i]);
+            const auto b = to_pixel(frame, line.line[i + 1]);
+            for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+                hidden[corner] += passes_through(ground_of(card, corners[corner]), a, b) ? 1 : 0;
+            }
+        }
+    }
+    return hidden;
+}
+
+/// The card with as many entries beside each other as there is room for.
+LegendCard widest_card(const Legend& legend, const Layout& layout, TypeSetter& setter) {
+    const double room_px = layout.map.width() - 2 * card_margin_px * layout.unit;
+    auto best = legend_card(legend, 1, layout.unit, setter);
+    for (int columns = 2; columns <= int(legend.entries.size()); ++columns) {
+        const auto card = legend_card(legend, columns, layout.unit, setter);
+        if (card.width_px <= room_px && card.height_px < best.height_px) {
+            best = card;
+        }
+    }
+    return best;
+}
+
+Placement beside_or_below(const MapScene& scene,
+                          const Legend& legend,
+                          const Layout& layout,
+                          TypeSetter& setter) {
+    const double margin = margin_px * layout.unit;
+    const double card_margin = card_margin_px * layout.unit;
+    const auto column = legend_card(legend, 1, layout.unit, setter);
+    const auto row = widest_card(legend, layout, setter);
+    auto left_room = inset(layout.map, margin);
+    left_room.right -= std::min(column.width_px + card_margin, left_room.width() * 0.6);
+    auto upper_room = inset(layout.map, margin);
+    upper_room.bottom -= std::min(row.height_px + card_margin, upper_room.height() * 0.6);
+
+    const auto left_frame = fitted_frame(scene.box, left_room);
+    const auto upper_frame = fitted_frame(scene.box, upper_room);
+    if (left_frame.px_per_rad >= upper_frame.px_per_rad) {
+        return {left_frame, column, corners_of(layout.map, column)[0]};
+    }
+    return {upper_frame, row, corners_of(layout.map, row)[1]};
+}
+
+void draw_north(Canvas& canvas,
+                TypeSetter& setter,
+                const PixelPoint& foot,
+                double unit,
+                const Palette& colours) {
+    const double height = 24 * unit;
+    const double half = 6.5 * unit;
+    const double notch = 5.5 * unit;
+    const PixelPoint tip{foot.x, foot.y - height};
+    const PixelPoint heart{foot.x, foot.y - notch};
+    canvas.fill_triangle(tip, heart, {foot.x - half, foot.y}, colours.ink);
+    canvas.fill_triangle(tip, {foot.x + half, foot.y}, heart, colours.quiet_ink);
+    canvas.write(
+        setter.mask("N", {label_px * unit, true}), {foot.x + half + 4 * unit, foot.y}, colours.ink);
+}
+
+void draw_scale(Canvas& canvas,
+                TypeSetter& setter,
+                const ScaleBar& bar,
+                const PixelPoint& start,
+                double unit,
+                const Palette& colours) {
+    const double thick = std::max(2.0, std::round(2.5 * unit));
+    const double tick = std::round(8 * unit);
+    const PixelBox line{start.x, start.y - thick, start.x + bar.width_px, start.y};
+    canvas.fill({line}, colours.ink);
+    canvas.fill({{line.left, line.bottom - tick, line.left + thick, line.bottom}}, colours.ink);
+    canvas.fill({{line.right - thick, line.bottom - tick, line.right, line.bottom}}, colours.ink);
+    const TextLook look{label_px * unit};
+    const double width = setter.width_px(bar.label, look);
+    canvas.write(setter.mask(bar.label, look),
+                 {(line.left + line.right - width) / 2, line.top - 5 * unit},
+                 colours.ink);
+}
+
+void draw_footer(Canvas& canvas,
+                 TypeSetter& setter,
+                 const Layout& layout,
+                 const MapFrame& frame,
+                 const MapStyle& style) {
+    const auto colours = palette(style.theme);
+    const auto& room = layout.scale_room;
+    const double unit = layout.unit;
+    const double base = std::round((room.top + room.bottom) / 2 + 11 * unit);
+    draw_north(canvas, setter, {room.left + 7 * unit, base}, unit, colours);
+
+    const double left = std::round(room.left + 46 * unit);
+    const double middle = (layout.map.top + layout.map.bottom) / 2;
+    const auto bar = scale_bar(metres_per_px(frame, middle), room.right - left, style.in_per_mi);
+    draw_scale(canvas, setter, bar, {left, base}, unit, colours);
+}
+
+void draw_edges(Canvas& canvas, const Layout& layout, const Palette& colours) {
+    const double line = std::max(1.0, std::round(layout.unit));
+    const auto& map = layout.map;
+    if (map.top > 0) {
+        canvas.fill({{map.left, map.top, map.right, map.top + line}}, colours.border);
+    }
+    canvas.fill({{map.left, map.bottom - line, map.right, map.bottom}}, colours.border);
+}
+
+} // namespace
+
+Placement placement_of(const MapScene& scene,
+                       const Legend& legend,
+                       const Layout& layout,
+                       TypeSetter& setter) {
+    const auto frame = fitted_frame(scene.box, inset(layout.map, margin_px * layout.unit));
+    const auto card = legend_card(legend, 1, layout.unit, setter);
+    const auto corners = corners_of(layout.map, card);
+    const auto hidden = hidden_by(scene, frame, card, corners);
+    const auto empty = std::ranges::find(hidden, 0U);
+    if (empty != hidden.end()) {
+        return {frame, card, corners[std::size_t(empty - hidden.begin())]};
+    }
+    return beside_or_below(scene, legend, layout, setter);
+}
+
+Image furnished(Image roads,
+                const Layout& layout,
+                const Placement& placement,
+                const MapStyle& style,
+                TypeSetter& setter) {
+    const auto colours = palette(style.theme);
+    Canvas canvas{std::move(roads)};
+    draw_edges(canvas, layout, colours);
+    for (const auto& text : layout.texts) {
+        canvas.write(setter.mask(text.text, text.look),
+                     text.at,
+                     text.quiet ? colours.quiet_ink : colours.ink);
+    }
+    draw_footer(canvas, setter, layout, placement.frame, style);
+    draw_legend(canvas, setter, placement.card, placement.corner, colours);
+    return std::move(canvas).finished();
+}
+
+} // namespace macadam

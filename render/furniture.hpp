@@ -1,0 +1,29 @@
+#pragma once
+
+#include "render/layout.hpp"
+#include "render/legend.hpp"
+
+#include <span>
+
+namespace macadam {
+
+/// Where the data and the legend go on the map.
+struct Placement {
+    MapFrame frame;
+    LegendCard card;
+    PixelPoint corner; ///< of the card, top left
+};
+
+/// The legend goes into a corner without roads. If there is none, the data makes room for it, at
+/// the side or below, whichever leaves the larger map.
+Placement
+placement_of(const MapScene& scene, const Legend& legend, const Layout& layout, TypeSetter& setter);
+
+/// Everything but the roads, and the roads' picture below it.
+Image furnished(Image roads,
+                const Layout& layout,
+                const Placement& placement,
+                const MapStyle& style,
+                TypeSetter& setter);
+
+} // namespace macadam

@@ -1,0 +1,86 @@
+#include "render/gl_context.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/common/late_library.hpp"
+#include "render/map.hpp"
+
+#include <GL/osmesa.h>
+#include <fmt/core.h>
+
+#include <array>
+#include <cassert>
+#include <cstdlib>
+
+namespace macadam {
+namespace {
+
+constexpr const char* library = "libOSMesa.so.8";
+
+template <typename Function>
+Function* mesa(const char* name) {
+    return late_function<Function>(library, name);
+}
+
+void check_size(int width_px, int height_px) {
+    for (const int side_px : {width_px, height_px}) {
+        if (side_px < 1 || side_px > most_image_px) {
+            throw InputError{fmt::format(
+                "'{}x{}', expected sides of 1 to {} px", width_px, height_px, most_image_px)};
+        }
+    }
+}
+
+void* new_context() {
+    // Mesa would write compiled shaders to the user's home from a thread of its own; ours compile
+    // in a few milliseconds.
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+    constexpr std::array attributes{OSMESA_FORMAT,
+                                    OSMESA_RGBA,
+                                    OSMESA_PROFILE,
+                                    OSMESA_CORE_PROFILE,
+                                    OSMESA_CONTEXT_MAJOR_VERSION,
+                                    3,
+                                    OSMESA_CONTEXT_MINOR_VERSION,
+                                    3,
+                                    0};
+    return mesa<decltype(OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs")(
+        attributes.data(), nullptr);
+}
+
+void destroy(void* context) {
+    mesa<decltype(OSMesaDestroyContext)>("OSMesaDestroyContext")(
+        static_cast<OSMesaContext>(context));
+}
+
+} // namespace
+
+GlContext::GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px) {
+    check_size(width_px, height_px);
+    assert(rgba.size() == std::size_t(width_px) * std::size_t(height_px) * 4);
+
+    context_ = new_context();
+    if (context_ == nullptr) {
+        throw InputError{fmt::format("'{}' gives no OpenGL 3.3 core context", library)};
+    }
+    const auto made = mesa<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent")(
+        static_cast<OSMesaContext>(context_), rgba.data(), GL_UNSIGNED_BYTE, width_px, height_px);
+    if (made != GL_TRUE) {
+        destroy(context_);
+        throw InputError{
+            fmt::format("'{}' cannot draw a picture of {}x{} px", library, width_px, height_px)};
+    }
+}
+
+GlContext::~GlContext() {
+    destroy(context_);
+}
+
+GlContext::Address GlContext::address(const char* name) const {
+    const auto found = mesa<decltype(OSMesaGetProcAddress)>("OSMesaGetProcAddress")(name);
+    if (found == nullptr) {
+        throw InputError{fmt::format("'{}' has no function '{}'", library, name)};
+    }
+    return found;
+}
+
+} // namespace macadam

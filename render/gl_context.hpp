@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace macadam {
+
+/// An OpenGL 3.3 core context without a window, drawing into memory. It is current in the thread
+/// that made it until it ends.
+///
+/// OSMesa is opened when the first context is made, and every entry point comes from it by name: a
+/// program that links libGL as well would call that one's functions, which draw nothing.
+class GlContext {
+public:
+    /// \param rgba  width_px * height_px * 4 bytes, to live longer than the context; its first row
+    /// is
+    ///              the one at the bottom of OpenGL's window.
+    /// \throws InputError  if a side is not 1 .. most_image_px (OSMesa accepts more and then draws
+    ///                     wrongly or crashes), or if OSMesa is missing or refuses.
+    GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px);
+    ~GlContext();
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
+
+    /// An OpenGL function: `context.entry<decltype(&glClear)>("glClear")`.
+    template <typename Pointer>
+    Pointer entry(const char* name) const {
+        return reinterpret_cast<Pointer>(address(name)); // NOLINT(*-reinterpret-cast)
+    }
+
+private:
+    using Address = void (*)();
+    Address address(const char* name) const;
+
+    void* context_;
+};
+
+} // namespace macadam

@@ -1,0 +1,190 @@
+#include "render/legend.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+// Sizes at 1000 px.
+constexpr double text_px = 15;
+constexpr double title_px = 15;
+constexpr double row_px = 25;
+constexpr double padding_px = 16;
+constexpr double swatch_px = 34;
+constexpr double gap_px = 12;
+constexpr double core_px = 7;
+constexpr double casing_px = 1.7;
+
+constexpr double km_per_mi = 1.609344;
+
+/// As many decimals as tell the table's borders apart and keep them true.
+int decimals_of(const ClassTable& table, double per_mm_per_m) {
+    for (const int decimals : {0, 1}) {
+        const double scale = std::pow(10.0, decimals);
+        const auto is_short = [&](const IriClass& row) {
+            const double value = row.to_mm_per_m * per_mm_per_m * scale;
+            return std::isinf(value) || std::abs(value - std::round(value)) < 1e-6;
+        };
+        if (std::ranges::all_of(table.classes, is_short)) {
+            return decimals;
+        }
+    }
+    return 2;
+}
+
+std::string range_of(const ClassTable& table, std::size_t i, bool in_per_mi) {
+    const double scale = in_per_mi ? in_per_mi_of_mm_per_m : 1;
+    const int decimals = decimals_of(table, scale);
+    const auto number = [&](std::size_t row) {
+        return fmt::format("{:.{}f}", table.classes[row].to_mm_per_m * scale, decimals);
+    };
+    const bool last = std::isinf(table.classes[i].to_mm_per_m);
+    if (i == 0) {
+        return last ? "all" : (table.classes[i].open ? "below " : "up to ") + number(i);
+    }
+    if (last) {
+        return (table.classes[i - 1].open ? "from " : "above ") + number(i - 1);
+    }
+    return number(i - 1) + " – " + number(i);
+}
+
+std::string length_text(double km, bool miles) {
+    const double length = miles ? km / km_per_mi : km;
+    return fmt::format("{:.{}f} {}", length, length < 100 ? 1 : 0, miles ? "mi" : "km");
+}
+
+std::string capitalised(std::string_view name) {
+    std::string text{name};
+    if (!text.empty() && 'a' <= text[0] && text[0] <= 'z') {
+        text[0] = char(text[0] - 'a' + 'A');
+    }
+    return text;
+}
+
+std::string title_of(const MapStyle& style) {
+    return style.in_per_mi ? "Roughness, IRI in in/mi" : "Roughness, IRI in mm/m";
+}
+
+struct Place {
+    double x, y;
+};
+
+void draw_swatch(Canvas& canvas,
+                 const LegendEntry& entry,
+                 const Place& middle,
+                 double unit,
+                 const Palette& colours) {
+    const double half_px = (swatch_px - core_px) / 2 * unit;
+    const PixelPoint from{middle.x - half_px, middle.y};
+    const PixelPoint to{middle.x + half_px, middle.y};
+    const double radius_px = core_px / 2 * unit;
+    if (entry.swatch == LegendEntry::Swatch::unmeasured) {
+        canvas.stroke(from, to, radius_px * 0.6, entry.rgb);
+        return;
+    }
+    canvas.stroke(from, to, radius_px + std::max(1.0, casing_px * unit), colours.casing);
+    const bool certain = entry.swatch == LegendEntry::Swatch::certain;
+    canvas.stroke(from, to, certain ? radius_px : radius_px * 0.5, entry.rgb);
+}
+
+} // namespace
+
+Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable& classes) {
+    const auto colours = ramp_colours(style.ramp, classes.classes.size());
+    Legend legend{.title = title_of(style), .entries = {}};
+    for (std::size_t i = 0; i < classes.classes.size(); ++i) {
+        legend.entries.push_back({.rgb = colours[i],
+                                  .name = capitalised(classes.classes[i].name),
+                                  .range = range_of(classes, i, style.in_per_mi),
+                                  .length = i < scene.class_km.size()
+                                                ? length_text(scene.class_km[i], style.in_per_mi)
+                                                : std::string{}});
+    }
+    const auto measured = [](const MapLine& line) { return line.iri_class >= 0; };
+    if (std::ranges::any_of(scene.lines,
+                            [&](const MapLine& line) { return measured(line) && !line.certain; })) {
+        legend.entries.push_back({.swatch = LegendEntry::Swatch::uncertain,
+                                  .rgb = colours[colours.size() / 2],
+                                  .name = "Few passes",
+                                  .range = {},
+                                  .length = {}});
+    }
+    if (!std::ranges::all_of(scene.lines, measured)) {
+        legend.entries.push_back({.swatch = LegendEntry::Swatch::unmeasured,
+                                  .rgb = palette(style.theme).unmeasured,
+                                  .name = "No measurement",
+                                  .range = {},
+                                  .length = {}});
+    }
+    return legend;
+}
+
+LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSetter& setter) {
+    LegendCard card{.legend = legend, .columns = columns, .unit = unit};
+    const TextLook look{text_px * unit};
+    double alone_px = 0; // names without a range may use its place
+    for (const auto& entry : legend.entries) {
+        const double name_px = setter.width_px(entry.name, look);
+        (entry.range.empty() ? alone_px : card.name_px) =
+            std::max(entry.range.empty() ? alone_px : card.name_px, name_px);
+        card.range_px = std::max(card.range_px, setter.width_px(entry.range, look));
+        card.length_px = std::max(card.length_px, setter.width_px(entry.length, look));
+    }
+    const double gap = gap_px * unit;
+    const double parts =
+        card.name_px + gap + card.range_px + (card.length_px > 0 ? gap * 1.5 + card.length_px : 0);
+    card.range_px += std::max(0.0, alone_px - parts);
+    const double entry_px = swatch_px * unit + gap + std::max(parts, alone_px);
+    const int rows = (int(legend.entries.size()) + columns - 1) / columns;
+    const double title = setter.width_px(legend.title, {title_px * unit, true});
+    card.width_px = std::ceil(2 * padding_px * unit +
+                              std::max(title, columns * entry_px + (columns - 1) * 2 * gap));
+    card.height_px = std::ceil((2 * padding_px + title_px + 8 + rows * row_px - 6) * unit);
+    return card;
+}
+
+void draw_legend(Canvas& canvas,
+                 TypeSetter& setter,
+                 const LegendCard& card,
+                 const PixelPoint& corner,
+                 const Palette& colours) {
+    const double unit = card.unit;
+    const double padding = padding_px * unit;
+    const double line = std::max(1.0, std::round(unit));
+    const PixelBox box{corner.x, corner.y, corner.x + card.width_px, corner.y + card.height_px};
+    canvas.fill({box, 6 * unit}, colours.border);
+    canvas.fill(
+        {{box.left + line, box.top + line, box.right - line, box.bottom - line}, 6 * unit - line},
+        colours.page);
+
+    const auto write = [&](const std::string& text, const PixelPoint& at, bool bold, auto rgb) {
+        canvas.write(setter.mask(text, {(bold ? title_px : text_px) * unit, bold}), at, rgb);
+    };
+    write(card.legend.title,
+          {box.left + padding, std::round(box.top + padding + title_px * 0.78 * unit)},
+          true,
+          colours.ink);
+
+    const double gap = gap_px * unit;
+    const double column_px = (card.width_px - 2 * padding + 2 * gap) / card.columns;
+    const double first_px = box.top + padding + (title_px + 8 + row_px / 2 - 3) * unit;
+    for (std::size_t i = 0; i < card.legend.entries.size(); ++i) {
+        const auto& entry = card.legend.entries[i];
+        const double x = box.left + padding + double(i % card.columns) * column_px;
+        const double y = std::round(first_px + double(i / card.columns) * row_px * unit);
+        const double base = y + std::round(text_px * 0.36 * unit);
+        draw_swatch(canvas, entry, {x + swatch_px / 2 * unit, y}, unit, colours);
+        const double name_x = x + swatch_px * unit + gap;
+        const double range_x = name_x + card.name_px + gap;
+        const double length_end = range_x + card.range_px + gap * 1.5 + card.length_px;
+        write(entry.name, {name_x, base}, false, colours.ink);
+        write(entry.range, {range_x, base}, false, colours.quiet_ink);
+        const double length_px = setter.width_px(entry.length, {text_px * unit});
+        write(entry.length, {length_end - length_px, base}, false, colours.quiet_ink);
+    }
+}
+
+} // namespace macadam

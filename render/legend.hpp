@@ -1,0 +1,46 @@
+#pragma once
+
+#include "render/canvas.hpp"
+#include "render/colour.hpp"
+
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+struct LegendEntry {
+    enum class Swatch { certain, uncertain, unmeasured };
+    Swatch swatch = Swatch::certain;
+    std::uint32_t rgb = 0;
+    std::string name;
+    std::string range;
+    std::string length;
+};
+
+struct Legend {
+    std::string title;
+    std::vector<LegendEntry> entries;
+};
+
+/// The classes with their values, then what else the scene's lines show.
+Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable& classes);
+
+/// The legend as a table on a card, `columns` entries beside each other.
+struct LegendCard {
+    Legend legend;
+    int columns = 1;
+    double unit = 1;
+    double name_px = 0, range_px = 0, length_px = 0; ///< widths of the parts of an entry
+    double width_px = 0, height_px = 0;
+};
+
+LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSetter& setter);
+
+/// \param corner  top left, whole pixels
+void draw_legend(Canvas& canvas,
+                 TypeSetter& setter,
+                 const LegendCard& card,
+                 const PixelPoint& corner,
+                 const Palette& colours);
+
+} // namespace macadam

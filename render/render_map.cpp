@@ -1,0 +1,119 @@
+#include "render/map.hpp"
+
+#include "estimator/common/error.hpp"
+#include "render/furniture.hpp"
+#include "render/line_joining.hpp"
+#include "render/road_painter.hpp"
+#include "render/road_strands.hpp"
+
+#include <fmt/core.h>
+
+#include <cassert>
+
+namespace macadam {
+namespace {
+
+void check_size(int width_px, int height_px) {
+    for (const int side_px : {width_px, height_px}) {
+        if (side_px < least_image_px || side_px > most_image_px) {
+            throw InputError{fmt::format("picture size '{}x{}', expected sides of {} to {} px",
+                                         width_px,
+                                         height_px,
+                                         least_image_px,
+                                         most_image_px)};
+        }
+    }
+}
+
+const ClassTable& classes_of(const MapStyle& style) {
+    return style.classes != nullptr ? *style.classes : *class_table("fhwa");
+}
+
+void check_classes(const MapScene& scene, const ClassTable& table) {
+    const int last = int(table.classes.size()) - 1;
+    for (const auto& line : scene.lines) {
+        if (line.iri_class < -1 || line.iri_class > last) {
+            throw InputError{fmt::format("a line of class '{}', expected -1 to {} as in table '{}'",
+                                         line.iri_class,
+                                         last,
+                                         table.name)};
+        }
+    }
+}
+
+std::vector<Strand>
+strands_of(const MapScene& scene, const std::vector<LineUse>& uses, const MapFrame& frame) {
+    std::vector<Strand> strands;
+    for (const auto& chain : joined(scene.lines, uses)) {
+        auto strand = strand_of(scene.lines, chain, frame);
+        if (!strand.looks.empty()) {
+            strands.push_back(std::move(strand));
+        }
+    }
+    return strands;
+}
+
+struct Roads {
+    std::vector<Strand> strands;
+    LineWidths widths;
+};
+
+/// Each of two ways at its side of the road.
+std::vector<Strand> side_by_side(const MapScene& scene,
+                                 const MapStyle& style,
+                                 const MapFrame& frame,
+                                 const LineWidths& widths) {
+    std::vector<LineUse> alone;
+    std::vector<LineUse> paired;
+    for (const auto& use : all_lines(scene.lines)) {
+        const auto& line = scene.lines[use.line];
+        (line.both_ways && line.iri_class >= 0 ? paired : alone).push_back(use);
+    }
+    auto strands = strands_of(scene, alone, frame);
+    for (const auto& strand : strands_of(scene, paired, frame)) {
+        const double right_px = way_offset_px(widths, strand.rank);
+        strands.push_back(beside(strand, style.left_hand_traffic ? -right_px : right_px));
+    }
+    return strands;
+}
+
+Roads roads_of(const MapScene& scene,
+               const MapStyle& style,
+               const MapFrame& frame,
+               const Layout& layout) {
+    const double middle_px = (layout.map.top + layout.map.bottom) / 2;
+    const auto wanted = line_widths(metres_per_px(frame, middle_px), layout.unit);
+    auto merged = strands_of(scene, worse_of_both_ways(scene.lines), frame);
+    const double ink = ink_per_px(merged, layout.map, layout.unit);
+    if (!wanted.separate_ways) {
+        return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
+    }
+    const auto separate = uncrowded(wanted, 2 * ink, layout.unit);
+    if (separate.separate_ways) {
+        return {side_by_side(scene, style, frame, separate), separate};
+    }
+    return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
+}
+
+} // namespace
+
+Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
+    check_size(width_px, height_px);
+    const auto& classes = classes_of(style);
+    check_classes(scene, classes);
+    const auto colours = ramp_colours(style.ramp, classes.classes.size());
+
+    TypeSetter setter;
+    const auto layout = layout_of(scene, width_px, height_px, setter);
+    const auto legend = legend_of(scene, style, classes);
+    const auto placement = placement_of(scene, legend, layout, setter);
+    const auto roads = roads_of(scene, style, placement.frame, layout);
+    auto image = painted_roads({width_px, height_px, layout.map},
+                               roads.strands,
+                               roads.widths,
+                               palette(style.theme),
+                               colours);
+    return furnished(std::move(image), layout, placement, style, setter);
+}
+
+} // namespace macadam

@@ -1,0 +1,216 @@
+#include "render/ribbon_painter.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr std::size_t quads_per_call = 16384; // 1.8 MB of vertices
+
+// The picture's first row is OpenGL's bottom row, so y needs no turning over.
+constexpr const char* vertex_shader = R"(#version 330 core
+uniform vec2 size_px;
+layout(location = 0) in vec2 place_px;
+layout(location = 1) in vec3 distance_px;
+layout(location = 2) in vec2 round_ends;
+out vec3 distances;
+flat out vec2 rounds;
+void main() {
+    distances = distance_px;
+    rounds = round_ends;
+    gl_Position = vec4(2.0 * place_px / size_px - 1.0, 0.0, 1.0);
+}
+)";
+
+// Coverage is the part of a one pixel wide window across the line that lies on the ribbon: right
+// for lines thinner than a pixel too.
+constexpr const char* fragment_shader = R"(#version 330 core
+uniform vec3 colour;
+uniform float radius_px;
+in vec3 distances;
+flat in vec2 rounds;
+out vec4 pixel;
+void main() {
+    vec2 past = distances.yz;
+    vec2 cap = max(past, 0.0) * rounds;
+    vec2 cut = mix(clamp(0.5 - past, 0.0, 1.0), vec2(1.0), rounds);
+    float away = length(vec2(max(cap.x, cap.y), distances.x));
+    float across = min(away + 0.5, radius_px) - max(away - 0.5, -radius_px);
+    pixel = vec4(colour, clamp(across, 0.0, 1.0) * cut.x * cut.y);
+}
+)";
+
+std::array<float, 3> channels(std::uint32_t rgb) {
+    return {float(rgb >> 16 & 255U) / 255, float(rgb >> 8 & 255U) / 255, float(rgb & 255U) / 255};
+}
+
+} // namespace
+
+struct RibbonPainter::Gl {
+    explicit Gl(const GlContext& context);
+
+#define MACADAM_GL(type, name) type name = context_.entry<type>("gl" #name)
+    const GlContext& context_;
+    MACADAM_GL(decltype(&glBlendFunc), BlendFunc);
+    MACADAM_GL(decltype(&glClear), Clear);
+    MACADAM_GL(decltype(&glClearColor), ClearColor);
+    MACADAM_GL(decltype(&glDrawElements), DrawElements);
+    MACADAM_GL(decltype(&glEnable), Enable);
+    MACADAM_GL(decltype(&glFinish), Finish);
+    MACADAM_GL(decltype(&glGetError), GetError);
+    MACADAM_GL(decltype(&glScissor), Scissor);
+    MACADAM_GL(decltype(&glViewport), Viewport);
+    MACADAM_GL(PFNGLATTACHSHADERPROC, AttachShader);
+    MACADAM_GL(PFNGLBINDBUFFERPROC, BindBuffer);
+    MACADAM_GL(PFNGLBINDVERTEXARRAYPROC, BindVertexArray);
+    MACADAM_GL(PFNGLBUFFERDATAPROC, BufferData);
+    MACADAM_GL(PFNGLCOMPILESHADERPROC, CompileShader);
+    MACADAM_GL(PFNGLCREATEPROGRAMPROC, CreateProgram);
+    MACADAM_GL(PFNGLCREATESHADERPROC, CreateShader);
+    MACADAM_GL(PFNGLDELETESHADERPROC, DeleteShader);
+    MACADAM_GL(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray);
+    MACADAM_GL(PFNGLGENBUFFERSPROC, GenBuffers);
+    MACADAM_GL(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays);
+    MACADAM_GL(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog);
+    MACADAM_GL(PFNGLGETPROGRAMIVPROC, GetProgramiv);
+    MACADAM_GL(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation);
+    MACADAM_GL(PFNGLLINKPROGRAMPROC, LinkProgram);
+    MACADAM_GL(PFNGLSHADERSOURCEPROC, ShaderSource);
+    MACADAM_GL(PFNGLUNIFORM1FPROC, Uniform1f);
+    MACADAM_GL(PFNGLUNIFORM2FPROC, Uniform2f);
+    MACADAM_GL(PFNGLUNIFORM3FPROC, Uniform3f);
+    MACADAM_GL(PFNGLUSEPROGRAMPROC, UseProgram);
+    MACADAM_GL(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer);
+#undef MACADAM_GL
+
+    GLuint program() const;
+    void describe_vertices() const;
+    void number_corners() const;
+
+    GLint colour = -1;
+    GLint radius_px = -1;
+};
+
+RibbonPainter::Gl::Gl(const GlContext& context) : context_{context} {}
+
+GLuint RibbonPainter::Gl::program() const {
+    const GLuint made = CreateProgram();
+    for (const auto& [kind, source] : {std::pair{GL_VERTEX_SHADER, vertex_shader},
+                                       std::pair{GL_FRAGMENT_SHADER, fragment_shader}}) {
+        const GLuint shader = CreateShader(GLenum(kind));
+        ShaderSource(shader, 1, &source, nullptr);
+        CompileShader(shader);
+        AttachShader(made, shader);
+        DeleteShader(shader); // lives as long as the program
+    }
+    LinkProgram(made);
+    GLint linked = GL_FALSE;
+    GetProgramiv(made, GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE) {
+        std::string log(1000, '\0');
+        GLsizei length = 0;
+        GetProgramInfoLog(made, GLsizei(log.size()), &length, log.data());
+        throw InputError{fmt::format("OSMesa refuses a shader: {}", log.substr(0, length))};
+    }
+    return made;
+}
+
+void RibbonPainter::Gl::describe_vertices() const {
+    GLuint array = 0;
+    GenVertexArrays(1, &array);
+    BindVertexArray(array);
+    GLuint vertices = 0;
+    GenBuffers(1, &vertices);
+    BindBuffer(GL_ARRAY_BUFFER, vertices);
+
+    const auto part = [this](GLuint location, GLint floats, std::size_t offset) {
+        EnableVertexAttribArray(location);
+        // OpenGL takes the offset for an address.
+        VertexAttribPointer(location,
+                            floats,
+                            GL_FLOAT,
+                            GL_FALSE,
+                            sizeof(RibbonVertex),
+                            reinterpret_cast<const void*>(offset)); // NOLINT
+    };
+    part(0, 2, offsetof(RibbonVertex, x_px));
+    part(1, 3, offsetof(RibbonVertex, across_px));
+    part(2, 2, offsetof(RibbonVertex, round_before));
+}
+
+void RibbonPainter::Gl::number_corners() const {
+    std::vector<std::uint32_t> corners;
+    corners.reserve(quads_per_call * 6);
+    for (std::uint32_t first = 0; first < quads_per_call * 4; first += 4) {
+        for (const std::uint32_t corner : {0U, 1U, 2U, 2U, 1U, 3U}) {
+            corners.push_back(first + corner);
+        }
+    }
+    GLuint buffer = 0;
+    GenBuffers(1, &buffer);
+    BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer);
+    BufferData(GL_ELEMENT_ARRAY_BUFFER,
+               GLsizeiptr(corners.size() * sizeof(corners[0])),
+               corners.data(),
+               GL_STATIC_DRAW);
+}
+
+RibbonPainter::RibbonPainter(const GlContext& context, int width_px, int height_px)
+    : gl_{std::make_unique<Gl>(context)} {
+    const GLuint program = gl_->program();
+    gl_->UseProgram(program);
+    gl_->colour = gl_->GetUniformLocation(program, "colour");
+    gl_->radius_px = gl_->GetUniformLocation(program, "radius_px");
+    gl_->Uniform2f(gl_->GetUniformLocation(program, "size_px"), float(width_px), float(height_px));
+    gl_->describe_vertices();
+    gl_->number_corners();
+    gl_->Viewport(0, 0, width_px, height_px);
+    gl_->Enable(GL_SCISSOR_TEST);
+    gl_->Enable(GL_BLEND);
+    gl_->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+RibbonPainter::~RibbonPainter() = default;
+
+void RibbonPainter::clear(const PixelBox& box, std::uint32_t rgb) {
+    const auto [red, green, blue] = channels(rgb);
+    gl_->Scissor(int(std::lround(box.left)),
+                 int(std::lround(box.top)),
+                 int(std::lround(box.width())),
+                 int(std::lround(box.height())));
+    gl_->ClearColor(red, green, blue, 1);
+    gl_->Clear(GL_COLOR_BUFFER_BIT);
+}
+
+void RibbonPainter::draw(std::span<const RibbonQuad> quads, std::uint32_t rgb, double radius_px) {
+    const auto [red, green, blue] = channels(rgb);
+    gl_->Uniform3f(gl_->colour, red, green, blue);
+    gl_->Uniform1f(gl_->radius_px, float(radius_px));
+    while (!quads.empty()) {
+        const auto some = quads.first(std::min(quads.size(), quads_per_call));
+        gl_->BufferData(
+            GL_ARRAY_BUFFER, GLsizeiptr(some.size_bytes()), some.data(), GL_STREAM_DRAW);
+        gl_->DrawElements(GL_TRIANGLES, GLsizei(some.size() * 6), GL_UNSIGNED_INT, nullptr);
+        quads = quads.subspan(some.size());
+    }
+}
+
+void RibbonPainter::finish() {
+    gl_->Finish();
+    if (const GLenum error = gl_->GetError(); error != GL_NO_ERROR) {
+        throw InputError{fmt::format("OSMesa cannot draw the map: OpenGL error {:#x}", error)};
+    }
+}
+
+} // namespace macadam

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "render/line_joining.hpp"
+#include "render/ribbon.hpp"
+
+#include <span>
+#include <vector>
+
+namespace macadam {
+
+/// How a piece is painted, numbered in painting order: what is worse covers what is better, what is
+/// certain covers what is not.
+constexpr int look_of(int iri_class, bool certain) {
+    return 2 * iri_class + (certain ? 1 : 0);
+}
+
+constexpr int unmeasured_look = -1;
+
+/// A chain of lines on the picture, without points that nobody could tell apart.
+Strand
+strand_of(std::span<const MapLine> lines, const std::vector<LineUse>& chain, const MapFrame& frame);
+
+} // namespace macadam
