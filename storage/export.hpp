@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,13 +29,14 @@ std::vector<std::optional<std::string>> field_values(const SegmentRecord& record
 /// One GeoJSON Feature on one line (RFC 7946: longitude first, 7 decimals; `id` = segment).
 std::string geojson_feature(const SegmentRecord& record, const ClassTable& classes);
 
-/// A CSV row of the field values, quoted where RFC 4180 needs it, without the line's end.
+/// A CSV row of the field values and of the middle of the segment (lat_deg, lon_deg), without the
+/// line's end. Quoted where RFC 4180 needs it, and where text begins as a formula would (= + - @).
 std::string csv_row(const SegmentRecord& record, const ClassTable& classes);
 std::string csv_header();
 
-/// Writes segments to a file; its kind is its suffix: .geojson, .geojsonl, .csv, .gpkg (the layer
-/// `roughness` with its style, without passes, trips or vehicles). The file appears when it is
-/// whole, or not at all. \returns how many segments were written.
+/// Writes segments to a file in the order of visit(); its kind is its suffix: .geojson, .geojsonl,
+/// .csv, .gpkg (the layer `roughness` with its style, without passes, trips or vehicles). The file
+/// appears when it is whole, or not at all. \returns how many segments were written.
 ///
 /// \throws InputError  for a suffix that is not known, or if the file cannot be written.
 std::size_t export_segments(const RoadStore& store,

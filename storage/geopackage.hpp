@@ -1,0 +1,48 @@
+#pragma once
+
+#include "estimator/common/geo.hpp"
+#include "mapping/iri_class.hpp"
+#include "storage/sqlite.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+inline constexpr std::int64_t geopackage_application_id = 1196444487; ///< "GPKG"
+inline constexpr std::int64_t geopackage_user_version = 10300;        ///< 1.3.0
+
+/// A feature table or view of lines in WGS 84, as a GeoPackage lists it. The names are ours, never
+/// those of a user: they stand in SQL as they are.
+struct FeatureLayer {
+    std::string_view table;
+    std::string_view title;
+    std::string_view description;
+    GeoBox box;
+};
+
+/// The tables that make an empty SQLite file a GeoPackage 1.3.
+void make_geopackage(Database& database);
+
+/// Lists a table or view whose geometry column is `geom`.
+void list_features(Database& database, const FeatureLayer& layer);
+
+/// Fills an R-tree for the table's `geom`, whose key is `fid`, and adds the triggers that keep it.
+void index_features(Database& database, std::string_view table);
+
+/// The functions that these triggers call: ST_IsEmpty, ST_MinX, ST_MaxX, ST_MinY, ST_MaxY.
+void add_geometry_functions(Database& database);
+
+/// A default style for QGIS: lines coloured by the column `class`, with a casing.
+void add_default_style(Database& database, std::string_view table, const ClassTable& classes);
+
+/// A line as GeoPackageBinary with its envelope, little endian.
+std::string geometry_of(std::span<const GeoPoint> line);
+
+/// The line of such a value. Empty if it is none.
+std::vector<GeoPoint> line_of_geometry(std::string_view geometry);
+
+} // namespace macadam

@@ -1,0 +1,231 @@
+#include "storage/road_store.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/atomic_file.hpp"
+#include "storage/road_store_impl.hpp"
+#include "storage/segment_row.hpp"
+#include "storage/sha256.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+void refuse_existing(const std::filesystem::path& file) {
+    if (std::filesystem::exists(std::filesystem::symlink_status(file))) {
+        throw InputError{
+            fmt::format("{}: exists already, expected the name of a new store", file.string())};
+    }
+}
+
+void refuse_missing(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+        throw InputError{fmt::format("{}: no such file, expected a store made by 'macadam init'",
+                                     file.string())};
+    }
+    if (!std::filesystem::is_regular_file(file, ignored)) {
+        throw InputError{
+            fmt::format("{}: is no file, expected a store made by 'macadam init'", file.string())};
+    }
+}
+
+/// A name that tells cars apart without naming them.
+std::string pseudonym_of(const std::string& vehicle_id) {
+    if (vehicle_id.empty()) {
+        return "unknown";
+    }
+    Sha256 hash;
+    hash.add(vehicle_id);
+    return "v-" + hash.hex().substr(0, 12);
+}
+
+std::int64_t row_of_vehicle(Database& database, const std::string& pseudonym) {
+    database.prepare("INSERT OR IGNORE INTO vehicle (pseudonym) VALUES (?)").run(pseudonym);
+    auto select = database.prepare("SELECT id FROM vehicle WHERE pseudonym = ?");
+    select.bind(pseudonym).step();
+    return select.integer(0);
+}
+
+std::int64_t write_trip(Database& database, const TripRecord& trip) {
+    const auto vehicle = row_of_vehicle(database, pseudonym_of(trip.vehicle_id));
+    database
+        .prepare("INSERT INTO trip (sha256, trip_id, vehicle, file_name, t0_utc_ms, vehicle_model,"
+                 " method, distance_mm, matched_mm, rows_read, rows_used)"
+                 " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+        .run(trip.sha256,
+             trip.trip_id,
+             vehicle,
+             trip.file_name,
+             trip.t0_utc_ms,
+             trip.vehicle_model,
+             trip.method,
+             trip.distance_mm,
+             trip.matched_mm,
+             static_cast<std::int64_t>(trip.rows_read),
+             static_cast<std::int64_t>(trip.rows_used));
+    return database.number("SELECT last_insert_rowid()");
+}
+
+std::int64_t row_of_segment(Statement& find, const Database& database, const SegmentKey& key) {
+    find.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
+    if (!find.step()) {
+        throw InputError{
+            fmt::format("{}: has no segment '{}', expected passes over its own network",
+                        database.file().string(),
+                        name_of(key))};
+    }
+    return find.integer(0);
+}
+
+std::optional<std::int64_t> whole(const std::optional<IriUm>& um) {
+    return um ? std::optional<std::int64_t>{*um} : std::nullopt;
+}
+
+void write_passes(Database& database, std::int64_t trip, std::span<const Pass> passes) {
+    auto find =
+        database.prepare("SELECT fid FROM segment WHERE way_id = ? AND direction = ? AND seq = ?");
+    auto insert =
+        database.prepare("INSERT INTO pass VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    auto mark = database.prepare("INSERT OR IGNORE INTO segment_dirty VALUES (?)");
+    for (const auto& pass : passes) {
+        const auto segment = row_of_segment(find, database, pass.segment);
+        insert.run(segment,
+                   trip,
+                   std::int64_t{pass.occurrence},
+                   whole(pass.iri_left_um),
+                   whole(pass.iri_right_um),
+                   whole(pass.iri_centre_um),
+                   std::int64_t{pass.iri_um},
+                   std::int64_t{pass.sd_um},
+                   pass.centre_only,
+                   std::int64_t{pass.validity},
+                   std::int64_t{pass.speed_mmps},
+                   std::int64_t{pass.covered_mm},
+                   std::int64_t{pass.confidence_ppm},
+                   pass.t_ms);
+        mark.run(segment);
+    }
+}
+
+bool has_trip(Database& database, const std::string& sha256) {
+    return database.prepare("SELECT 1 FROM trip WHERE sha256 = ?").bind(sha256).step();
+}
+
+// -------------------------------------------------------------------------------------- fusion
+
+const std::string& dirty_passes() {
+    static const std::string sql = fmt::format(
+        "SELECT pass.segment, segment.way_id, segment.direction, segment.seq, trip.sha256,"
+        " trip.vehicle, trip.t0_utc_ms, {}"
+        " FROM segment_dirty AS dirty CROSS JOIN pass ON pass.segment = dirty.segment"
+        " CROSS JOIN segment ON segment.fid = dirty.segment"
+        " CROSS JOIN trip ON trip.id = pass.trip"
+        " ORDER BY dirty.segment, trip.sha256, pass.occurrence",
+        pass_columns);
+    return sql;
+}
+
+FusionInput input_in(const Statement& row) {
+    const SegmentKey key{
+        row.integer(1), row.text(2) == "forward", static_cast<std::uint32_t>(row.integer(3))};
+    FusionInput input{pass_in(row, 7, key), row.text(4), row.integer(5), row.known_integer(6)};
+    if (input.utc_ms) {
+        *input.utc_ms += input.pass.t_ms;
+    }
+    return input;
+}
+
+/// Fuses the dirty segments in the order of their keys until all are done or nobody wants more.
+std::size_t fuse_dirty(Database& database,
+                       const ClassTable& classes,
+                       const FusionConfig& config,
+                       const Progress& progress) {
+    constexpr std::size_t report_every = 1000;
+    const auto whole =
+        static_cast<std::size_t>(database.number("SELECT count(*) FROM segment_dirty"));
+    auto select = database.prepare(dirty_passes());
+    auto insert = database.prepare(insert_state);
+    std::size_t done = 0;
+    std::int64_t last = 0;
+    std::vector<FusionInput> inputs;
+    for (bool more = select.step(); more && !progress.stop.stop_requested(); ++done) {
+        last = select.integer(0);
+        inputs.clear();
+        do {
+            inputs.push_back(input_in(select));
+            more = select.step();
+        } while (more && select.integer(0) == last);
+        write_state(insert, last, fuse(inputs, config), classes);
+        if (done % report_every == 0) {
+            progress(done, whole);
+        }
+    }
+    select.reset();
+    database.prepare("DELETE FROM segment_dirty WHERE segment <= ?").run(last);
+    progress(done, whole);
+    return done;
+}
+
+} // namespace
+
+RoadStore::RoadStore(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
+RoadStore::RoadStore(RoadStore&&) noexcept = default;
+RoadStore& RoadStore::operator=(RoadStore&&) noexcept = default;
+RoadStore::~RoadStore() = default;
+
+RoadStore RoadStore::create(const std::filesystem::path& file,
+                            const RoadNetwork& roads,
+                            const StoreSettings& settings,
+                            const Progress& progress) {
+    refuse_existing(file);
+    AtomicFile whole{file};
+    Database database{whole.temporary(), Database::Access::create, file};
+    add_geometry_functions(database);
+    write_store(database, roads, settings, progress);
+    database.close();
+    whole.commit();
+    return open(file, Access::write);
+}
+
+RoadStore RoadStore::open(const std::filesystem::path& file, Access access) {
+    refuse_missing(file);
+    return RoadStore{std::make_unique<Impl>(
+        file, access == Access::read ? Database::Access::read : Database::Access::write)};
+}
+
+const StoreSettings& RoadStore::settings() const {
+    return impl_->settings;
+}
+
+RoadNetwork RoadStore::roads() const {
+    return build_network(read_ways(impl_->database), impl_->settings.segment_length_m);
+}
+
+bool RoadStore::knows_trip(const std::string& sha256) const {
+    return has_trip(impl_->database, sha256);
+}
+
+bool RoadStore::add_trip(const TripRecord& trip, std::span<const Pass> passes) {
+    auto& database = impl_->database;
+    Transaction all{database, Transaction::Kind::write};
+    if (has_trip(database, trip.sha256)) {
+        return false;
+    }
+    write_passes(database, write_trip(database, trip), passes);
+    all.commit();
+    return true;
+}
+
+std::size_t RoadStore::refresh(const FusionConfig& config, const Progress& progress) {
+    auto& database = impl_->database;
+    Transaction all{database, Transaction::Kind::write};
+    const auto fused = fuse_dirty(database, impl_->classes(), config, progress);
+    all.commit();
+    return fused;
+}
+
+} // namespace macadam

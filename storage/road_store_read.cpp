@@ -1,0 +1,281 @@
+#include "estimator/common/error.hpp"
+#include "storage/road_store_impl.hpp"
+#include "storage/segment_row.hpp"
+#include "storage/sha256.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+// ------------------------------------------------------------------------------------- filters
+
+/// Whether the straight line from `a` to `b` has a point in the box (Liang and Barsky's clipping).
+bool meets(const GeoBox& box, const GeoPoint& a, const GeoPoint& b) {
+    double enter = 0, leave = 1;
+    const auto cut = [&](double from, double step, double low, double high) {
+        if (step == 0) {
+            return low <= from && from <= high;
+        }
+        const auto [near, far] = std::minmax((low - from) / step, (high - from) / step);
+        enter = std::max(enter, near);
+        leave = std::min(leave, far);
+        return enter <= leave;
+    };
+    return cut(a.lon_deg, b.lon_deg - a.lon_deg, box.west_deg, box.east_deg) &&
+           cut(a.lat_deg, b.lat_deg - a.lat_deg, box.south_deg, box.north_deg);
+}
+
+bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        if (meets(box, line[i - 1], line[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// A pattern for LIKE that finds `part` anywhere, with nothing in it a wildcard.
+std::string anywhere(const std::string& part) {
+    std::string pattern{"%"};
+    for (const char c : part) {
+        if (c == '%' || c == '_' || c == '\\') {
+            pattern += '\\';
+        }
+        pattern += c;
+    }
+    return pattern + "%";
+}
+
+/// Only fixed words come together here, never a value: those are bound by name.
+std::string select_of(const SegmentFilter& filter) {
+    auto sql = fmt::format("SELECT {} FROM ", record_columns);
+    sql += filter.box ? "rtree_segment_geom AS place CROSS JOIN segment ON segment.fid = place.id"
+                      : "segment";
+    sql += filter.with_state_only ? " JOIN" : " LEFT JOIN";
+    sql += " segment_state AS state ON state.fid = segment.fid"
+           " JOIN way ON way.way_id = segment.way_id WHERE 1";
+    if (filter.box) {
+        sql += " AND place.maxx >= :west AND place.minx <= :east"
+               " AND place.maxy >= :south AND place.miny <= :north";
+    }
+    if (filter.way_id) {
+        sql += " AND segment.way_id = :way";
+    }
+    if (filter.key) {
+        sql += " AND segment.way_id = :key_way AND segment.direction = :key_direction"
+               " AND segment.seq = :key_seq";
+    }
+    if (!filter.name_part.empty()) {
+        sql += " AND way.name LIKE :name ESCAPE '\\'";
+    }
+    return sql +
+           (filter.worst > 0 ? " ORDER BY state.iri DESC, segment.fid" : " ORDER BY segment.fid");
+}
+
+void bind(Statement& select, const SegmentFilter& filter) {
+    if (filter.box) {
+        select.bind_named(":west", filter.box->west_deg);
+        select.bind_named(":east", filter.box->east_deg);
+        select.bind_named(":south", filter.box->south_deg);
+        select.bind_named(":north", filter.box->north_deg);
+    }
+    if (filter.way_id) {
+        select.bind_named(":way", *filter.way_id);
+    }
+    if (filter.key) {
+        select.bind_named(":key_way", filter.key->way_id);
+        select.bind_named(":key_direction", filter.key->forward ? "forward" : "backward");
+        select.bind_named(":key_seq", std::int64_t{filter.key->index});
+    }
+    if (!filter.name_part.empty()) {
+        select.bind_named(":name", anywhere(filter.name_part));
+    }
+}
+
+// ---------------------------------------------------------------------------------------- info
+
+std::size_t count(Database& database, const char* sql) {
+    return static_cast<std::size_t>(database.number(sql));
+}
+
+double real_meta(Database& database, const char* key) {
+    auto select = database.prepare("SELECT CAST(value AS REAL) FROM meta WHERE key = ?");
+    return select.bind(key).step() ? select.real(0) : 0;
+}
+
+std::vector<std::string> pseudonyms(Database& database) {
+    auto select = database.prepare("SELECT pseudonym FROM vehicle ORDER BY pseudonym");
+    std::vector<std::string> vehicles;
+    while (select.step()) {
+        vehicles.push_back(select.text(0));
+    }
+    return vehicles;
+}
+
+/// Every segment with passes has a state, or waits for one.
+constexpr const char* with_passes = "(SELECT fid FROM segment_state"
+                                    " UNION SELECT segment FROM segment_dirty)";
+
+struct Cover {
+    double length_m;
+    GeoBox box;
+};
+
+Cover cover_of(Database& database) {
+    auto select = database.prepare(
+        fmt::format("SELECT sum(to_m - from_m), min(ST_MinX(geom)), min(ST_MinY(geom)),"
+                    " max(ST_MaxX(geom)), max(ST_MaxY(geom)) FROM segment WHERE fid IN {}",
+                    with_passes));
+    select.step();
+    if (!select.is_null(0)) {
+        return {select.real(0), {select.real(1), select.real(2), select.real(3), select.real(4)}};
+    }
+    auto all = database.prepare("SELECT min_x, min_y, max_x, max_y FROM gpkg_contents"
+                                " WHERE table_name = 'segment'");
+    all.step();
+    return {0, {all.real(0), all.real(1), all.real(2), all.real(3)}};
+}
+
+std::vector<ClassLength> lengths_of(Database& database, const ClassTable& classes) {
+    auto select = database.prepare(
+        "SELECT sum(segment.to_m - segment.from_m) / 1000 FROM segment_state AS state"
+        " JOIN segment ON segment.fid = state.fid WHERE state.class = ?");
+    std::vector<ClassLength> lengths;
+    for (const auto& roughness : classes.classes) {
+        select.bind(roughness.name).step();
+        lengths.push_back({std::string{roughness.name}, select.real(0)});
+    }
+    return lengths;
+}
+
+// -------------------------------------------------------------------------------------- digest
+
+std::string text_of(const std::optional<std::int64_t>& value) {
+    return value ? fmt::format("{}", *value) : "-";
+}
+
+std::string columns_from(const Statement& row, int first, int last) {
+    std::string text;
+    for (int column = first; column < last; ++column) {
+        text += " " + text_of(row.known_integer(column));
+    }
+    return text + "\n";
+}
+
+std::string state_line(const SegmentState& s) {
+    const auto known = [](const std::optional<IriUm>& um) {
+        return text_of(um ? std::optional<std::int64_t>{*um} : std::nullopt);
+    };
+    return fmt::format("state {} {} {} {} {} {} {} {:d} {} {} {} {} {} {}\n",
+                       name_of(s.segment),
+                       s.iri_um,
+                       s.sd_um,
+                       s.low_um,
+                       s.high_um,
+                       known(s.left_um),
+                       known(s.right_um),
+                       s.centre_only,
+                       s.validity,
+                       s.passes,
+                       s.vehicles,
+                       text_of(s.first_seen_ms),
+                       text_of(s.last_seen_ms),
+                       known(s.trend_um_per_year));
+}
+
+void add_passes(Sha256& hash, Database& database) {
+    auto select =
+        database.prepare(fmt::format("SELECT segment.segment, trip.sha256, {} FROM pass"
+                                     " CROSS JOIN segment ON segment.fid = pass.segment"
+                                     " CROSS JOIN trip ON trip.id = pass.trip"
+                                     " ORDER BY pass.segment, trip.sha256, pass.occurrence",
+                                     pass_columns));
+    while (select.step()) {
+        hash.add(fmt::format("pass {} {}", select.text(0), select.text(1)) +
+                 columns_from(select, 2, 2 + pass_column_count));
+    }
+}
+
+} // namespace
+
+void RoadStore::visit(const SegmentFilter& filter,
+                      const std::function<void(const SegmentRecord&)>& visitor) const {
+    Transaction one_moment{impl_->database, Transaction::Kind::read};
+    auto select = impl_->database.prepare(select_of(filter));
+    bind(select, filter);
+    std::size_t visited = 0;
+    while ((filter.worst == 0 || visited < filter.worst) && select.step()) {
+        const auto record = record_in(select);
+        if (!filter.box || meets(*filter.box, record.segment.line)) {
+            visitor(record);
+            ++visited;
+        }
+    }
+}
+
+std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
+    auto select = impl_->database.prepare(
+        fmt::format("SELECT trip.sha256, vehicle.pseudonym, trip.t0_utc_ms, {} FROM segment"
+                    " CROSS JOIN pass ON pass.segment = segment.fid"
+                    " CROSS JOIN trip ON trip.id = pass.trip"
+                    " CROSS JOIN vehicle ON vehicle.id = trip.vehicle"
+                    " WHERE segment.way_id = ? AND segment.direction = ? AND segment.seq = ?"
+                    " ORDER BY trip.sha256, pass.occurrence",
+                    pass_columns));
+    select.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
+    std::vector<PassRecord> passes;
+    while (select.step()) {
+        PassRecord record{
+            pass_in(select, 3, key), select.text(0), select.text(1), select.known_integer(2)};
+        if (record.utc_ms) {
+            *record.utc_ms += record.pass.t_ms;
+        }
+        passes.push_back(std::move(record));
+    }
+    return passes;
+}
+
+StoreInfo RoadStore::info() const {
+    auto& database = impl_->database;
+    Transaction one_moment{database, Transaction::Kind::read};
+    const auto cover = cover_of(database);
+    auto seen = database.prepare("SELECT min(first_seen_ms), max(last_seen_ms) FROM segment_state");
+    seen.step();
+    return {.settings = impl_->settings,
+            .trips = count(database, "SELECT count(*) FROM trip"),
+            .undated_trips = count(database, "SELECT count(*) FROM trip WHERE t0_utc_ms IS NULL"),
+            .passes = count(database, "SELECT count(*) FROM pass"),
+            .vehicles = pseudonyms(database),
+            .segments = static_cast<std::size_t>(real_meta(database, "segments")),
+            .segments_with_passes = static_cast<std::size_t>(
+                database.number(fmt::format("SELECT count(*) FROM {}", with_passes).c_str())),
+            .km = cover.length_m / 1000,
+            .network_km = real_meta(database, "network_m") / 1000,
+            .classes = lengths_of(database, impl_->classes()),
+            .first_seen_ms = seen.known_integer(0),
+            .last_seen_ms = seen.known_integer(1),
+            .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
+            .generation = 1,
+            .box = cover.box};
+}
+
+std::string RoadStore::digest() const {
+    Sha256 hash;
+    {
+        Transaction one_moment{impl_->database, Transaction::Kind::read};
+        add_passes(hash, impl_->database);
+        auto select = impl_->database.prepare(select_of({}));
+        while (select.step()) {
+            hash.add(state_line(*record_in(select).state));
+        }
+    }
+    return hash.hex();
+}
+
+} // namespace macadam

@@ -1,0 +1,135 @@
+#include "storage/segment_row.hpp"
+
+#include "storage/geopackage.hpp"
+#include "storage/utc.hpp"
+
+#include <cmath>
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+using namespace std::string_view_literals;
+
+std::optional<double> mm_per_m(const std::optional<IriUm>& um) {
+    return um ? std::optional{mm_per_m(*um)} : std::nullopt;
+}
+
+IriUm um_in(const Statement& row, int column) {
+    return static_cast<IriUm>(std::lround(row.real(column) * 1000));
+}
+
+std::optional<IriUm> known_um_in(const Statement& row, int column) {
+    return row.is_null(column) ? std::nullopt : std::optional{um_in(row, column)};
+}
+
+std::optional<std::string> datetime_text(const std::optional<std::int64_t>& utc_ms) {
+    return utc_ms ? std::optional{datetime_text(*utc_ms)} : std::nullopt;
+}
+
+std::optional<IriUm> known_whole_in(const Statement& row, int column) {
+    return row.is_null(column) ? std::nullopt
+                               : std::optional{static_cast<IriUm>(row.integer(column))};
+}
+
+constexpr int first_state_column = 8;
+
+SegmentState state_in(const Statement& row, const SegmentKey& segment) {
+    constexpr int c = first_state_column;
+    return {.segment = segment,
+            .iri_um = um_in(row, c),
+            .sd_um = um_in(row, c + 1),
+            .low_um = um_in(row, c + 2),
+            .high_um = um_in(row, c + 3),
+            .left_um = known_um_in(row, c + 4),
+            .right_um = known_um_in(row, c + 5),
+            .centre_only = row.text(c + 6) != "MRI",
+            .validity = static_cast<std::uint8_t>(row.integer(c + 12)),
+            .passes = static_cast<std::int32_t>(row.integer(c + 7)),
+            .vehicles = static_cast<std::int32_t>(row.integer(c + 8)),
+            .first_seen_ms = row.known_integer(c + 9),
+            .last_seen_ms = row.known_integer(c + 10),
+            .trend_um_per_year = known_um_in(row, c + 11)};
+}
+
+} // namespace
+
+const char* const record_columns =
+    "segment.way_id, segment.direction, segment.seq, segment.from_m, segment.to_m, segment.geom,"
+    " way.name, way.highway, state.iri, state.iri_sd, state.iri_low, state.iri_high,"
+    " state.iri_left, state.iri_right, state.\"index\", state.passes, state.vehicles,"
+    " state.first_seen_ms, state.last_seen_ms, state.trend_per_year, state.flags";
+
+SegmentRecord record_in(const Statement& row) {
+    const SegmentKey key{
+        row.integer(0), row.text(1) == "forward", static_cast<std::uint32_t>(row.integer(2))};
+    return {.segment = {key, row.real(3), row.real(4), line_of_geometry(row.blob(5))},
+            .name = row.text(6),
+            .highway = row.text(7),
+            .state =
+                row.is_null(first_state_column) ? std::nullopt : std::optional{state_in(row, key)}};
+}
+
+const char* const insert_state = "INSERT OR REPLACE INTO segment_state VALUES"
+                                 " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+
+void write_state(Statement& insert,
+                 std::int64_t fid,
+                 const SegmentState& state,
+                 const ClassTable& classes) {
+    const double iri = mm_per_m(state.iri_um);
+    insert.run(fid,
+               iri,
+               mm_per_m(state.sd_um),
+               mm_per_m(state.low_um),
+               mm_per_m(state.high_um),
+               mm_per_m(state.left_um),
+               mm_per_m(state.right_um),
+               name_of_index(state.centre_only),
+               classes.classes[class_index(classes, iri)].name,
+               std::int64_t{state.passes},
+               std::int64_t{state.vehicles},
+               datetime_text(state.first_seen_ms),
+               datetime_text(state.last_seen_ms),
+               mm_per_m(state.trend_um_per_year),
+               name_of_validity(state.validity),
+               state.first_seen_ms,
+               state.last_seen_ms,
+               std::int64_t{state.validity});
+}
+
+const char* const pass_columns =
+    "pass.occurrence, pass.iri_left_um, pass.iri_right_um, pass.iri_centre_um, pass.iri_um,"
+    " pass.sd_um, pass.centre_only, pass.validity, pass.speed_mmps, pass.covered_mm,"
+    " pass.confidence_ppm, pass.t_ms";
+
+Pass pass_in(const Statement& row, int first, const SegmentKey& segment) {
+    return {.segment = segment,
+            .occurrence = static_cast<std::uint32_t>(row.integer(first)),
+            .iri_left_um = known_whole_in(row, first + 1),
+            .iri_right_um = known_whole_in(row, first + 2),
+            .iri_centre_um = known_whole_in(row, first + 3),
+            .iri_um = static_cast<IriUm>(row.integer(first + 4)),
+            .sd_um = static_cast<IriUm>(row.integer(first + 5)),
+            .centre_only = row.integer(first + 6) != 0,
+            .validity = static_cast<std::uint8_t>(row.integer(first + 7)),
+            .speed_mmps = static_cast<std::int32_t>(row.integer(first + 8)),
+            .covered_mm = static_cast<std::int32_t>(row.integer(first + 9)),
+            .confidence_ppm = static_cast<std::int32_t>(row.integer(first + 10)),
+            .t_ms = row.integer(first + 11)};
+}
+
+const char* name_of_index(bool centre_only) {
+    return centre_only ? "HRI>MRI" : "MRI";
+}
+
+double mm_per_m(IriUm um) {
+    return um / 1000.0;
+}
+
+std::string datetime_text(std::int64_t utc_ms) {
+    auto text = utc_text(utc_ms);
+    return text.find('.') == std::string::npos ? text.insert(text.size() - 1, ".000") : text;
+}
+
+} // namespace macadam

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "mapping/fusion.hpp"
+#include "mapping/iri_class.hpp"
+#include "mapping/pass.hpp"
+#include "storage/road_store.hpp"
+#include "storage/sqlite.hpp"
+
+#include <string>
+
+namespace macadam {
+
+// How values stand in the rows of a store.
+
+/// Columns of a segment, its way and its state, as `record_in` reads them; the tables go by the
+/// names segment, way and state.
+extern const char* const record_columns;
+SegmentRecord record_in(const Statement& row);
+
+extern const char* const insert_state;
+void write_state(Statement& insert,
+                 std::int64_t fid,
+                 const SegmentState& state,
+                 const ClassTable& classes);
+
+/// Columns of a pass from the column `first` on; the table goes by the name pass.
+extern const char* const pass_columns;
+inline constexpr int pass_column_count = 12;
+Pass pass_in(const Statement& row, int first, const SegmentKey& segment);
+
+/// "HRI>MRI" or "MRI".
+const char* name_of_index(bool centre_only);
+
+/// 12345 -> "12.345": mm/m of whole um/m.
+double mm_per_m(IriUm um);
+
+/// A time as a GeoPackage writes it, always with milliseconds.
+std::string datetime_text(std::int64_t utc_ms);
+
+} // namespace macadam

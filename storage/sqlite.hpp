@@ -1,0 +1,154 @@
+#pragma once
+
+#include "estimator/common/error.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace macadam {
+
+/// Bytes that SQLite keeps as they are.
+struct Blob {
+    std::string_view bytes;
+};
+
+/// One SQL statement, compiled. Parameters are bound from the first; columns count from 0.
+class Statement {
+public:
+    Statement(sqlite3* database, const std::filesystem::path& file, const char* sql);
+
+    /// Binds all parameters anew.
+    template <typename... Values>
+    Statement& bind(const Values&... values) {
+        reset();
+        int position = 0;
+        (bind_one(++position, values), ...);
+        return *this;
+    }
+
+    /// Binds the parameter at a position from 1 and leaves the others.
+    template <typename Value>
+    void bind_at(int position, const Value& value) {
+        bind_one(position, value);
+    }
+
+    /// Binds the parameter of that name, ":name".
+    template <typename Value>
+    void bind_named(const char* name, const Value& value) {
+        bind_one(position_of(name), value);
+    }
+
+    /// \returns true if there is a row.
+    bool step();
+
+    /// Binds, and runs a statement that gives no rows.
+    template <typename... Values>
+    void run(const Values&... values) {
+        bind(values...);
+        step();
+        reset();
+    }
+
+    std::int64_t integer(int column) const;
+    double real(int column) const;
+    std::string text(int column) const;
+    std::string_view blob(int column) const; ///< until the next step
+    bool is_null(int column) const;
+    std::optional<std::int64_t> known_integer(int column) const;
+
+    void reset();
+
+private:
+    int position_of(const char* name) const;
+    void bind_one(int position, std::int64_t value);
+    void bind_one(int position, double value);
+    void bind_one(int position, std::string_view value);
+    void bind_one(int position, Blob value);
+    void bind_one(int position, std::nullopt_t);
+    void bind_one(int position, int value) { bind_one(position, std::int64_t{value}); }
+    void bind_one(int position, bool value) { bind_one(position, std::int64_t{value}); }
+    void bind_one(int position, const std::string& value) {
+        bind_one(position, std::string_view{value});
+    }
+    void bind_one(int position, const char* value) { bind_one(position, std::string_view{value}); }
+    template <typename Value>
+    void bind_one(int position, const std::optional<Value>& value) {
+        if (value) {
+            bind_one(position, *value);
+        } else {
+            bind_one(position, std::nullopt);
+        }
+    }
+
+    struct Finalize {
+        void operator()(sqlite3_stmt* statement) const;
+    };
+    const std::filesystem::path* file_;
+    std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+/// An SQLite file.
+///
+/// \throws InputError  "FILE: cause" from every call that fails.
+class Database {
+public:
+    enum class Access {
+        read,   ///< works on media that cannot be written
+        write,  ///< each commit is on disk when it returns
+        create, ///< a new file that nobody sees before it is whole: no journal, no syncs
+    };
+    /// `known_as`: what messages call it, where that is not its name.
+    Database(const std::filesystem::path& file,
+             Access access,
+             const std::filesystem::path& known_as = {});
+
+    /// One or more statements without parameters or rows.
+    void run(const char* sql);
+    void run(const std::string& sql) { run(sql.c_str()); }
+
+    Statement prepare(const char* sql);
+    Statement prepare(const std::string& sql) { return prepare(sql.c_str()); }
+
+    std::int64_t number(const char* sql);
+
+    bool in_transaction() const;
+    /// As messages call it.
+    const std::filesystem::path& file() const { return *file_; }
+    sqlite3* handle() const { return database_.get(); }
+
+    void close();
+
+private:
+    struct Close {
+        void operator()(sqlite3* database) const;
+    };
+    std::unique_ptr<const std::filesystem::path>
+        file_; ///< stays where it is: statements point at it
+    std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// All of what is done until commit(), or nothing. A reader sees one moment until its end; within
+/// another transaction it is that one's moment.
+class Transaction {
+public:
+    enum class Kind { read, write };
+    Transaction(Database& database, Kind kind);
+    Transaction(const Transaction&) = delete;
+    Transaction& operator=(const Transaction&) = delete;
+    ~Transaction();
+
+    void commit();
+
+private:
+    Database* database_;
+    bool is_outermost_;
+};
+
+} // namespace macadam

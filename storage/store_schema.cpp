@@ -1,0 +1,310 @@
+#include "storage/store_schema.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/geopackage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cstring>
+#include <string>
+
+namespace macadam {
+namespace {
+
+constexpr int store_version = 1;
+constexpr const char* format_name = "macadam-store";
+
+// Column types are those that a GeoPackage knows; it forbids STRICT, whose types are others.
+constexpr const char* tables = R"(
+CREATE TABLE meta (
+    key TEXT PRIMARY KEY NOT NULL,
+    value TEXT NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE way (
+    way_id INTEGER PRIMARY KEY NOT NULL,
+    name TEXT,
+    highway TEXT,
+    oneway SMALLINT NOT NULL,
+    node_ids BLOB NOT NULL,
+    points BLOB NOT NULL
+);
+CREATE TABLE segment (
+    fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,
+    geom LINESTRING,
+    segment TEXT NOT NULL,
+    way_id INTEGER NOT NULL REFERENCES way(way_id),
+    direction TEXT NOT NULL,
+    seq INTEGER NOT NULL,
+    from_m DOUBLE NOT NULL,
+    to_m DOUBLE NOT NULL
+);
+CREATE TABLE vehicle (
+    id INTEGER PRIMARY KEY,
+    pseudonym TEXT NOT NULL UNIQUE
+);
+CREATE TABLE trip (
+    id INTEGER PRIMARY KEY,
+    sha256 TEXT NOT NULL UNIQUE,
+    trip_id TEXT NOT NULL,
+    vehicle INTEGER NOT NULL REFERENCES vehicle(id),
+    file_name TEXT NOT NULL,
+    t0_utc_ms INTEGER,
+    vehicle_model TEXT NOT NULL,
+    method TEXT NOT NULL,
+    distance_mm INTEGER NOT NULL,
+    matched_mm INTEGER NOT NULL,
+    rows_read INTEGER NOT NULL,
+    rows_used INTEGER NOT NULL
+);
+CREATE TABLE pass (
+    segment INTEGER NOT NULL REFERENCES segment(fid),
+    trip INTEGER NOT NULL REFERENCES trip(id),
+    occurrence INTEGER NOT NULL,
+    iri_left_um INTEGER,
+    iri_right_um INTEGER,
+    iri_centre_um INTEGER,
+    iri_um INTEGER NOT NULL,
+    sd_um INTEGER NOT NULL,
+    centre_only INTEGER NOT NULL,
+    validity INTEGER NOT NULL,
+    speed_mmps INTEGER NOT NULL,
+    covered_mm INTEGER NOT NULL,
+    confidence_ppm INTEGER NOT NULL,
+    t_ms INTEGER NOT NULL,
+    PRIMARY KEY (segment, trip, occurrence)
+) WITHOUT ROWID;
+CREATE INDEX pass_of_trip ON pass(trip);
+CREATE TABLE segment_state (
+    fid INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
+    iri DOUBLE NOT NULL,
+    iri_sd DOUBLE NOT NULL,
+    iri_low DOUBLE NOT NULL,
+    iri_high DOUBLE NOT NULL,
+    iri_left DOUBLE,
+    iri_right DOUBLE,
+    "index" TEXT NOT NULL,
+    class TEXT NOT NULL,
+    passes INTEGER NOT NULL,
+    vehicles INTEGER NOT NULL,
+    first_seen DATETIME,
+    last_seen DATETIME,
+    trend_per_year DOUBLE,
+    validity TEXT NOT NULL,
+    first_seen_ms INTEGER,
+    last_seen_ms INTEGER,
+    flags INTEGER NOT NULL
+);
+CREATE TABLE segment_dirty (
+    segment INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid)
+);
+CREATE VIEW roughness AS
+    SELECT segment.fid AS OGC_FID, segment.geom, segment.segment, segment.way_id, way.name,
+           way.highway, segment.direction, segment.from_m, segment.to_m,
+           state.iri, state.iri_sd, state.iri_low, state.iri_high, state.iri_left, state.iri_right,
+           state."index", state.class, state.passes, state.vehicles, state.first_seen,
+           state.last_seen, state.trend_per_year, state.validity
+    FROM segment_state AS state
+    JOIN segment ON segment.fid = state.fid
+    JOIN way ON way.way_id = segment.way_id;
+)";
+
+// ------------------------------------------------------------------------------------- network
+
+template <typename Value>
+std::string bytes_of(const std::vector<Value>& values) {
+    std::string bytes(values.size() * sizeof(Value), '\0');
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+}
+
+template <typename Value>
+std::vector<Value> values_of(std::string_view bytes) {
+    std::vector<Value> values(bytes.size() / sizeof(Value));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Value));
+    return values;
+}
+
+/// Two doubles, latitude first: the point's own layout in memory.
+static_assert(sizeof(GeoPoint) == 2 * sizeof(double));
+
+std::optional<std::string_view> unless_empty(const std::string& text) {
+    return text.empty() ? std::nullopt : std::optional<std::string_view>{text};
+}
+
+void write_ways(Database& database, const RoadNetwork& roads) {
+    auto insert = database.prepare("INSERT INTO way VALUES (?, ?, ?, ?, ?, ?)");
+    for (const auto& way : roads.ways) {
+        insert.run(way.id,
+                   unless_empty(way.name),
+                   unless_empty(way.highway),
+                   static_cast<int>(way.oneway),
+                   Blob{bytes_of(way.node_ids)},
+                   Blob{bytes_of(way.line)});
+    }
+}
+
+/// Of the links [first, last), one way's, in one direction; by their number along the way.
+std::vector<Segment>
+drivable_segments(const RoadNetwork& roads, std::uint32_t first, std::uint32_t last, bool forward) {
+    std::vector<Segment> all;
+    for (auto i = first; i < last; ++i) {
+        const auto edge = edge_of(LinkId{i}, forward);
+        if (is_drivable(roads, edge)) {
+            auto segments = segments_of(roads, edge);
+            all.insert(all.end(),
+                       std::make_move_iterator(segments.begin()),
+                       std::make_move_iterator(segments.end()));
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+    return all;
+}
+
+struct Written {
+    std::int64_t segments = 0;
+    double length_m = 0;
+};
+
+Written write_segments(Database& database, const RoadNetwork& roads, const Progress& progress) {
+    auto insert =
+        database.prepare("INSERT INTO segment (geom, segment, way_id, direction, seq, from_m, to_m)"
+                         " VALUES (?, ?, ?, ?, ?, ?, ?)");
+    Written written;
+    const auto count = static_cast<std::uint32_t>(roads.links.size());
+    for (std::uint32_t first = 0, last = 0; first < count; first = last) {
+        while (last < count && roads.links[last].way == roads.links[first].way) {
+            ++last;
+        }
+        for (const bool forward : {true, false}) {
+            for (const auto& segment : drivable_segments(roads, first, last, forward)) {
+                insert.run(Blob{geometry_of(segment.line)},
+                           name_of(segment.key),
+                           segment.key.way_id,
+                           forward ? "forward" : "backward",
+                           std::int64_t{segment.key.index},
+                           segment.from_m,
+                           segment.to_m);
+                ++written.segments;
+                written.length_m += segment.to_m - segment.from_m;
+            }
+        }
+        progress(last, count);
+        if (progress.stop.stop_requested()) {
+            throw InputError{
+                fmt::format("{}: stopped before it was whole", database.file().string())};
+        }
+    }
+    return written;
+}
+
+// ---------------------------------------------------------------------------------------- meta
+
+void put(Database& database, std::string_view key, std::string_view value) {
+    database.prepare("INSERT INTO meta VALUES (?, ?)").run(key, value);
+}
+
+std::string meta(Database& database, std::string_view key) {
+    auto statement = database.prepare("SELECT value FROM meta WHERE key = ?");
+    return statement.bind(key).step() ? statement.text(0) : std::string{};
+}
+
+double real_meta(Database& database, std::string_view key) {
+    const auto text = meta(database, key);
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
+void write_meta(Database& database,
+                const RoadNetwork& roads,
+                const StoreSettings& settings,
+                const Written& written) {
+    put(database, "format", format_name);
+    put(database, "version", fmt::format("{}", store_version));
+    put(database, "segment_length_m", fmt::format("{}", roads.segment_length_m));
+    put(database, "class_table", settings.class_table);
+    put(database, "network_source", settings.network_source);
+    put(database, "attribution", settings.attribution);
+    put(database, "segments", fmt::format("{}", written.segments));
+    put(database, "network_m", fmt::format("{}", written.length_m));
+}
+
+bool has_table(Database& database, std::string_view name) {
+    auto statement =
+        database.prepare("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
+    return statement.bind(name).step();
+}
+
+} // namespace
+
+void write_store(Database& database,
+                 const RoadNetwork& roads,
+                 const StoreSettings& settings,
+                 const Progress& progress) {
+    const auto* classes = class_table(settings.class_table);
+    if (classes == nullptr) {
+        throw InputError{
+            fmt::format("class table '{}', expected fhwa or five", settings.class_table)};
+    }
+    Transaction all{database, Transaction::Kind::write};
+    make_geopackage(database);
+    database.run(tables);
+    write_ways(database, roads);
+    const auto written = write_segments(database, roads, progress);
+    database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
+    write_meta(database, roads, settings, written);
+
+    const auto box = extent_of(roads);
+    list_features(database, {"segment", "segment", "Pieces of road, one for each direction", box});
+    list_features(database,
+                  {"roughness", "roughness", "Roughness (IRI, mm/m) of the segments driven", box});
+    index_features(database, "segment");
+    add_default_style(database, "roughness", *classes);
+    all.commit();
+}
+
+void check_store(Database& database) {
+    const auto refuse = [&](std::string_view what) {
+        throw InputError{fmt::format(
+            "{}: {}, expected one made by 'macadam init'", database.file().string(), what)};
+    };
+    if (database.number("PRAGMA application_id") != geopackage_application_id) {
+        refuse("is no store");
+    }
+    if (!has_table(database, "meta") || meta(database, "format") != format_name) {
+        refuse("is a GeoPackage but no Macadam store");
+    }
+    if (const auto version = meta(database, "version"); version != std::to_string(store_version)) {
+        throw InputError{fmt::format("{}: is a store of version '{}', expected version {}",
+                                     database.file().string(),
+                                     version,
+                                     store_version)};
+    }
+}
+
+StoreSettings read_settings(Database& database) {
+    return {.segment_length_m = real_meta(database, "segment_length_m"),
+            .class_table = meta(database, "class_table"),
+            .network_source = meta(database, "network_source"),
+            .attribution = meta(database, "attribution")};
+}
+
+std::vector<Way> read_ways(Database& database) {
+    auto select = database.prepare(
+        "SELECT way_id, name, highway, oneway, node_ids, points FROM way ORDER BY way_id");
+    std::vector<Way> ways;
+    while (select.step()) {
+        ways.push_back({.id = select.integer(0),
+                        .name = select.text(1),
+                        .highway = select.text(2),
+                        .oneway = static_cast<Oneway>(select.integer(3)),
+                        .node_ids = values_of<std::int64_t>(select.blob(4)),
+                        .line = values_of<GeoPoint>(select.blob(5))});
+    }
+    return ways;
+}
+
+} // namespace macadam
