@@ -22,7 +22,7 @@ bool passes_through(const PixelBox& box, const PixelPoint& a, const PixelPoint& 
         if (step == 0) {
             return low <= start && start <= high;
         }
-        const auto [enter, leave] = std::minmax((low - start) / step, (high - start) / step);
+        const auto [enter, leave] = std::minmax({(low - start) / step, (high - start) / step});
         from = std::max(from, enter);
         to = std::min(to, leave);
         return from <= to;

@@ -85,9 +85,10 @@ void draw_swatch(Canvas& canvas,
         canvas.stroke(from, to, radius_px * 0.6, entry.rgb);
         return;
     }
-    canvas.stroke(from, to, radius_px + std::max(1.0, casing_px * unit), colours.casing);
     const bool certain = entry.swatch == LegendEntry::Swatch::certain;
-    canvas.stroke(from, to, certain ? radius_px : radius_px * 0.5, entry.rgb);
+    const double core_radius_px = certain ? radius_px : radius_px * 0.55;
+    canvas.stroke(from, to, core_radius_px + std::max(1.0, casing_px * unit), colours.casing);
+    canvas.stroke(from, to, core_radius_px, entry.rgb);
 }
 
 } // namespace

@@ -15,11 +15,11 @@ constexpr double metres_per_px_at_zoom_0 = 2 * std::numbers::pi * 6378137.0 / 25
 constexpr double zoom_base = 1.5;
 constexpr double separate_zoom = 13;
 constexpr double most_ink = 0.5; // of the ground near roads
-constexpr double ink_to_separate = 0.7;
+constexpr double ink_to_separate = 0.6;
 constexpr double thinnest_core_px = 0.9;
 constexpr double thinnest_casing_px = 0.35;
-constexpr double uncertain_core = 0.5; // of the core: the rest shows casing
-constexpr double cell_px = 24;         // "near", in a picture of 1000 px
+constexpr double uncertain_part = 0.55; // of the width of a certain one
+constexpr double cell_px = 64;          // "near", in a picture of 1000 px
 
 double grown_width_px(double zoom) {
     const double share = (std::pow(zoom_base, zoom - 10) - 1) / (std::pow(zoom_base, 6) - 1);
@@ -81,16 +81,16 @@ LineWidths uncrowded(const LineWidths& widths, double ink_per_px, double unit) {
     return {.core_px = std::max(std::min(widths.core_px, thinnest_core_px * real_px),
                                 widths.core_px * thinner),
             .casing_px = std::max(std::min(widths.casing_px, thinnest_casing_px * real_px),
-                                  widths.casing_px * thinner),
+                                  widths.casing_px * thinner * thinner),
             .separate_ways = widths.separate_ways && thinner > ink_to_separate};
 }
 
 double core_radius_px(const LineWidths& widths, int rank, bool certain) {
-    return widths.core_px * rank_factor(rank) / 2 * (certain ? 1 : uncertain_core);
+    return widths.core_px * rank_factor(rank) / 2 * (certain ? 1 : uncertain_part);
 }
 
-double casing_radius_px(const LineWidths& widths, int rank) {
-    return widths.core_px * rank_factor(rank) / 2 + widths.casing_px;
+double casing_radius_px(const LineWidths& widths, int rank, bool certain) {
+    return core_radius_px(widths, rank, certain) + widths.casing_px;
 }
 
 double way_offset_px(const LineWidths& widths, int rank) {

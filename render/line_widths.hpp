@@ -29,7 +29,7 @@ double ink_per_px(std::span<const Strand> strands, const PixelBox& visible, doub
 LineWidths uncrowded(const LineWidths& widths, double ink_per_px, double unit);
 
 double core_radius_px(const LineWidths& widths, int rank, bool certain);
-double casing_radius_px(const LineWidths& widths, int rank);
+double casing_radius_px(const LineWidths& widths, int rank, bool certain);
 
 /// From the centre line of the road to that of one direction.
 double way_offset_px(const LineWidths& widths, int rank);

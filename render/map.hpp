@@ -19,7 +19,7 @@ struct MapLine {
     bool both_ways = false; ///< the other direction is a line of its own: each keeps to its side
     bool forward = true;    ///< along its way; of a pair of both_ways lines one is false
     int rank = 0;           ///< 0 motorway .. 5 service: of the width
-    bool certain = true;    ///< false: few passes or a wide interval, drawn with a narrower core
+    bool certain = true;    ///< false: few passes or a wide interval, drawn thinner
     std::string name;       ///< of the road, for its label
 };
 

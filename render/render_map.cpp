@@ -8,8 +8,6 @@
 
 #include <fmt/core.h>
 
-#include <cassert>
-
 namespace macadam {
 namespace {
 
@@ -30,6 +28,12 @@ const ClassTable& classes_of(const MapStyle& style) {
 }
 
 void check_classes(const MapScene& scene, const ClassTable& table) {
+    if (table.classes.empty() || table.classes.size() > most_classes) {
+        throw InputError{fmt::format("table '{}' has {} classes, expected 1 to {}",
+                                     table.name,
+                                     table.classes.size(),
+                                     most_classes)};
+    }
     const int last = int(table.classes.size()) - 1;
     for (const auto& line : scene.lines) {
         if (line.iri_class < -1 || line.iri_class > last) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace macadam {
 namespace {
@@ -91,7 +92,7 @@ End mitred_end(const PixelPoint& at, const Mitre& mitre, double sign, Join join,
 }
 
 Join join_of(const Strand& strand, const RibbonPass& pass, std::size_t mine, std::size_t other) {
-    if (!pass.look || strand.looks[mine] == strand.looks[other]) {
+    if ((pass.looks & only(strand.looks[other])) != 0) {
         return Join::shared;
     }
     return strand.looks[mine] > strand.looks[other] ? Join::over : Join::under;
@@ -129,7 +130,7 @@ std::vector<RibbonQuad> ribbon(const Strand& strand, const RibbonPass& pass) {
     const double reach_px = pass.radius_px + fringe_px;
     std::vector<RibbonQuad> quads;
     for (std::size_t i = 0; i < strand.looks.size(); ++i) {
-        if (pass.look && strand.looks[i] != *pass.look) {
+        if ((pass.looks & only(strand.looks[i])) == 0) {
             continue;
         }
         const auto piece = piece_at(strand, i);

@@ -3,7 +3,7 @@
 #include "render/projection.hpp"
 
 #include <array>
-#include <optional>
+#include <cstdint>
 #include <vector>
 
 namespace macadam {
@@ -11,7 +11,7 @@ namespace macadam {
 /// A chain of road pieces on the picture, in driving direction.
 struct Strand {
     std::vector<PixelPoint> points; ///< consecutive ones differ
-    std::vector<int> looks;         ///< one per piece, in the order in which looks are painted
+    std::vector<int> looks; ///< one per piece, 0 to 63, in the order in which they are painted
     int rank = 0;
 };
 
@@ -27,11 +27,17 @@ struct RibbonVertex {
 
 using RibbonQuad = std::array<RibbonVertex, 4>;
 
+inline constexpr std::uint64_t every_look = ~std::uint64_t{0};
+
+constexpr std::uint64_t only(int look) {
+    return std::uint64_t{1} << look;
+}
+
 /// What is drawn of a strand in one go.
 struct RibbonPass {
     double radius_px;
-    std::optional<int> look; ///< none: all pieces, as one
-    PixelBox visible;        ///< pieces outside are left out
+    std::uint64_t looks; ///< bit n: pieces of look n; they are drawn as one
+    PixelBox visible;    ///< pieces outside are left out
 };
 
 /// The strand as quads, one per piece. At gentle bends neighbours share a mitred edge, so that no

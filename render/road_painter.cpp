@@ -18,6 +18,15 @@ bool is_measured(const Strand& strand) {
     return strand.looks.front() != unmeasured_look;
 }
 
+/// All classes.
+std::uint64_t looks_of(bool certain) {
+    std::uint64_t looks = 0;
+    for (int i = 0; i < most_classes; ++i) {
+        looks |= only(look_of(i, certain));
+    }
+    return looks;
+}
+
 Strands strands_of(std::span<const Strand> strands, int rank, bool measured) {
     Strands found;
     for (const auto& strand : strands) {
@@ -75,21 +84,23 @@ Image painted_roads(const Sheet& sheet,
             const double radius_px = core_radius_px(widths, rank, true) * unmeasured_core;
             draw(painter,
                  strands_of(strands, rank, false),
-                 {radius_px, std::nullopt, sheet.map},
+                 {radius_px, every_look, sheet.map},
                  palette.unmeasured);
         }
         for (int rank = lowest_rank; rank >= 0; --rank) {
             const auto measured = strands_of(strands, rank, true);
-            draw(painter,
-                 measured,
-                 {casing_radius_px(widths, rank), std::nullopt, sheet.map},
-                 palette.casing);
+            for (const bool certain : {false, true}) {
+                draw(painter,
+                     measured,
+                     {casing_radius_px(widths, rank, certain), looks_of(certain), sheet.map},
+                     palette.casing);
+            }
             for (std::size_t i = 0; i < class_colours.size(); ++i) {
                 for (const bool certain : {false, true}) {
                     draw(painter,
                          measured,
                          {core_radius_px(widths, rank, certain),
-                          look_of(int(i), certain),
+                          only(look_of(int(i), certain)),
                           sheet.map},
                          class_colours[i]);
                 }
