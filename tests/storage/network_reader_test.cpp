@@ -1,0 +1,329 @@
+#include "storage/network_reader.hpp"
+
+#include "storage/compressed.hpp"
+#include "storage/files.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+using namespace macadam;
+using namespace macadam::testing;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+namespace {
+
+const std::string harrisburg = MACADAM_SOURCE_DIR "/tests/data/osm/harrisburg.osm.pbf";
+
+/// An OSM file of three nodes in a row and one way over them, with those tags.
+std::string osm_of(const std::string& tags) {
+    return "<osm version='0.6'>"
+           "<node id='11' version='1' lat='48.1' lon='16.1'/>"
+           "<node id='12' version='1' lat='48.2' lon='16.2'/>"
+           "<node id='13' version='1' lat='48.3' lon='16.3'/>"
+           "<way id='7' version='1'><nd ref='11'/><nd ref='12'/><nd ref='13'/>" +
+           tags + "</way></osm>";
+}
+
+std::string tag(const std::string& key, const std::string& value) {
+    return "<tag k='" + key + "' v='" + value + "'/>";
+}
+
+std::vector<Way> read_osm_of(const std::string& tags) {
+    return read_network(written(test_folder(), "a.osm", osm_of(tags)));
+}
+
+Oneway oneway_with(const std::string& tags) {
+    return read_osm_of(tag("highway", "primary") + tags).at(0).oneway;
+}
+
+bool drivable_with(const std::string& tags) {
+    return refusal_of([&] { read_osm_of(tags); }).empty();
+}
+
+/// A GeoJSON file of features, each {"properties"}, {"geometry"}.
+std::string geojson_of(const std::vector<std::pair<std::string, std::string>>& features,
+                       const std::string& crs = "") {
+    std::string text = R"({"type":"FeatureCollection",)";
+    if (!crs.empty()) {
+        text += R"("crs":{"type":"name","properties":{"name":")" + crs + R"("}},)";
+    }
+    text += R"("features":[)";
+    for (const auto& [properties, geometry] : features) {
+        text += (text.back() == '[' ? "" : ",") +
+                std::string{R"({"type":"Feature","properties":)"} + properties + R"(,"geometry":)" +
+                geometry + "}";
+    }
+    return text + "]}";
+}
+
+std::string line(const std::string& coordinates) {
+    return R"({"type":"LineString","coordinates":[)" + coordinates + "]}";
+}
+
+std::vector<Way> read_geojson(const std::string& text, const LayerColumns& columns = {}) {
+    return read_network(written(test_folder(), "a.geojson", text), columns);
+}
+
+std::string content_of(const std::string& file) {
+    std::ifstream in{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+} // namespace
+
+TEST(NetworkReader, ReadsTheDrivableWaysOfARealMap) {
+    const auto ways = read_network(harrisburg);
+    const auto with = [&](Oneway oneway) {
+        return std::count_if(
+            ways.begin(), ways.end(), [&](const Way& way) { return way.oneway == oneway; });
+    };
+    // Counted from the map's text form by a script of its own: 2514 ways less 19 footways, a path, a
+    // track of no grade, 17 private service roads and one of a single node.
+    EXPECT_EQ(ways.size(), 2475U);
+    EXPECT_EQ(with(Oneway::forward), 385);
+    EXPECT_EQ(with(Oneway::backward), 3);
+    for (const auto& way : ways) {
+        EXPECT_NE(way.highway, "footway");
+        EXPECT_EQ(way.node_ids.size(), way.line.size());
+        EXPECT_GE(way.line.size(), 2U);
+    }
+    EXPECT_TRUE(std::is_sorted(
+        ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.id < b.id; }));
+}
+
+TEST(NetworkReader, KeepsIdsNamesAndPlacesOfAnOsmWay) {
+    const auto ways = read_osm_of(tag("highway", "residential") + tag("name", "Am Hof"));
+    ASSERT_EQ(ways.size(), 1U);
+    EXPECT_EQ(ways[0].id, 7);
+    EXPECT_EQ(ways[0].name, "Am Hof");
+    EXPECT_EQ(ways[0].highway, "residential");
+    EXPECT_THAT(ways[0].node_ids, ElementsAre(11, 12, 13));
+    EXPECT_THAT(ways[0].line,
+                ElementsAre(GeoPoint{48.1, 16.1}, GeoPoint{48.2, 16.2}, GeoPoint{48.3, 16.3}));
+}
+
+TEST(NetworkReader, NamesARoadByItsNumberIfItHasNoName) {
+    EXPECT_EQ(read_osm_of(tag("highway", "primary") + tag("ref", "B1")).at(0).name, "B1");
+}
+
+TEST(NetworkReader, ReadsEachSpellingOfOneway) {
+    for (const auto* const value : {"yes", "1", "true"}) {
+        EXPECT_EQ(oneway_with(tag("oneway", value)), Oneway::forward) << value;
+    }
+    for (const auto* const value : {"-1", "reverse"}) {
+        EXPECT_EQ(oneway_with(tag("oneway", value)), Oneway::backward) << value;
+    }
+    for (const auto* const value : {"no", "reversible"}) {
+        EXPECT_EQ(oneway_with(tag("oneway", value)), Oneway::no) << value;
+    }
+    EXPECT_EQ(oneway_with(""), Oneway::no);
+}
+
+TEST(NetworkReader, DrivesRoundaboutsAndMotorwaysOneWayUnlessTheMapSaysOtherwise) {
+    EXPECT_EQ(oneway_with(tag("junction", "roundabout")), Oneway::forward);
+    EXPECT_EQ(oneway_with(tag("junction", "circular")), Oneway::forward);
+    EXPECT_EQ(oneway_with(tag("junction", "roundabout") + tag("oneway", "no")), Oneway::no);
+    EXPECT_EQ(read_osm_of(tag("highway", "motorway")).at(0).oneway, Oneway::forward);
+}
+
+TEST(NetworkReader, LeavesOutWhereNoCarMayDrive) {
+    EXPECT_FALSE(drivable_with(tag("highway", "footway")));
+    EXPECT_FALSE(drivable_with(tag("highway", "track")));
+    EXPECT_TRUE(drivable_with(tag("highway", "track") + tag("tracktype", "grade1")));
+    EXPECT_FALSE(drivable_with(tag("highway", "service") + tag("area", "yes")));
+    EXPECT_FALSE(drivable_with(tag("highway", "primary") + tag("access", "no")));
+    EXPECT_FALSE(drivable_with(tag("highway", "primary") + tag("motor_vehicle", "no")));
+    EXPECT_TRUE(
+        drivable_with(tag("highway", "primary") + tag("access", "no") + tag("motorcar", "yes")));
+    EXPECT_FALSE(drivable_with(tag("highway", "service") + tag("access", "private")));
+    EXPECT_TRUE(drivable_with(tag("highway", "residential") + tag("access", "private")));
+}
+
+TEST(NetworkReader, CutsAWayWhereItsNodesAreMissing) {
+    const auto ways = read_network(
+        written(test_folder(),
+                "a.osm",
+                "<osm version='0.6'>"
+                "<node id='1' version='1' lat='48.1' lon='16'/>"
+                "<node id='3' version='1' lat='48.3' lon='16'/>"
+                "<node id='4' version='1' lat='48.4' lon='16'/>"
+                "<way id='7' version='1'><nd ref='1'/><nd ref='2'/><nd ref='3'/><nd ref='4'/>"
+                "<nd ref='4'/><nd ref='5'/><tag k='highway' v='primary'/></way></osm>"));
+    ASSERT_EQ(ways.size(), 1U);
+    EXPECT_THAT(ways[0].node_ids, ElementsAre(3, 4));
+}
+
+TEST(NetworkReader, FindsNodesThatComeOutOfOrder) {
+    const auto ways =
+        read_network(written(test_folder(),
+                             "a.osm",
+                             "<osm version='0.6'>"
+                             "<node id='9' version='1' lat='48.9' lon='16'/>"
+                             "<node id='2' version='1' lat='48.2' lon='16'/>"
+                             "<node id='5' version='1' lat='48.5' lon='16'/>"
+                             "<way id='7' version='1'><nd ref='2'/><nd ref='5'/>"
+                             "<nd ref='9'/><tag k='highway' v='primary'/></way></osm>"));
+    EXPECT_THAT(ways.at(0).line,
+                ElementsAre(GeoPoint{48.2, 16}, GeoPoint{48.5, 16}, GeoPoint{48.9, 16}));
+}
+
+TEST(NetworkReader, ReadsOsmXmlInGzip) {
+    const auto file =
+        written(test_folder(), "a.osm.gz", gzipped(osm_of(tag("highway", "primary"))));
+    EXPECT_EQ(read_network(file).size(), 1U);
+}
+
+TEST(NetworkReader, RefusesAMapThatIsCutOffOrSomethingElse) {
+    const auto folder = test_folder();
+    const auto pbf = content_of(harrisburg);
+    const auto xml = osm_of(tag("highway", "primary"));
+    for (const auto& file : {written(folder, "a.osm.pbf", pbf.substr(0, pbf.size() - 1000)),
+                             written(folder, "b.osm.pbf", "# macadam-trip 1\n"),
+                             written(folder, "c.osm", xml.substr(0, xml.size() - 8)),
+                             written(folder, "d.osm.gz", gzipped(xml).substr(0, 100))}) {
+        EXPECT_THAT(refusal_of([&] { read_network(file); }),
+                    HasSubstr(file.string() + ": cannot be read as an OSM map: "));
+    }
+}
+
+TEST(NetworkReader, RefusesAMapWithoutRoads) {
+    EXPECT_THAT(refusal_of([] { read_osm_of(tag("highway", "footway")); }),
+                EndsWith("a.osm: holds no drivable road"));
+    EXPECT_THAT(refusal_of([] { read_network("/nowhere/a.osm.pbf"); }),
+                EndsWith("/nowhere/a.osm.pbf: cannot be read: No such file or directory"));
+}
+
+TEST(NetworkReader, RefusesNamesThatAreNoFiles) {
+    for (const auto* const name :
+         {"/vsicurl/x.geojson", "PG:dbname=x", "<OGRVRTDataSource>", "https://x/a.osm"}) {
+        EXPECT_THAT(refusal_of([&] { read_network(name); }), HasSubstr("is no file name")) << name;
+    }
+}
+
+TEST(NetworkReader, MeetsLinesOfALayerWhereTheyShareAVertex) {
+    const auto ways = read_geojson(geojson_of({{"{}", line("[16,48],[16.1,48],[16.2,48]")},
+                                               {"{}", line("[16.1,49],[16.1,48.00000004]")}}));
+    ASSERT_EQ(ways.size(), 2U);
+    EXPECT_THAT(ways[0].node_ids, ElementsAre(1, 2, 3));
+    EXPECT_THAT(ways[1].node_ids, ElementsAre(4, 2));
+}
+
+TEST(NetworkReader, FindsTheUsualColumnsOfALayer) {
+    const auto way = read_geojson(geojson_of({{R"({"NAME":"Ring","highway":"trunk","Oneway":"T"})",
+                                               line("[16,48],[16.1,48]")}}))
+                         .at(0);
+    EXPECT_EQ(way.name, "Ring");
+    EXPECT_EQ(way.highway, "trunk");
+    EXPECT_EQ(way.oneway, Oneway::backward);
+}
+
+TEST(NetworkReader, TakesTheColumnsThatAreNamed) {
+    const auto text =
+        geojson_of({{R"({"LINK":501,"gata":"Kungsgatan","dir":"FT"})", line("[18,59],[18.1,59]")}});
+    const auto way =
+        read_geojson(text,
+                     {.layer = {}, .id = "LINK", .name = "gata", .highway = {}, .oneway = "dir"})
+            .at(0);
+    EXPECT_EQ(way.id, 501);
+    EXPECT_EQ(way.name, "Kungsgatan");
+    EXPECT_EQ(way.oneway, Oneway::forward);
+    EXPECT_THAT(refusal_of([&] {
+                    read_geojson(
+                        text, {.layer = {}, .id = "no", .name = {}, .highway = {}, .oneway = {}});
+                }),
+                HasSubstr("has no column 'no'"));
+}
+
+TEST(NetworkReader, RefusesIdsThatStandTwiceOrAreNoNumbers) {
+    const LayerColumns by_link{.layer = {}, .id = "link", .name = {}, .highway = {}, .oneway = {}};
+    const auto road = line("[16,48],[16.1,48]");
+    EXPECT_THAT(
+        refusal_of([&] {
+            read_geojson(geojson_of({{R"({"link":5})", road}, {R"({"link":5})", road}}), by_link);
+        }),
+        EndsWith("the id 5 stands twice, expected each once"));
+    EXPECT_THAT(refusal_of([&] {
+                    read_geojson(geojson_of({{R"({"link":"E4"})", road}}), by_link);
+                }),
+                EndsWith("its id is 'E4', expected a whole number"));
+}
+
+TEST(NetworkReader, RefusesAOnewayThatItCannotRead) {
+    EXPECT_THAT(
+        refusal_of([] {
+            read_geojson(geojson_of({{R"({"oneway":"maybe"})", line("[16,48],[16.1,48]")}}));
+        }),
+        HasSubstr("oneway is 'maybe', expected yes, no or -1"));
+}
+
+TEST(NetworkReader, MakesAWayOfEachPartOfALine) {
+    const auto ways = read_geojson(
+        geojson_of(
+            {{R"({"link":8})",
+              R"({"type":"MultiLineString","coordinates":[[[16,48],[16.1,48]],[[17,48],[17.1,48,200]]]})"}}),
+        {.layer = {}, .id = "link", .name = {}, .highway = {}, .oneway = {}});
+    ASSERT_EQ(ways.size(), 2U);
+    EXPECT_EQ(ways[0].id, 8);
+    EXPECT_EQ(ways[1].id, 8 + layer_part_id_step);
+    EXPECT_THAT(ways[1].node_ids, ElementsAre(3, 4));
+}
+
+TEST(NetworkReader, LeavesFootwaysOfALayerOut) {
+    const auto road = line("[16,48],[16.1,48]");
+    const auto ways = read_geojson(
+        geojson_of({{R"({"fclass":"footway"})", road}, {R"({"fclass":"residential"})", road}}));
+    ASSERT_EQ(ways.size(), 1U);
+    EXPECT_EQ(ways[0].highway, "residential");
+}
+
+TEST(NetworkReader, ConvertsAnyCoordinatesToDegrees) {
+    // Web Mercator: x = a lon, y = a ln tan(pi/4 + lat/2), a = 6378137 m.
+    const auto way = read_geojson(geojson_of({{"{}", line("[2000000,6000000],[2000100,6000000]")}},
+                                             "urn:ogc:def:crs:EPSG::3857"))
+                         .at(0);
+    constexpr double a = 6378137;
+    constexpr double per_rad = 180 / std::numbers::pi;
+    EXPECT_NEAR(way.line[0].lon_deg, 2000000 / a * per_rad, 1e-9);
+    EXPECT_NEAR(way.line[0].lat_deg,
+                (2 * std::atan(std::exp(6000000 / a)) - std::numbers::pi / 2) * per_rad,
+                1e-9);
+}
+
+TEST(NetworkReader, TakesLongitudeFirstWhateverTheLawOfTheSystem) {
+    // EPSG:3006 (SWEREF 99 TM): east 500000 lies on its middle meridian, 15 degrees east.
+    const auto way = read_geojson(geojson_of({{"{}", line("[500000,6600000],[500000,6600100]")}},
+                                             "urn:ogc:def:crs:EPSG::3006"))
+                         .at(0);
+    EXPECT_NEAR(way.line[0].lon_deg, 15, 1e-9);
+    EXPECT_NEAR(way.line[0].lat_deg, 59.5, 0.1);
+}
+
+TEST(NetworkReader, PutsWhatGdalSaysIntoItsOwnMessage) {
+    const auto folder = test_folder();
+    const auto vrt = written(folder, "a.vrt", "<OGRVRTDataSource></OGRVRTDataSource>");
+    const auto broken =
+        written(folder, "b.geojson", R"({"type":"FeatureCollection","features":[{)");
+    ::testing::internal::CaptureStderr();
+    EXPECT_THAT(refusal_of([&] { read_network(vrt); }),
+                HasSubstr(vrt.string() + ": cannot be read as a line layer: "));
+    EXPECT_THAT(refusal_of([&] { read_network(broken); }), HasSubstr(broken.string() + ": "));
+    EXPECT_THAT(::testing::internal::GetCapturedStderr(), IsEmpty());
+}
+
+TEST(NetworkReader, NamesTheLayersThereAreIfTheOneAskedForIsNot) {
+    EXPECT_THAT(refusal_of([] {
+                    read_geojson(
+                        geojson_of({{"{}", line("[16,48],[16.1,48]")}}),
+                        {.layer = "roads", .id = {}, .name = {}, .highway = {}, .oneway = {}});
+                }),
+                AllOf(HasSubstr("has no layer 'roads', only 'a'")));
+}

@@ -1,0 +1,104 @@
+#include "storage/trip_reader.hpp"
+
+#include "storage/compressed.hpp"
+#include "storage/files.hpp"
+
+#include <gmock/gmock.h>
+
+using namespace macadam;
+using namespace macadam::testing;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+namespace {
+
+const std::string small_log = "# macadam-trip 1\nt_s\n0\n# end rows: 1\n";
+
+std::vector<std::string> names_of(const TripSearch& search, const std::filesystem::path& under) {
+    std::vector<std::string> names;
+    for (const auto& trip : search.trips) {
+        names.push_back(trip.member.empty() ? trip.file.lexically_relative(under).string()
+                                            : trip.member);
+    }
+    return names;
+}
+
+} // namespace
+
+TEST(TripSearch, FindsTheTripsUnderAFolderInByteOrder) {
+    const auto folder = test_folder();
+    for (const auto* const name : {"b.trip.csv",
+                                   "a/z.trip.csv.gz",
+                                   "a-1.trip.csv.zst",
+                                   "B.trip.csv",
+                                   "a/notes.txt",
+                                   "x.csv"}) {
+        written(folder, name, small_log);
+    }
+    const auto search = find_trips(folder);
+    EXPECT_THAT(names_of(search, folder),
+                ElementsAre("B.trip.csv", "a-1.trip.csv.zst", "a/z.trip.csv.gz", "b.trip.csv"));
+    EXPECT_EQ(search.other_files, 2U);
+}
+
+TEST(TripSearch, TakesAFileForATripWhateverItsName) {
+    const auto file = written(test_folder(), "drive.csv", small_log);
+    const auto search = find_trips(file);
+    ASSERT_EQ(search.trips.size(), 1U);
+    EXPECT_EQ(search.trips[0].file, file);
+}
+
+TEST(TripSearch, FindsTheTripsInAnArchive) {
+    const auto folder = test_folder();
+    for (const std::string format : {"zip", "tar", "tar.gz", "tar.zst"}) {
+        const auto file = written(folder,
+                                  "a." + format,
+                                  archive_of(format,
+                                             {{"d/b.trip.csv.gz", gzipped(small_log)},
+                                              {"d/notes.txt", "x"},
+                                              {"d/a.trip.csv", small_log}}));
+        const auto search = find_trips(file);
+        EXPECT_THAT(names_of(search, folder), ElementsAre("d/a.trip.csv", "d/b.trip.csv.gz"))
+            << format;
+        EXPECT_EQ(search.other_files, 1U) << format;
+        for (const auto& trip : search.trips) {
+            EXPECT_EQ(read_trip(trip, {}).rows.size(), 1U) << trip.name();
+            EXPECT_EQ(content_sha256(trip), read_trip(trip, {}).sha256) << trip.name();
+        }
+    }
+}
+
+TEST(TripSearch, ReadsAMemberWhoseNamePointsOutOfTheArchiveAndWritesNothing) {
+    const auto folder = test_folder();
+    const auto file =
+        written(folder, "in/a.zip", archive_of("zip", {{"../out.trip.csv", small_log}}));
+    const auto search = find_trips(file);
+    ASSERT_EQ(search.trips.size(), 1U);
+    EXPECT_EQ(read_trip(search.trips[0], {}).rows.size(), 1U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.trip.csv"));
+}
+
+TEST(TripSearch, NamesTheMemberInWhatIsWrongWithIt) {
+    const auto file =
+        written(test_folder(), "a.zip", archive_of("zip", {{"bad.trip.csv", "bumps\n"}}));
+    EXPECT_THAT(refusal_of([&] { read_trip(find_trips(file).trips.at(0), {}); }),
+                EndsWith("a.zip/bad.trip.csv:1: 'bumps', expected '# macadam-trip 1'"));
+    EXPECT_THAT(refusal_of([&] { read_trip({file, "none"}, {}); }), EndsWith("has no file 'none'"));
+}
+
+TEST(TripSearch, RefusesAnArchiveThatIsCutOff) {
+    const auto whole = archive_of("tar.gz", {{"a.trip.csv", small_log}});
+    const auto file = written(test_folder(), "a.tar.gz", whole.substr(0, whole.size() / 2));
+    EXPECT_THAT(refusal_of([&] {
+                    for (const auto& trip : find_trips(file).trips) {
+                        read_trip(trip, {});
+                    }
+                }),
+                HasSubstr("cannot be read"));
+}
+
+TEST(TripSearch, RefusesWhatIsNotThere) {
+    EXPECT_THAT(refusal_of([] { find_trips("/nowhere/at/all"); }),
+                EndsWith("/nowhere/at/all: no such file or folder"));
+}
