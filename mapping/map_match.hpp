@@ -37,8 +37,8 @@ struct MatchedPiece {
 using MatchedTrace = std::vector<MatchedPiece>;
 
 struct MatchConfig {
-    double spacing_m = 20;        ///< of the samples that are matched, along the trip
-    double emission_sd_m = 15;    ///< of a position across the road: receiver, map and lane together
+    double spacing_m = 40;        ///< of the samples that are matched, along the trip
+    double emission_sd_m = 20;    ///< of a position across the road: receiver, map and lane together
     double search_radius_m = 120;
     int most_candidates = 20;
     double transition_scale_m = 40; ///< of |route - travelled| with positions alone

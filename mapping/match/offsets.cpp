@@ -14,6 +14,8 @@ constexpr double least_step_m = 0.05; // a car that moved less tells nothing new
 constexpr double odometer_drift = 0.01; // m2 per m: 1 m after 100 m
 constexpr double positions_drift = 2;   // m2 per m: travel is itself drawn from positions
 constexpr double astray_m = 15;         // off the line by more: hardly believed along it either
+constexpr double longest_beyond_m = 40; // of noise beyond the end of a road; more is a hole
+constexpr double fade = 5;              // so that places still rise with travel
 
 /// The path's line, its places measured along the path.
 std::vector<LinePoint> line_of(const RoadPath& path, const RoadNetwork& roads, RoadPlane& plane) {
@@ -146,6 +148,18 @@ std::vector<Belief> smoothed(const std::vector<Reading>& readings, double drift)
     return beliefs;
 }
 
+/// Noise may put a trip's ends a little beyond the ends of its path: `beyond_m` of it is taken
+/// back, all at the end `at_m` and less and less over the way from there.
+void pull_in(std::vector<Knot>& knots, double at_m, double beyond_m) {
+    if (beyond_m == 0 || std::abs(beyond_m) > longest_beyond_m) {
+        return;
+    }
+    const double fade_m = fade * std::abs(beyond_m);
+    for (auto& knot : knots) {
+        knot.along_m -= beyond_m * std::max(0.0, 1 - std::abs(knot.travel_m - at_m) / fade_m);
+    }
+}
+
 } // namespace
 
 std::vector<Knot> smoothed_knots(const RoadPath& path,
@@ -161,6 +175,8 @@ std::vector<Knot> smoothed_knots(const RoadPath& path,
         knots.push_back({readings[i].travel_m,
                          knots.empty() ? along_m : std::max(knots.back().along_m, along_m)});
     }
+    pull_in(knots, knots.front().travel_m, std::min(0.0, knots.front().along_m));
+    pull_in(knots, knots.back().travel_m, std::max(0.0, knots.back().along_m - length_m(path)));
     return knots;
 }
 
