@@ -4,14 +4,11 @@
 #include "storage/utc.hpp"
 
 #include <cmath>
-#include <string_view>
 
 namespace macadam {
 namespace {
 
-using namespace std::string_view_literals;
-
-std::optional<double> mm_per_m(const std::optional<IriUm>& um) {
+std::optional<double> known_mm_per_m(const std::optional<IriUm>& um) {
     return um ? std::optional{mm_per_m(*um)} : std::nullopt;
 }
 
@@ -23,7 +20,7 @@ std::optional<IriUm> known_um_in(const Statement& row, int column) {
     return row.is_null(column) ? std::nullopt : std::optional{um_in(row, column)};
 }
 
-std::optional<std::string> datetime_text(const std::optional<std::int64_t>& utc_ms) {
+std::optional<std::string> known_datetime_text(const std::optional<std::int64_t>& utc_ms) {
     return utc_ms ? std::optional{datetime_text(*utc_ms)} : std::nullopt;
 }
 
@@ -83,15 +80,15 @@ void write_state(Statement& insert,
                mm_per_m(state.sd_um),
                mm_per_m(state.low_um),
                mm_per_m(state.high_um),
-               mm_per_m(state.left_um),
-               mm_per_m(state.right_um),
+               known_mm_per_m(state.left_um),
+               known_mm_per_m(state.right_um),
                name_of_index(state.centre_only),
                classes.classes[class_index(classes, iri)].name,
                std::int64_t{state.passes},
                std::int64_t{state.vehicles},
-               datetime_text(state.first_seen_ms),
-               datetime_text(state.last_seen_ms),
-               mm_per_m(state.trend_um_per_year),
+               known_datetime_text(state.first_seen_ms),
+               known_datetime_text(state.last_seen_ms),
+               known_mm_per_m(state.trend_um_per_year),
                name_of_validity(state.validity),
                state.first_seen_ms,
                state.last_seen_ms,
