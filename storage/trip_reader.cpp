@@ -9,7 +9,6 @@
 #include "storage/trip_streams.hpp"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <system_error>
@@ -68,20 +67,28 @@ Head read_head(TextLines& lines) {
     throw InputError{fmt::format("{}: the file ends here, expected a header row", lines.where())};
 }
 
+std::string joined(const std::vector<std::string>& words, std::string_view between) {
+    std::string text;
+    for (const auto& word : words) {
+        text += (text.empty() ? "" : std::string{between}) + word;
+    }
+    return text;
+}
+
 void expect_columns(const Head& head, const TripNeeds& needs) {
     const auto& names = head.header.names;
     std::vector<std::string> missing;
     for (const auto& group : needs.columns) {
         if (std::find_first_of(group.begin(), group.end(), names.begin(), names.end()) ==
             group.end()) {
-            missing.push_back(fmt::format("{}", fmt::join(group, " or ")));
+            missing.push_back(joined(group, " or "));
         }
     }
     if (!missing.empty()) {
         throw InputError{fmt::format("{}: the header has {}, expected also {}",
                                      head.where,
                                      in_quotes(head.header_line, 200),
-                                     fmt::join(missing, " and "))};
+                                     joined(missing, " and "))};
     }
 }
 
