@@ -22,7 +22,7 @@ bool meets(const GeoBox& box, const GeoPoint& a, const GeoPoint& b) {
         if (step == 0) {
             return low <= from && from <= high;
         }
-        const auto [near, far] = std::minmax((low - from) / step, (high - from) / step);
+        const auto [near, far] = std::minmax({(low - from) / step, (high - from) / step});
         enter = std::max(enter, near);
         leave = std::min(leave, far);
         return enter <= leave;
