@@ -7,7 +7,7 @@ namespace macadam {
 namespace {
 
 constexpr double set_back_m = 30;        // noise may set a car back by as much on its edge
-constexpr double detour_m = 300;         // of a way beyond what was travelled that is still sought
+constexpr double detour_m = 250;         // of a way beyond what was travelled that is still sought
 constexpr double detour_share = 0.5;     // and of the travelled
 constexpr double chord_spread = 0.1;     // a way is longer than its chord by so much, more or less
 constexpr double odometer_spread = 0.02; // scale of the odometer and the map's cut corners

@@ -15,15 +15,20 @@ struct OnStep {
     double distance_m;
 };
 
+/// Not std::hypot: plain metres cannot overflow, and it is called for every point nearby.
+double apart_m(const PointEn& a, const PointEn& b) {
+    const double east_m = b.east_m - a.east_m;
+    const double north_m = b.north_m - a.north_m;
+    return std::sqrt(east_m * east_m + north_m * north_m);
+}
+
 OnStep nearest_on(const PointEn& a, const PointEn& b, const PointEn& at) {
     const double east_m = b.east_m - a.east_m;
     const double north_m = b.north_m - a.north_m;
     const double square = east_m * east_m + north_m * north_m;
     const double along = (at.east_m - a.east_m) * east_m + (at.north_m - a.north_m) * north_m;
     const double fraction = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
-    const double off_east_m = a.east_m + fraction * east_m - at.east_m;
-    const double off_north_m = a.north_m + fraction * north_m - at.north_m;
-    return {fraction, std::sqrt(off_east_m * off_east_m + off_north_m * off_north_m)};
+    return {fraction, apart_m({a.east_m + fraction * east_m, a.north_m + fraction * north_m}, at)};
 }
 
 NearPlace place_at(LinkId link, const LinePoint& a, const LinePoint& b, const OnStep& on) {
@@ -51,8 +56,7 @@ void add_minima(std::vector<NearPlace>& places,
     };
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const auto on = nearest_on(line[i].at, line[i + 1].at, at);
-        const double end_m =
-            std::hypot(line[i + 1].at.east_m - at.east_m, line[i + 1].at.north_m - at.north_m);
+        const double end_m = apart_m(line[i + 1].at, at);
         if (on.distance_m < best.distance_m && on.distance_m < farthest_since_m - hairpin_m) {
             best = on;
             best_step = i;
