@@ -33,7 +33,8 @@ double iri_mm_per_m(std::span<const double> elevation_m, double step_m, bool env
 /// The profile between two stations, on uneven stations: the golden car over the straight lines
 /// between them, solved exactly, after a continuous 250 mm moving average.
 ///
-/// \param station_m  rising, as many as elevation_m, no step over 0.3 m.
+/// \param station_m  rising, as many as elevation_m; steps of 0.3 m in the mean and 0.6 m each at
+///                   most.
 /// \param edges_m    m + 1 rising borders of segments within the stations.
 /// \returns          m means of the rectified stroke, integrated with its zero crossings.
 std::vector<double> exact_iri_mm_per_m(std::span<const double> station_m,

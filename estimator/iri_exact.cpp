@@ -19,6 +19,9 @@ using Complex = std::complex<double>;
 // shortest wavelength that gets through the golden car.
 constexpr double look_every_m = 0.02;
 
+// One station lost of an even profile at the coarsest step.
+constexpr double longest_step_m = 2 * coarsest_step_m;
+
 void check(std::span<const double> station_m,
            std::span<const double> elevation_m,
            std::span<const double> edges_m) {
@@ -36,13 +39,21 @@ void check(std::span<const double> station_m,
                                          elevation_m[i])};
         }
         const double step_m = i == 0 ? coarsest_step_m : station_m[i] - station_m[i - 1];
-        // Stations are printed with a few decimals: their difference is not held to the last bit.
-        if (!(step_m > 0 && step_m <= coarsest_step_m * (1 + 1e-9))) {
-            throw InputError{fmt::format("profile step at station {} m is {} m, expected 0 to {}",
-                                         station_m[i],
-                                         step_m,
-                                         coarsest_step_m)};
+        if (!(step_m > 0 && step_m <= longest_step_m)) {
+            throw InputError{
+                fmt::format("profile step at station {} m is {:.6g} m, expected 0 to {}",
+                            station_m[i],
+                            step_m,
+                            longest_step_m)};
         }
+    }
+    const double mean_step_m =
+        (station_m.back() - station_m.front()) / static_cast<double>(station_m.size() - 1);
+    // Stations are printed with a few decimals: their differences are not held to the last bit.
+    if (mean_step_m > coarsest_step_m * (1 + 1e-9)) {
+        throw InputError{fmt::format("profile step is {:.6g} m in the mean, expected 0 to {}",
+                                     mean_step_m,
+                                     coarsest_step_m)};
     }
     if (edges_m.size() < 2 || !std::ranges::is_sorted(edges_m, std::less_equal{}) ||
         edges_m.front() < station_m.front() || edges_m.back() > station_m.back()) {

@@ -196,10 +196,13 @@ std::string name_of_validity(std::uint8_t flags) {
     std::string joined;
     for (const auto& [flag, name] : names) {
         if ((flags & flag) != 0) {
-            joined += (joined.empty() ? "" : "|") + std::string{name};
+            joined.append(joined.empty() ? "" : "|").append(name);
         }
     }
-    return joined.empty() ? "ok" : joined;
+    if (joined.empty()) {
+        joined.append("ok");
+    }
+    return joined;
 }
 
 IriRun estimate_iri(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {

@@ -21,7 +21,7 @@ public:
     using Input = Eigen::Vector<double, Inputs>;
     using Output = Eigen::Vector<double, Outputs>;
 
-    /// \param system    in steps, as `discretise` gives it; at rest at first.
+    /// \param system    in steps, as `discretise` gives it.
     /// \param q_over_r  how much more the road is trusted to move than the sensor to err.
     InputFilter(const LinearSystem<States, Inputs, Outputs>& system, double q_over_r)
         : system_{system}, q_{q_over_r} {}
@@ -43,9 +43,14 @@ private:
     using State = Eigen::Vector<double, States>;
     using Square = Eigen::Matrix<double, States, States>;
 
-    // Smaller changes of the gain from one step to the next are rounding; what they might still sum
-    // up to over the filter's longest memory (some 1e4 steps) is 1e-8 of it.
+    // What is left of the covariance's way when it changes less than this in a step, over the
+    // filter's longest memory (some 1e4 steps), is 1e-8. The gain itself is no sign: it begins as
+    // the plain inverse of the car and stands still for a while before it learns to forget drift.
     static constexpr double rounding = 1e-12;
+
+    // Of the state at first, beside a measurement noise of 1: nothing is known of it. Begun at rest
+    // the filter would be the plain inverse of the car, which in steps of 20 ms is not stable.
+    static constexpr double unknown = 1e4;
 
     void update_gain() {
         const auto& [f, g, h] = system_;
@@ -57,15 +62,16 @@ private:
         input_gain_ = q_ * solver.solve(h * g).transpose();
         // Joseph's form: with q / r of 1e9 the short form loses the covariance's sign.
         const Square rest = Square::Identity() - gain * h;
+        const Square before = covariance_;
         covariance_ = rest * predicted * rest.transpose() + gain * gain.transpose();
-        settled_ = (gain - gain_).norm() <= rounding * gain.norm();
+        settled_ = (covariance_ - before).norm() <= rounding * covariance_.norm();
         gain_ = gain;
     }
 
     LinearSystem<States, Inputs, Outputs> system_;
     double q_;
     State state_ = State::Zero();
-    Square covariance_ = Square::Zero();
+    Square covariance_ = unknown * Square::Identity();
     Eigen::Matrix<double, States, Outputs> gain_ = Eigen::Matrix<double, States, Outputs>::Zero();
     Eigen::Matrix<double, Inputs, Outputs> input_gain_;
     bool settled_ = false;

@@ -46,7 +46,7 @@ Vehicle audi_a6_etron() {
 }
 
 /// Classes of cars are not measurements of any car. They are set so that body bounce is near
-/// 1.2 to 1.4 Hz with 0.25 to 0.35 of critical damping and the wheels hop at 10 to 12 Hz, the
+/// 1.2 to 1.4 Hz with 0.25 to 0.35 of critical damping and the wheels hop at 10 to 12.5 Hz, the
 /// ranges that textbooks on ride give for passenger cars, with masses of the class; the
 /// uncertainty spans what a class holds.
 Vehicle car_class(const char* name, const HalfCar& half_car) {
