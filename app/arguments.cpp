@@ -44,6 +44,25 @@ void add_options(CLI::App& parser,
     }
 }
 
+/// Gives each operand its word, and the last one all that are left if it takes many.
+void distribute(std::span<const Operand> operands,
+                const std::vector<std::string>& given,
+                std::map<std::string, std::vector<std::string>, std::less<>>& words) {
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+        if (i >= given.size()) {
+            throw UsageError{fmt::format("{} is missing", operands[i].name)};
+        }
+        words[std::string{operands[i].name}] = {given[i]};
+    }
+    if (given.size() > operands.size()) {
+        if (!operands.back().many) {
+            throw UsageError{fmt::format("'{}' is one word too many", given[operands.size()])};
+        }
+        words[std::string{operands.back().name}].assign(
+            given.begin() + static_cast<std::ptrdiff_t>(operands.size()) - 1, given.end());
+    }
+}
+
 } // namespace
 
 Arguments::Arguments(std::span<const Option> options,
@@ -52,24 +71,22 @@ Arguments::Arguments(std::span<const Option> options,
     CLI::App parser;
     parser.set_help_flag();
     add_options(parser, options, words_);
-    for (const auto& operand : operands) {
-        auto* const added =
-            parser.add_option(std::string{operand.name}, words_[std::string{operand.name}]);
-        added->required()->expected(1, operand.many ? -1 : 1);
+    // One list for all operands: CLI11 would let the first of several take every word.
+    std::vector<std::string> given;
+    if (!operands.empty()) {
+        parser.add_option("operands", given)->required()->expected(1, -1);
     }
     try {
         std::ranges::reverse(words); // CLI11 takes them from the back
         parser.parse(std::move(words));
     } catch (const CLI::RequiredError&) {
-        const auto missing = std::ranges::find_if(operands, [this](const Operand& operand) {
-            return this->operands(operand.name).empty();
-        });
-        throw UsageError{fmt::format("{} is missing", missing->name)};
+        given.clear(); // distribute() says which is missing
     } catch (const CLI::ExtrasError& error) {
         throw UsageError{fmt::format("not understood: {}", error.what())};
     } catch (const CLI::ParseError& error) {
         throw UsageError{error.what()};
     }
+    distribute(operands, given, words_);
 }
 
 bool Arguments::flag(std::string_view name) const {

@@ -66,6 +66,19 @@ TEST(Arguments, NameTheOperandThatIsMissing) {
     EXPECT_EQ(refusal({"--json"}), "STORE is missing");
 }
 
+TEST(Arguments, GiveTheLastOperandAllWordsThatAreLeft) {
+    constexpr std::array two{Operand{"STORE", "The store."}, Operand{"PATH", "Trips.", true}};
+    const Arguments arguments{options, two, {"a.gpkg", "b", "--json", "c"}};
+    EXPECT_EQ(arguments.operand("STORE"), "a.gpkg");
+    EXPECT_THAT(arguments.operands("PATH"), ElementsAre("b", "c"));
+    try {
+        Arguments(options, two, {"a.gpkg"});
+        FAIL() << "did without PATH";
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(), "PATH is missing");
+    }
+}
+
 TEST(Arguments, RefuseAnOptionWithoutItsValue) {
     EXPECT_THAT(refusal({"a.gpkg", "--length"}), HasSubstr("--length"));
 }
