@@ -16,6 +16,7 @@ constexpr double zoom_base = 1.5;
 constexpr double separate_zoom = 13;
 constexpr double most_ink = 0.5; // of the ground near roads
 constexpr double ink_to_separate = 0.6;
+constexpr double least_core_px = 1.3; // a thinner line is more casing than colour
 constexpr double thinnest_core_px = 0.9;
 constexpr double thinnest_casing_px = 0.35;
 constexpr double uncertain_part = 0.55; // of the width of a certain one
@@ -36,7 +37,7 @@ bool inside(const PixelBox& box, const PixelPoint& point) {
 LineWidths line_widths(double metres_per_px, double unit) {
     const double zoom = std::log2(metres_per_px_at_zoom_0 / (metres_per_px * unit));
     const double core_px = grown_width_px(zoom);
-    return {.core_px = core_px * unit,
+    return {.core_px = std::max(least_core_px, core_px * unit),
             .casing_px = std::clamp(0.3 + 0.22 * core_px, 0.5, 1.6) * unit,
             .separate_ways = zoom >= separate_zoom};
 }

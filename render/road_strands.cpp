@@ -32,6 +32,12 @@ public:
     void begin(const PixelPoint& point) { strand_.points.push_back(point); }
 
     void go_on(const PixelPoint& point, int look) {
+        // A piece too short to see must not lend its look to a long one after it.
+        if (waiting_look_ != nothing_ && waiting_look_ != look &&
+            apart_px(strand_.points.back(), waiting_) > 1e-6 &&
+            apart_px(strand_.points.back(), point) >= least_piece_px) {
+            take();
+        }
         waiting_look_ = std::max(waiting_look_, look);
         waiting_ = point;
         if (apart_px(strand_.points.back(), point) >= least_piece_px) {
