@@ -10,6 +10,15 @@ namespace {
 
 constexpr int busy_timeout_ms = 20000;
 
+std::string cause_of_io_error(sqlite3* database, int code) {
+    const bool reads = code == SQLITE_IOERR_READ || code == SQLITE_IOERR_SHORT_READ;
+    const int error = sqlite3_system_errno(database); // not always kept until here
+    return fmt::format("cannot be {}: {} ({})",
+                       reads ? "read" : "written",
+                       error != 0 ? std::strerror(error) : sqlite3_errmsg(database),
+                       code);
+}
+
 std::string cause_of(sqlite3* database, int code) {
     switch (code & 0xff) {
     case SQLITE_FULL:
@@ -29,10 +38,7 @@ std::string cause_of(sqlite3* database, int code) {
     case SQLITE_LOCKED:
         return "is locked by another program, waited 20 s";
     case SQLITE_IOERR:
-        return fmt::format("cannot be read or written: {}",
-                           sqlite3_system_errno(database) != 0
-                               ? std::strerror(sqlite3_system_errno(database))
-                               : sqlite3_errmsg(database));
+        return cause_of_io_error(database, code);
     default:
         return sqlite3_errmsg(database);
     }
