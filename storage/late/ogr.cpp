@@ -267,16 +267,32 @@ private:
         if (columns_.id < 0) {
             return feature.GetFID();
         }
+        if (feature.GetFieldDefnRef(columns_.id)->GetType() == OFTReal) {
+            return whole(feature.GetFieldAsDouble(columns_.id), feature);
+        }
         const auto text = text_in(feature, columns_.id);
         const char* const end = text.data() + text.size();
         std::int64_t id = 0;
         const auto [stop, error] = std::from_chars(text.data(), end, id);
         if (error != std::errc{} || stop != end) {
-            fail(fmt::format("feature {}: its id is {}, expected a whole number",
-                             feature.GetFID(),
-                             in_quotes(text)));
+            refuse_id(feature);
         }
         return id;
+    }
+
+    /// Of a column of reals, as which Shapefiles keep long integers.
+    std::int64_t whole(double id, const OGRFeature& feature) const {
+        constexpr double most = 9007199254740992; // 2^53: a double holds every integer up to it
+        if (!(std::abs(id) <= most && id == std::floor(id))) {
+            refuse_id(feature);
+        }
+        return static_cast<std::int64_t>(id);
+    }
+
+    [[noreturn]] void refuse_id(const OGRFeature& feature) const {
+        fail(fmt::format("feature {}: its id is {}, expected a whole number",
+                         feature.GetFID(),
+                         in_quotes(text_in(feature, columns_.id))));
     }
 
     void give(Way way,

@@ -86,8 +86,8 @@ TEST(NetworkReader, ReadsTheDrivableWaysOfARealMap) {
         return std::count_if(
             ways.begin(), ways.end(), [&](const Way& way) { return way.oneway == oneway; });
     };
-    // Counted from the map's text form by a script of its own: 2514 ways less 19 footways, a path, a
-    // track of no grade, 17 private service roads and one of a single node.
+    // Counted from the map's text form by a script of its own: 2514 ways less 19 footways, a path,
+    // a track of no grade, 17 private service roads and one of a single node.
     EXPECT_EQ(ways.size(), 2475U);
     EXPECT_EQ(with(Oneway::forward), 385);
     EXPECT_EQ(with(Oneway::backward), 3);
@@ -241,6 +241,16 @@ TEST(NetworkReader, TakesTheColumnsThatAreNamed) {
                         text, {.layer = {}, .id = "no", .name = {}, .highway = {}, .oneway = {}});
                 }),
                 HasSubstr("has no column 'no'"));
+}
+
+TEST(NetworkReader, TakesWholeRealsForIds) {
+    const LayerColumns by_link{.layer = {}, .id = "link", .name = {}, .highway = {}, .oneway = {}};
+    const auto road = line("[16,48],[16.1,48]");
+    EXPECT_EQ(read_geojson(geojson_of({{R"({"link":501.0})", road}}), by_link).at(0).id, 501);
+    EXPECT_THAT(refusal_of([&] {
+                    read_geojson(geojson_of({{R"({"link":501.5})", road}}), by_link);
+                }),
+                EndsWith("its id is '501.5', expected a whole number"));
 }
 
 TEST(NetworkReader, RefusesIdsThatStandTwiceOrAreNoNumbers) {
