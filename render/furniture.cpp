@@ -109,8 +109,15 @@ void draw_north(Canvas& canvas,
     const double notch = 5.5 * unit;
     const PixelPoint tip{foot.x, foot.y - height};
     const PixelPoint heart{foot.x, foot.y - notch};
-    canvas.fill_triangle(tip, heart, {foot.x - half, foot.y}, colours.ink);
+    // The light half reaches a little under the dark one, so that no ground shines through the
+    // seam.
+    const double under = 1;
+    canvas.fill_triangle({tip.x - under, tip.y + 4 * under},
+                         {foot.x + half, foot.y},
+                         {heart.x - under, heart.y},
+                         colours.quiet_ink);
     canvas.fill_triangle(tip, {foot.x + half, foot.y}, heart, colours.quiet_ink);
+    canvas.fill_triangle(tip, heart, {foot.x - half, foot.y}, colours.ink);
     canvas.write(
         setter.mask("N", {label_px * unit, true}), {foot.x + half + 4 * unit, foot.y}, colours.ink);
 }

@@ -20,12 +20,12 @@ constexpr double casing_px = 1.7;
 
 constexpr double km_per_mi = 1.609344;
 
-/// As many decimals as tell the table's borders apart and keep them true.
-int decimals_of(const ClassTable& table, double per_mm_per_m) {
+/// As many decimals as keep the table's borders in mm/m true, but no more than two.
+int decimals_of(const ClassTable& table) {
     for (const int decimals : {0, 1}) {
         const double scale = std::pow(10.0, decimals);
         const auto is_short = [&](const IriClass& row) {
-            const double value = row.to_mm_per_m * per_mm_per_m * scale;
+            const double value = row.to_mm_per_m * scale;
             return std::isinf(value) || std::abs(value - std::round(value)) < 1e-6;
         };
         if (std::ranges::all_of(table.classes, is_short)) {
@@ -37,7 +37,7 @@ int decimals_of(const ClassTable& table, double per_mm_per_m) {
 
 std::string range_of(const ClassTable& table, std::size_t i, bool in_per_mi) {
     const double scale = in_per_mi ? in_per_mi_of_mm_per_m : 1;
-    const int decimals = decimals_of(table, scale);
+    const int decimals = in_per_mi ? 0 : decimals_of(table);
     const auto number = [&](std::size_t row) {
         return fmt::format("{:.{}f}", table.classes[row].to_mm_per_m * scale, decimals);
     };
