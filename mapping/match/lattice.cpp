@@ -15,8 +15,8 @@ constexpr double beam_nats = 15;      // behind the best by more: not followed
 constexpr std::size_t widest_beam = 12;
 constexpr std::size_t widest_far_beam = 5; // where each needs a long search
 constexpr double far_m = 1000;
-constexpr double course_slack = 1;   // see course_nats
-constexpr double evidence_share = 1; // of neighbouring samples, whose errors are much alike
+
+constexpr double evidence_share = 3; // the lattice is about three times as wide as errors are
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -58,7 +58,7 @@ double distance_nats(double distance_m, double sd_m) {
 /// Von Mises: quadratic like a normal distribution for small angles, bounded for large ones.
 double course_nats(double angle_rad, const MatchConfig& config) {
     const double sd_rad = config.course_sd_deg * std::numbers::pi / 180;
-    return course_slack * (1 - std::cos(angle_rad)) / (sd_rad * sd_rad);
+    return (1 - std::cos(angle_rad)) / (sd_rad * sd_rad);
 }
 
 void add_candidates(std::vector<State>& states,

@@ -15,6 +15,23 @@ struct Connection {
     std::vector<EdgeId> edges;
 };
 
+/// A leg that no sample saw is as sure as the less sure of its neighbours.
+void vouch_for_unseen(std::vector<Leg>& legs) {
+    for (std::size_t first = 0; first < legs.size(); ++first) {
+        if (legs[first].confidence > 0 || first == 0) {
+            continue;
+        }
+        auto seen = first;
+        while (seen + 1 < legs.size() && legs[seen].confidence == 0) {
+            ++seen;
+        }
+        for (auto i = first; i < seen; ++i) {
+            legs[i].confidence = std::min(legs[first - 1].confidence, legs[seen].confidence);
+        }
+        first = seen;
+    }
+}
+
 class PathBuilder {
 public:
     PathBuilder(const RoadNetwork& roads,
@@ -35,6 +52,7 @@ public:
         }
         for (auto& path : paths_) {
             path.legs.back().to_m = length_m(roads_, path.legs.back().edge);
+            vouch_for_unseen(path.legs);
         }
         return std::move(paths_);
     }
@@ -43,7 +61,7 @@ private:
     void begin(std::size_t sample) {
         const auto& candidate = chain_[sample].candidate;
         paths_.push_back({{}, {}, {}, sample, sample});
-        paths_.back().legs.push_back({candidate.edge, 0, 0, 0, 1});
+        paths_.back().legs.push_back({candidate.edge, 0, 0, 0, 0});
         place(sample);
     }
 
@@ -54,7 +72,7 @@ private:
         path.positions.push_back(chain_[sample].position);
         path.sample_m.push_back(leg.start_m + chain_[sample].candidate.offset_m - leg.from_m);
         path.last_sample = sample;
-        leg.confidence = std::min(leg.confidence, chain_[sample].confidence);
+        leg.confidence = std::max(leg.confidence, chain_[sample].confidence);
     }
 
     bool extend(std::size_t sample) {
@@ -94,7 +112,6 @@ private:
     void follow(const Connection& connection, std::size_t last, std::size_t sample) {
         const auto& from = chain_[last].candidate;
         const auto& to = chain_[sample].candidate;
-        const double confidence = std::min(chain_[last].confidence, chain_[sample].confidence);
         switch (connection.passage.kind) {
         case Passage::Kind::along:
             break;
@@ -103,25 +120,25 @@ private:
             const double edge_m = length_m(roads_, from.edge);
             const double turn_m =
                 (from.offset_m + edge_m - to.offset_m + connection.passage.way_m) / 2;
-            go_on(to.edge, turn_m, edge_m - turn_m, 1);
+            go_on(to.edge, turn_m, edge_m - turn_m);
             break;
         }
         case Passage::Kind::around:
             for (const auto edge : connection.edges) {
-                go_on(edge, length_m(roads_, paths_.back().legs.back().edge), 0, confidence);
+                go_on(edge, length_m(roads_, paths_.back().legs.back().edge), 0);
             }
-            go_on(to.edge, length_m(roads_, paths_.back().legs.back().edge), 0, 1);
+            go_on(to.edge, length_m(roads_, paths_.back().legs.back().edge), 0);
             break;
         }
     }
 
     /// Ends the last leg at `end_m` of its edge and begins the next at `begin_m` of its own.
-    void go_on(EdgeId edge, double end_m, double begin_m, double confidence) {
+    void go_on(EdgeId edge, double end_m, double begin_m) {
         auto& legs = paths_.back().legs;
         auto& leg = legs.back();
         leg.to_m = std::max(end_m, leg.from_m);
         const double start_m = leg.start_m + leg.to_m - leg.from_m;
-        legs.push_back({edge, begin_m, begin_m, start_m, confidence});
+        legs.push_back({edge, begin_m, begin_m, start_m, 0});
     }
 
     const RoadNetwork& roads_;
