@@ -13,8 +13,8 @@ namespace macadam {
 /// u[k|k+1] = q G^T P[k+1|k]^-1 (x[k+1|k+1] - F x[k|k]). Since the step is K e with K = P H^T S^-1,
 /// this is q (H G)^T S^-1 e: nothing of the state's size is inverted, and P may be singular.
 ///
-/// The covariance does not depend on what is measured. It is carried on until the gain has settled
-/// to rounding, and then left alone.
+/// The covariance does not depend on what is measured. It is carried on until it and the gain have
+/// settled, and then left alone.
 template <int States, int Inputs, int Outputs>
 class InputFilter {
 public:
@@ -43,10 +43,11 @@ private:
     using State = Eigen::Vector<double, States>;
     using Square = Eigen::Matrix<double, States, States>;
 
-    // What is left of the covariance's way when it changes less than this in a step, over the
-    // filter's longest memory (some 1e4 steps), is 1e-8. The gain itself is no sign: it begins as
-    // the plain inverse of the car and stands still for a while before it learns to forget drift.
-    static constexpr double rounding = 1e-12;
+    // Below these changes in a step what is left of the gain's way is about 1e-6 of it: the slowest
+    // part, drift, takes some 1e5 steps. The gain alone is no sign: it can stand still before the
+    // covariance has learned to forget drift.
+    static constexpr double settled_gain = 1e-11;
+    static constexpr double settled_covariance = 1e-7;
 
     // Of the state at first, beside a measurement noise of 1: nothing is known of it. Begun at rest
     // the filter would be the plain inverse of the car, which in steps of 20 ms is not stable.
@@ -64,7 +65,8 @@ private:
         const Square rest = Square::Identity() - gain * h;
         const Square before = covariance_;
         covariance_ = rest * predicted * rest.transpose() + gain * gain.transpose();
-        settled_ = (covariance_ - before).norm() <= rounding * covariance_.norm();
+        settled_ = (gain - gain_).norm() <= settled_gain * gain.norm() &&
+                   (covariance_ - before).norm() <= settled_covariance * covariance_.norm();
         gain_ = gain;
     }
 

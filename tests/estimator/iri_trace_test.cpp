@@ -77,6 +77,18 @@ TEST(IriTrace, ChoosesItsChannelsByWhatIsKnown) {
         estimate_iri(lateral, audi(), {.channels = Channels::vertical}).centre_mm_per_m.empty());
 }
 
+/// Heave and roll part in the half-car: the mean profile does not need the lateral channel.
+TEST(IriTrace, SeesTheMeanProfileWithBothChannelsAsWithTheVerticalAlone) {
+    const auto car = audi_with_height();
+    const auto ride =
+        ride_of(car, along(iso_road(320, 1, 1), 0.05), along(iso_road(320, 1, 2), 0.05));
+    const auto both =
+        mean_over({{estimate_iri(stretch_of(ride, true, true), car, {})}, {}}, 100, 280, car);
+    const auto one =
+        mean_over({{estimate_iri(stretch_of(ride, true, false), car, {})}, {}}, 100, 280, car);
+    EXPECT_NEAR(*both.hri_mm_per_m, *one.hri_mm_per_m, 2e-3 * *one.hri_mm_per_m);
+}
+
 TEST(IriTrace, TakesTheGainOff) {
     const auto ride = ride_of(audi(), elevation_of_bump, elevation_of_bump);
     auto deaf = audi();

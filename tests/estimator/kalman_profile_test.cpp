@@ -100,26 +100,11 @@ TEST(InputFilter, SettlesAndThenGoesOnAlike) {
     const auto system = discretise(quarter_car(car), 0.02);
     InputFilter<4, 1, 1> filter{system, 1e9};
     int k = 0;
-    for (; k < 200000 && !filter.settled(); ++k) {
+    for (; k < 30000 && !filter.settled(); ++k) {
         filter.push(Eigen::Vector<double, 1>{std::sin(0.1 * k)});
     }
     EXPECT_TRUE(filter.settled());
     EXPECT_GT(k, 100);
-}
-
-/// With equal trust in both channels heave and roll part: the mean of both tracks is the quarter
-/// car's.
-TEST(InputFilter, OfBothChannelsSeesTheMeanProfileAsTheQuarterCarDoes) {
-    const double q = 1e9;
-    InputFilter<8, 2, 2> both{discretise(half_car(car, 0.4), 0.02), q};
-    InputFilter<4, 1, 1> heave{discretise(quarter_car(car), 0.02), q / 2};
-    for (const auto& y : noise<2>(500)) {
-        const auto tracks = both.push(y);
-        const double mean = heave.push(y.head<1>())[0];
-        // Two different roundings of the same recursion; the first samples carry nothing but the
-        // prior.
-        EXPECT_NEAR((tracks[0] + tracks[1]) / 2, mean, 1e-3 * std::max(1.0, std::abs(mean)));
-    }
 }
 
 } // namespace
