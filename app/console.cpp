@@ -28,12 +28,12 @@ Console::Console(bool quiet) : quiet_{quiet}, terminal_{isatty(STDERR_FILENO) ==
 
 void Console::say(std::string_view line) const {
     if (!quiet_) {
-        fmt::print(stderr, "{}\n", line);
+        std::fputs(fmt::format("{}\n", line).c_str(), stderr);
     }
 }
 
 void Console::warn(std::string_view line) const { // NOLINT(*-convert-member-functions-to-static)
-    fmt::print(stderr, "macadam: warning: {}\n", line);
+    std::fputs(fmt::format("macadam: warning: {}\n", line).c_str(), stderr);
 }
 
 Progress Console::progress(std::string label) const {
@@ -49,17 +49,12 @@ Progress Console::progress(std::string label) const {
                     }
                     *shown = percent;
                     const int full = bar_width * percent / 100;
-                    fmt::print(stderr,
-                               "\r{} [{:=<{}}{: <{}}] {:3d} %",
-                               label,
-                               "",
-                               full,
-                               "",
-                               bar_width - full,
-                               percent);
-                    if (done == whole) {
-                        fmt::print(stderr, "\r\033[K");
-                    }
+                    const auto bar = std::string(static_cast<std::size_t>(full), '=');
+                    const auto line =
+                        done == whole
+                            ? std::string{"\r\033[K"}
+                            : fmt::format("\r{} [{:<{}}] {:3d} %", label, bar, bar_width, percent);
+                    std::fputs(line.c_str(), stderr);
                     std::fflush(stderr);
                 },
             .stop = {}};

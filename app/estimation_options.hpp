@@ -11,8 +11,7 @@ inline constexpr Option method_option{
 inline constexpr Option channels_option{
     "--channels",
     "NAME",
-    "Accelerations to use: vertical, lateral, both (gives both wheel tracks), or automatic: both "
-    "where the car's IMU height is known, else vertical, else lateral.",
+    "Vibration to use: vertical, lateral, both (gives both wheel tracks) or automatic.",
     "automatic"};
 inline constexpr Option no_filters_option{
     "--no-filters", "", "Leave out the method's own filters, for noise-free simulated logs."};

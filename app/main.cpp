@@ -9,6 +9,11 @@
 
 namespace {
 
+/// To standard error. If even that cannot be written there is nobody left to tell.
+void say(const std::string& words) {
+    std::fputs(words.c_str(), stderr);
+}
+
 enum ExitStatus { done = 0, failed = 1, misused = 2 };
 
 /// Runs a command and turns what it throws into words and an exit status: the only place that does.
@@ -17,18 +22,17 @@ int run_command(const macadam::Command& command, std::vector<std::string> words)
         macadam::run(command, std::move(words));
         return done;
     } catch (const macadam::UsageError& error) {
-        fmt::print(stderr,
-                   "macadam {}: {}\nusage: {}\nmore:  macadam {} --help\n",
-                   command.name,
-                   error.what(),
-                   macadam::usage_of(command),
-                   command.name);
+        say(fmt::format("macadam {}: {}\nusage: {}\nmore:  macadam {} --help\n",
+                        command.name,
+                        error.what(),
+                        macadam::usage_of(command),
+                        command.name));
         return misused;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "macadam {}: not enough memory\n", command.name);
+        say(fmt::format("macadam {}: not enough memory\n", command.name));
         return failed;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "macadam {}: {}\n", command.name, error.what());
+        say(fmt::format("macadam {}: {}\n", command.name, error.what()));
         return failed;
     }
 }
@@ -38,7 +42,7 @@ int run_command(const macadam::Command& command, std::vector<std::string> words)
 int main(int argc, char** argv) {
     std::vector<std::string> words{argv + 1, argv + argc};
     if (words.empty()) {
-        fmt::print(stderr, "{}", macadam::help_of_all());
+        say(macadam::help_of_all());
         return misused;
     }
     const auto name = words.front();
@@ -54,7 +58,7 @@ int main(int argc, char** argv) {
     }
     const auto* const command = macadam::command_named(name);
     if (command == nullptr) {
-        fmt::print(stderr, "macadam: no command '{}'; macadam --help lists them\n", name);
+        say(fmt::format("macadam: no command '{}'; macadam --help lists them\n", name));
         return misused;
     }
     if (std::ranges::find(words, "--help") != words.end() ||

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double margin_share = 0.05; // of the driven extent, so that nothing touches the frame
 constexpr double least_margin_m = 50;
-constexpr double certain_sd = 0.35; // of the value; beyond it the line is drawn with a narrower core
+constexpr double certain_sd =
+    0.35; // of the value; beyond it the line is drawn with a narrower core
 
 /// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
 int rank_of(std::string_view highway) {
@@ -69,6 +70,12 @@ MapScene map_scene(const RoadStore& store,
     scene.title = title;
     scene.subtitle = subtitle_of(info);
     scene.attribution = info.settings.attribution;
+
+    if (classes.name == info.settings.class_table && !box) {
+        for (const auto& [name, km] : info.classes) {
+            scene.class_km.push_back(km);
+        }
+    }
 
     // Each direction is a segment of its own; what was driven one way only is still a road of two
     // sides where the map lets cars go both ways.

@@ -67,7 +67,7 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
     auto odometer = make_odometer(trip, config.odometer, use);
     const auto mounting = estimate_mounting(trip, odometer);
 
-    IriTrace roughness;
+    IriTrace roughness{.runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
     for (const auto& span : find_stretches(trip, odometer, config.stretch, use)) {
         const auto stretch = make_stretch(trip, span, odometer, mounting, config.stretch);
         roughness.runs.push_back(estimate_iri(stretch, vehicle, config.estimator));

@@ -167,11 +167,11 @@ FixTrack track_of(const TripLog& trip, const OdometerConfig& config, const Odome
                              farthest_m(places[i], places[j], config, farthest);
     });
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (links[i] == Link::dropped) {
+        if (links[i] == ChainLink::dropped) {
             track.use[kept[i]] = code(RowReason::implausible);
             continue;
         }
-        places[i].restarts = links[i] == Link::restarts;
+        places[i].restarts = links[i] == ChainLink::restarts;
         track.places.push_back(places[i]);
     }
     return track;

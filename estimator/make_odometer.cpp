@@ -92,8 +92,8 @@ std::vector<Reading> plausible_readings(std::size_t count,
     });
     Thinner thinner;
     for (std::size_t i = 0; i < count; ++i) {
-        use[i] = links[i] == Link::dropped ? code(RowReason::implausible) : 0;
-        if (links[i] != Link::dropped) {
+        use[i] = links[i] == ChainLink::dropped ? code(RowReason::implausible) : 0;
+        if (links[i] != ChainLink::dropped) {
             thinner.take(at(i));
         }
     }

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-enum class Link : std::uint8_t {
+enum class ChainLink : std::uint8_t {
     dropped,  ///< its neighbours contradict it
     follows,  ///< from the one kept before it
     restarts, ///< the world jumped: nothing is known between it and the one kept before it
@@ -25,16 +25,16 @@ inline constexpr std::size_t outvoting = 3;
 /// is
 ///                 worth nothing by itself.
 template <typename Follows>
-std::vector<Link> plausible_chain(std::size_t count, Follows follows) {
-    std::vector<Link> links(count, Link::dropped);
+std::vector<ChainLink> plausible_chain(std::size_t count, Follows follows) {
+    std::vector<ChainLink> links(count, ChainLink::dropped);
     std::vector<std::size_t> waiting;
     bool begun = false;
     std::size_t last = 0;
     const auto keep_waiting = [&] {
         for (const auto i : waiting) {
-            links[i] = Link::follows;
+            links[i] = ChainLink::follows;
         }
-        links[waiting.front()] = begun ? Link::restarts : Link::follows;
+        links[waiting.front()] = begun ? ChainLink::restarts : ChainLink::follows;
         last = waiting.back();
         begun = true;
         waiting.clear();
@@ -44,7 +44,7 @@ std::vector<Link> plausible_chain(std::size_t count, Follows follows) {
             continue;
         }
         if (begun && follows(last, i)) {
-            links[i] = Link::follows;
+            links[i] = ChainLink::follows;
             last = i;
             waiting.clear();
             continue;

@@ -33,7 +33,7 @@ struct Pass {
 
 struct PassConfig {
     double least_cover = 0.5;      ///< of the segment's length, with a valid estimate
-    double least_confidence = 0.5; ///< of the match
+    double least_confidence = 0.2; ///< of the match, which errs on the low side (docs/matching.md)
 };
 
 /// MRI that the mean profile speaks for: real roads have HRI / MRI of 0.86 to 0.96

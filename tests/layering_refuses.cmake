@@ -10,6 +10,7 @@ function(expect_refusal folder line words)
     execute_process(COMMAND ${CMAKE_COMMAND} -D root=${scratch} -P ${root}/tests/layering.cmake
                     RESULT_VARIABLE status ERROR_VARIABLE said)
     file(REMOVE_RECURSE ${scratch})
+    string(REGEX REPLACE "[ \n]+" " " said "${said}") # CMake breaks its messages into lines
     if(status EQUAL 0 OR NOT said MATCHES "${words}")
         message(SEND_ERROR "'${line}' in ${folder} was not refused: ${said}")
     endif()

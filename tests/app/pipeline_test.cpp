@@ -12,17 +12,19 @@ namespace {
 
 using testing::Drive;
 
-/// One road of 1,200 m to the east, both directions, and a rough patch from 500 to 600 m.
+/// A drive of 1,200 m on a two-way road to the east, which begins 200 m before and ends 200 m
+/// behind it. Metres count from the drive's western end; the road is rough from 500 to 600 m.
 class OneRoad : public ::testing::Test {
 protected:
     static constexpr double length_m = 1200;
+    static constexpr double before_m = 200;
 
     RoadNetwork roads() const {
         const Drive along{.length_m = length_m};
         Way way{.id = 7, .name = "", .highway = "primary", .node_ids = {}, .line = {}};
-        for (int i = 0; i <= 12; ++i) {
+        for (int i = 0; i <= 16; ++i) {
             way.node_ids.push_back(i + 1);
-            way.line.push_back(testing::place_of(along, 100.0 * i));
+            way.line.push_back(testing::place_of(along, 100.0 * i - before_m));
         }
         return build_network({way});
     }
@@ -49,6 +51,8 @@ protected:
         return iri;
     }
 
+    static double middle_m(std::uint32_t index) { return 20.0 * index + 10 - before_m; }
+
     /// Middle of the roughness along the road, by its excess over the smooth level.
     static double centre_m(const std::map<std::uint32_t, double>& iri) {
         double sum = 0;
@@ -57,7 +61,7 @@ protected:
         for (const auto& [index, value] : iri) {
             const double excess = std::max(0.0, value - 1.5 * smooth);
             sum += excess;
-            moment += excess * (20.0 * index + 10);
+            moment += excess * middle_m(index);
         }
         return moment / sum;
     }
@@ -66,12 +70,11 @@ protected:
 TEST_F(OneRoad, ShowsTheRoughPatchInTheSegmentsWhereItLies) {
     const auto iri = driven(true);
     for (const auto& [index, value] : iri) {
-        const double middle_m = 20.0 * index + 10;
-        if (middle_m > 520 && middle_m < 580) {
+        if (middle_m(index) > 520 && middle_m(index) < 580) {
             EXPECT_GT(value, 3 * iri.begin()->second) << index;
         }
         // The golden car still sways some metres behind the patch.
-        if (middle_m < 480 || middle_m > 660) {
+        if (middle_m(index) < 480 || middle_m(index) > 660) {
             EXPECT_LT(value, 1.5 * iri.begin()->second) << index;
         }
     }

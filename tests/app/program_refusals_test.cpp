@@ -87,7 +87,9 @@ TEST_F(Refusals, OfABinaryTripShowItsFirstBytes) {
 
 TEST_F(Refusals, OfAMisheadedTripNameTheColumnsThatItLacks) {
     auto text = good_text_;
-    text.replace(text.find("acc_z_mps2"), 10, "acc_q_mps2");
+    for (const auto* column : {"acc_x_mps2", "acc_y_mps2", "acc_z_mps2"}) {
+        text.replace(text.find(column), 3, "axx");
+    }
     const auto run = run_macadam({"trace", file("misheaded.trip.csv", text)});
     EXPECT_EQ(run.exit_status, 1);
     EXPECT_THAT(run.err, ::testing::ContainsRegex("misheaded.trip.csv:8: "));
@@ -134,7 +136,7 @@ TEST_F(Refusals, OfAFileThatIsNoStoreSayWhoMakesOne) {
 }
 
 TEST_F(Refusals, OfAFullDiskLeaveTheStoreAsItWas) {
-    const auto room = fs::file_size(store_); // not a byte more
+    const auto room = fs::file_size(store_) / 2; // what lies behind cannot be written
     const auto trip = other_trip();
     const auto run = run_macadam({"import", store_, trip}, room);
     EXPECT_EQ(run.exit_status, 1) << run.out << run.err;
@@ -145,7 +147,7 @@ TEST_F(Refusals, OfAFullDiskLeaveTheStoreAsItWas) {
 
 TEST_F(Refusals, OfAFullDiskLeaveNoHalfExport) {
     const auto out = folder_ / "roads.geojson";
-    const auto run = run_macadam({"export", store_, "-o", out.string()}, 100);
+    const auto run = run_macadam({"export", store_, "-o", out.string()}, 4000);
     EXPECT_EQ(run.exit_status, 1);
     EXPECT_THAT(run.err, HasSubstr("roads.geojson"));
     for (const auto& entry : fs::directory_iterator{folder_}) {

@@ -182,7 +182,7 @@ TEST(Program, MatchesARealTripToARoadOfItsOwn) {
     const auto store = store_of_rav4(folder);
     const auto roads = (folder / "roads.geojson").string();
     expect_done({"export", store.string(), "-o", roads, "--all"});
-    const auto pieces = expect_done({"match", rav4, "--network", roads, "--id-column", "way_id"});
+    const auto pieces = expect_done({"match", rav4, "--network", roads});
     EXPECT_THAT(pieces.out, HasSubstr(",road,"));
 }
 

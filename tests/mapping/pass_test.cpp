@@ -170,10 +170,10 @@ TEST(Passes, AreLeftOutWhereLessThanHalfOfTheSegmentIsCovered) {
 TEST(Passes, AreLeftOutWhereTheMatchIsInDoubt) {
     const auto art = straight();
     EXPECT_THAT(
-        cut_passes(even_trace(100, 2), {piece(there, 0, 0, 100, 0.49)}, art.roads, car(), {}),
+        cut_passes(even_trace(100, 2), {piece(there, 0, 0, 100, 0.19)}, art.roads, car(), {}),
         IsEmpty());
     EXPECT_THAT(
-        cut_passes(even_trace(100, 2), {piece(there, 0, 0, 100, 0.51)}, art.roads, car(), {}),
+        cut_passes(even_trace(100, 2), {piece(there, 0, 0, 100, 0.21)}, art.roads, car(), {}),
         SizeIs(5));
 }
 
