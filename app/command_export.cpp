@@ -37,7 +37,7 @@ void run_export(const Arguments& arguments, const Console& console) {
     warn_of_waiting(store, options.store, console);
     const auto written =
         export_segments(store, options.filter, options.output, console.progress("writing"));
-    console.say(fmt::format("{}: {} segments", options.output.string(), written));
+    console.say(fmt::format("{}: {}", options.output.string(), counted(written, "segment")));
 }
 
 constexpr std::array operands{store_operand};

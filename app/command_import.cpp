@@ -85,15 +85,15 @@ std::string text_lines(const TripOutcome& outcome) {
         return fmt::format("known     {}\n", outcome.file);
     }
     const auto& trip = outcome.trip;
-    auto lines = fmt::format(
-        "imported  {}: {} passes; {:.2f} km driven, {:.2f} km on the network; car '{}'\n"
-        "          {}\n",
-        outcome.file,
-        trip.passes.size(),
-        trip.distance_m / 1000,
-        trip.matched_m / 1000,
-        outcome.vehicle,
-        spoken(trip.rows));
+    auto lines =
+        fmt::format("imported  {}: {}; {:.2f} km driven, {:.2f} km on the network; car '{}'\n"
+                    "          {}\n",
+                    outcome.file,
+                    counted(trip.passes.size(), "pass"),
+                    trip.distance_m / 1000,
+                    trip.matched_m / 1000,
+                    outcome.vehicle,
+                    spoken(trip.rows));
     for (const auto& warning : trip.warnings) {
         lines += fmt::format("          note: {}\n", warning);
     }
@@ -138,16 +138,16 @@ void run_import(const Arguments& arguments, const Console& console) {
                                      tell);
     const auto fused = store.refresh({}, console.progress("fusing"));
 
-    console.say(
-        fmt::format("{} trips imported, {} known, {} rejected; {} passes, {} segments fused",
-                    totals.imported,
-                    totals.known,
-                    totals.rejected,
-                    totals.passes,
-                    fused));
+    console.say(fmt::format("{} imported, {} known, {} rejected; {}, {} fused",
+                            counted(totals.imported, "trip"),
+                            totals.known,
+                            totals.rejected,
+                            counted(totals.passes, "pass"),
+                            counted(fused, "segment")));
     if (totals.rejected > 0) {
-        throw InputError{fmt::format(
-            "{} of {} trips rejected; the others are in the store", totals.rejected, trips.size())};
+        throw InputError{fmt::format("{} of {} rejected; the others are in the store",
+                                     totals.rejected,
+                                     counted(trips.size(), "trip"))};
     }
 }
 

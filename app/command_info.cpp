@@ -52,7 +52,7 @@ std::string period_of(const StoreInfo& info) {
 std::string text_of(const StoreInfo& info) {
     auto text = fmt::format(
         "network     {}, {:.1f} km counting each direction, {} segments of about {:g} m\n"
-        "trips       {} ({} undated), {} vehicles, {} passes\n"
+        "trips       {} ({} undated), {}, {}\n"
         "period      {}\n"
         "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n",
         info.settings.network_source,
@@ -61,8 +61,8 @@ std::string text_of(const StoreInfo& info) {
         info.settings.segment_length_m,
         info.trips,
         info.undated_trips,
-        info.vehicles.size(),
-        info.passes,
+        counted(info.vehicles.size(), "vehicle"),
+        counted(info.passes, "pass"),
         period_of(info),
         info.km,
         info.segments_with_passes,

@@ -99,11 +99,11 @@ void run_init(const Arguments& arguments, const Console& console) {
         RoadStore::create(options.store, roads, settings, console.progress("writing segments"));
 
     const auto info = store.info();
-    console.say(fmt::format("{}: {} ways, {} links, {} segments, {:.1f} km counting each direction",
+    console.say(fmt::format("{}: {}, {}, {}, {:.1f} km counting each direction",
                             options.store.string(),
-                            roads.ways.size(),
-                            roads.links.size(),
-                            info.segments,
+                            counted(roads.ways.size(), "way"),
+                            counted(roads.links.size(), "link"),
+                            counted(info.segments, "segment"),
                             info.network_km));
 }
 

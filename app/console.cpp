@@ -60,6 +60,10 @@ Progress Console::progress(std::string label) const {
             .stop = {}};
 }
 
+std::string counted(std::size_t count, std::string_view one) {
+    return fmt::format("{} {}{}", count, one, count == 1 ? "" : one.ends_with("s") ? "es" : "s");
+}
+
 void print(std::string_view text) {
     require_written(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
 }

@@ -2,6 +2,7 @@
 
 #include "estimator/common/progress.hpp"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,9 @@ private:
     bool quiet_;
     bool terminal_;
 };
+
+/// "1 trip", "2 trips".
+std::string counted(std::size_t count, std::string_view one);
 
 /// Results go out through here.
 /// \throws InputError  if standard output cannot take them (a full disk, a closed file).

@@ -20,24 +20,21 @@ std::int64_t thousandths(double value) {
     return std::llround(value * 1000);
 }
 
-TripRecord record_of(const TripSource& source,
-                     const TripLog& trip,
-                     const Vehicle& vehicle,
-                     const TripResult& result) {
+TripRecord record_of(const TripSource& source, const TripMeta& meta, const TripOutcome& outcome) {
     TripRecord record;
-    record.sha256 = trip.sha256;
-    record.trip_id = trip.meta.trip_id;
-    record.vehicle_id = trip.meta.vehicle_id;
+    record.sha256 = outcome.sha256;
+    record.trip_id = meta.trip_id;
+    record.vehicle_id = meta.vehicle_id;
     record.file_name = source.file.filename().string();
-    if (trip.meta.t0_utc_s) {
-        record.t0_utc_ms = thousandths(*trip.meta.t0_utc_s);
+    if (meta.t0_utc_s) {
+        record.t0_utc_ms = thousandths(*meta.t0_utc_s);
     }
-    record.vehicle_model = vehicle.name;
+    record.vehicle_model = outcome.vehicle;
     record.method = "kf";
-    record.distance_mm = thousandths(result.distance_m);
-    record.matched_mm = thousandths(result.matched_m);
-    record.rows_read = result.rows.read;
-    record.rows_used = result.rows.used;
+    record.distance_mm = thousandths(outcome.trip.distance_m);
+    record.matched_mm = thousandths(outcome.trip.matched_m);
+    record.rows_read = outcome.trip.rows.read;
+    record.rows_used = outcome.trip.rows.used;
     return record;
 }
 
@@ -51,18 +48,20 @@ TripOutcome worked_out(const TripSource& source,
     outcome.file = source.name();
     outcome.sha256 = sha256;
     try {
-        const auto trip = read_trip(source, needs_of_import());
-        outcome.trip_id = trip.meta.trip_id;
-        const auto chosen = vehicles(source.file, trip.meta.vehicle_id);
+        auto trip = read_trip(source, needs_of_import());
+        const auto meta = trip.meta;
+        outcome.sha256 = trip.sha256;
+        outcome.trip_id = meta.trip_id;
+        const auto chosen = vehicles(source.file, meta.vehicle_id);
         outcome.vehicle = chosen.vehicle.name;
         outcome.trip.rows.read = outcome.trip.rows.rejected = trip.rows.size();
-        outcome.trip = passes_of(trip, chosen.vehicle, roads, config);
-        outcome.record = record_of(source, trip, chosen.vehicle, outcome.trip);
+        outcome.trip = passes_of(std::move(trip), chosen.vehicle, roads, config);
+        outcome.record = record_of(source, meta, outcome);
         outcome.result = TripOutcome::Result::imported;
         if (!chosen.warning.empty()) {
             outcome.trip.warnings.push_back(chosen.warning);
         }
-        if (!trip.meta.t0_utc_s) {
+        if (!meta.t0_utc_s) {
             outcome.trip.warnings.emplace_back("t0_utc is not known: the trip counts as undated");
         }
     } catch (const InputError& error) {

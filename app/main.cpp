@@ -7,6 +7,8 @@
 #include <exception>
 #include <new>
 
+#include <malloc.h>
+
 namespace {
 
 /// To standard error. If even that cannot be written there is nobody left to tell.
@@ -40,6 +42,12 @@ int run_command(const macadam::Command& command, std::vector<std::string> words)
 } // namespace
 
 int main(int argc, char** argv) {
+    // The samples of a long trip are a few large blocks. Kept out of the heap, each goes back to
+    // the system when it is let go, instead of leaving a hole: a fifth of the memory of a ten-hour
+    // trip.
+    constexpr int large_block_bytes = 1 << 20;
+    mallopt(M_MMAP_THRESHOLD, large_block_bytes);
+
     std::vector<std::string> words{argv + 1, argv + argc};
     if (words.empty()) {
         say(macadam::help_of_all());

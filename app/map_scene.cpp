@@ -1,5 +1,6 @@
 #include "app/map_scene.hpp"
 
+#include "app/console.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/utc.hpp"
 
@@ -14,8 +15,7 @@ namespace {
 
 constexpr double margin_share = 0.05; // of the driven extent, so that nothing touches the frame
 constexpr double least_margin_m = 50;
-constexpr double certain_sd =
-    0.35; // of the value; beyond it the line is drawn with a narrower core
+constexpr double certain_sd = 0.5; // of the value; beyond it the line is drawn with a narrower core
 
 /// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
 int rank_of(std::string_view highway) {
@@ -48,14 +48,11 @@ std::string subtitle_of(const StoreInfo& info) {
         const auto last = utc_text(*info.last_seen_ms).substr(0, 10);
         period = first == last ? first : first + " to " + last;
     }
-    const auto count = [](std::size_t n, std::string_view one) {
-        return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
-    };
     return fmt::format("{}  ·  {:.1f} km  ·  {}  ·  {}",
                        period,
                        info.km,
-                       count(info.trips, "trip"),
-                       count(info.vehicles.size(), "car"));
+                       counted(info.trips, "trip"),
+                       counted(info.vehicles.size(), "car"));
 }
 
 } // namespace

@@ -52,6 +52,23 @@ warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mount
     return warnings;
 }
 
+/// How far the antenna sits ahead of the centre of gravity. The log counts from the front axle,
+/// which a car with one axle has under its centre of gravity.
+double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
+    const double front_m = vehicle.axles ? vehicle.axles->cg_to_front_m : 0;
+    return meta.gnss_antenna_pos_m ? front_m - meta.gnss_antenna_pos_m->front() : 0;
+}
+
+/// The matched way of the centre of gravity, which reaches a place so much travel after the
+/// antenna.
+MatchedTrace behind_antenna(MatchedTrace matched, double ahead_m) {
+    for (auto& piece : matched) {
+        piece.from_travel_m += ahead_m;
+        piece.to_travel_m += ahead_m;
+    }
+    return matched;
+}
+
 double length_on_roads_m(const MatchedTrace& matched) {
     double length_m = 0;
     for (const auto& piece : matched) {
@@ -76,12 +93,15 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
     return {std::move(odometer), std::move(roughness), std::move(use), std::move(warnings)};
 }
 
-TripResult passes_of(const TripLog& trip,
+TripResult passes_of(TripLog trip,
                      const Vehicle& vehicle,
                      const RoadNetwork& roads,
                      const PipelineConfig& config) {
     auto trace = trace_of(trip, vehicle, config);
-    const auto matched = map_match(trip, trace.odometer, roads, config.match, trace.use);
+    trip.acc = {};
+    const auto matched =
+        behind_antenna(map_match(trip, trace.odometer, roads, config.match, trace.use),
+                       antenna_ahead_m(trip.meta, vehicle));
 
     return {.passes = cut_passes(trace.roughness, matched, roads, vehicle, config.pass),
             .rows = account(trip, trace.use),

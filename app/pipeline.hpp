@@ -39,7 +39,10 @@ struct TripResult {
 };
 
 /// The whole of the science: one trip in, its passes out. No files, no clock, no globals.
-TripResult passes_of(const TripLog& trip,
+///
+/// The trip is taken by value: its vibration is let go as soon as it has become roughness, so that
+/// ten hours of it do not stand in memory while they are matched.
+TripResult passes_of(TripLog trip,
                      const Vehicle& vehicle,
                      const RoadNetwork& roads,
                      const PipelineConfig& config);

@@ -109,7 +109,7 @@ Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable&
                             [&](const MapLine& line) { return measured(line) && !line.certain; })) {
         legend.entries.push_back({.swatch = LegendEntry::Swatch::uncertain,
                                   .rgb = colours[colours.size() / 2],
-                                  .name = "Few passes",
+                                  .name = "Uncertain",
                                   .range = {},
                                   .length = {}});
     }

@@ -29,11 +29,11 @@ struct SpeedSamples {
 
 /// What a satellite receiver said at one time. Not known: NaN.
 struct GnssFix {
-    double t_s;         ///< of the stamp; the truth is gnss_latency_s older
-    GeoPoint at;        ///< of the antenna
+    double t_s;  ///< of the stamp; the truth is gnss_latency_s older
+    GeoPoint at; ///< of the antenna
     float speed_mps;
-    float course_deg;   ///< clockwise from north
-    float accuracy_m;   ///< what the receiver says of its horizontal position
+    float course_deg; ///< clockwise from north
+    float accuracy_m; ///< what the receiver says of its horizontal position
 };
 
 enum class Frame : std::uint8_t {
@@ -52,11 +52,11 @@ struct TripMeta {
     bool mount_auto = false; ///< the mounting is to be found from the motion
     std::optional<std::array<double, 3>> mount_rpy_deg;      ///< sensor to vehicle
     std::optional<std::array<double, 4>> mount_quat;         ///< w x y z, sensor to vehicle
-    std::optional<std::array<double, 3>> acc_sensor_pos_m;   ///< from the front axle, left, up
-    std::optional<std::array<double, 3>> gnss_antenna_pos_m; ///< from the front axle, left, up
+    std::optional<std::array<double, 3>> acc_sensor_pos_m;   ///< behind the front axle, left, up
+    std::optional<std::array<double, 3>> gnss_antenna_pos_m; ///< behind the front axle, left, up
     double gnss_latency_s = 0;
     double speed_latency_s = 0;
-    std::optional<double> speed_scale; ///< true speed = scale * logged speed
+    std::optional<double> speed_scale;        ///< true speed = scale * logged speed
     std::map<std::string, std::string> other; ///< every key that is not one of the above
 };
 
@@ -93,7 +93,7 @@ const char* name_of(RowReason reason);
 /// or a RowReason (>= 16) if it gave none. So every row can be accounted for in the end.
 struct TripLog {
     TripMeta meta;
-    std::string sha256; ///< of the decompressed content, 64 lower-case hex digits
+    std::string sha256;   ///< of the decompressed content, 64 lower-case hex digits
     TriaxialSamples acc;  ///< specific force, m/s2, in meta.frame
     TriaxialSamples gyro; ///< rad/s, in meta.frame
     SpeedSamples speed;

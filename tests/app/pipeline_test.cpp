@@ -32,7 +32,8 @@ protected:
     static bool is_rough(double x_m) { return x_m >= 500 && x_m < 600; }
 
     /// The headline by segment index of a drive to the east, or back to the west.
-    std::map<std::uint32_t, double> driven(bool east, double latency_s = 0.2) const {
+    std::map<std::uint32_t, double>
+    driven(bool east, double latency_s = 0.2, double antenna_behind_m = 0) const {
         const auto road = testing::patched_road(
             [east](double x_m) { return is_rough(east ? x_m : length_m - x_m); }, 4);
         Drive drive{.length_m = length_m, .gnss_latency_s = latency_s};
@@ -41,7 +42,8 @@ protected:
             drive.course_deg = 270;
         }
         const auto& car = *built_in_vehicle("golden-car");
-        const auto trip = testing::drive_over(road, drive, car);
+        auto trip = testing::drive_over(road, drive, car);
+        trip.meta.gnss_antenna_pos_m = {antenna_behind_m, 0, 0};
         const auto result = passes_of(trip, car, roads(), {});
         std::map<std::uint32_t, double> iri;
         for (const auto& pass : result.passes) {
@@ -88,6 +90,13 @@ TEST_F(OneRoad, HoldsTheSameMetreInTheSameSegmentWhicheverWayItIsDriven) {
 
 TEST_F(OneRoad, TakesTheLatencyOfTheReceiverOff) {
     EXPECT_NEAR(centre_m(driven(true, 0)), centre_m(driven(true, 1.0)), 2);
+}
+
+TEST_F(OneRoad, PutsTheCarAheadOfAnAntennaThatSitsBehind) {
+    // The fixes are the same; said to be of a roof 20 m back, they put everything a segment
+    // farther.
+    EXPECT_NEAR(centre_m(driven(true, 0.2, 20)) - centre_m(driven(true)), 20, 1);
+    EXPECT_NEAR(centre_m(driven(false, 0.2, 20)) - centre_m(driven(false)), -20, 1);
 }
 
 TEST_F(OneRoad, AccountsForEveryRowOfTheTrip) {

@@ -76,7 +76,7 @@ TEST(Program, MapsARealTripFromItsLogToItsPicture) {
     expect_done({"render", store.string(), "-o", picture.string(), "--size", "512x512"});
     EXPECT_THAT(read_file(picture), StartsWith("\x89PNG"));
 
-    EXPECT_THAT(expect_done({"info", store.string()}).out, HasSubstr("1 vehicles"));
+    EXPECT_THAT(expect_done({"info", store.string()}).out, HasSubstr("1 vehicle, "));
 }
 
 TEST(Program, AccountsForEveryRowOfTheRealTrips) {
