@@ -131,6 +131,21 @@ TEST(Program, ImportsAFolderOfSimulatedCarsAndFindsTheRoughPatch) {
     EXPECT_THAT(worst, HasSubstr(",poor,2,1,"));
 }
 
+TEST(Program, TakesATownOfOpenStreetMapAsItsNetworkAndNamesWhoseItIs) {
+    const auto folder = fresh_folder();
+    const auto store = (folder / "town.gpkg").string();
+    const auto town = fs::path{MACADAM_SOURCE_DIR} / "tests/data/osm/harrisburg.osm.pbf";
+    EXPECT_THAT(expect_done({"init", store, "--network", town.string()}).err,
+                HasSubstr("2475 ways"));
+
+    const auto all = (folder / "all.geojson").string();
+    expect_done({"export", store, "-o", all, "--all", "--bbox", "-76.82,40.26,-76.80,40.27"});
+    EXPECT_THAT(read_file(all), HasSubstr("OpenStreetMap contributors"));
+    EXPECT_THAT(read_file(all), HasSubstr("\"iri\":null"));
+    EXPECT_THAT(expect_done({"query", store, "--name", "derry", "--all"}).out,
+                HasSubstr("Derry Street"));
+}
+
 TEST(Program, TracesATripWithoutAMap) {
     const auto csv = expect_done({"trace", rav4, "--vehicle", "generic"}).out;
     EXPECT_THAT(csv,
