@@ -26,7 +26,7 @@ std::span<const Command> commands();
 /// Null if there is none of that name.
 const Command* command_named(std::string_view name);
 
-/// "macadam iri [OPTION...] PROFILE"
+/// "macadam iri PROFILE [OPTION...]"
 std::string usage_of(const Command& command);
 
 /// What `macadam COMMAND --help` prints.

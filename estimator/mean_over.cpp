@@ -89,8 +89,8 @@ constexpr double random_length_m = 20;
 // paper's table of field results leaves on smooth roads.
 constexpr double floor_mm_per_m = 0.20;
 
-// The same for lateral vibration alone, which does not see what both tracks share: half the floor
-// of the vertical method more, and a ratio of the two that differs from road to road.
+// The same for lateral vibration alone, which does not see what both tracks share: twice the floor
+// of the vertical method, and a ratio of the two that differs from road to road.
 constexpr double lateral_random_part = 0.25;
 constexpr double lateral_common_part = 0.24;
 constexpr double lateral_floor_mm_per_m = 0.40;

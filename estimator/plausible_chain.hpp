@@ -21,9 +21,8 @@ inline constexpr std::size_t outvoting = 3;
 /// follow from each other they are kept, and the first of them restarts; if a later one follows
 /// from the last one kept again, those that waited were faults.
 ///
-/// \param follows  whether reading j can come after reading i < j; false for i = j if the reading
-/// is
-///                 worth nothing by itself.
+/// \param follows  whether reading j can come after reading i < j; false for i = j if the
+///                 reading is worth nothing by itself.
 template <typename Follows>
 std::vector<ChainLink> plausible_chain(std::size_t count, Follows follows) {
     std::vector<ChainLink> links(count, ChainLink::dropped);

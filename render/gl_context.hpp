@@ -12,9 +12,8 @@ namespace macadam {
 /// program that links libGL as well would call that one's functions, which draw nothing.
 class GlContext {
 public:
-    /// \param rgba  width_px * height_px * 4 bytes, to live longer than the context; its first row
-    /// is
-    ///              the one at the bottom of OpenGL's window.
+    /// \param rgba  width_px * height_px * 4 bytes, to live longer than the context; its first
+    ///              row is the one at the bottom of OpenGL's window.
     /// \throws InputError  if a side is not 1 .. most_image_px (OSMesa accepts more and then draws
     ///                     wrongly or crashes), or if OSMesa is missing or refuses.
     GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px);

@@ -21,7 +21,7 @@ namespace macadam {
 struct StoreSettings {
     double segment_length_m = 20;
     std::string class_table = "fhwa";
-    std::string network_source; ///< file name of the map, or "traced from N trips"
+    std::string network_source; ///< file name of the map, or "traced from the trips"
     std::string attribution;    ///< whom a picture of these roads must name
 };
 

@@ -31,7 +31,7 @@ Pass pass_in(const Statement& row, int first, const SegmentKey& segment);
 /// "HRI>MRI" or "MRI".
 const char* name_of_index(bool centre_only);
 
-/// 12345 -> "12.345": mm/m of whole um/m.
+/// 12345 -> 12.345: mm/m of whole um/m.
 double mm_per_m(IriUm um);
 
 /// A time as a GeoPackage writes it, always with milliseconds.
