@@ -2,7 +2,6 @@
 
 #include "estimator/plausible_chain.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -5,7 +5,6 @@
 #include "estimator/odometer.hpp"
 #include "mapping/road_network.hpp"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

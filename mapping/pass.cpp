@@ -246,7 +246,7 @@ std::vector<Pass> cut_passes(const IriTrace& roughness,
     for (const auto& passage : passages_of(matched, roads)) {
         if (auto pass = pass_of(passage, roughness, vehicle, config)) {
             pass->occurrence = occurrences[pass->segment]++;
-            passes.push_back(*std::move(pass));
+            passes.push_back(*pass);
         }
     }
     return passes;

@@ -3,7 +3,6 @@
 #include "render/layout.hpp"
 #include "render/legend.hpp"
 
-#include <span>
 
 namespace macadam {
 

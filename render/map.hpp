@@ -4,7 +4,6 @@
 #include "mapping/iri_class.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,8 +54,7 @@ inline constexpr int most_image_px = 16384; ///< what OSMesa can draw; more sile
 /// the picture, so that 512 and 8192 px read alike.
 ///
 /// \throws InputError  for a size out of range, an empty box, an unknown ramp, a missing font, or
-/// if
-///                     OSMesa cannot draw.
+///                     if OSMesa cannot draw.
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
 
 /// The picture as the bytes of a PNG file.
