@@ -147,6 +147,7 @@ std::vector<GeoPoint> line_of_piece(const MatchedPiece& piece, const RoadNetwork
 
 std::string coordinates(const std::vector<GeoPoint>& line) {
     std::vector<std::string> points;
+    points.reserve(line.size());
     for (const auto& point : line) {
         points.push_back(fmt::format("[{:.7f},{:.7f}]", point.lon_deg, point.lat_deg));
     }
@@ -183,6 +184,7 @@ std::string geojson_feature(const MatchedPiece& piece, const RoadNetwork& roads)
 
 std::string geojson_of(const MatchedTrace& trace, const RoadNetwork& roads) {
     std::vector<std::string> features;
+    features.reserve(trace.size());
     for (const auto& piece : trace) {
         features.push_back(geojson_feature(piece, roads));
     }

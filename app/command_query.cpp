@@ -106,6 +106,7 @@ nearest(std::vector<SegmentRecord> records, const GeoPoint& place, double radius
     }
     std::ranges::stable_sort(by_distance, {}, &std::pair<double, SegmentRecord>::first);
     std::vector<SegmentRecord> sorted;
+    sorted.reserve(by_distance.size());
     for (auto& [apart_m, record] : by_distance) {
         sorted.push_back(std::move(record));
     }
@@ -185,6 +186,7 @@ std::string json_object_of(const SegmentRecord& record, const ClassTable& classe
 
 std::string json_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
     std::vector<std::string> objects;
+    objects.reserve(records.size());
     for (const auto& record : records) {
         objects.push_back(json_object_of(record, classes));
     }
@@ -201,6 +203,7 @@ std::string csv_of(const std::vector<SegmentRecord>& records, const ClassTable& 
 
 std::string geojson_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
     std::vector<std::string> features;
+    features.reserve(records.size());
     for (const auto& record : records) {
         features.push_back(geojson_feature(record, classes));
     }

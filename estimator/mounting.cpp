@@ -69,6 +69,7 @@ Vector3d median(std::vector<Vector3d> values) {
 Vector3d steady_force(const std::vector<Window>& windows) {
     std::vector<Vector3d> steady;
     std::vector<Vector3d> all;
+    all.reserve(windows.size());
     for (const auto& window : windows) {
         all.push_back(window.force_mps2);
         if (std::abs(window.gain_mps2) < steady_mps2) {

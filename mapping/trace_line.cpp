@@ -27,6 +27,7 @@ runs_of(const TripLog& trip, const LocalFrame& frame, const TraceConfig& config)
         }
     }
     std::vector<GeoPoint> places;
+    places.reserve(fixes.size());
     for (const auto& fix : fixes) {
         places.push_back(fix.at);
     }

@@ -57,6 +57,7 @@ std::span<const std::uint32_t> anchors_of(std::string_view ramp, std::size_t cla
 std::vector<std::uint32_t> ramp_colours(std::string_view ramp, std::size_t classes) {
     const auto anchors = anchors_of(ramp, classes);
     std::vector<std::uint32_t> colours;
+    colours.reserve(classes);
     for (std::size_t i = 0; i < classes; ++i) {
         colours.push_back(colour_at(anchors, classes > 1 ? double(i) / double(classes - 1) : 0));
     }

@@ -42,6 +42,7 @@ Block block(
 
 std::vector<PlacedText> placed(const Block& block, const PixelPoint& corner, bool quiet) {
     std::vector<PlacedText> texts;
+    texts.reserve(block.lines.size());
     double y = corner.y + block.look.size_px * ascent;
     for (const auto& line : block.lines) {
         texts.push_back({line, block.look, {corner.x, std::round(y)}, quiet});

@@ -174,8 +174,10 @@ void draw_legend(Canvas& canvas,
     const double first_px = box.top + padding + (title_px + 8 + row_px / 2 - 3) * unit;
     for (std::size_t i = 0; i < card.legend.entries.size(); ++i) {
         const auto& entry = card.legend.entries[i];
-        const double x = box.left + padding + double(i % card.columns) * column_px;
-        const double y = std::round(first_px + double(i / card.columns) * row_px * unit);
+        const auto column = i % std::size_t(card.columns);
+        const auto row = i / std::size_t(card.columns);
+        const double x = box.left + padding + double(column) * column_px;
+        const double y = std::round(first_px + double(row) * row_px * unit);
         const double base = y + std::round(text_px * 0.36 * unit);
         draw_swatch(canvas, entry, {x + swatch_px / 2 * unit, y}, unit, colours);
         const double name_x = x + swatch_px * unit + gap;
