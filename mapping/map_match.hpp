@@ -36,8 +36,8 @@ struct MatchedPiece {
 using MatchedTrace = std::vector<MatchedPiece>;
 
 struct MatchConfig {
-    double spacing_m = 40;        ///< of the samples that are matched, along the trip
-    double emission_sd_m = 20;    ///< of a position across the road: receiver, map and lane together
+    double spacing_m = 40;     ///< of the samples that are matched, along the trip
+    double emission_sd_m = 20; ///< of a position across the road: receiver, map and lane together
     double search_radius_m = 120;
     int most_candidates = 20;
     double transition_scale_m = 40; ///< of |route - travelled| with positions alone
@@ -54,8 +54,8 @@ struct MatchConfig {
 /// Positions are thinned by travelled distance; candidates are the drivable edges near each; the
 /// cost of a candidate grows with its distance and its angle to the course, the cost of a
 /// transition with |length of the way on the network - travelled distance| and with turning round.
-/// The cheapest chain is found by Viterbi; where no way joins two samples the trace is cut into a gap
-/// and goes on. Confidence is the forward-backward posterior of the edge on the same lattice.
+/// The cheapest chain is found by Viterbi; where no way joins two samples the trace is cut into a
+/// gap and goes on. Confidence is the forward-backward posterior of the edge on the same lattice.
 ///
 /// Positions alone, and positions with speed and course, both work. `use.fixes` learns which fixes
 /// served.

@@ -144,8 +144,8 @@ std::optional<Headline> headline_of(const IriMean& mean) {
     if (!mean.hri_mm_per_m) {
         return std::nullopt;
     }
-    // Of a quotient the relative variances add up: (hri sd / ratio)^2 + (iri * sd of ratio /
-    // ratio)^2.
+    // Of a quotient the relative variances add up:
+    // (hri sd / ratio)^2 + (iri * sd of ratio / ratio)^2.
     const double iri = *mean.hri_mm_per_m / hri_over_mri;
     return Headline{
         iri,

@@ -26,12 +26,18 @@ enum class NodeId : std::uint32_t {}; ///< of a junction or an end, in RoadNetwo
 enum class LinkId : std::uint32_t {}; ///< of a way's part between two nodes, in RoadNetwork::links
 enum class EdgeId : std::uint32_t {}; ///< of a link and a direction of travel: 2 * link + backward
 
-constexpr LinkId link_of(EdgeId edge) { return LinkId{static_cast<std::uint32_t>(edge) / 2}; }
-constexpr bool is_forward(EdgeId edge) { return static_cast<std::uint32_t>(edge) % 2 == 0; }
+constexpr LinkId link_of(EdgeId edge) {
+    return LinkId{static_cast<std::uint32_t>(edge) / 2};
+}
+constexpr bool is_forward(EdgeId edge) {
+    return static_cast<std::uint32_t>(edge) % 2 == 0;
+}
 constexpr EdgeId edge_of(LinkId link, bool forward) {
     return EdgeId{2 * static_cast<std::uint32_t>(link) + (forward ? 0U : 1U)};
 }
-constexpr EdgeId reversed(EdgeId edge) { return EdgeId{static_cast<std::uint32_t>(edge) ^ 1U}; }
+constexpr EdgeId reversed(EdgeId edge) {
+    return EdgeId{static_cast<std::uint32_t>(edge) ^ 1U};
+}
 
 /// A way's part between junctions.
 struct Link {
@@ -51,12 +57,12 @@ struct Link {
 /// Roads with topology: what a map says, cut at junctions, with the ways out of each node and an
 /// index in space. Made once by build_network and then only read.
 struct RoadNetwork {
-    std::vector<Way> ways;        ///< in the order of their ids
-    std::vector<GeoPoint> nodes;  ///< by NodeId
-    std::vector<Link> links;      ///< by LinkId, way by way
+    std::vector<Way> ways;                        ///< in the order of their ids
+    std::vector<GeoPoint> nodes;                  ///< by NodeId
+    std::vector<Link> links;                      ///< by LinkId, way by way
     std::vector<std::vector<double>> way_point_m; ///< per way: each point's distance from its first
-    std::vector<std::uint32_t> out_first; ///< per node + 1: into out_edges
-    std::vector<EdgeId> out_edges;        ///< drivable edges that leave the node
+    std::vector<std::uint32_t> out_first;         ///< per node + 1: into out_edges
+    std::vector<EdgeId> out_edges;                ///< drivable edges that leave the node
     double segment_length_m = 20;
 
     /// A grid over the globe's plane of degrees: every link stands in each cell that its line

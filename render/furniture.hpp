@@ -3,7 +3,6 @@
 #include "render/layout.hpp"
 #include "render/legend.hpp"
 
-
 namespace macadam {
 
 /// Where the data and the legend go on the map.

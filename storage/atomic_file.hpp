@@ -6,8 +6,8 @@
 
 namespace macadam {
 
-/// A file that appears when it is whole, or not at all: written under another name beside its place,
-/// synced, then renamed. Without commit() nothing is left.
+/// A file that appears when it is whole, or not at all: written under another name beside its
+/// place, synced, then renamed. Without commit() nothing is left.
 ///
 /// \throws InputError  from every call that fails; the message names the file and the cause.
 class AtomicFile {

@@ -32,7 +32,7 @@ struct TripRecord {
     std::string vehicle_id; ///< kept only as a pseudonym; "" = not stated
     std::string file_name;
     std::optional<std::int64_t> t0_utc_ms; ///< nothing: undated
-    std::string vehicle_model; ///< name of the Vehicle that was used
+    std::string vehicle_model;             ///< name of the Vehicle that was used
     std::string method;
     std::int64_t distance_mm = 0;
     std::int64_t matched_mm = 0;
@@ -79,8 +79,8 @@ struct StoreInfo {
     std::vector<std::string> vehicles; ///< pseudonyms, in byte order
     std::size_t segments = 0;
     std::size_t segments_with_passes = 0;
-    double km = 0;             ///< of segments with passes
-    double network_km = 0;     ///< of all segments, each direction counted
+    double km = 0;         ///< of segments with passes
+    double network_km = 0; ///< of all segments, each direction counted
     std::vector<ClassLength> classes;
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;
@@ -89,10 +89,10 @@ struct StoreInfo {
     GeoBox box; ///< of segments with passes; of all if there are none
 };
 
-/// Where the passes of many cars meet: one GeoPackage file (docs/store.md). Each call that writes is
-/// one transaction, all of it or nothing, on disk when it returns.
+/// Where the passes of many cars meet: one GeoPackage file (docs/store.md). Each call that writes
+/// is one transaction, all of it or nothing, on disk when it returns.
 ///
-/// \throws InputError  from every call, if the file is missing, no store, locked for more than 20 s,
+/// \throws InputError  from every call, if the file is missing, no store, locked for over 20 s,
 ///                     or cannot be written (the message names the file and the cause).
 class RoadStore {
 public:
@@ -132,8 +132,8 @@ public:
 
     StoreInfo info() const;
 
-    /// SHA-256 over passes and states as text: the same content gives the same digest on any machine
-    /// (docs/store.md says how the text is made).
+    /// SHA-256 over passes and states as text: the same content gives the same digest on any
+    /// machine (docs/store.md says how the text is made).
     std::string digest() const;
 
 private:

@@ -16,8 +16,8 @@ struct TripNeeds {
     bool speed = false;
     bool fixes = false;
 
-    /// Columns that must be in the header, as groups of which one is enough: {{"t_s"}, {"acc_z_mps2",
-    /// "acc_y_mps2"}}.
+    /// Columns that must be in the header, as groups of which one is enough: {{"t_s"},
+    /// {"acc_z_mps2", "acc_y_mps2"}}.
     std::vector<std::vector<std::string>> columns;
 };
 
@@ -44,15 +44,15 @@ struct TripSearch {
 /// \throws InputError  if there is no such file or folder.
 TripSearch find_trips(const std::filesystem::path& path);
 
-/// SHA-256 of the decompressed content of a trip, without reading it as one: to know quickly whether
-/// it is known.
+/// SHA-256 of the decompressed content of a trip, without reading it as one: to know quickly
+/// whether it is known.
 std::string content_sha256(const TripSource& source);
 
-/// Reads a "macadam-trip 1" log, plain, .gz or .zst, as a stream: its samples, and for every data row
-/// what it gave or why it gave nothing.
+/// Reads a "macadam-trip 1" log, plain, .gz or .zst, as a stream: its samples, and for every data
+/// row what it gave or why it gave nothing.
 ///
-/// \throws InputError  "file:line: ..." if it is not such a log, lacks a needed column, or does not end
-///                     with "# end rows: N" and the right N.
+/// \throws InputError  "file:line: ..." if it is not such a log, lacks a needed column, or does
+///                     not end with "# end rows: N" and the right N.
 TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress = {});
 
 } // namespace macadam

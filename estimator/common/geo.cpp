@@ -17,8 +17,8 @@ constexpr double rad_per_deg = std::numbers::pi / 180;
 PointEn metres_per_degree(double lat_deg) {
     const double sine = std::sin(lat_deg * rad_per_deg);
     const double w = 1 - eccentricity_squared * sine * sine;
-    const double n = equator_radius_m / std::sqrt(w);                 // Snyder eq. 4-20
-    const double m = n * (1 - eccentricity_squared) / w;              // Snyder eq. 4-19
+    const double n = equator_radius_m / std::sqrt(w);    // Snyder eq. 4-20
+    const double m = n * (1 - eccentricity_squared) / w; // Snyder eq. 4-19
     return {n * std::cos(lat_deg * rad_per_deg) * rad_per_deg, m * rad_per_deg};
 }
 
