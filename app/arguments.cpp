@@ -144,7 +144,7 @@ std::optional<std::vector<double>> Arguments::numbers(std::string_view name,
 
 std::string Arguments::choice(std::string_view name,
                               std::span<const std::string_view> words) const {
-    const auto word = value(name).value_or(std::string{words.front()});
+    auto word = value(name).value_or(std::string{words.front()});
     if (std::ranges::find(words, word) == words.end()) {
         throw UsageError{
             fmt::format("{} is '{}', expected {}", name, word, fmt::join(words, " or "))};

@@ -14,8 +14,8 @@ namespace macadam::testing {
 /// A new empty folder of the running test.
 inline std::filesystem::path test_folder() {
     const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    const auto folder = std::filesystem::path{::testing::TempDir()} /
-                        (std::string{"macadam_"} + test->test_suite_name() + "_" + test->name());
+    auto folder = std::filesystem::path{::testing::TempDir()} /
+                  (std::string{"macadam_"} + test->test_suite_name() + "_" + test->name());
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     return folder;
@@ -24,7 +24,7 @@ inline std::filesystem::path test_folder() {
 /// A file with that content; folders above it are made.
 inline std::filesystem::path
 written(const std::filesystem::path& folder, const std::string& name, std::string_view content) {
-    const auto file = folder / name;
+    auto file = folder / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream out{file, std::ios::binary};
     out << content;

@@ -13,7 +13,6 @@
 namespace macadam {
 namespace {
 
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::import_trips;
