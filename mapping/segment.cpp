@@ -33,10 +33,10 @@ std::vector<GeoPoint>
 line_between(const RoadNetwork& roads, const Link& link, double from_m, double to_m) {
     const auto& along_m = roads.way_point_m[link.way];
     std::vector<GeoPoint> line{place_at(roads, link, from_m)};
-    for (auto i = link.first_point + 1; i < link.last_point; ++i) {
-        if (from_m < along_m[i] && along_m[i] < to_m) {
-            line.push_back(roads.ways[link.way].line[i]);
-        }
+    const auto last = along_m.begin() + link.last_point;
+    auto point = std::upper_bound(along_m.begin() + link.first_point + 1, last, from_m);
+    for (; point != last && *point < to_m; ++point) {
+        line.push_back(roads.ways[link.way].line[static_cast<std::size_t>(point - along_m.begin())]);
     }
     line.push_back(place_at(roads, link, to_m));
     return line;
