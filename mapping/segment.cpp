@@ -36,7 +36,8 @@ line_between(const RoadNetwork& roads, const Link& link, double from_m, double t
     const auto last = along_m.begin() + link.last_point;
     auto point = std::upper_bound(along_m.begin() + link.first_point + 1, last, from_m);
     for (; point != last && *point < to_m; ++point) {
-        line.push_back(roads.ways[link.way].line[static_cast<std::size_t>(point - along_m.begin())]);
+        const auto i = static_cast<std::size_t>(point - along_m.begin());
+        line.push_back(roads.ways[link.way].line[i]);
     }
     line.push_back(place_at(roads, link, to_m));
     return line;
