@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/output_guard.hpp"
 #include "app/segment_options.hpp"
 
 #include "storage/export.hpp"
@@ -27,12 +28,12 @@ ExportOptions parse_export(const Arguments& arguments) {
         throw UsageError{fmt::format(
             "-o is '{}', expected a name that ends in {}", *output, fmt::join(suffixes, ", "))};
     }
-    return {
-        .store = arguments.operand("STORE"), .output = *output, .filter = parse_filter(arguments)};
+    return {.store = store_file(arguments), .output = *output, .filter = parse_filter(arguments)};
 }
 
 void run_export(const Arguments& arguments, const Console& console) {
     const auto options = parse_export(arguments);
+    refuse_to_replace(options.output, {options.store});
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     warn_of_waiting(store, options.store, console);
     const auto written =

@@ -1,12 +1,14 @@
 #include "app/commands.hpp"
 #include "app/estimation_options.hpp"
 #include "app/import_trips.hpp"
+#include "app/segment_options.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/json.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -29,7 +31,7 @@ ImportOptions parse_import(const Arguments& arguments) {
         throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, most_jobs)};
     }
     const auto& paths = arguments.operands("PATH");
-    return {.store = arguments.operand("STORE"),
+    return {.store = store_file(arguments),
             .paths = {paths.begin(), paths.end()},
             .jobs = static_cast<std::size_t>(jobs),
             .json = arguments.flag("--json"),
@@ -100,11 +102,25 @@ std::string text_lines(const TripOutcome& outcome) {
     return lines;
 }
 
-std::vector<TripSource> trips_in(const std::vector<std::filesystem::path>& paths,
-                                 const Console& console) {
+/// The trips of the paths, and the paths that are none, as rejected.
+struct Found {
     std::vector<TripSource> trips;
+    std::vector<TripOutcome> refused;
+};
+
+Found trips_in(const std::vector<std::filesystem::path>& paths, const Console& console) {
+    Found all;
     for (const auto& path : paths) {
-        auto found = find_trips(path);
+        TripSearch found;
+        try {
+            found = find_trips(path);
+        } catch (const InputError& error) {
+            TripOutcome outcome;
+            outcome.file = path.string();
+            outcome.error = error.what();
+            all.refused.push_back(std::move(outcome));
+            continue;
+        }
         if (found.trips.empty()) {
             console.warn(
                 fmt::format("{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst)",
@@ -114,28 +130,30 @@ std::vector<TripSource> trips_in(const std::vector<std::filesystem::path>& paths
             console.say(
                 fmt::format("{}: {} other files were not read", path.string(), found.other_files));
         }
-        trips.insert(trips.end(), found.trips.begin(), found.trips.end());
+        all.trips.insert(all.trips.end(), found.trips.begin(), found.trips.end());
     }
-    return trips;
+    return all;
 }
 
 void run_import(const Arguments& arguments, const Console& console) {
     const auto options = parse_import(arguments);
     VehicleChoice vehicles{arguments};
     auto store = RoadStore::open(options.store, RoadStore::Access::write);
-    const auto trips = trips_in(options.paths, console);
+    const auto [trips, refused] = trips_in(options.paths, console);
 
     const auto tell = [&](const TripOutcome& outcome) {
         print(options.json ? json_line(outcome) : text_lines(outcome));
         flush_results();
     };
-    const auto totals = import_trips(store,
-                                     trips,
-                                     vehicles,
-                                     options.pipeline,
-                                     options.jobs,
-                                     console.progress("importing"),
-                                     tell);
+    std::ranges::for_each(refused, tell);
+    auto totals = import_trips(store,
+                               trips,
+                               vehicles,
+                               options.pipeline,
+                               options.jobs,
+                               console.progress("importing"),
+                               tell);
+    totals.rejected += refused.size();
     const auto fused = store.refresh({}, console.progress("fusing"));
 
     console.say(fmt::format("{} imported, {} known, {} rejected; {}, {} fused",
@@ -145,14 +163,17 @@ void run_import(const Arguments& arguments, const Console& console) {
                             counted(totals.passes, "pass"),
                             counted(fused, "segment")));
     if (totals.rejected > 0) {
-        throw InputError{fmt::format("{} of {} rejected; the others are in the store",
-                                     totals.rejected,
-                                     counted(trips.size(), "trip"))};
+        const auto asked = trips.size() + refused.size();
+        throw InputError{
+            fmt::format("{} of {} rejected{}",
+                        totals.rejected,
+                        counted(asked, "trip"),
+                        totals.rejected < asked ? "; the others are in the store" : "")};
     }
 }
 
 constexpr std::array operands{
-    Operand{"STORE", "The road store, a .gpkg file made by 'macadam init'."},
+    store_operand,
     Operand{
         "PATH",
         "Trip logs, folders of them (searched to any depth), or archives (.zip, .tar, .tar.gz).",

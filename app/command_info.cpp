@@ -74,8 +74,9 @@ std::string text_of(const StoreInfo& info) {
 }
 
 void run_info(const Arguments& arguments, const Console& console) {
-    const auto store = RoadStore::open(arguments.operand("STORE"), RoadStore::Access::read);
-    warn_of_waiting(store, arguments.operand("STORE"), console);
+    const auto file = store_file(arguments);
+    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    warn_of_waiting(store, file, console);
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
     } else {

@@ -58,7 +58,7 @@ InitOptions parse_init(const Arguments& arguments) {
 
 bool is_osm(const std::filesystem::path& file) {
     const auto name = file.filename().string();
-    return name.find(".osm") != std::string::npos;
+    return name.find(".osm") != std::string::npos || name.ends_with(".pbf");
 }
 
 std::vector<Way> traced_ways(const std::vector<std::filesystem::path>& paths,

@@ -107,23 +107,32 @@ std::vector<double> borders_of(const MeasuredProfile& profile, const IriOptions&
     const double from_m = options.from_m.value_or(start_m);
     const double to_m = std::min(options.to_m.value_or(end_m), end_m);
     if (!(from_m >= start_m && from_m < to_m)) {
-        throw InputError{
-            fmt::format("{}: --from {} --to {} holds nothing of the profile, expected {} to {} m",
-                        options.profile.string(),
-                        from_m,
-                        options.to_m.value_or(end_m),
-                        start_m,
-                        end_m)};
+        throw InputError{fmt::format(
+            "{}: --from {:g} --to {:g} holds nothing of the profile, expected {:g} to {:g} m",
+            options.profile.string(),
+            from_m,
+            options.to_m.value_or(end_m),
+            start_m,
+            end_m)};
     }
     if (!options.length_m) {
         return {from_m, to_m};
+    }
+    const double step_m =
+        (profile.station_m.back() - start_m) / static_cast<double>(profile.station_m.size() - 1);
+    if (*options.length_m < step_m) {
+        throw InputError{fmt::format("{}: has a point every {:.3f} m, --length {} is shorter",
+                                     options.profile.string(),
+                                     step_m,
+                                     *options.length_m)};
     }
     std::vector<double> borders_m{from_m};
     while (borders_m.back() + *options.length_m <= to_m + 1e-6) {
         borders_m.push_back(from_m + static_cast<double>(borders_m.size()) * *options.length_m);
     }
+    borders_m.back() = std::min(borders_m.back(), to_m);
     if (borders_m.size() < 2) {
-        throw InputError{fmt::format("{}: {} m from {} to {} are shorter than --length {}",
+        throw InputError{fmt::format("{}: {:g} m from {:g} to {:g} are shorter than --length {:g}",
                                      options.profile.string(),
                                      to_m - from_m,
                                      from_m,
@@ -253,8 +262,10 @@ MeasuredProfile started_at(MeasuredProfile profile, std::optional<double> from_m
     if (!from_m || *from_m - profile.station_m.front() >= start_up_m) {
         return profile;
     }
-    const auto first = std::ranges::lower_bound(profile.station_m, *from_m - 1e-6);
-    const auto skipped = first - profile.station_m.begin();
+    // The last station at or before it, so that the line to the next one is not lost.
+    const auto after = std::ranges::upper_bound(profile.station_m, *from_m + 1e-6);
+    const auto skipped = std::max<std::ptrdiff_t>(0, after - profile.station_m.begin() - 1);
+    const auto first = profile.station_m.begin() + skipped;
     for (auto& track : profile.tracks) {
         track.elevation_m.erase(track.elevation_m.begin(), track.elevation_m.begin() + skipped);
     }

@@ -1,4 +1,6 @@
 #include "app/commands.hpp"
+#include "app/output_guard.hpp"
+#include "app/pipeline.hpp"
 #include "app/trip_place.hpp"
 
 #include "estimator/common/error.hpp"
@@ -212,14 +214,21 @@ std::string spoken(const MatchedTrace& trace) {
 
 void run_match(const Arguments& arguments, const Console& console) {
     const auto options = parse_match(arguments);
+    if (options.output) {
+        refuse_to_replace(*options.output, {options.trip, options.network});
+    }
     const auto roads = build_network(
         read_network(options.network, options.columns, console.progress("reading roads")));
+    const auto source = one_trip(options.trip);
+    std::vector<std::string> warnings;
     const auto trip =
-        read_trip(one_trip(options.trip), needs_of_match(), console.progress("reading"));
+        with_latency(read_trip(source, needs_of_match(), console.progress("reading")), warnings);
 
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    const auto trace = map_match(trip, odometer, roads, {}, use);
+    const auto trace = naming(source.name(), [&] {
+        auto use = unused(trip);
+        const auto odometer = make_odometer(trip, {}, use);
+        return map_match(trip, odometer, roads, {}, use);
+    });
     console.say(spoken(trace));
 
     const bool geojson = options.output && options.output->extension() == ".geojson";

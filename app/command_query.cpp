@@ -29,7 +29,7 @@ struct QueryOptions {
 
 QueryOptions parse_query(const Arguments& arguments) {
     constexpr std::array<std::string_view, 4> formats{"table", "json", "csv", "geojson"};
-    QueryOptions options{.store = arguments.operand("STORE"),
+    QueryOptions options{.store = store_file(arguments),
                          .filter = parse_filter(arguments),
                          .near = {},
                          .radius_m = arguments.number("--radius", near_m),
@@ -40,7 +40,7 @@ QueryOptions parse_query(const Arguments& arguments) {
     }
     if (const auto at = arguments.numbers("--near", 2)) {
         options.near = GeoPoint{(*at)[0], (*at)[1]};
-        if (std::abs(options.near->lat_deg) > 90 || std::abs(options.near->lon_deg) > 180) {
+        if (!(std::abs(options.near->lat_deg) <= 90 && std::abs(options.near->lon_deg) <= 180)) {
             throw UsageError{fmt::format("--near is {},{}, expected latitude,longitude in degrees",
                                          options.near->lat_deg,
                                          options.near->lon_deg)};
@@ -72,6 +72,10 @@ QueryOptions parse_query(const Arguments& arguments) {
     if (options.history && !filter.key) {
         throw UsageError{"--history goes with --segment KEY"};
     }
+    if (options.history && options.format != "table" && options.format != "json") {
+        throw UsageError{
+            fmt::format("--history has no --format {}, expected table or json", options.format)};
+    }
     return options;
 }
 
@@ -95,6 +99,15 @@ double distance_to_line_m(const GeoPoint& place, const std::vector<GeoPoint>& li
     return nearest_m;
 }
 
+/// What two boxes share; with nothing the other.
+GeoBox intersection(const std::optional<GeoBox>& a, const GeoBox& b) {
+    return a ? GeoBox{std::max(a->west_deg, b.west_deg),
+                      std::max(a->south_deg, b.south_deg),
+                      std::min(a->east_deg, b.east_deg),
+                      std::min(a->north_deg, b.north_deg)}
+             : b;
+}
+
 std::vector<SegmentRecord>
 nearest(std::vector<SegmentRecord> records, const GeoPoint& place, double radius_m) {
     std::vector<std::pair<double, SegmentRecord>> by_distance;
@@ -116,8 +129,9 @@ nearest(std::vector<SegmentRecord> records, const GeoPoint& place, double radius
 std::vector<SegmentRecord> found_in(const RoadStore& store, const QueryOptions& options) {
     auto filter = options.filter;
     if (options.near) {
-        const auto around = grown(including({}, *options.near), options.radius_m);
-        filter.box = around;
+        filter.box =
+            intersection(filter.box, grown(including({}, *options.near), options.radius_m));
+        filter.worst = 0; // of those within the radius, below
     }
     if (filter.key) {
         filter.with_state_only = false; // asked for by name, it is shown even if nobody drove it
@@ -128,7 +142,16 @@ std::vector<SegmentRecord> found_in(const RoadStore& store, const QueryOptions& 
         throw InputError{
             fmt::format("{}: has no segment '{}'", options.store.string(), name_of(*filter.key))};
     }
-    return options.near ? nearest(std::move(records), *options.near, options.radius_m) : records;
+    if (options.near) {
+        records = nearest(std::move(records), *options.near, options.radius_m);
+    }
+    if (options.near && options.filter.worst > 0) {
+        std::ranges::stable_sort(records, std::ranges::greater{}, [](const SegmentRecord& record) {
+            return record.state ? record.state->iri_um : -1;
+        });
+        records.resize(std::min(records.size(), options.filter.worst));
+    }
+    return records;
 }
 
 std::string table_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {

@@ -74,7 +74,7 @@ RenderOptions parse_render(const Arguments& arguments) {
     }
     const auto [width, height] =
         size_of(arguments.value("--size").value_or(std::string{default_size}));
-    RenderOptions options{.store = arguments.operand("STORE"),
+    RenderOptions options{.store = store_file(arguments),
                           .output = *output,
                           .box = {},
                           .width_px = width,

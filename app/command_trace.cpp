@@ -131,15 +131,19 @@ std::string json_of(const std::vector<Row>& rows) {
 void run_trace(const Arguments& arguments, const Console& console) {
     const auto options = parse_trace(arguments);
     VehicleChoice vehicles{arguments};
+    std::vector<std::string> warnings;
+    const auto source = one_trip(options.trip);
     const auto trip =
-        read_trip(one_trip(options.trip), needs_of_trace(), console.progress("reading"));
+        with_latency(read_trip(source, needs_of_trace(), console.progress("reading")), warnings);
     const auto chosen = vehicles(options.trip, trip.meta.vehicle_id);
-    const auto trace = trace_of(trip, chosen.vehicle, options.pipeline);
+    const auto trace =
+        naming(source.name(), [&] { return trace_of(trip, chosen.vehicle, options.pipeline); });
 
     if (!chosen.warning.empty()) {
-        console.warn(chosen.warning);
+        warnings.push_back(chosen.warning);
     }
-    for (const auto& warning : trace.warnings) {
+    warnings.insert(warnings.end(), trace.warnings.begin(), trace.warnings.end());
+    for (const auto& warning : warnings) {
         console.warn(warning);
     }
     const TripPlace place{trip};

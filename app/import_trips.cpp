@@ -1,5 +1,7 @@
 #include "app/import_trips.hpp"
 
+#include "app/trip_place.hpp"
+
 #include "estimator/common/error.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +31,9 @@ TripRecord record_of(const TripSource& source, const TripMeta& meta, const TripO
     if (meta.t0_utc_s) {
         record.t0_utc_ms = thousandths(*meta.t0_utc_s);
     }
-    record.vehicle_model = outcome.vehicle;
+    // The name of a car's own file is its vehicle_id, which the store does not keep.
+    record.vehicle_model =
+        built_in_vehicle(outcome.vehicle) != nullptr ? outcome.vehicle : "own file";
     record.method = "kf";
     record.distance_mm = thousandths(outcome.trip.distance_m);
     record.matched_mm = thousandths(outcome.trip.matched_m);
@@ -55,7 +59,9 @@ TripOutcome worked_out(const TripSource& source,
         const auto chosen = vehicles(source.file, meta.vehicle_id);
         outcome.vehicle = chosen.vehicle.name;
         outcome.trip.rows.read = outcome.trip.rows.rejected = trip.rows.size();
-        outcome.trip = passes_of(std::move(trip), chosen.vehicle, roads, config);
+        outcome.trip = naming(outcome.file, [&] {
+            return passes_of(std::move(trip), chosen.vehicle, roads, config);
+        });
         outcome.record = record_of(source, meta, outcome);
         outcome.result = TripOutcome::Result::imported;
         if (!chosen.warning.empty()) {
@@ -64,10 +70,13 @@ TripOutcome worked_out(const TripSource& source,
         if (!meta.t0_utc_s) {
             outcome.trip.warnings.emplace_back("t0_utc is not known: the trip counts as undated");
         }
-    } catch (const InputError& error) {
-        outcome.error = error.what();
     } catch (const std::bad_alloc&) {
         outcome.error = outcome.file + ": not enough memory";
+    } catch (const std::exception& error) {
+        outcome.error = error.what();
+    }
+    if (outcome.result == TripOutcome::Result::rejected && outcome.trip.rows.read > 0) {
+        outcome.trip.rows.reasons = {{"trip_rejected", outcome.trip.rows.read}};
     }
     return outcome;
 }
@@ -100,7 +109,8 @@ public:
 private:
     void toil(const std::stop_token& stop) {
         try {
-            for (std::size_t number = next_++; number < count_; number = next_++) {
+            for (std::size_t number = next_++; number < count_ && !stop.stop_requested();
+                 number = next_++) {
                 {
                     std::unique_lock lock{mutex_};
                     if (!changed_.wait(lock, stop, [&] { return number < taken_ + ahead_; })) {
@@ -160,7 +170,7 @@ ImportTotals import_trips(RoadStore& store,
         outcome.file = trips[number].name();
         try {
             outcome.sha256 = content_sha256(trips[number]);
-        } catch (const InputError& error) {
+        } catch (const std::exception& error) {
             outcome.error = error.what();
             return outcome;
         }

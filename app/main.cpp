@@ -18,6 +18,12 @@ void say(const std::string& words) {
 
 enum ExitStatus { done = 0, failed = 1, misused = 2 };
 
+/// Help and the like, to standard output.
+int tell(const std::string& words) {
+    const bool told = std::fputs(words.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
+    return told ? done : failed;
+}
+
 /// Runs a command and turns what it throws into words and an exit status: the only place that does.
 int run_command(const macadam::Command& command, std::vector<std::string> words) {
     try {
@@ -57,12 +63,10 @@ int main(int argc, char** argv) {
     words.erase(words.begin());
 
     if (name == "--version") {
-        fmt::print("macadam {}\n", MACADAM_VERSION);
-        return done;
+        return tell(fmt::format("macadam {}\n", MACADAM_VERSION));
     }
     if (name == "--help" || name == "-h" || name == "help") {
-        fmt::print("{}", macadam::help_of_all());
-        return done;
+        return tell(macadam::help_of_all());
     }
     const auto* const command = macadam::command_named(name);
     if (command == nullptr) {
@@ -71,8 +75,7 @@ int main(int argc, char** argv) {
     }
     if (std::ranges::find(words, "--help") != words.end() ||
         std::ranges::find(words, "-h") != words.end()) {
-        fmt::print("{}", macadam::help_of(*command));
-        return done;
+        return tell(macadam::help_of(*command));
     }
     return run_command(*command, std::move(words));
 }

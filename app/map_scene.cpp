@@ -8,7 +8,8 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <map>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -41,12 +42,23 @@ GeoBox box_with_margin(const GeoBox& box) {
     return grown(box, std::max(least_margin_m, margin_share * diagonal_m));
 }
 
-std::string subtitle_of(const StoreInfo& info) {
+/// More than the box: what a picture of another shape than the box also shows, with the room that
+/// it makes for the legend. What lies outside the picture is cut off by it.
+GeoBox shown_around(const GeoBox& box) {
+    return grown(box,
+                 1.5 * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
+}
+
+/// \param whole  the picture shows all of the store, so its numbers are the picture's.
+std::string subtitle_of(const StoreInfo& info, bool whole) {
     std::string period = "dates not known";
     if (info.first_seen_ms && info.last_seen_ms) {
         const auto first = utc_text(*info.first_seen_ms).substr(0, 10);
         const auto last = utc_text(*info.last_seen_ms).substr(0, 10);
         period = first == last ? first : first + " to " + last;
+    }
+    if (!whole) {
+        return period;
     }
     return fmt::format("{}  ·  {:.1f} km  ·  {}  ·  {}",
                        period,
@@ -65,7 +77,7 @@ MapScene map_scene(const RoadStore& store,
     MapScene scene;
     scene.box = box ? *box : box_with_margin(info.box);
     scene.title = title;
-    scene.subtitle = subtitle_of(info);
+    scene.subtitle = subtitle_of(info, !box);
     scene.attribution = info.settings.attribution;
 
     if (classes.name == info.settings.class_table && !box) {
@@ -76,21 +88,32 @@ MapScene map_scene(const RoadStore& store,
 
     // Each direction is a segment of its own; what was driven one way only is still a road of two
     // sides where the map lets cars go both ways.
-    std::set<std::pair<std::int64_t, std::uint32_t>> backward;
+    std::map<std::pair<std::int64_t, std::uint32_t>, int> directions;
+    bool nothing_there = true;
     SegmentFilter filter;
-    filter.box = scene.box;
+    filter.box = shown_around(scene.box);
     filter.with_state_only = false;
     store.visit(filter, [&](const SegmentRecord& record) {
-        if (!record.segment.key.forward) {
-            backward.emplace(record.segment.key.way_id, record.segment.key.index);
-        }
+        ++directions[{record.segment.key.way_id, record.segment.key.index}];
+        nothing_there =
+            nothing_there && !std::ranges::any_of(record.segment.line, [&](auto& point) {
+                return contains(scene.box, point);
+            });
     });
+    if (nothing_there) {
+        throw InputError{fmt::format(
+            "nothing to draw: the store has no road between {:.5f},{:.5f} and {:.5f},{:.5f}",
+            scene.box.south_deg,
+            scene.box.west_deg,
+            scene.box.north_deg,
+            scene.box.east_deg)};
+    }
     store.visit(filter, [&](const SegmentRecord& record) {
         const auto& key = record.segment.key;
         MapLine line;
         line.line = record.segment.line;
         line.forward = key.forward;
-        line.both_ways = !key.forward || backward.contains({key.way_id, key.index});
+        line.both_ways = directions.at({key.way_id, key.index}) == 2;
         line.rank = rank_of(record.highway);
         line.name = record.name;
         if (record.state) {
@@ -99,14 +122,6 @@ MapScene map_scene(const RoadStore& store,
         }
         scene.lines.push_back(std::move(line));
     });
-    if (scene.lines.empty()) {
-        throw InputError{fmt::format(
-            "nothing to draw: the store has no road between {:.5f},{:.5f} and {:.5f},{:.5f}",
-            scene.box.south_deg,
-            scene.box.west_deg,
-            scene.box.north_deg,
-            scene.box.east_deg)};
-    }
     return scene;
 }
 

@@ -1,9 +1,12 @@
 #include "app/pipeline.hpp"
 
+#include "estimator/latency.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace macadam {
 namespace {
@@ -46,6 +49,21 @@ warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mount
         warnings.push_back(fmt::format("wheel speed was off from GNSS by {:+.1f} %; corrected",
                                        100 * (1 / odometer.scale() - 1)));
     }
+    if (mounting.gravity_missing) {
+        warnings.emplace_back(
+            "no gravity was felt, though the log says that it is included; the axes "
+            "are taken as stated");
+    }
+    if (mounting.heading_unknown) {
+        warnings.emplace_back(
+            "the heading of the sensor could not be found: too little braking and "
+            "accelerating; lateral vibration is not to be trusted");
+    }
+    if (trip.meta.frame_stated && trip.meta.frame != Frame::sensor &&
+        (trip.meta.mount_rpy_deg || trip.meta.mount_quat)) {
+        warnings.emplace_back(
+            "the mounting angles were not applied: they lead from 'frame: sensor'");
+    }
     for (const auto& column : trip.unknown_columns) {
         warnings.push_back(fmt::format("column '{}' is not known and was not read", column));
     }
@@ -77,7 +95,31 @@ double length_on_roads_m(const MatchedTrace& matched) {
     return length_m;
 }
 
+/// Why a trip gave no pass.
+std::string spoken_emptiness(const IriTrace& roughness, const MatchedTrace& matched) {
+    if (length_on_roads_m(matched) <= 0) {
+        return "no part of the trip lies on the network: no pass";
+    }
+    return roughness.runs.empty() ? "no part of the trip was driven evenly enough: no pass"
+                                  : "no segment was driven whole enough: no pass";
+}
+
 } // namespace
+
+TripLog with_latency(TripLog trip, std::vector<std::string>& warnings) {
+    if (trip.meta.gnss_latency_stated || trip.fixes.empty()) {
+        return trip;
+    }
+    if (const auto latency_s = estimate_gnss_latency_s(trip)) {
+        trip.meta.gnss_latency_s = *latency_s;
+        warnings.push_back(
+            fmt::format("gnss_latency_s is not stated; estimated as {:.2f} s", *latency_s));
+    } else {
+        warnings.emplace_back("gnss_latency_s is not stated and could not be found; places may lie "
+                              "up to 2 s of driving ahead of the road");
+    }
+    return trip;
+}
 
 TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config) {
     auto use = unused(trip);
@@ -97,17 +139,24 @@ TripResult passes_of(TripLog trip,
                      const Vehicle& vehicle,
                      const RoadNetwork& roads,
                      const PipelineConfig& config) {
+    std::vector<std::string> warnings;
+    trip = with_latency(std::move(trip), warnings);
     auto trace = trace_of(trip, vehicle, config);
     trip.acc = {};
     const auto matched =
         behind_antenna(map_match(trip, trace.odometer, roads, config.match, trace.use),
                        antenna_ahead_m(trip.meta, vehicle));
 
-    return {.passes = cut_passes(trace.roughness, matched, roads, vehicle, config.pass),
+    auto passes = cut_passes(trace.roughness, matched, roads, vehicle, config.pass);
+    std::ranges::move(trace.warnings, std::back_inserter(warnings));
+    if (passes.empty()) {
+        warnings.push_back(spoken_emptiness(trace.roughness, matched));
+    }
+    return {.passes = std::move(passes),
             .rows = account(trip, trace.use),
             .distance_m = trace.odometer.whole_m(),
             .matched_m = length_on_roads_m(matched),
-            .warnings = std::move(trace.warnings)};
+            .warnings = std::move(warnings)};
 }
 
 } // namespace macadam

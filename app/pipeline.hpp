@@ -26,6 +26,10 @@ struct TripTrace {
     std::vector<std::string> warnings;
 };
 
+/// The trip with the receiver's latency filled in where the log does not state it and its speeds
+/// tell. Adds to `warnings` what was found, or that it could not be.
+TripLog with_latency(TripLog trip, std::vector<std::string>& warnings);
+
 /// The engine alone: what one trip says of the road along its own travel. No map.
 TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config);
 

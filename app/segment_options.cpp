@@ -4,6 +4,14 @@
 
 namespace macadam {
 
+std::filesystem::path store_file(const Arguments& arguments) {
+    const auto& store = arguments.operand("STORE");
+    if (store.find("://") != std::string::npos) {
+        throw UsageError{fmt::format("STORE is '{}', expected a .gpkg file", store)};
+    }
+    return store;
+}
+
 GeoBox box_of(const std::vector<double>& degrees) {
     const GeoBox box{degrees[0], degrees[1], degrees[2], degrees[3]};
     const bool on_globe =

@@ -17,6 +17,9 @@ inline constexpr Option name_option{
     "--name", "TEXT", "Only roads whose name holds this text, in any case."};
 inline constexpr Option all_option{"--all", "", "Also segments that nobody has driven yet."};
 
+/// The STORE operand. \throws UsageError for the address of a server: a store is a file.
+std::filesystem::path store_file(const Arguments& arguments);
+
 /// A box from degrees W,S,E,N. \throws UsageError if it is not one.
 GeoBox box_of(const std::vector<double>& degrees);
 

@@ -1,7 +1,5 @@
 #include "app/trip_place.hpp"
 
-#include "estimator/common/error.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,16 +1,28 @@
 #pragma once
 
+#include "estimator/common/error.hpp"
 #include "estimator/common/trip.hpp"
 #include "storage/trip_reader.hpp"
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace macadam {
 
 /// The one trip of a path. \throws InputError if it is a folder or an archive of several.
 TripSource one_trip(const std::filesystem::path& path);
+
+/// What `work` returns; its refusals get the trip's name before them, for the engine knows no file.
+template <typename Work>
+auto naming(const std::string& trip, Work work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        throw InputError{trip + ": " + error.what()};
+    }
+}
 
 /// Where the car was at a time, straight between its fixes, their latency taken off.
 class TripPlace {

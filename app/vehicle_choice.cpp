@@ -42,6 +42,16 @@ std::vector<fs::path> toml_files(const fs::path& folder) {
     return files;
 }
 
+/// vehicles/ beside the trip's folder, in it, or up to two folders higher: fleets keep a folder for
+/// each car or each day below the folder of trips.
+std::vector<fs::path> vehicle_folders(const fs::path& trip_folder) {
+    const auto parent = trip_folder.parent_path();
+    return {parent / "vehicles",
+            trip_folder / "vehicles",
+            parent.parent_path() / "vehicles",
+            parent.parent_path().parent_path() / "vehicles"};
+}
+
 } // namespace
 
 VehicleChoice::VehicleChoice(const Arguments& arguments) {
@@ -89,9 +99,7 @@ ChosenVehicle VehicleChoice::operator()(const fs::path& trip_file, const std::st
         return {*for_all_, ""};
     }
     const auto trip_folder = fs::absolute(trip_file).lexically_normal().parent_path();
-    const auto folders =
-        folder_ ? std::vector{*folder_}
-                : std::vector{trip_folder.parent_path() / "vehicles", trip_folder / "vehicles"};
+    const auto folders = folder_ ? std::vector{*folder_} : vehicle_folders(trip_folder);
     for (const auto& folder : folders) {
         const auto& known = in_folder(folder);
         if (const auto found = known.find(vehicle_id); found != known.end()) {

@@ -86,8 +86,12 @@ IriMean mean_over(const IriTrace& trace, double from_m, double to_m, const Vehic
 /// Standard deviation of an estimate of `iri_mm_per_m` over `length_m` of road.
 ///
 /// Two relative parts: what changes along the road and averages out with length, and what the car's
-/// parameters shift alike everywhere. See docs/method.md for the figures and where they come from.
-double
-sd_of_kf_mm_per_m(double iri_mm_per_m, double length_m, bool lateral_only, const Vehicle& vehicle);
+/// parameters and, at speed, the method's filters shift alike everywhere. See docs/method.md for
+/// the figures and where they come from.
+double sd_of_kf_mm_per_m(double iri_mm_per_m,
+                         double length_m,
+                         double speed_mps,
+                         bool lateral_only,
+                         const Vehicle& vehicle);
 
 } // namespace macadam

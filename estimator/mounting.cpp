@@ -22,6 +22,11 @@ constexpr double wander_deg = 8;    // a 10 % grade is 5.7 degrees, camber 1.5
 constexpr double brisk_mps2 = 0.5;  // braking that shows which way is forward
 constexpr std::size_t least_brisk = 8;
 
+// Standard gravity within what a scale error of 25 % and a hill explain. Anything else is no
+// gravity: an axis is missing, or it was taken off without a word.
+constexpr double least_gravity_mps2 = 7;
+constexpr double most_gravity_mps2 = 13;
+
 /// The mean specific force of about a second, in the sensor's axes, and what the speed did.
 struct Window {
     double middle_s;
@@ -111,8 +116,15 @@ Matrix3d rotation_of_rpy(const std::array<double, 3>& rpy_deg) {
         .toRotationMatrix();
 }
 
+/// Mounting angles lead from the device's axes; where the log names no frame they say that it is
+/// the device's.
+Frame frame_of(const TripMeta& meta) {
+    const bool mounted = meta.mount_quat || meta.mount_rpy_deg;
+    return mounted && !meta.frame_stated ? Frame::sensor : meta.frame;
+}
+
 Matrix3d stated_rotation(const TripMeta& meta) {
-    switch (meta.frame) {
+    switch (frame_of(meta)) {
     case Frame::flu:
         return Matrix3d::Identity();
     case Frame::frd:
@@ -149,13 +161,21 @@ std::optional<Matrix3d> heading(const std::vector<Window>& windows, const Matrix
 
 Mounting estimate_mounting(const TripLog& trip, const Odometer& odometer) {
     const Matrix3d stated = stated_rotation(trip.meta);
-    Mounting mounting{.to_vehicle = stated, .gravity_mps2 = 0, .tilt_deg = 0, .moved = false};
+    Mounting mounting{.to_vehicle = stated,
+                      .gravity_mps2 = 0,
+                      .tilt_deg = 0,
+                      .moved = false,
+                      .gravity_missing = false,
+                      .heading_unknown = false};
     const auto windows = windows_of(trip.acc, odometer);
     if (windows.empty()) {
         return mounting;
     }
-    if (trip.meta.gravity_included) {
-        const Vector3d gravity = steady_force(windows);
+    const Vector3d gravity = steady_force(windows);
+    mounting.gravity_missing =
+        trip.meta.gravity_included &&
+        !(gravity.norm() > least_gravity_mps2 && gravity.norm() < most_gravity_mps2);
+    if (trip.meta.gravity_included && !mounting.gravity_missing) {
         mounting.gravity_mps2 = gravity.norm();
         mounting.tilt_deg = angle_deg(stated * gravity, Vector3d::UnitZ());
         mounting.moved = wandered(windows, gravity);
@@ -166,9 +186,11 @@ Mounting estimate_mounting(const TripLog& trip, const Odometer& odometer) {
     }
     const bool mount_stated = trip.meta.mount_quat || trip.meta.mount_rpy_deg;
     const bool turn_unknown =
-        trip.meta.mount_auto || (trip.meta.frame == Frame::sensor && !mount_stated);
+        trip.meta.mount_auto || (frame_of(trip.meta) == Frame::sensor && !mount_stated);
     if (const auto turn = turn_unknown ? heading(windows, mounting.to_vehicle) : std::nullopt) {
         mounting.to_vehicle = *turn * mounting.to_vehicle;
+    } else {
+        mounting.heading_unknown = turn_unknown;
     }
     return mounting;
 }

@@ -215,9 +215,10 @@ std::vector<StretchSpan> find_stretches(const TripLog& trip,
             spans.push_back({first, end - 1});
         }
     };
+    const double max_gap_s = std::max(config.max_gap_s, config.max_gap_steps * median_step_s(t_s));
     std::size_t first = 0; // of the stretch that is being followed; it is empty where first == i
     for (std::size_t i = 0; i < t_s.size(); ++i) {
-        const bool cut = i > first && (t_s[i] - t_s[i - 1] > config.max_gap_s ||
+        const bool cut = i > first && (t_s[i] - t_s[i - 1] > max_gap_s ||
                                        t_s[i] - t_s[first] > config.longest_s);
         const auto reason = unfit(odometer, t_s[i], config.min_speed_mps);
         if ((cut || reason != 0) && i > first) {

@@ -15,7 +15,10 @@ struct Mounting {
     Eigen::Matrix3d to_vehicle; ///< vehicle = to_vehicle * sensor
     double gravity_mps2;        ///< mean specific force along the vehicle's z when included, else 0
     double tilt_deg;            ///< how far the stated axes stood from level
-    bool moved;                 ///< gravity wandered by more than the road's camber explains
+    bool moved;           ///< gravity wandered by more than the road's camber explains
+    bool gravity_missing; ///< it should be included, but what was felt is not it: nothing levelled
+    bool heading_unknown; ///< to be found from braking and accelerating, of which there was too
+                          ///< little
 };
 
 /// The mounting that the log states, corrected so that the mean specific force of the trip points
@@ -28,7 +31,8 @@ struct StretchConfig {
     double most_rate_hz = 200;
     double least_rate_hz = 40; ///< below it a log cannot carry the wavelengths that IRI weighs
     double min_speed_mps = 5;
-    double max_gap_s = 0.3;     ///< longest hole in the vibration that is interpolated
+    double max_gap_s = 0.06;    ///< longest hole in the vibration that is interpolated, ...
+    double max_gap_steps = 2.5; ///< ... or this many of the log's own steps, if that is longer
     double least_length_m = 60; ///< shorter ones would be all start-up
     double longest_s = 3600;    ///< cut there, to hold little memory
 };

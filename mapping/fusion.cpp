@@ -66,15 +66,25 @@ std::vector<Reading> readings_of(const std::vector<Vote>& votes) {
     return readings;
 }
 
-double between_um2(std::span<const FusionInput> passes, const FusionConfig& config) {
+/// The middle of what the passes read, each alike.
+double level_um(std::span<const FusionInput> passes) {
     std::vector<Reading> readings;
     readings.reserve(passes.size());
     for (const auto& input : passes) {
         readings.push_back({static_cast<double>(input.pass.iri_um), 1});
     }
-    const double level_um = weighted_median(std::move(readings));
+    return weighted_median(std::move(readings));
+}
+
+double between_um2(double level_um, const FusionConfig& config) {
     return square(config.between_relative_sd * level_um) +
            square(config.between_sd_mm_per_m * um_per_mm);
+}
+
+/// A pass's own sd, as it would be had the pass read what the segment is. Most of it is a share of
+/// what was read, and a pass must not gain weight by reading low.
+double sd_at_level_um(const Pass& pass, double level_um) {
+    return pass.sd_um * level_um / std::max<double>(1, pass.iri_um);
 }
 
 struct Fused {
@@ -108,11 +118,12 @@ double reweighted_mean(std::vector<Vote>& votes, double mean_um, double dof) {
 }
 
 Fused fused(std::span<const FusionInput> passes, const FusionConfig& config) {
-    const double rest_um2 = between_um2(passes, config);
+    const double middle_um = level_um(passes);
+    const double rest_um2 = between_um2(middle_um, config);
     std::vector<Vote> votes;
     votes.reserve(passes.size());
     for (const auto& input : passes) {
-        const double sd_um = input.pass.sd_um;
+        const double sd_um = sd_at_level_um(input.pass, middle_um);
         votes.push_back(
             {static_cast<double>(input.pass.iri_um), sd_um, square(sd_um) + rest_um2, 0});
     }
@@ -163,7 +174,7 @@ std::size_t count_of(const std::vector<std::size_t>& cars) {
     return *std::max_element(cars.begin(), cars.end()) + 1;
 }
 
-double sd_of_mean_um(const Fused& all, const std::vector<std::size_t>& cars) {
+double sd_of_mean_um(const Fused& all, const std::vector<std::size_t>& cars, double common_share) {
     double weights = 0, scatter = 0;
     std::vector<double> of_car(count_of(cars), 0.0);
     for (std::size_t i = 0; i < all.votes.size(); ++i) {
@@ -172,7 +183,9 @@ double sd_of_mean_um(const Fused& all, const std::vector<std::size_t>& cars) {
         scatter += square(vote.weight) * all.rest_um2;
         of_car[cars[i]] += vote.weight * vote.sd_um;
     }
-    const double shared = std::inner_product(of_car.begin(), of_car.end(), of_car.begin(), 0.0);
+    const double by_car = std::inner_product(of_car.begin(), of_car.end(), of_car.begin(), 0.0);
+    const double by_all = square(std::accumulate(of_car.begin(), of_car.end(), 0.0));
+    const double shared = std::lerp(by_car, by_all, common_share);
     return excess(all) * std::sqrt(scatter + shared) / weights;
 }
 
@@ -241,7 +254,7 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     assert(!passes.empty());
     const auto all = fused(passes, config);
     const auto cars = cars_of(passes);
-    const double sd_um = sd_of_mean_um(all, cars);
+    const double sd_um = sd_of_mean_um(all, cars, config.common_share);
 
     auto state = gathered(passes);
     state.iri_um = whole_um(all.mean_um);

@@ -40,6 +40,8 @@ struct SegmentState {
 struct FusionConfig {
     double between_relative_sd = 0.08; ///< from pass to pass of good cars: wander, speed, load
     double between_sd_mm_per_m = 0.05;
+    double common_share = 0.5; ///< of a pass's variance that every car shares: the same model, the
+                               ///< same road between the tracks (docs/method.md)
     double heavy_tail_dof = 4; ///< of the t distribution that spares one bad pass
 };
 

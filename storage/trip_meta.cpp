@@ -101,6 +101,16 @@ double utc_s(const MetaLine& line) {
     return *time;
 }
 
+/// A latency that a receiver or a bus can have.
+double latency_s(const MetaLine& line) {
+    constexpr double most_s = 60;
+    const double value = number(line);
+    if (std::abs(value) > most_s) {
+        refuse(line, "a latency of at most 60 s");
+    }
+    return value;
+}
+
 using Setter = void (*)(TripMeta&, const MetaLine&);
 
 const std::map<std::string_view, Setter>& setters() {
@@ -110,7 +120,11 @@ const std::map<std::string_view, Setter>& setters() {
         {"trip_id", [](M& meta, const L& line) { meta.trip_id = line.value; }},
         {"vehicle_id", [](M& meta, const L& line) { meta.vehicle_id = line.value; }},
         {"t0_utc", [](M& meta, const L& line) { meta.t0_utc_s = utc_s(line); }},
-        {"frame", [](M& meta, const L& line) { meta.frame = frame(line); }},
+        {"frame",
+         [](M& meta, const L& line) {
+             meta.frame = frame(line);
+             meta.frame_stated = true;
+         }},
         {"gravity", [](M& meta, const L& line) { meta.gravity_included = gravity_included(line); }},
         {"mount_rpy_deg", [](M& meta, const L& line) { meta.mount_rpy_deg = three_numbers(line); }},
         {"mount_quat", [](M& meta, const L& line) { meta.mount_quat = unit_quaternion(line); }},
@@ -118,8 +132,12 @@ const std::map<std::string_view, Setter>& setters() {
          [](M& meta, const L& line) { meta.acc_sensor_pos_m = three_numbers(line); }},
         {"gnss_antenna_pos_m",
          [](M& meta, const L& line) { meta.gnss_antenna_pos_m = three_numbers(line); }},
-        {"gnss_latency_s", [](M& meta, const L& line) { meta.gnss_latency_s = number(line); }},
-        {"speed_latency_s", [](M& meta, const L& line) { meta.speed_latency_s = number(line); }},
+        {"gnss_latency_s",
+         [](M& meta, const L& line) {
+             meta.gnss_latency_s = latency_s(line);
+             meta.gnss_latency_stated = true;
+         }},
+        {"speed_latency_s", [](M& meta, const L& line) { meta.speed_latency_s = latency_s(line); }},
         {"speed_scale", [](M& meta, const L& line) { meta.speed_scale = positive_number(line); }},
     };
     return table;

@@ -54,6 +54,8 @@ struct TripMeta {
     std::optional<std::array<double, 4>> mount_quat;         ///< w x y z, sensor to vehicle
     std::optional<std::array<double, 3>> acc_sensor_pos_m;   ///< behind the front axle, left, up
     std::optional<std::array<double, 3>> gnss_antenna_pos_m; ///< behind the front axle, left, up
+    bool frame_stated = false;
+    bool gnss_latency_stated = false;
     double gnss_latency_s = 0;
     double speed_latency_s = 0;
     std::optional<double> speed_scale;        ///< true speed = scale * logged speed

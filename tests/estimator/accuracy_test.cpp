@@ -171,7 +171,8 @@ TEST(Accuracy, OfATwoAxleCarIsWhatTheStandardDeviationSays) {
         const auto run = estimate_iri(stretch_of(ride, true, false), audi(), EstimatorConfig{});
         const auto errors = errors_of(run, road_m, 2990, 20);
         const auto at_40 = errors_of(run, road_m, 2990, 40);
-        const double said = sd_of_kf_mm_per_m(true_iri(road_m, 0.05, 100, 2900), 20, false, audi());
+        const double said =
+            sd_of_kf_mm_per_m(true_iri(road_m, 0.05, 100, 2900), 20, kmh / 3.6, false, audi());
         std::printf("two axles, gain 0.72, %3.0f km/h 50 Hz: bias %+5.1f %%, RMSE %.3f (20 m), "
                     "%.3f (40 m), "
                     "said sd %.3f mm/m\n",

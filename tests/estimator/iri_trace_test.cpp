@@ -10,6 +10,8 @@
 namespace macadam::testing {
 namespace {
 
+constexpr double slow_mps = 10; // the filters take nothing off yet
+
 const Vehicle& audi() {
     return *built_in_vehicle("audi-a6-etron");
 }
@@ -138,7 +140,7 @@ TEST(MeanOver, OfBothTracksIsTheirMean) {
     const auto mean = mean_over(trace, 0, 2, audi());
     EXPECT_NEAR(*mean.mri_mm_per_m, 2.5, 1e-9);
     EXPECT_NEAR(*mean.hri_mm_per_m, 2, 1e-9);
-    EXPECT_NEAR(mean.sd_mm_per_m, sd_of_kf_mm_per_m(2.5, 2, false, audi()), 1e-12);
+    EXPECT_NEAR(mean.sd_mm_per_m, sd_of_kf_mm_per_m(2.5, 2, slow_mps, false, audi()), 1e-12);
 }
 
 TEST(MeanOver, SaysWhyItKnowsNothing) {
@@ -159,7 +161,7 @@ TEST(MeanOver, OfLateralVibrationAloneIsIndicative) {
     run.indicative = true;
     const auto mean = mean_over({{run}, {}}, 10, 30, audi());
     EXPECT_EQ(mean.validity, validity::indicative);
-    EXPECT_NEAR(mean.sd_mm_per_m, sd_of_kf_mm_per_m(2, 20, true, audi()), 1e-12);
+    EXPECT_NEAR(mean.sd_mm_per_m, sd_of_kf_mm_per_m(2, 20, slow_mps, true, audi()), 1e-12);
 }
 
 TEST(Validity, IsNamedFlagByFlag) {
@@ -174,16 +176,23 @@ TEST(SdOfKf, IsThatOfThePapersFieldTest) {
         double iri, vertical, lateral;
     } levels[] = {{1, 0.25, 0.50}, {3, 0.46, 0.97}, {5, 0.68, 1.41}, {9, 1.29, 2.70}};
     for (const auto& [iri, vertical, lateral] : levels) {
-        EXPECT_NEAR(sd_of_kf_mm_per_m(iri, 40, false, audi()), vertical, 0.25 * vertical) << iri;
-        EXPECT_NEAR(sd_of_kf_mm_per_m(iri, 40, true, audi()), lateral, 0.25 * lateral) << iri;
+        EXPECT_NEAR(sd_of_kf_mm_per_m(iri, 40, slow_mps, false, audi()), vertical, 0.25 * vertical)
+            << iri;
+        EXPECT_NEAR(sd_of_kf_mm_per_m(iri, 40, slow_mps, true, audi()), lateral, 0.25 * lateral)
+            << iri;
     }
 }
 
 TEST(SdOfKf, FallsWithLengthToWhatTheCarShiftsAlikeEverywhere) {
     const auto& generic = *built_in_vehicle("generic");
-    EXPECT_GT(sd_of_kf_mm_per_m(3, 20, false, generic), sd_of_kf_mm_per_m(3, 100, false, generic));
-    EXPECT_GT(sd_of_kf_mm_per_m(3, 20, false, generic), sd_of_kf_mm_per_m(3, 20, false, audi()));
-    EXPECT_GT(sd_of_kf_mm_per_m(3, 1e9, false, generic), 0.5);
+    EXPECT_GT(sd_of_kf_mm_per_m(3, 20, slow_mps, false, generic),
+              sd_of_kf_mm_per_m(3, 100, slow_mps, false, generic));
+    EXPECT_GT(sd_of_kf_mm_per_m(3, 20, slow_mps, false, generic),
+              sd_of_kf_mm_per_m(3, 20, slow_mps, false, audi()));
+    EXPECT_GT(sd_of_kf_mm_per_m(3, 1e9, slow_mps, false, generic), 0.5);
+    // Simulated at 105 km/h: -25 %, wherever the road is.
+    EXPECT_NEAR(
+        sd_of_kf_mm_per_m(100, 1e9, 105 / 3.6, false, *built_in_vehicle("golden-car")), 25, 1);
 }
 
 } // namespace

@@ -43,10 +43,11 @@ TEST(Fusion, OfOnePassIsThatPassWithTheScatterBetweenPasses) {
     EXPECT_EQ(state.vehicles, 1);
 }
 
-TEST(Fusion, OfEqualPassesOfManyCarsShrinksWithTheRootOfTheirNumber) {
+TEST(Fusion, OfEqualPassesOfManyCarsShrinksToWhatAllCarsShare) {
     const auto state = fuse(of_many_cars(std::vector<IriUm>(9, 2000), 300), {});
     EXPECT_EQ(state.iri_um, 2000);
-    EXPECT_NEAR(state.sd_um, std::hypot(300, between_um(2000)) / 3, 0.5);
+    const double of_each = std::hypot(300 * std::sqrt(0.5), between_um(2000));
+    EXPECT_NEAR(state.sd_um, std::hypot(of_each / 3, 300 * std::sqrt(0.5)), 0.5);
     EXPECT_EQ(state.vehicles, 9);
 }
 
@@ -59,7 +60,22 @@ TEST(Fusion, OfOneCarNeverKnowsMoreThanThatCar) {
 }
 
 TEST(Fusion, OfTwoEqualWeightsIsTheirMean) {
-    EXPECT_EQ(fuse(of_many_cars({1800, 2400}, 200), {}).iri_um, 2100);
+    EXPECT_EQ(fuse(std::vector{reading(1800, 180, 1), reading(2400, 240, 2)}, {}).iri_um, 2100);
+}
+
+TEST(Fusion, GivesNoWeightForReadingLow) {
+    // Every car claims a fifth of what it read; one in three, then four in twenty, read a fifth.
+    EXPECT_NEAR(
+        fuse(std::vector{reading(2300, 460, 1), reading(2350, 470, 2), reading(460, 92, 3)}, {})
+            .iri_um,
+        2300,
+        120);
+    std::vector<FusionInput> passes;
+    for (int i = 0; i < 20; ++i) {
+        const IriUm iri_um = i % 5 == 0 ? 460 : 2200 + 10 * i;
+        passes.push_back(reading(iri_um, iri_um / 5, i));
+    }
+    EXPECT_NEAR(fuse(passes, {}).iri_um, 2300, 120);
 }
 
 TEST(Fusion, LetsOneBadPassAmongFiveMoveTheStateByLessThanThreePercent) {
@@ -87,7 +103,7 @@ double misfit(const std::vector<FusionInput>& passes, double mean_um) {
     const double rest = std::pow(between_um(2050), 2);
     double sum = 0;
     for (const auto& input : passes) {
-        const double sd2 = std::pow(input.pass.sd_um, 2);
+        const double sd2 = std::pow(input.pass.sd_um * 2050.0 / input.pass.iri_um, 2);
         const double strange2 = rest + std::min(sd2, scatter_um * scatter_um);
         const double r2 = std::pow(input.pass.iri_um - mean_um, 2) / strange2;
         sum += strange2 / (sd2 + rest) * std::log1p(r2 / 4);
@@ -96,11 +112,11 @@ double misfit(const std::vector<FusionInput>& passes, double mean_um) {
 }
 
 TEST(Fusion, FindsTheMinimumThatATrialOfEveryMeanFinds) {
-    const std::vector passes{reading(2000, 200, 1),
+    const std::vector passes{reading(2000, 195, 1),
                              reading(2050, 200, 2),
-                             reading(1900, 200, 3),
-                             reading(2250, 200, 4),
-                             reading(2900, 200, 5)};
+                             reading(1900, 185, 3),
+                             reading(2250, 220, 4),
+                             reading(2900, 283, 5)};
     double best_um = 1500;
     for (double mean_um = 1500; mean_um <= 3000; mean_um += 0.25) {
         if (misfit(passes, mean_um) < misfit(passes, best_um)) {
@@ -132,7 +148,10 @@ TEST(Fusion, IsTheSameForEveryOrderOfImport) {
 
 TEST(Fusion, GrowsTheSdWherePassesDisagree) {
     const auto agreed = fuse(of_many_cars({2000, 2000, 2000, 2000}, 50), {});
-    const auto torn = fuse(of_many_cars({1000, 3000, 1000, 3000}, 50), {});
+    const auto torn = fuse(
+        std::vector{
+            reading(1000, 25, 0), reading(3000, 75, 1), reading(1000, 25, 2), reading(3000, 75, 3)},
+        {});
     EXPECT_GT(torn.sd_um, 3 * agreed.sd_um); // they lie 6 sd from their mean
 }
 

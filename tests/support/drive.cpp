@@ -69,6 +69,7 @@ TripLog drive_over(const Road& road, const Drive& drive, const Vehicle& vehicle)
     trip.meta.trip_id = drive.trip_id;
     trip.meta.vehicle_id = drive.vehicle_id;
     trip.meta.gnss_latency_s = drive.gnss_latency_s;
+    trip.meta.gnss_latency_stated = true;
     trip.sha256 = std::string(64, '0');
 
     const auto every = [](double hz) {
