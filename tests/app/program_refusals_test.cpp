@@ -135,6 +135,63 @@ TEST_F(Refusals, OfAFileThatIsNoStoreSayWhoMakesOne) {
     EXPECT_THAT(run.err, HasSubstr("macadam init"));
 }
 
+TEST_F(Refusals, ToReplaceAStoreOrAnInputKeepThem) {
+    const auto onto_itself = run_macadam({"export", store_, "-o", store_});
+    EXPECT_EQ(onto_itself.exit_status, 1);
+    EXPECT_THAT(onto_itself.err, HasSubstr("expected another file to write to"));
+    const auto other = (folder_ / "other.gpkg").string();
+    fs::copy(store_, other);
+    EXPECT_EQ(run_macadam({"export", store_, "-o", other}).exit_status, 1);
+
+    const auto csv = (folder_ / "good.csv").string();
+    fs::copy(good_, csv);
+    EXPECT_EQ(run_macadam({"match", csv, "--network", store_, "-o", csv}).exit_status, 1);
+    EXPECT_EQ(read_file(csv), good_text_);
+    expect_store_unchanged();
+}
+
+TEST_F(Refusals, NameTheTripAndLeaveTheOthersBe) {
+    const Drive slow{.length_m = 600, .rate_hz = 20, .trip_id = "slow"};
+    const auto slow_trip = file("slow.trip.csv",
+                                text_of(drive_over(patched_road([](double) { return false; }, 1),
+                                                   slow,
+                                                   *built_in_vehicle("golden-car")),
+                                        slow));
+    const auto run = run_macadam({"import",
+                                  store_,
+                                  slow_trip,
+                                  "nowhere.trip.csv",
+                                  file("cut.zip", "PK\x03\x04 and no more"),
+                                  other_trip()});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.out, HasSubstr("slow.trip.csv: vibration was sampled at 20.0 Hz"));
+    EXPECT_THAT(run.out, HasSubstr("nowhere.trip.csv: "));
+    EXPECT_THAT(run.out, HasSubstr("cut.zip: "));
+    EXPECT_THAT(run.out, HasSubstr("imported  "));
+    EXPECT_THAT(run_macadam({"trace", slow_trip}).err, HasSubstr("slow.trip.csv: vibration"));
+}
+
+TEST_F(Refusals, OfALatencyThatNoReceiverHasNameItsLine) {
+    auto text = good_text_;
+    text.replace(text.find("gnss_latency_s: 0.2"), 19, "gnss_latency_s: 1e14");
+    EXPECT_THAT(run_macadam({"trace", file("late.trip.csv", text)}).err,
+                HasSubstr("late.trip.csv:7: key 'gnss_latency_s' is '1e14'"));
+}
+
+TEST_F(Refusals, OfAServersAddressAreMisuse) {
+    const std::string server = "postgresql://roads/all";
+    const std::vector<std::vector<std::string>> calls{{"info", server},
+                                                      {"import", server, good_},
+                                                      {"query", server, "--worst", "1"},
+                                                      {"export", server, "-o", "a.csv"},
+                                                      {"render", server, "-o", "a.png"}};
+    for (const auto& call : calls) {
+        const auto run = run_macadam(call);
+        EXPECT_EQ(run.exit_status, 2) << call.front();
+        EXPECT_THAT(run.err, HasSubstr("expected a .gpkg file"));
+    }
+}
+
 TEST_F(Refusals, OfAFullDiskLeaveTheStoreAsItWas) {
     const auto room = fs::file_size(store_) / 2; // what lies behind cannot be written
     const auto trip = other_trip();

@@ -174,6 +174,39 @@ TEST(Program, FindsTheVehicleFileOfATripInTheFolderBeside) {
     EXPECT_THAT(expect_done({"trace", trip.string()}).err, IsEmpty());
 }
 
+TEST(Program, KeepsNoVehicleIdInTheStore) {
+    const auto folder = fresh_folder();
+    fs::create_directories(folder / "vehicles");
+    const Drive drive{.length_m = 600, .vehicle_id = "plate-AB-1234"};
+    const auto road = patched_road([](double) { return false; }, 1);
+    const auto trip = (folder / "a.trip.csv").string();
+    write_file(trip, text_of(drive_over(road, drive, *built_in_vehicle("golden-car")), drive));
+    write_file(
+        folder / "vehicles/a.toml",
+        "name = \"plate-AB-1234\"\n[half_car]\nms_kg = 1000\nmu_kg = 37.5\nks_n_per_m = 15825\n"
+        "cs_ns_per_m = 1500\nkt_n_per_m = 163250\nis_kgm2 = 400\nl_m = 0.75\n");
+    const auto store = folder / "roads.gpkg";
+    expect_done({"init", store.string(), "--trace", trip});
+    EXPECT_THAT(expect_done({"import", store.string(), trip}).out,
+                HasSubstr("car 'plate-AB-1234'"));
+    EXPECT_THAT(read_file(store), Not(HasSubstr("plate-AB-1234")));
+}
+
+TEST(Program, GivesTheWorstOfWhatIsNearTheWorstFirst) {
+    const auto store = store_of_rav4(fresh_folder()).string();
+    const std::vector<std::string> near{
+        "query", store, "--near", "37.7258,-122.4720", "--radius", "60", "--format", "csv"};
+    auto worst = near;
+    worst.insert(worst.end(), {"--worst", "2"});
+    const auto all = expect_done(near).out;
+    const auto two = expect_done(worst).out;
+    EXPECT_GT(lines_in(all), 4U);
+    EXPECT_EQ(lines_in(two), 3U);
+    auto elsewhere = near;
+    elsewhere.insert(elsewhere.end(), {"--bbox", "10,10,11,11"});
+    EXPECT_EQ(lines_in(expect_done(elsewhere).out), 1U); // the header
+}
+
 TEST(Program, SaysIriOfASineAsTheClosedFormDoes) {
     const auto folder = fresh_folder();
     std::string csv = "station_m,left_m,right_m\n";

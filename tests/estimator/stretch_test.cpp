@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 namespace macadam::testing {
@@ -132,6 +134,35 @@ TEST(Mounting, NoticesAPhoneThatSlid) {
     EXPECT_TRUE(estimate_mounting(car.trip, odometer_of(car.trip)).moved);
 }
 
+TEST(Mounting, TakesNoGravityFromAnAxisThatDoesNotFeelIt) {
+    // Only the lateral axis was logged: its few centimetres per second squared are no gravity.
+    auto lateral = drive(60, 100, steady, shaking, Eigen::Matrix3d::Identity()).trip;
+    std::ranges::fill(lateral.acc.x, std::numeric_limits<float>::quiet_NaN());
+    std::ranges::fill(lateral.acc.z, std::numeric_limits<float>::quiet_NaN());
+    const auto mounting = estimate_mounting(lateral, odometer_of(lateral));
+    EXPECT_TRUE(mounting.gravity_missing);
+    EXPECT_TRUE(mounting.to_vehicle.isIdentity(1e-12));
+    EXPECT_FALSE(mounting.moved);
+    EXPECT_EQ(mounting.gravity_mps2, 0);
+}
+
+TEST(Mounting, TakesAnglesWithoutAFrameAsTheDevices) {
+    auto turned = drive(60, 100, steady, shaking, Eigen::Matrix3d::Identity()).trip;
+    turned.meta.mount_rpy_deg = {0, 0, 90};
+    const Vector3d left = Vector3d::UnitY();
+    EXPECT_TRUE((estimate_mounting(turned, odometer_of(turned)).to_vehicle * Vector3d::UnitX())
+                    .isApprox(left, 1e-2));
+    turned.meta.frame_stated = true; // FLU: the log says that its axes are the vehicle's already
+    EXPECT_TRUE(
+        (estimate_mounting(turned, odometer_of(turned)).to_vehicle * left).isApprox(left, 1e-2));
+}
+
+TEST(Mounting, SaysThatItCouldNotFindForward) {
+    auto even = drive(60, 100, steady, shaking, Eigen::Matrix3d::Identity()).trip;
+    even.meta.mount_auto = true;
+    EXPECT_TRUE(estimate_mounting(even, odometer_of(even)).heading_unknown);
+}
+
 TEST(Mounting, LeavesALogWithoutGravityAsItStands) {
     auto car = drive(
         60,
@@ -173,6 +204,23 @@ TEST(Stretches, AreCutAtStopsAndHolesAndUnknownSpeed) {
     ASSERT_EQ(slow.size(), 1);
     EXPECT_NEAR(slow[0].from_m, odometer.travel_m(36), 2);
     EXPECT_NEAR(slow[0].to_m, odometer.travel_m(64), 2);
+}
+
+TEST(Stretches, AreCutAtHolesThatAreLongerThanAShortWave) {
+    // 0.1 s at 28 m/s are 2.8 m of road: whatever were put there would be invented.
+    const auto holed = [](double hole_s) {
+        auto trip = drive(
+                        40, 100, [](double) { return 28.0; }, shaking, Eigen::Matrix3d::Identity())
+                        .trip;
+        for (std::size_t i = 2000; i < trip.acc.t_s.size(); ++i) {
+            trip.acc.t_s[i] += hole_s;
+        }
+        auto use = unused(trip);
+        const auto odometer = make_odometer(trip, {}, use);
+        return find_stretches(trip, odometer, {}, use).size();
+    };
+    EXPECT_EQ(holed(0.04), 1U);
+    EXPECT_EQ(holed(0.1), 2U);
 }
 
 TEST(Stretches, TooShortToSettleAreLeftOut) {
