@@ -15,7 +15,7 @@ struct Mounting {
     Eigen::Matrix3d to_vehicle; ///< vehicle = to_vehicle * sensor
     double gravity_mps2;        ///< mean specific force along the vehicle's z when included, else 0
     double tilt_deg;            ///< how far the stated axes stood from level
-    bool moved;           ///< gravity wandered by more than the road's camber explains
+    bool moved;                 ///< gravity wandered by more than the road's camber explains
     bool gravity_missing; ///< it should be included, but what was felt is not it: nothing levelled
     bool heading_unknown; ///< to be found from braking and accelerating, of which there was too
                           ///< little
