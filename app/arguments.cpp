@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <ranges>
 
 namespace macadam {
 namespace {
@@ -132,8 +131,10 @@ std::optional<std::vector<double>> Arguments::numbers(std::string_view name,
         return std::nullopt;
     }
     std::vector<double> numbers;
-    for (const auto part : std::views::split(*word, ',')) {
-        numbers.push_back(number_in(name, std::string_view{part.begin(), part.end()}));
+    for (std::size_t begin = 0; begin <= word->size();) {
+        const auto end = std::min(word->find(',', begin), word->size());
+        numbers.push_back(number_in(name, std::string_view{*word}.substr(begin, end - begin)));
+        begin = end + 1;
     }
     if (numbers.size() != count) {
         throw UsageError{

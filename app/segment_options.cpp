@@ -41,7 +41,7 @@ SegmentFilter parse_filter(const Arguments& arguments) {
 void warn_of_waiting(const RoadStore& store,
                      const std::filesystem::path& file,
                      const Console& console) {
-    if (const auto waiting = store.info().waiting; waiting > 0) {
+    if (const auto waiting = store.waiting(); waiting > 0) {
         console.warn(fmt::format(
             "{}: {} segments have passes that are not fused yet; an import was cut off, run "
             "'macadam import' again",

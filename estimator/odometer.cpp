@@ -17,8 +17,8 @@ struct Piece {
 };
 
 Piece piece_of(const Odometer::Knots& knots, std::size_t i) {
-    const double begin_mps = static_cast<double>(knots.speed_mps[i]);
-    const double end_mps = static_cast<double>(knots.speed_mps[i + 1]);
+    const auto begin_mps = static_cast<double>(knots.speed_mps[i]);
+    const auto end_mps = static_cast<double>(knots.speed_mps[i + 1]);
     return {.begin_mps = begin_mps,
             .end_mps = std::isnan(end_mps) ? begin_mps : end_mps,
             .length_s = knots.t_s[i + 1] - knots.t_s[i],

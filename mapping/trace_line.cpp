@@ -11,12 +11,14 @@ namespace {
 constexpr float standing_mps = 1;        // below it positions wander and the car does not
 constexpr double least_step_share = 0.5; // of the spacing; nearer points are one
 constexpr double widest_kernel = 3;      // standard deviations
+constexpr double fastest_mps = 90;       // more is no car, ...
+constexpr double jitter_m = 20;          // ... beyond what two positions are off by
 
 double apart_m(const PointEn& a, const PointEn& b) {
     return std::hypot(b.east_m - a.east_m, b.north_m - a.north_m);
 }
 
-/// Positions at least half a spacing apart, in runs without a silence.
+/// Positions at least half a spacing apart, in runs without a silence or a jump.
 std::vector<TraceLine>
 runs_of(const TripLog& trip, const LocalFrame& frame, const TraceConfig& config) {
     std::vector<GnssFix> fixes;
@@ -34,7 +36,9 @@ runs_of(const TripLog& trip, const LocalFrame& frame, const TraceConfig& config)
     const auto local = frame.to_local(places);
     std::vector<TraceLine> runs;
     for (std::size_t i = 0; i < fixes.size(); ++i) {
-        if (i == 0 || fixes[i].t_s - fixes[i - 1].t_s > config.longest_gap_s) {
+        const double step_s = i == 0 ? 0 : fixes[i].t_s - fixes[i - 1].t_s;
+        if (i == 0 || step_s > config.longest_gap_s ||
+            apart_m(local[i - 1], local[i]) > fastest_mps * step_s + jitter_m) {
             runs.emplace_back();
         }
         auto& run = runs.back();

@@ -132,6 +132,9 @@ public:
 
     StoreInfo info() const;
 
+    /// Segments whose new passes are not yet fused, as StoreInfo::waiting; quick.
+    std::size_t waiting() const;
+
     /// SHA-256 over passes and states as text: the same content gives the same digest on any
     /// machine (docs/store.md says how the text is made).
     std::string digest() const;

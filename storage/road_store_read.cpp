@@ -264,6 +264,10 @@ StoreInfo RoadStore::info() const {
             .box = cover.box};
 }
 
+std::size_t RoadStore::waiting() const {
+    return count(impl_->database, "SELECT count(*) FROM segment_dirty");
+}
+
 std::string RoadStore::digest() const {
     Sha256 hash;
     {

@@ -85,6 +85,10 @@ toml::table parse(const std::filesystem::path& file) {
     while (const auto count = bytes->read(std::span{text}.subspan(size))) {
         size += count;
     }
+    if (size == most_bytes) {
+        throw InputError{
+            fmt::format("{}: is larger than 1 MiB, expected a vehicle", file.string())};
+    }
     text.resize(size);
     try {
         return toml::parse(text, file.string());

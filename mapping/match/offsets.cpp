@@ -111,7 +111,7 @@ readings_of(const RoadPath& path, const std::vector<LinePoint>& line, const Posi
             std::lerp(path.sample_m[sample], path.sample_m[next], std::clamp(share, 0.0, 1.0));
         const auto found = project(line, position.at, expected_m);
         const double astray = found.off_m / astray_m;
-        const double sd_m = static_cast<double>(position.own_sd_m);
+        const auto sd_m = static_cast<double>(position.own_sd_m);
         readings.push_back(
             {position.travel_m,
              found.along_m - position.travel_m,

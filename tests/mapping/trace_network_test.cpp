@@ -108,6 +108,22 @@ TEST(TraceNetwork, DrawsNothingThroughASilence) {
     EXPECT_THAT(traced({trip}), SizeIs(2));
 }
 
+TEST(TraceNetwork, DrawsNoRoadThroughAJump) {
+    const auto art = block();
+    auto trip = testing::drive(line_through(art, "ABC"), {});
+    const auto before_m = length_of(traced({trip}).front().line);
+    // A part of the positions lies 200 m to the north, for longer than single faults do.
+    const auto third = trip.fixes.size() / 3;
+    for (std::size_t i = third; i < 2 * third; ++i) {
+        trip.fixes[i].at.lat_deg += 200 / 111195.0;
+    }
+    double drawn_m = 0;
+    for (const auto& way : traced({trip})) {
+        drawn_m += length_of(way.line);
+    }
+    EXPECT_LT(drawn_m, before_m); // two ways across would add 400 m
+}
+
 TEST(TraceNetwork, DoesNotBelieveAReceiverThatDoesNotBelieveItself) {
     const auto art = block();
     auto trip = testing::drive(line_through(art, "ABC"));
