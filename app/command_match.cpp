@@ -229,6 +229,9 @@ void run_match(const Arguments& arguments, const Console& console) {
         const auto odometer = make_odometer(trip, {}, use);
         return map_match(trip, odometer, roads, {}, use);
     });
+    for (const auto& warning : warnings) {
+        console.say(warning);
+    }
     console.say(spoken(trace));
 
     const bool geojson = options.output && options.output->extension() == ".geojson";
