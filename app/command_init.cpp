@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/output_guard.hpp"
 
 #include "estimator/common/error.hpp"
 #include "mapping/trace_network.hpp"
@@ -81,6 +82,10 @@ std::vector<Way> traced_ways(const std::vector<std::filesystem::path>& paths,
 
 void run_init(const Arguments& arguments, const Console& console) {
     const auto options = parse_init(arguments);
+    if (options.network && options.network->extension() == ".gpkg" && is_store(*options.network)) {
+        throw InputError{fmt::format("{}: is a store, expected the map that it was made from",
+                                     options.network->string())};
+    }
     auto ways =
         options.network
             ? read_network(*options.network, options.columns, console.progress("reading roads"))

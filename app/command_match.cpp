@@ -8,6 +8,7 @@
 #include "storage/atomic_file.hpp"
 #include "storage/json.hpp"
 #include "storage/network_reader.hpp"
+#include "storage/road_store.hpp"
 #include "storage/trip_reader.hpp"
 
 #include <fmt/format.h>
@@ -212,13 +213,21 @@ std::string spoken(const MatchedTrace& trace) {
                        gap_m / 1000);
 }
 
+/// Of a map, or of a store that was made from one.
+RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
+    if (options.network.extension() == ".gpkg" && is_store(options.network)) {
+        return RoadStore::open(options.network, RoadStore::Access::read).roads();
+    }
+    return build_network(
+        read_network(options.network, options.columns, console.progress("reading roads")));
+}
+
 void run_match(const Arguments& arguments, const Console& console) {
     const auto options = parse_match(arguments);
     if (options.output) {
         refuse_to_replace(*options.output, {options.trip, options.network});
     }
-    const auto roads = build_network(
-        read_network(options.network, options.columns, console.progress("reading roads")));
+    const auto roads = roads_of(options, console);
     const auto source = one_trip(options.trip);
     std::vector<std::string> warnings;
     const auto trip =
@@ -250,7 +259,9 @@ void run_match(const Arguments& arguments, const Console& console) {
 constexpr std::array operands{
     Operand{"TRIP", "One trip log; its positions are enough, speed makes it better."}};
 constexpr std::array options{
-    Option{"--network", "FILE", "The roads: .osm.pbf, .osm, or any line layer that GDAL reads."},
+    Option{"--network",
+           "FILE",
+           "The roads: .osm.pbf, .osm, a store, or any line layer that GDAL reads."},
     Option{"--arcs", "", "Every pair of consecutive nodes as driven, instead of pieces of edges."},
     Option{"-o,--output", "FILE", "A .csv or .geojson file instead of CSV on standard output."},
     Option{"--layer", "NAME", "Of a line layer file: which layer.", "the first with lines"},

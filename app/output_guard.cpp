@@ -5,10 +5,9 @@
 
 #include <fmt/format.h>
 
-namespace macadam {
-namespace {
-
 namespace fs = std::filesystem;
+
+namespace macadam {
 
 bool is_store(const fs::path& file) {
     try {
@@ -18,8 +17,6 @@ bool is_store(const fs::path& file) {
         return false;
     }
 }
-
-} // namespace
 
 void refuse_to_replace(const fs::path& output, const std::vector<fs::path>& inputs) {
     std::error_code none;

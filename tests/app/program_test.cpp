@@ -234,5 +234,15 @@ TEST(Program, MatchesARealTripToARoadOfItsOwn) {
     EXPECT_THAT(pieces.out, HasSubstr(",road,"));
 }
 
+TEST(Program, MatchesATripToTheRoadsOfAStoreButMakesNoStoreOfOne) {
+    const auto folder = fresh_folder();
+    const auto store = store_of_rav4(folder).string();
+    const auto pieces = expect_done({"match", rav4, "--network", store}).out;
+    EXPECT_THAT(pieces, HasSubstr("\n1,1,")); // way 1 from its node 1: one road, as it was traced
+    const auto again = run_macadam({"init", (folder / "b.gpkg").string(), "--network", store});
+    EXPECT_EQ(again.exit_status, 1);
+    EXPECT_THAT(again.err, HasSubstr("is a store, expected the map"));
+}
+
 } // namespace
 } // namespace macadam::testing
