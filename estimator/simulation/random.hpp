@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+
+namespace macadam {
+
+/// One number from many: the seed of a thing that is named by them, as of the surface of a way in
+/// one direction. Different numbers give unrelated seeds.
+std::uint64_t seed_of(std::initializer_list<std::uint64_t> numbers);
+
+/// Random numbers that are the same on every machine, to the last bit: integers and the basic
+/// operations of IEEE 754 only, for which the standard's distributions and the mathematics library
+/// give no such promise.
+class Random {
+public:
+    explicit Random(std::uint64_t seed);
+
+    std::uint64_t bits();                     ///< 64 of them
+    double uniform();                         ///< in [0, 1)
+    double uniform(double low, double high);  ///< in [low, high)
+    std::uint64_t below(std::uint64_t bound); ///< 0 to bound - 1; bound >= 1
+    double normal();                          ///< mean 0, standard deviation 1
+
+private:
+    std::uint64_t state_[4];
+    double spare_;
+    bool has_spare_;
+};
+
+} // namespace macadam
