@@ -12,6 +12,11 @@ std::uint64_t seed_of(std::initializer_list<std::uint64_t> numbers);
 /// Random numbers that are the same on every machine, to the last bit: integers and the basic
 /// operations of IEEE 754 only, for which the standard's distributions and the mathematics library
 /// give no such promise.
+///
+/// Source: D. Blackman, S. Vigna, "Scrambled linear pseudorandom number generators", ACM
+/// Transactions on Mathematical Software 47 (2021), no. 36 (xoshiro256++, seeded by splitmix64);
+/// G. Marsaglia, T. A. Bray, "A convenient method for generating normal variables", SIAM Review 6
+/// (1964), pp. 260-264.
 class Random {
 public:
     explicit Random(std::uint64_t seed);
