@@ -1,6 +1,7 @@
 #include "estimator/simulation/exact_math.hpp"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace macadam::exact {
