@@ -124,11 +124,11 @@ Profiles profiles_of(const Stretch& stretch,
     const double height_m = vehicle.imu.height_above_roll_axis_m;
     if (channels == Channels::vertical) {
         return run<4, 1, 1>(quarter_car(vehicle.half_car),
-                            {vertical_input(stretch, vehicle.gain, config.filters)},
+                            {vertical_input(stretch, gain_for_one_axle(vehicle), config.filters)},
                             stretch,
                             config.q_over_r);
     }
-    auto lateral = lateral_input(stretch, vehicle.gain, config.filters);
+    auto lateral = lateral_input(stretch, gain_for_one_axle(vehicle), config.filters);
     if (channels == Channels::lateral) {
         auto profiles = run<8, 2, 1>(lateral_half_car(vehicle.half_car, height_m),
                                      {std::move(lateral)},
@@ -137,11 +137,11 @@ Profiles profiles_of(const Stretch& stretch,
         profiles.tracks_m.pop_back(); // the other one is its mirror image
         return profiles;
     }
-    auto profiles =
-        run<8, 2, 2>(half_car(vehicle.half_car, height_m),
-                     {vertical_input(stretch, vehicle.gain, config.filters), std::move(lateral)},
-                     stretch,
-                     config.q_over_r);
+    auto profiles = run<8, 2, 2>(
+        half_car(vehicle.half_car, height_m),
+        {vertical_input(stretch, gain_for_one_axle(vehicle), config.filters), std::move(lateral)},
+        stretch,
+        config.q_over_r);
     auto& tracks = profiles.tracks_m;
     tracks.emplace_back(tracks[0].size());
     std::ranges::transform(

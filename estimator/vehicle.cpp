@@ -15,6 +15,7 @@ constexpr double two_axle_gain = 0.72;
 /// whose two sides move on their own (I = m l^2 / 2).
 Vehicle golden() {
     return {.name = "golden-car",
+            .one_axle_gain = {},
             .half_car = {.ms_kg = 1000,
                          .mu_kg = 37.5,
                          .ks_n_per_m = 15825,
@@ -33,6 +34,7 @@ Vehicle golden() {
 Vehicle audi_a6_etron() {
     return {.name = "audi-a6-etron",
             .gain = 0.72,
+            .one_axle_gain = {},
             .half_car = {.ms_kg = 2400,
                          .mu_kg = 90,
                          .ks_n_per_m = 37050,
@@ -52,6 +54,7 @@ Vehicle audi_a6_etron() {
 Vehicle car_class(const char* name, const HalfCar& half_car) {
     return {.name = name,
             .gain = two_axle_gain,
+            .one_axle_gain = {},
             .half_car = half_car,
             .axles = {},
             .imu = {},
@@ -75,6 +78,10 @@ std::array<Vehicle, 6> make_built_in_vehicles() {
 }
 
 } // namespace
+
+double gain_for_one_axle(const Vehicle& vehicle) {
+    return vehicle.one_axle_gain.value_or(vehicle.gain);
+}
 
 std::span<const Vehicle> built_in_vehicles() {
     static const auto vehicles = make_built_in_vehicles();

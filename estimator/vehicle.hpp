@@ -40,11 +40,19 @@ struct ImuMount {
 struct Vehicle {
     std::string name;
     double gain = 1; ///< measured = gain * modelled, every accelerometer channel (the paper's mu)
+
+    /// The same for a method that sees only one axle of a car with two. Its sensor feels the mean
+    /// of both ends, which the wheelbase combs: about 0.72 (docs/method.md). Nothing: as `gain`.
+    std::optional<double> one_axle_gain;
+
     HalfCar half_car;
     std::optional<Axles> axles; ///< nothing: one axle, under the centre of gravity
     ImuMount imu;
     std::map<std::string, double> uncertainty; ///< relative sd, by the names of the fields above
 };
+
+/// What a one-axle method divides the vehicle's measurements by.
+double gain_for_one_axle(const Vehicle& vehicle);
 
 /// `golden-car`, `audi-a6-etron` (the paper's, table III), `generic` and wide classes of cars.
 std::span<const Vehicle> built_in_vehicles();
