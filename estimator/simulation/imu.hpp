@@ -1,0 +1,52 @@
+#pragma once
+
+#include "estimator/simulation/car_model.hpp"
+#include "estimator/simulation/random.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace macadam {
+
+/// How the car moves along at one time.
+struct MotionNow {
+    double travel_m, speed_mps, acc_mps2, yaw_rate_radps, yaw_acc_radps2;
+};
+
+/// Specific force (x forward, y left, z up) and rates of turn of a place that is fixed in the body.
+using Felt = std::array<double, 6>;
+
+/// Rigid-body kinematics at the sensor's place, for small angles of pitch and roll.
+Felt felt_at(const ImuMount& place,
+             const CarState& state,
+             const Coordinates& acceleration,
+             const MotionNow& motion);
+
+/// A sensor as it is bolted in: it is shown what is felt at every step of the simulation and reads
+/// it when asked.
+class Imu {
+public:
+    /// \throws InputError if a number of the recipe is out of its range.
+    Imu(const ImuRecipe& recipe, double step_s, std::uint64_t seed);
+
+    void show(const Felt& felt); ///< turns into the sensor's axes and low-passes
+    void read(double t_s, ImuReadings& into);
+
+private:
+    /// y = b0 x + b1 x[-1] + b2 x[-2] - a1 y[-1] - a2 y[-2], transposed direct form II.
+    struct Section {
+        double b0, b1, b2, a1, a2;
+        Felt later{}, latest{};
+    };
+
+    static std::vector<Section> lowpass(int order, double corner_hz, double step_s);
+
+    ImuRecipe recipe_;
+    std::array<std::array<double, 3>, 3> to_sensor_;
+    std::vector<Section> sections_;
+    Random random_;
+    Felt shown_{};
+};
+
+} // namespace macadam

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "estimator/simulation/car_model.hpp"
+#include "estimator/simulation/random.hpp"
+
+#include <array>
+#include <vector>
+
+namespace macadam {
+
+/// The road as tyres feel it, smoothed over their contact, with a cubic between stations. Beyond
+/// its ends it is level.
+class FeltRoad {
+public:
+    FeltRoad(const RoadUnderWheels& road, double contact_m);
+
+    struct Heights {
+        double left_m, right_m;
+    };
+    Heights at(double station_m) const;
+
+private:
+    struct Station {
+        float left_m, right_m;
+    };
+
+    double per_m_;
+    double last_;
+    std::vector<Station> station_; ///< one more in front, two more behind
+};
+
+/// How far the wheels are from round: a height over the turn of each, that would press the tyre
+/// with the recipe's forces at one and two cycles a turn. Each wheel has its phases, and turns a
+/// little faster or slower than the others, as worn tyres do.
+class Runout {
+public:
+    Runout(const CarRecipe& car, Random& random);
+
+    /// Of one wheel whose axle has rolled travel_m, from -1000 m on.
+    double at(std::size_t wheel, double travel_m) const;
+
+private:
+    static constexpr std::size_t part_count = 512;
+
+    std::array<std::array<double, part_count + 1>, 4> height_m_;
+    PerWheel turns_per_m_;
+};
+
+} // namespace macadam
