@@ -4,10 +4,12 @@
 #include "storage/text.hpp"
 #include "storage/utc.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string_view>
 
 namespace macadam {
@@ -143,7 +145,88 @@ const std::map<std::string_view, Setter>& setters() {
     return table;
 }
 
+std::string meta_line(std::string_view key, std::string_view value) {
+    auto line = fmt::format("# {}: {}", key, value);
+    std::ranges::replace_if(
+        line, [](char c) { return c == '\n' || c == '\r' || c == '\0'; }, ' ');
+    return line + "\n";
+}
+
+std::string meta_line(std::string_view key, std::span<const double> numbers) {
+    return meta_line(key, fmt::format("{}", fmt::join(numbers, " ")));
+}
+
+std::string_view name_of(Frame frame) {
+    switch (frame) {
+    case Frame::flu:
+        return "FLU";
+    case Frame::frd:
+        return "FRD";
+    case Frame::sensor:
+        break;
+    }
+    return "sensor";
+}
+
+/// To the millisecond if that is all there is, otherwise to the microsecond.
+std::string utc_text_of(double utc_s) {
+    if (const auto text = utc_text(std::llround(utc_s * 1e3)); parse_utc_s(text) == utc_s) {
+        return text;
+    }
+    const auto utc_us = std::llround(utc_s * 1e6);
+    const auto whole_s = static_cast<std::int64_t>(std::floor(static_cast<double>(utc_us) / 1e6));
+    auto text = utc_text(1000 * whole_s);
+    text.pop_back(); // the Z
+    return text + fmt::format(".{:06}Z", utc_us - 1'000'000 * whole_s);
+}
+
 } // namespace
+
+std::string meta_text(const TripMeta& meta) {
+    std::string text;
+    const auto add = [&](std::string_view key, const auto& value) {
+        text += meta_line(key, value);
+    };
+    if (!meta.trip_id.empty()) {
+        add("trip_id", meta.trip_id);
+    }
+    if (!meta.vehicle_id.empty()) {
+        add("vehicle_id", meta.vehicle_id);
+    }
+    add("t0_utc", meta.t0_utc_s ? utc_text_of(*meta.t0_utc_s) : "unknown");
+    if (meta.frame_stated) {
+        add("frame", name_of(meta.frame));
+    }
+    add("gravity", std::string_view{meta.gravity_included ? "included" : "removed"});
+    if (meta.mount_auto) {
+        add("mount", std::string_view{"auto"});
+    }
+    if (meta.mount_rpy_deg) {
+        add("mount_rpy_deg", *meta.mount_rpy_deg);
+    }
+    if (meta.mount_quat) {
+        add("mount_quat", *meta.mount_quat);
+    }
+    if (meta.acc_sensor_pos_m) {
+        add("acc_sensor_pos_m", *meta.acc_sensor_pos_m);
+    }
+    if (meta.gnss_antenna_pos_m) {
+        add("gnss_antenna_pos_m", *meta.gnss_antenna_pos_m);
+    }
+    if (meta.gnss_latency_stated) {
+        add("gnss_latency_s", fmt::format("{}", meta.gnss_latency_s));
+    }
+    if (meta.speed_latency_s != 0) {
+        add("speed_latency_s", fmt::format("{}", meta.speed_latency_s));
+    }
+    if (meta.speed_scale) {
+        add("speed_scale", fmt::format("{}", *meta.speed_scale));
+    }
+    for (const auto& [key, value] : meta.other) {
+        add(key, value);
+    }
+    return text;
+}
 
 TripMeta parse_meta(const std::vector<MetaLine>& lines) {
     TripMeta meta;

@@ -20,4 +20,8 @@ struct MetaLine {
 /// \throws InputError  for a value that its key does not allow.
 TripMeta parse_meta(const std::vector<MetaLine>& lines);
 
+/// The lines "# key: value" that say the same, each with its newline; numbers with as many digits
+/// as it takes to read the same again. Line breaks in a text become blanks.
+std::string meta_text(const TripMeta& meta);
+
 } // namespace macadam
