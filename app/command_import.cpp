@@ -1,6 +1,8 @@
 #include "app/commands.hpp"
 #include "app/estimation_options.hpp"
 #include "app/import_trips.hpp"
+#include "app/interruption.hpp"
+#include "app/mapping_option.hpp"
 #include "app/segment_options.hpp"
 
 #include "estimator/common/error.hpp"
@@ -22,9 +24,21 @@ struct ImportOptions {
     bool json;
     PipelineConfig pipeline;
 };
+    std::shared_ptr<const TripMapping> mapping;
 
 constexpr std::int64_t most_jobs = 256;
 
+constexpr double most_trim_m = 100000;
+
+PipelineConfig trimming_config_of(const Arguments& arguments) {
+    auto config = pipeline_config_of(arguments);
+    config.trim_m = arguments.number("--trim", 0);
+    if (!(config.trim_m >= 0 && config.trim_m <= most_trim_m)) {
+        throw UsageError{
+            fmt::format("--trim is {}, expected 0 to {} m", config.trim_m, most_trim_m)};
+    }
+    return config;
+}
 ImportOptions parse_import(const Arguments& arguments) {
     const auto jobs = arguments.integer("--jobs").value_or(1);
     if (jobs < 1 || jobs > most_jobs) {
@@ -35,7 +49,8 @@ ImportOptions parse_import(const Arguments& arguments) {
             .paths = {paths.begin(), paths.end()},
             .jobs = static_cast<std::size_t>(jobs),
             .json = arguments.flag("--json"),
-            .pipeline = pipeline_config_of(arguments)};
+            .pipeline = trimming_config_of(arguments),
+            .mapping = mapping_of(arguments)};
 }
 
 std::string reasons_json(const RowCount& rows) {
@@ -108,12 +123,14 @@ struct Found {
     std::vector<TripOutcome> refused;
 };
 
-Found trips_in(const std::vector<std::filesystem::path>& paths, const Console& console) {
+Found trips_in(const std::vector<std::filesystem::path>& paths,
+               const std::shared_ptr<const TripMapping>& mapping,
+               const Console& console) {
     Found all;
     for (const auto& path : paths) {
         TripSearch found;
         try {
-            found = find_trips(path);
+            found = find_trips(path, mapping);
         } catch (const InputError& error) {
             TripOutcome outcome;
             outcome.file = path.string();
@@ -123,7 +140,8 @@ Found trips_in(const std::vector<std::filesystem::path>& paths, const Console& c
         }
         if (found.trips.empty()) {
             console.warn(
-                fmt::format("{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst)",
+                fmt::format("{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst), nor "
+                            "an export of phyphox or Sensor Logger",
                             path.string()));
         }
         if (found.other_files > 0) {
@@ -139,7 +157,12 @@ void run_import(const Arguments& arguments, const Console& console) {
     const auto options = parse_import(arguments);
     VehicleChoice vehicles{arguments};
     auto store = RoadStore::open(options.store, RoadStore::Access::write);
-    const auto [trips, refused] = trips_in(options.paths, console);
+    const auto [trips, refused] = trips_in(options.paths, options.mapping, console);
+    const auto name = name_of_import(options.paths);
+    if (const auto earlier = store.begin_import(name, trips.size())) {
+        console.say(spoken(*earlier));
+    }
+    const Interruption interruption;
 
     const auto tell = [&](const TripOutcome& outcome) {
         print(options.json ? json_line(outcome) : text_lines(outcome));
@@ -176,7 +199,8 @@ constexpr std::array operands{
     store_operand,
     Operand{
         "PATH",
-        "Trip logs, folders of them (searched to any depth), or archives (.zip, .tar, .tar.gz).",
+        "Trip logs, exports of phyphox and Sensor Logger (folders or .zip), folders of them "
+        "(searched to any depth), or archives (.zip, .tar, .tar.gz).",
         true}};
 
 constexpr std::array options{
@@ -204,6 +228,11 @@ const Command import_command{
              "'rejected' with its\n"
              "reason and does not stop the others; the exit status is then 1.",
     .example = "  macadam import roads.gpkg trips/                     every log under trips/\n"
+    mapping_option,
+    Option{"--trim",
+           "METRES",
+           "Leave out the first and the last metres of each trip, where people live.",
+           "0"},
                "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"
                "  macadam import roads.gpkg trips/ --jobs 2 --json > import.jsonl",
     .operands = operands,

@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/mapping_option.hpp"
 #include "app/output_guard.hpp"
 #include "app/pipeline.hpp"
 #include "app/trip_place.hpp"
@@ -228,7 +229,7 @@ void run_match(const Arguments& arguments, const Console& console) {
         refuse_to_replace(*options.output, {options.trip, options.network});
     }
     const auto roads = roads_of(options, console);
-    const auto source = one_trip(options.trip);
+    const auto source = one_trip(options.trip, mapping_of(arguments));
     std::vector<std::string> warnings;
     const auto trip =
         with_latency(read_trip(source, needs_of_match(), console.progress("reading")), warnings);
@@ -262,6 +263,7 @@ constexpr std::array options{
     Option{"--network",
            "FILE",
            "The roads: .osm.pbf, .osm, a store, or any line layer that GDAL reads."},
+    mapping_option,
     Option{"--arcs", "", "Every pair of consecutive nodes as driven, instead of pieces of edges."},
     Option{"-o,--output", "FILE", "A .csv or .geojson file instead of CSV on standard output."},
     Option{"--layer", "NAME", "Of a line layer file: which layer.", "the first with lines"},

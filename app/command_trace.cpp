@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/estimation_options.hpp"
+#include "app/mapping_option.hpp"
 #include "app/pipeline.hpp"
 #include "app/trip_place.hpp"
 #include "app/vehicle_choice.hpp"
@@ -132,7 +133,7 @@ void run_trace(const Arguments& arguments, const Console& console) {
     const auto options = parse_trace(arguments);
     VehicleChoice vehicles{arguments};
     std::vector<std::string> warnings;
-    const auto source = one_trip(options.trip);
+    const auto source = one_trip(options.trip, mapping_of(arguments));
     const auto trip =
         with_latency(read_trip(source, needs_of_trace(), console.progress("reading")), warnings);
     const auto chosen = vehicles(options.trip, trip.meta.vehicle_id);
@@ -166,10 +167,11 @@ void run_trace(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{
-    Operand{"TRIP", "One trip log: .trip.csv, .trip.csv.gz or .trip.csv.zst."}};
+    Operand{"TRIP", "One trip log (.trip.csv, .gz, .zst), or a phone's export (folder or .zip)."}};
 constexpr std::array options{
     vehicle_option,
     vehicles_option,
+    mapping_option,
     Option{"--length", "METRES", "Length of the reported pieces.", "20"},
     method_option,
     channels_option,

@@ -1,5 +1,7 @@
 #include "app/pipeline.hpp"
 
+#include "app/trip_trim.hpp"
+
 #include "estimator/latency.hpp"
 
 #include <fmt/format.h>
@@ -142,14 +144,26 @@ TripResult passes_of(TripLog trip,
     std::vector<std::string> warnings;
     trip = with_latency(std::move(trip), warnings);
     auto trace = trace_of(trip, vehicle, config);
+    trace.use =
+        without_vibration_outside(std::move(trace.use), trip, trace.odometer, config.trim_m);
     trip.acc = {};
     const auto matched =
         behind_antenna(map_match(trip, trace.odometer, roads, config.match, trace.use),
                        antenna_ahead_m(trip.meta, vehicle));
 
-    auto passes = cut_passes(trace.roughness, matched, roads, vehicle, config.pass);
+    trace.use = without_places_outside(std::move(trace.use), trip, trace.odometer, config.trim_m);
     std::ranges::move(trace.warnings, std::back_inserter(warnings));
-    if (passes.empty()) {
+
+    const auto told = told_part(trace.odometer, config.trim_m);
+    auto passes = cut_passes(trace.roughness,
+                             config.trim_m > 0 ? trimmed(matched, told, roads) : matched,
+                             roads,
+                             vehicle,
+                             config.pass);
+    if (config.trim_m > 0) {
+        warnings.push_back(spoken_trim(told, config.trim_m));
+    }
+    if (passes.empty() && told.from_m < told.to_m) {
         warnings.push_back(spoken_emptiness(trace.roughness, matched));
     }
     return {.passes = std::move(passes),

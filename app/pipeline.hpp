@@ -16,6 +16,7 @@ struct PipelineConfig {
     EstimatorConfig estimator;
     MatchConfig match;
     PassConfig pass;
+    double trim_m = 0; ///< nothing nearer to the trip's ends enters a pass; 0: all may
 };
 
 /// Roughness along one trip, and what it was made of.

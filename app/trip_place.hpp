@@ -5,14 +5,18 @@
 #include "storage/trip_reader.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace macadam {
 
-/// The one trip of a path. \throws InputError if it is a folder or an archive of several.
-TripSource one_trip(const std::filesystem::path& path);
+/// The one trip of a path: a log, a phone's export or, with a mapping, a foreign file.
+///
+/// \throws InputError  if it is a folder of logs, or holds several.
+TripSource one_trip(const std::filesystem::path& path,
+                    const std::shared_ptr<const TripMapping>& mapping = nullptr);
 
 /// What `work` returns; its refusals get the trip's name before them, for the engine knows no file.
 template <typename Work>

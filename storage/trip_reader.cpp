@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/byte_stream.hpp"
+#include "storage/foreign/foreign_trip.hpp"
 #include "storage/text.hpp"
 #include "storage/text_lines.hpp"
 #include "storage/trip_meta.hpp"
@@ -187,6 +188,9 @@ std::string TripSource::name() const {
 }
 
 std::string content_sha256(const TripSource& source) {
+    if (is_foreign(source)) {
+        return foreign_sha256(source);
+    }
     constexpr std::size_t block = 1 << 20;
     const auto bytes = open(source);
     std::vector<char> buffer(block);
@@ -198,6 +202,9 @@ std::string content_sha256(const TripSource& source) {
 }
 
 TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress) {
+    if (is_foreign(source)) {
+        return read_foreign_trip(source, needs, progress);
+    }
     TextLines lines{open(source), source.name()};
     expect_first_line(lines, source.name());
     const auto head = read_head(lines);

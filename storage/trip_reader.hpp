@@ -4,10 +4,13 @@
 #include "estimator/common/trip.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace macadam {
+
+struct TripMapping; // storage/foreign/trip_mapping.hpp
 
 /// Which sensors to keep; the rows of the others are counted, not held.
 struct TripNeeds {
@@ -25,10 +28,13 @@ TripNeeds needs_of_match();
 TripNeeds needs_of_trace();
 TripNeeds needs_of_import();
 
-/// A file that holds a trip, or one inside an archive.
+/// A file that holds a trip, or one inside an archive; or a folder or archive that holds the export
+/// of a phone; or a foreign file with its mapping.
 struct TripSource {
     std::filesystem::path file;
-    std::string member; ///< of the archive; "" for a file of its own
+    std::string member; ///< of the archive; "" for a file of its own; a folder's ends in '/'
+    std::vector<std::string> files{}; ///< of a foreign trip, by their names in its folder
+    std::shared_ptr<const TripMapping> mapping{}; ///< with it files[i] belongs to its tables[i]
 
     std::string name() const; ///< as messages call it
 };
@@ -39,10 +45,16 @@ struct TripSearch {
 };
 
 /// The trips that a path stands for: itself, every *.trip.csv[.gz|.zst] under a folder, or every
-/// such member of a .zip, .tar, .tar.gz or .tar.zst archive.
+/// such member of a .zip, .tar, .tar.gz or .tar.zst archive; and every export of phyphox or Sensor
+/// Logger, which is a folder, under a folder, in an archive, or in a .zip under a folder.
 ///
-/// \throws InputError  if there is no such file or folder.
-TripSearch find_trips(const std::filesystem::path& path);
+/// \param mapping  if given, the path is foreign: itself, or every file under it that fits the
+///                 mapping's first table, is a trip.
+///
+/// \throws InputError  if there is no such file or folder, or a trip lacks one of the mapping's
+///                     files.
+TripSearch find_trips(const std::filesystem::path& path,
+                      const std::shared_ptr<const TripMapping>& mapping = nullptr);
 
 /// SHA-256 of the decompressed content of a trip, without reading it as one: to know quickly
 /// whether it is known.

@@ -78,6 +78,16 @@ Cell number_at(const char* from, const char* end) {
 
 } // namespace
 
+std::optional<TripColumn> channel_named(std::string_view name) {
+    const auto* const known = std::find_if(std::begin(known_columns),
+                                           std::end(known_columns),
+                                           [&](const auto& row) { return row.first == name; });
+    if (known == std::end(known_columns) || known->second >= TripColumn::other) {
+        return std::nullopt;
+    }
+    return known->second;
+}
+
 bool TripHeader::has(TripColumn column) const {
     return std::find(columns.begin(), columns.end(), column) != columns.end();
 }

@@ -38,6 +38,9 @@ enum class TripColumn : std::uint8_t {
 
 inline constexpr std::size_t trip_column_count = static_cast<std::size_t>(TripColumn::other) + 1;
 
+/// The column of a name like "acc_z_mps2"; nothing where no number is looked at under that name.
+std::optional<TripColumn> channel_named(std::string_view name);
+
 /// The header row: what each column is, and the names that nobody knows.
 struct TripHeader {
     std::vector<TripColumn> columns;

@@ -2,10 +2,15 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/byte_stream.hpp"
+#include "storage/foreign/cells.hpp"
+#include "storage/foreign/phone_export.hpp"
+#include "storage/foreign/trip_mapping.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -43,46 +48,168 @@ TripSearch found(std::vector<std::pair<std::string, TripSource>> trips, std::siz
     return search;
 }
 
-TripSearch find_in_folder(const fs::path& folder) {
-    std::vector<std::pair<std::string, TripSource>> trips;
-    std::size_t other_files = 0;
+bool is_zip_name(std::string_view name) {
+    return name.ends_with(".zip");
+}
+
+std::pair<std::string, std::string> folder_and_file(const std::string& name) {
+    const auto size = name.rfind('/') + 1; // 0 where there is none
+    return {name.substr(0, size), name.substr(size)};
+}
+
+/// Exports of phones among file names: the folder of each, "" or with a '/' at its end, and its
+/// files as they are called in it.
+std::map<std::string, std::vector<std::string>> exports_in(const std::vector<std::string>& names) {
+    std::map<std::string, std::vector<std::string>> exports;
+    for (const auto& name : names) {
+        if (const auto [folder, file] = folder_and_file(name); marks_export(file)) {
+            exports[folder];
+        }
+    }
+    for (auto& [folder, files] : exports) {
+        for (const auto& name : names) {
+            if (name.starts_with(folder) && belongs_to_export(name.substr(folder.size()))) {
+                files.push_back(name.substr(folder.size()));
+            }
+        }
+        std::sort(files.begin(), files.end());
+    }
+    return exports;
+}
+
+using NamedTrips = std::vector<std::pair<std::string, TripSource>>;
+
+/// The exports in an archive that lies in a searched folder. One that cannot be read is handed on,
+/// for the reader to say so.
+NamedTrips exports_in_zip(const fs::path& zip, const std::string& name) {
+    NamedTrips trips;
+    try {
+        for (auto& [folder, files] : exports_in(members_of(zip))) {
+            trips.emplace_back(name + "/" + folder,
+                               TripSource{.file = zip, .member = folder, .files = files});
+        }
+    } catch (const InputError&) {
+        trips.emplace_back(name, TripSource{.file = zip, .member = {}});
+    }
+    return trips;
+}
+
+std::vector<std::string> files_under(const fs::path& folder) {
+    std::vector<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator{folder}) {
-        if (entry.is_directory()) {
+        if (!entry.is_directory()) {
+            names.push_back(entry.path().lexically_relative(folder).generic_string());
+        }
+    }
+    return names;
+}
+
+TripSearch find_in_folder(const fs::path& folder) {
+    NamedTrips trips;
+    const auto names = files_under(folder);
+    auto other_files = names.size();
+    for (const auto& name : names) {
+        if (!fs::is_regular_file(folder / name)) {
             continue;
         }
-        const auto name = entry.path().lexically_relative(folder).generic_string();
-        if (entry.is_regular_file() && is_trip_name(name)) {
-            trips.emplace_back(name, TripSource{.file = entry.path(), .member = {}});
-        } else {
-            ++other_files;
+        if (is_trip_name(name)) {
+            trips.emplace_back(name, TripSource{.file = folder / name, .member = {}});
+            --other_files;
+        } else if (is_zip_name(name)) {
+            auto zipped = exports_in_zip(folder / name, name);
+            other_files -= zipped.empty() ? 0 : 1;
+            std::move(zipped.begin(), zipped.end(), std::back_inserter(trips));
         }
+    }
+    for (auto& [inside, files] : exports_in(names)) {
+        const auto place = inside.empty() ? folder : folder / inside.substr(0, inside.size() - 1);
+        trips.emplace_back(inside, TripSource{.file = place, .member = {}, .files = files});
+        other_files -= files.size();
     }
     return found(std::move(trips), other_files);
 }
 
 TripSearch find_in_archive(const fs::path& archive) {
-    std::vector<std::pair<std::string, TripSource>> trips;
-    std::size_t other_files = 0;
-    for (auto& name : members_of(archive)) {
+    NamedTrips trips;
+    const auto names = members_of(archive);
+    auto other_files = names.size();
+    for (const auto& name : names) {
         if (is_trip_name(name)) {
             trips.emplace_back(name, TripSource{.file = archive, .member = name});
-        } else {
-            ++other_files;
+            --other_files;
         }
+    }
+    for (auto& [folder, files] : exports_in(names)) {
+        trips.emplace_back(folder, TripSource{.file = archive, .member = folder, .files = files});
+        other_files -= files.size();
     }
     return found(std::move(trips), other_files);
 }
 
+/// The file of one of the mapping's later tables that lies beside a file of its first.
+std::string companion(const std::string& file, const TripMapping& mapping, std::size_t table) {
+    auto name = mapping.tables[table].file;
+    if (const auto star = name.find('*'); star != std::string::npos) {
+        name.replace(star, 1, star_of(file, mapping.tables.front().file));
+    }
+    return name;
+}
+
+/// A trip of a mapping: the file of its first table and those beside it.
+TripSource mapped_trip(const fs::path& path,
+                       const std::string& member,
+                       const std::shared_ptr<const TripMapping>& mapping) {
+    TripSource source{.file = path, .member = member, .files = {}, .mapping = mapping};
+    const auto file = member.empty() ? path.filename().string() : folder_and_file(member).second;
+    source.files.push_back(file);
+    for (std::size_t table = 1; table < mapping->tables.size(); ++table) {
+        source.files.push_back(companion(file, *mapping, table));
+        const auto beside = path.parent_path() / source.files.back();
+        if (member.empty() && !fs::exists(beside)) {
+            throw InputError{fmt::format("{}: no such file, expected it beside {}",
+                                         beside.string(),
+                                         path.filename().string())};
+        }
+    }
+    return source;
+}
+
+TripSearch find_mapped(const fs::path& path, const std::shared_ptr<const TripMapping>& mapping) {
+    const bool is_folder = fs::is_directory(path);
+    if (!is_folder && !is_archive_name(path.filename().string())) {
+        return {.trips = {mapped_trip(path, "", mapping)}, .other_files = 0};
+    }
+    const auto names = is_folder ? files_under(path) : members_of(path);
+    NamedTrips trips;
+    for (const auto& name : names) {
+        if (fits(folder_and_file(name).second, mapping->tables.front().file)) {
+            trips.emplace_back(name,
+                               is_folder ? mapped_trip(path / name, "", mapping)
+                                         : mapped_trip(path, name, mapping));
+        }
+    }
+    const auto read = trips.size() * mapping->tables.size();
+    return found(std::move(trips), names.size() - std::min(names.size(), read));
+}
+
+/// A folder's path without a slash at its end, so that it has a name.
+fs::path named(const fs::path& path) {
+    return path.has_filename() ? path : path.parent_path();
+}
+
 } // namespace
 
-TripSearch find_trips(const fs::path& path) {
+TripSearch find_trips(const fs::path& path, const std::shared_ptr<const TripMapping>& mapping) {
     try {
         const auto kind = fs::status(path);
         if (!fs::exists(kind)) {
             throw InputError{fmt::format("{}: no such file or folder", path.string())};
         }
+        if (mapping) {
+            return find_mapped(path, mapping);
+        }
         if (fs::is_directory(kind)) {
-            return find_in_folder(path);
+            return find_in_folder(named(path));
         }
     } catch (const fs::filesystem_error& error) {
         throw InputError{

@@ -1,5 +1,7 @@
 #include "storage/trip_streams.hpp"
 
+#include "storage/rising.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,12 +69,70 @@ bool says_the_same(const GnssFix& a, const GnssFix& b) {
            same(a.speed_mps, b.speed_mps) && same(a.course_deg, b.course_deg);
 }
 
+/// The members of `values`, in their order.
+template <typename Value>
+void keep(const std::vector<std::uint8_t>& members, std::vector<Value>& values) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        if (members[i] != 0) {
+            values[kept++] = values[i];
+        }
+    }
+    values.resize(kept);
+}
+
+void keep(const std::vector<std::uint8_t>& members, TriaxialSamples& samples) {
+    keep(members, samples.t_s);
+    keep(members, samples.x);
+    keep(members, samples.y);
+    keep(members, samples.z);
+}
+
+std::vector<double> times_of(const std::vector<GnssFix>& fixes) {
+    std::vector<double> t_s(fixes.size());
+    std::transform(
+        fixes.begin(), fixes.end(), t_s.begin(), [](const GnssFix& fix) { return fix.t_s; });
+    return t_s;
+}
+
+/// Takes from the rows what they gave to one sensor and it could not keep.
+void take_back(const std::vector<std::uint8_t>& members,
+               std::uint8_t flag,
+               std::vector<std::uint8_t>& rows) {
+    std::size_t sample = 0;
+    for (auto& row : rows) {
+        if (!is_reason(row) && (row & flag) != 0 && members[sample++] == 0) {
+            row = static_cast<std::uint8_t>(row & ~flag);
+            row = row == 0 ? code(RowReason::time_not_increasing) : row;
+        }
+    }
+}
+
 } // namespace
 
 TripStreams::TripStreams(const TripNeeds& needs, const TripHeader& header)
     : needs_{needs}, wheels_stand_for_speed_{!header.has(TripColumn::speed)}, last_fix_utc_s_{
                                                                                   unknown} {
     trip_.unknown_columns = header.unknown;
+}
+
+TripLog TripStreams::take() {
+    const auto put_in_order =
+        [&](const std::vector<double>& t_s, std::uint8_t flag, auto& samples) {
+            const auto members = longest_rise(t_s);
+            if (std::find(members.begin(), members.end(), 0) != members.end()) {
+                take_back(members, flag, trip_.rows);
+                keep(members, samples);
+            }
+        };
+    put_in_order(trip_.acc.t_s, row_content::acc, trip_.acc);
+    put_in_order(trip_.gyro.t_s, row_content::gyro, trip_.gyro);
+    put_in_order(times_of(trip_.fixes), row_content::fix, trip_.fixes);
+    const auto members = longest_rise(trip_.speed.t_s);
+    take_back(members, row_content::speed, trip_.rows);
+    keep(members, trip_.speed.t_s);
+    keep(members, trip_.speed.speed_mps);
+    return std::move(trip_);
 }
 
 void TripStreams::add(const TripRow& row) {
@@ -114,9 +174,6 @@ TripStreams::add_triaxial(TriaxialSamples& to, const TripRow& row, TripColumn x,
     const double most = is_acc ? most_acc_mps2 : most_gyro_radps;
     if (std::any_of(axes.begin(), axes.end(), [&](double a) { return std::abs(a) > most; })) {
         return code(RowReason::out_of_range);
-    }
-    if (!to.t_s.empty() && row[TripColumn::t_s] <= to.t_s.back()) {
-        return code(RowReason::time_not_increasing);
     }
     to.t_s.push_back(row[TripColumn::t_s]);
     to.x.push_back(static_cast<float>(axes[0]));
@@ -164,9 +221,6 @@ TripStreams::Gift TripStreams::add_speed(const TripRow& row) {
     if (std::abs(speed) > most_speed_mps) {
         return code(RowReason::out_of_range);
     }
-    if (!to.t_s.empty() && row[TripColumn::t_s] <= to.t_s.back()) {
-        return code(RowReason::time_not_increasing);
-    }
     to.t_s.push_back(row[TripColumn::t_s]);
     to.speed_mps.push_back(static_cast<float>(speed));
     return row_content::speed;
@@ -190,11 +244,9 @@ TripStreams::Gift TripStreams::add_fix(const TripRow& row) {
         return code(RowReason::out_of_range);
     }
     auto& to = trip_.fixes;
-    if (!to.empty() && fix.t_s <= to.back().t_s) {
-        return code(RowReason::time_not_increasing);
-    }
     const double utc_s = row[TripColumn::gnss_utc];
-    if (!to.empty() && says_the_same(fix, to.back()) && same(utc_s, last_fix_utc_s_)) {
+    if (!to.empty() && fix.t_s > to.back().t_s && says_the_same(fix, to.back()) &&
+        same(utc_s, last_fix_utc_s_)) {
         return code(RowReason::repeated_fix);
     }
     to.push_back(fix);

@@ -15,8 +15,9 @@ public:
 
     std::size_t rows() const { return trip_.rows.size(); }
 
-    /// The trip, without what its head says.
-    TripLog take() { return std::move(trip_); }
+    /// The trip, without what its head says. Where the times of a sensor do not rise, as many of
+    /// its samples are kept as can be: a single wild stamp costs itself only.
+    TripLog take();
 
 private:
     /// What a row gave to one stream: a flag of row_content, a RowReason, or 0 for an empty place.

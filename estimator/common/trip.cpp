@@ -48,6 +48,12 @@ const char* name_of(RowReason reason) {
         return "inaccurate";
     case RowReason::repeated_fix:
         return "repeated_fix";
+    case RowReason::merged:
+        return "merged";
+    case RowReason::trimmed:
+        return "trimmed";
+    case RowReason::sensor_moved:
+        return "sensor_moved";
     }
     assert(false);
     return "";

@@ -77,7 +77,7 @@ enum class RowReason : std::uint8_t {
     out_of_range,
     no_time,
     no_sample,           ///< every cell but the time is empty
-    time_not_increasing, ///< not later than the sample before it of the same sensor
+    time_not_increasing, ///< out of the order of its sensor's other samples
     unused_channel,      ///< its sensors are not needed by the method in use
     too_slow,
     short_stretch, ///< too short a part without gaps to say anything
@@ -85,6 +85,9 @@ enum class RowReason : std::uint8_t {
     implausible,   ///< a position or speed that the neighbours contradict
     inaccurate,    ///< a position that the receiver itself gives little for
     repeated_fix,  ///< the fix before it once more, as loggers write on every fast row
+    merged,        ///< added to another row's reading, as gravity is to acceleration
+    trimmed,       ///< too near to where the trip began or ended to be told
+    sensor_moved,  ///< the sensor hung otherwise than for most of the trip
 };
 const char* name_of(RowReason reason);
 

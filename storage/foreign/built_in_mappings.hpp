@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace macadam {
+
+struct BuiltInMapping {
+    std::string_view name;
+    std::string_view toml;
+};
+
+/// Mappings of loggers that write one layout always.
+std::span<const BuiltInMapping> built_in_mappings();
+
+} // namespace macadam

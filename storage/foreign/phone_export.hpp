@@ -1,0 +1,32 @@
+#pragma once
+
+#include "storage/foreign/trip_mapping.hpp"
+#include "storage/trip_reader.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+/// Whether a folder that holds a file of this name is an export of phyphox or Sensor Logger.
+bool marks_export(std::string_view file);
+
+/// Whether a file of an export, by its path within it, may be one that we read.
+bool belongs_to_export(std::string_view file);
+
+/// Those of an export's files that make its trip.
+std::vector<std::string> used_files(const TripSource& source);
+
+/// How a phone's export becomes a trip. Phones lie as they like: the mounting is to be found from
+/// the motion.
+///
+/// phyphox: tables by sensor with a common clock; meta/time.csv, if there, tells the date and the
+/// pauses in which the clock stood. Sensor Logger: nanoseconds since 1970; acceleration with
+/// gravity where there is such a file, else gravity is added from its own; on iOS all axes point
+/// the other way unless the export says that it is standardised.
+///
+/// \throws InputError  if the files are of neither.
+TripMapping mapping_of_export(const TripSource& source);
+
+} // namespace macadam
