@@ -7,6 +7,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/json.hpp"
+#include "storage/sha256.hpp"
 
 #include <fmt/format.h>
 
@@ -23,11 +24,10 @@ struct ImportOptions {
     std::size_t jobs;
     bool json;
     PipelineConfig pipeline;
-};
     std::shared_ptr<const TripMapping> mapping;
+};
 
 constexpr std::int64_t most_jobs = 256;
-
 constexpr double most_trim_m = 100000;
 
 PipelineConfig trimming_config_of(const Arguments& arguments) {
@@ -39,6 +39,7 @@ PipelineConfig trimming_config_of(const Arguments& arguments) {
     }
     return config;
 }
+
 ImportOptions parse_import(const Arguments& arguments) {
     const auto jobs = arguments.integer("--jobs").value_or(1);
     if (jobs < 1 || jobs > most_jobs) {
@@ -153,6 +154,22 @@ Found trips_in(const std::vector<std::filesystem::path>& paths,
     return all;
 }
 
+/// The same paths, asked for from wherever, have the same name.
+std::string name_of_import(const std::vector<std::filesystem::path>& paths) {
+    Sha256 hash;
+    for (const auto& path : paths) {
+        hash.add(std::filesystem::absolute(path).lexically_normal().string() + '\n');
+    }
+    return hash.hex();
+}
+
+std::string spoken(const OpenImport& earlier) {
+    return fmt::format("an earlier import of these paths ({}) did not end; {} came into the store "
+                       "since it began: going on with the rest",
+                       counted(earlier.trips_asked, "trip"),
+                       counted(earlier.trips_added, "trip"));
+}
+
 void run_import(const Arguments& arguments, const Console& console) {
     const auto options = parse_import(arguments);
     VehicleChoice vehicles{arguments};
@@ -169,13 +186,10 @@ void run_import(const Arguments& arguments, const Console& console) {
         flush_results();
     };
     std::ranges::for_each(refused, tell);
-    auto totals = import_trips(store,
-                               trips,
-                               vehicles,
-                               options.pipeline,
-                               options.jobs,
-                               console.progress("importing"),
-                               tell);
+    auto importing = console.progress("importing");
+    importing.stop = interruption.stop();
+    auto totals =
+        import_trips(store, trips, vehicles, options.pipeline, options.jobs, importing, tell);
     totals.rejected += refused.size();
     const auto fused = store.refresh({}, console.progress("fusing"));
 
@@ -185,6 +199,14 @@ void run_import(const Arguments& arguments, const Console& console) {
                             totals.rejected,
                             counted(totals.passes, "pass"),
                             counted(fused, "segment")));
+    if (totals.left > 0) {
+        importing(1, 1); // takes the bar off the line
+        throw InputError{fmt::format("interrupted: {} of {} were not looked at; the others are "
+                                     "done, and the same command goes on with the rest",
+                                     totals.left,
+                                     counted(trips.size(), "trip"))};
+    }
+    store.end_import(name);
     if (totals.rejected > 0) {
         const auto asked = trips.size() + refused.size();
         throw InputError{
@@ -206,6 +228,11 @@ constexpr std::array operands{
 constexpr std::array options{
     vehicle_option,
     vehicles_option,
+    mapping_option,
+    Option{"--trim",
+           "METRES",
+           "Leave out the first and the last metres of each trip, where people live.",
+           "0"},
     Option{"--jobs", "N", "Trips to work on at once.", "1"},
     method_option,
     channels_option,
@@ -228,11 +255,6 @@ const Command import_command{
              "'rejected' with its\n"
              "reason and does not stop the others; the exit status is then 1.",
     .example = "  macadam import roads.gpkg trips/                     every log under trips/\n"
-    mapping_option,
-    Option{"--trim",
-           "METRES",
-           "Leave out the first and the last metres of each trip, where people live.",
-           "0"},
                "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"
                "  macadam import roads.gpkg trips/ --jobs 2 --json > import.jsonl",
     .operands = operands,

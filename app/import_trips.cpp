@@ -47,12 +47,13 @@ TripOutcome worked_out(const TripSource& source,
                        const std::string& sha256,
                        VehicleChoice& vehicles,
                        const RoadNetwork& roads,
-                       const PipelineConfig& config) {
+                       const PipelineConfig& config,
+                       const std::stop_token& stop) {
     TripOutcome outcome;
     outcome.file = source.name();
     outcome.sha256 = sha256;
     try {
-        auto trip = read_trip(source, needs_of_import());
+        auto trip = read_trip(source, needs_of_import(), {.report = {}, .stop = stop});
         const auto meta = trip.meta;
         outcome.sha256 = trip.sha256;
         outcome.trip_id = meta.trip_id;
@@ -181,13 +182,21 @@ ImportTotals import_trips(RoadStore& store,
                 return outcome;
             }
         }
-        return worked_out(trips[number], outcome.sha256, vehicles, roads, config);
+        return worked_out(trips[number], outcome.sha256, vehicles, roads, config, progress.stop);
     };
 
     ImportTotals totals;
     Workshop workshop{trips.size(), jobs, work};
     for (std::size_t i = 0; i < trips.size(); ++i) {
+        if (progress.stop.stop_requested()) {
+            totals.left = trips.size() - i;
+            break;
+        }
         auto outcome = workshop.take(i);
+        if (progress.stop.stop_requested() && outcome.result == TripOutcome::Result::rejected) {
+            totals.left = trips.size() - i; // rejected only for being stopped, it may be
+            break;
+        }
         if (outcome.result == TripOutcome::Result::imported) {
             const std::scoped_lock lock{store_in_use};
             if (!store.add_trip(outcome.record, outcome.trip.passes)) {

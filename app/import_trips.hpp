@@ -32,11 +32,13 @@ struct ImportTotals {
     std::size_t known = 0;
     std::size_t rejected = 0;
     std::size_t passes = 0;
+    std::size_t left = 0; ///< not looked at: progress.stop was requested before
 };
 
 /// Brings trips into a store: read and estimated by `jobs` threads, written by this one in the
 /// order of `trips`, one transaction each. A trip that cannot be used is an outcome and never stops
 /// the others; an error of the store itself is thrown and leaves the trips before it in place.
+/// When a stop is requested, the trip at hand is finished or dropped and the rest is left.
 ImportTotals import_trips(RoadStore& store,
                           const std::vector<TripSource>& trips,
                           VehicleChoice& vehicles,

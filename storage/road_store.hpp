@@ -66,6 +66,12 @@ struct PassRecord {
     std::optional<std::int64_t> utc_ms;
 };
 
+/// An import that began and did not end.
+struct OpenImport {
+    std::size_t trips_asked;
+    std::size_t trips_added; ///< to the store, by anyone, since it began
+};
+
 struct ClassLength {
     std::string name;
     double km;
@@ -119,6 +125,14 @@ public:
 
     /// \returns false, and changes nothing, if the trip is already there.
     bool add_trip(const TripRecord& trip, std::span<const Pass> passes);
+
+    /// Notes that an import has begun; `name` stands for what was asked, so that the same request
+    /// finds its note again. \returns what an import of that name has done that began and did not
+    /// end: it was killed, stopped, or still runs.
+    std::optional<OpenImport> begin_import(const std::string& name, std::size_t trips_asked);
+
+    /// Takes the note away: there is nothing left to do.
+    void end_import(const std::string& name);
 
     /// Fuses every segment that has passes newer than its state. \returns how many.
     std::size_t refresh(const FusionConfig& config, const Progress& progress = {});

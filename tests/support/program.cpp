@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -44,11 +47,17 @@ void redirect(const fs::path& file, int to) {
     _exit(127);
 }
 
-Run run(const std::vector<std::string>& words, const fs::path& out, std::size_t most_file_bytes) {
+Run run(const std::vector<std::string>& words,
+        const fs::path& out,
+        std::size_t most_file_bytes,
+        const std::function<void(pid_t child)>& meanwhile = {}) {
     const auto err = fs::path{::testing::TempDir()} / ("macadam_err_" + std::to_string(getpid()));
     const pid_t child = fork();
     if (child == 0) {
         become_macadam(words, out, err, most_file_bytes);
+    }
+    if (child > 0 && meanwhile) {
+        meanwhile(child);
     }
     int status = 0;
     if (child < 0 || waitpid(child, &status, 0) != child) {
@@ -65,6 +74,25 @@ Run run(const std::vector<std::string>& words, const fs::path& out, std::size_t 
 Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_bytes) {
     const auto out = fs::path{::testing::TempDir()} / ("macadam_out_" + std::to_string(getpid()));
     auto result = run(words, out, most_file_bytes);
+    result.out = read_file(out);
+    fs::remove(out);
+    return result;
+}
+
+Run run_macadam_signalled(const std::vector<std::string>& words,
+                          const std::string& words_before,
+                          int signal) {
+    const auto out = fs::path{::testing::TempDir()} / ("macadam_out_" + std::to_string(getpid()));
+    fs::remove(out);
+    auto result = run(words, out, 0, [&](pid_t child) {
+        constexpr auto pause = std::chrono::milliseconds{2};
+        siginfo_t ended{};
+        while (read_file(out).find(words_before) == std::string::npos && ended.si_pid != child) {
+            std::this_thread::sleep_for(pause);
+            waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+        }
+        kill(child, signal);
+    });
     result.out = read_file(out);
     fs::remove(out);
     return result;

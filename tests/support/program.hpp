@@ -21,6 +21,12 @@ Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_byt
 /// Standard output goes to this file instead of Run::out.
 Run run_macadam_into(const std::filesystem::path& out, const std::vector<std::string>& words);
 
+/// The program gets the signal as soon as it has written `words_before` to standard output (or has
+/// ended).
+Run run_macadam_signalled(const std::vector<std::string>& words,
+                          const std::string& words_before,
+                          int signal);
+
 /// An empty folder of the running test's own.
 std::filesystem::path fresh_folder();
 
