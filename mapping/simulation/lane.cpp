@@ -1,0 +1,153 @@
+#include "mapping/simulation/lane.hpp"
+
+#include "estimator/iri.hpp"
+#include "estimator/simulation/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace macadam {
+namespace {
+
+/// A surface needs some length; a way of a few centimetres gets this much.
+constexpr double shortest_lane_m = 2;
+
+// What seeds are for, so that no two draws of a way are the same.
+enum Draw : std::uint64_t { draw_share = 1, draw_level = 2, draw_surface = 3 };
+
+std::uint64_t bits_of(std::int64_t id) {
+    return static_cast<std::uint64_t>(id);
+}
+
+bool fits(const RoadRule& rule, std::size_t number, const Way& way, std::uint64_t seed) {
+    const bool right_class = rule.highways.empty() ||
+                             std::ranges::find(rule.highways, way.highway) != rule.highways.end();
+    if (!right_class || (rule.way_id && *rule.way_id != way.id) ||
+        (!rule.name.empty() && rule.name != way.name)) {
+        return false;
+    }
+    return Random{seed_of({seed, draw_share, number, bits_of(way.id)})}.uniform() < rule.share;
+}
+
+RoadRecipe with_rule(RoadRecipe road, const RoadRule& rule, double level) {
+    if (rule.iri_mm_per_m) {
+        road.iri_mm_per_m =
+            rule.iri_mm_per_m->low + level * (rule.iri_mm_per_m->high - rule.iri_mm_per_m->low);
+    }
+    road.waviness = rule.waviness.value_or(road.waviness);
+    road.level_sd = rule.level_sd.value_or(road.level_sd);
+    road.level_length_m = rule.level_length_m.value_or(road.level_length_m);
+    road.coherency_length_m = rule.coherency_length_m.value_or(road.coherency_length_m);
+    road.joint_spacing_m = rule.joint_spacing_m.value_or(road.joint_spacing_m);
+    road.joint_step_mm = rule.joint_step_mm.value_or(road.joint_step_mm);
+    road.patches_per_km = rule.patches_per_km.value_or(road.patches_per_km);
+    road.potholes_per_km = rule.potholes_per_km.value_or(road.potholes_per_km);
+    return road;
+}
+
+/// Mean of the strokes of a lane between two stations; of the nearest one if there is none between.
+double mean_between(std::span<const float> strokes, double step_m, double from_m, double to_m) {
+    const auto last = static_cast<double>(strokes.size() - 1);
+    const auto first = static_cast<std::size_t>(std::clamp(std::round(from_m / step_m), 0.0, last));
+    const auto end = std::clamp(static_cast<std::size_t>(std::max(0.0, std::round(to_m / step_m))),
+                                first + 1,
+                                strokes.size());
+    double sum = 0;
+    for (auto i = first; i < end; ++i) {
+        sum += strokes[i];
+    }
+    return sum / static_cast<double>(end - first);
+}
+
+std::vector<double> mean_profile(const WheelPaths& paths) {
+    std::vector<double> mean_m(paths.left_m.size());
+    for (std::size_t i = 0; i < mean_m.size(); ++i) {
+        mean_m[i] = (paths.left_m[i] + paths.right_m[i]) / 2;
+    }
+    return mean_m;
+}
+
+std::span<const Link> links_of_way(const RoadNetwork& roads, std::uint32_t way) {
+    const auto found = std::ranges::equal_range(roads.links, way, {}, &Link::way);
+    return {found.begin(), found.end()};
+}
+
+} // namespace
+
+std::vector<Lane> drivable_lanes(const RoadNetwork& roads) {
+    std::vector<Lane> lanes;
+    for (std::uint32_t way = 0; way < roads.ways.size(); ++way) {
+        const auto oneway = roads.ways[way].oneway;
+        if (oneway != Oneway::backward) {
+            lanes.push_back({way, true});
+        }
+        if (oneway != Oneway::forward) {
+            lanes.push_back({way, false});
+        }
+    }
+    return lanes;
+}
+
+double whole_mm(double length_m) {
+    return std::round(length_m * 1000) / 1000;
+}
+
+double lane_length_m(const RoadNetwork& roads, const Lane& lane) {
+    return whole_mm(roads.way_point_m[lane.way].back());
+}
+
+RoadRecipe
+road_recipe(const FleetRecipe& recipe, const Way& way, bool forward, std::uint64_t seed) {
+    const double level = Random{seed_of({seed, draw_level, bits_of(way.id), forward})}.uniform();
+    RoadRecipe road;
+    for (std::size_t i = 0; i < recipe.roads.size(); ++i) {
+        if (fits(recipe.roads[i], i, way, seed)) {
+            road = with_rule(road, recipe.roads[i], level);
+        }
+    }
+    return road;
+}
+
+RoadSurface lane_surface(const FleetRecipe& recipe,
+                         const RoadNetwork& roads,
+                         const Lane& lane,
+                         std::uint64_t seed) {
+    const auto& way = roads.ways[lane.way];
+    return make_surface(road_recipe(recipe, way, lane.forward, seed),
+                        std::max(lane_length_m(roads, lane), shortest_lane_m),
+                        seed_of({seed, draw_surface, bits_of(way.id), lane.forward}));
+}
+
+std::vector<SegmentTruth>
+lane_truth(const RoadNetwork& roads, const Lane& lane, const RoadSurface& surface) {
+    const auto paths = wheel_paths(surface);
+    const auto left = rectified_stroke_mm_per_m(paths.left_m, paths.step_m);
+    const auto right = rectified_stroke_mm_per_m(paths.right_m, paths.step_m);
+    const auto middle = rectified_stroke_mm_per_m(mean_profile(paths), paths.step_m);
+    const double length_m = lane_length_m(roads, lane);
+
+    std::vector<SegmentTruth> truth;
+    for (const auto& link : links_of_way(roads, lane.way)) {
+        const double segment_m = (link.to_m - link.from_m) / link.segments;
+        for (std::uint32_t i = 0; i < link.segments; ++i) {
+            const double from_m = link.from_m + i * segment_m;
+            const double to_m = i + 1 == link.segments ? link.to_m : from_m + segment_m;
+            const double enter_m = lane.forward ? from_m : length_m - to_m;
+            const double leave_m = lane.forward ? to_m : length_m - from_m;
+            const auto mean = [&](std::span<const float> strokes) {
+                return mean_between(strokes, paths.step_m, enter_m, leave_m);
+            };
+            truth.push_back({{roads.ways[lane.way].id, lane.forward, link.first_segment + i},
+                             from_m,
+                             to_m,
+                             mean(left),
+                             mean(right),
+                             (mean(left) + mean(right)) / 2,
+                             mean(middle)});
+        }
+    }
+    return truth;
+}
+
+} // namespace macadam
