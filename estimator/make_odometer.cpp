@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -190,14 +191,12 @@ filled(const std::vector<Reading>& main, const std::vector<Reading>& other, doub
 /// Readings taken while the log's clock ran on and the car did not (or the other way round) are of
 /// no known time.
 std::vector<Reading> without_pauses(std::vector<Reading> readings, const FixTrack& track) {
-    for (std::size_t i = 1; i < track.places.size(); ++i) {
-        if (track.places[i].restarts) {
-            const double from_s = track.places[i - 1].t_s;
-            const double to_s = track.places[i].t_s;
-            std::erase_if(readings,
-                          [&](const Reading& r) { return r.t_s > from_s && r.t_s < to_s; });
-        }
-    }
+    const auto& places = track.places;
+    std::erase_if(readings, [&](const Reading& reading) {
+        const auto next = std::ranges::upper_bound(places, reading.t_s, {}, &Place::t_s);
+        return next != places.begin() && next != places.end() && next->restarts &&
+               std::prev(next)->t_s < reading.t_s;
+    });
     return readings;
 }
 
