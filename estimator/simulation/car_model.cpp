@@ -11,7 +11,12 @@ namespace macadam {
 
 namespace {
 
-constexpr double slip_mps = 0.005; // friction is smooth below it: f * v / sqrt(v^2 + slip^2)
+// Friction is smooth: f * v / sqrt(v^2 + slip^2). A slip that is too small for the wheel's mass
+// would shake in steps of 2 ms.
+constexpr double least_slip_mps = 0.005;
+constexpr double most_friction_rate_hz = 600; // f / (slip * mass)
+constexpr double most_damping_rate_hz = 300;
+constexpr double most_wheel_rate_radps = 400;
 
 void refuse(const char* what, double value, double low, double high) {
     if (!(value >= low && value <= high)) {
@@ -44,6 +49,14 @@ void check(const CarRecipe& car) {
     refuse("antiroll_n_per_m", car.antiroll_n_per_m, 0, 2e5);
     refuse("cg_above_roll_axis_m", car.cg_above_roll_axis_m, 0, 2);
     refuse("pitch_arm_m", car.pitch_arm_m, 0, 2);
+    const double stiffness_n_per_m =
+        half.kt_n_per_m + 2 * half.ks_n_per_m + car.bump_stop_n_per_m + car.antiroll_n_per_m;
+    refuse("wheel's own frequency in rad/s",
+           std::sqrt(stiffness_n_per_m / half.mu_kg),
+           0,
+           most_wheel_rate_radps);
+    refuse(
+        "damping over wheel mass in 1/s", half.cs_ns_per_m / half.mu_kg, 0, most_damping_rate_hz);
 }
 
 CarState moved(const CarState& state, double dt_s, const CarState& slope) {
@@ -89,6 +102,8 @@ CarModel car_model(const CarRecipe& recipe) {
     car.wheel_kg = half.mu_kg;
     car.kt_n_per_m = half.kt_n_per_m;
     car.friction_n = recipe.friction_n;
+    car.slip_mps =
+        std::max(least_slip_mps, recipe.friction_n / (half.mu_kg * most_friction_rate_hz));
     car.stop_gap_m = recipe.bump_stop_gap_m;
     car.stop_n_per_m = recipe.bump_stop_n_per_m;
     car.antiroll_n_per_m = recipe.antiroll_n_per_m;
@@ -113,7 +128,7 @@ Coordinates accelerations(const CarModel& car, const CarState& state, const CarI
         const double over_m =
             std::max(stroke[i] - car.stop_gap_m, 0.0) + std::min(stroke[i] + car.stop_gap_m, 0.0);
         force[i] = car.ks_n_per_m[i] * stroke[i] + damping * rate +
-                   car.friction_n * rate / std::sqrt(rate * rate + slip_mps * slip_mps) +
+                   car.friction_n * rate / std::sqrt(rate * rate + car.slip_mps * car.slip_mps) +
                    car.stop_n_per_m * over_m;
     }
     const double front_bar_n = car.antiroll_n_per_m * (stroke[0] - stroke[1]) / 2;

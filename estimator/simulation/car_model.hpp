@@ -17,7 +17,8 @@ struct CarModel {
     PerWheel ks_n_per_m, bump_ns_per_m, rebound_ns_per_m;
     PerWheel static_load_n; ///< on the road, wheel included
     double wheel_kg, kt_n_per_m;
-    double friction_n, stop_gap_m, stop_n_per_m, antiroll_n_per_m;
+    double friction_n, slip_mps; ///< full friction well above the slip
+    double stop_gap_m, stop_n_per_m, antiroll_n_per_m;
     double roll_arm_m, pitch_arm_m;
 };
 

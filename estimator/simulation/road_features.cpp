@@ -48,7 +48,8 @@ Lean draw_lean(Random& random) {
 void add_slabs(RoadSurface& surface, const RoadRecipe& recipe, Random& random) {
     const double spacing_m = recipe.joint_spacing_m;
     const double size_m = recipe.joint_step_mm / 1000;
-    for (double from_m = -random.uniform() * spacing_m; from_m < surface.length_m();
+    // Whole slabs only: they begin with their step and end level, so the lane's ends stay at 0.
+    for (double from_m = random.uniform() * spacing_m; from_m + spacing_m < surface.length_m();
          from_m += spacing_m) {
         const Lean fault = draw_lean(random);
         const Lean curl = draw_lean(random);

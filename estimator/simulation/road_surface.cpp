@@ -299,11 +299,11 @@ double RoadSurface::length_m() const {
 
 RoadSurface make_surface(const RoadRecipe& recipe, double length_m, std::uint64_t seed) {
     check(recipe, length_m);
-    RoadSurface surface = with_features(random_surface(recipe, length_m, seed), recipe, seed);
+    RoadSurface surface = random_surface(recipe, length_m, seed);
     for (auto& line : surface.elevation_m) {
         line = with_ends_at_zero(std::move(line), surface.step_m);
     }
-    return surface;
+    return with_features(std::move(surface), recipe, seed);
 }
 
 double elevation_m(const RoadSurface& surface, double station_m, double lateral_m) {
