@@ -33,7 +33,7 @@ struct RoadSurface {
 /// wheel path is the recipe's, joints, patches and potholes included (as far as they leave room for
 /// a third of it). What is common to the lane and what is not split its power:
 /// coherency 1 / (1 + (n * coherency_length)^2) between the wheel paths; waves that are not common
-/// change over 0.4 m across. About 10 ms a kilometre, 0.9 MB.
+/// change over 0.4 m across. About 5 ms a kilometre, 0.9 MB.
 ///
 /// \param length_m    0.1 to 200,000
 /// \throws InputError if the length or a number of the recipe is out of its range.

@@ -14,7 +14,7 @@ namespace macadam {
 
 namespace {
 
-constexpr double slowest_steps_hz = 500; // at 2 ms accelerations are 0.2 % of their own, and less
+constexpr double slowest_steps_hz = 500; // error of accelerations at 2 ms: 0.03 to 0.13 %
 constexpr double steps_a_corner = 8;     // of the sensor's low-pass
 constexpr double settling_s = 5;         // the car comes to rest on its springs
 constexpr double fastest_mps = 100;
@@ -100,6 +100,14 @@ CarState standing(const CarModel& car, const CarInput& input) {
     return {{front_m + car.ahead_m[0] * pitch, pitch, roll, w[0], w[1], w[2], w[3]}, {}};
 }
 
+ImuReadings room_for(std::size_t samples) {
+    ImuReadings readings;
+    readings.t_s.reserve(samples);
+    readings.acc_mps2.reserve(samples);
+    readings.gyro_radps.reserve(samples);
+    return readings;
+}
+
 } // namespace
 
 ImuReadings simulate_imu(const CarRecipe& car,
@@ -119,10 +127,7 @@ ImuReadings simulate_imu(const CarRecipe& car,
 
     const double end_s = static_cast<double>(motion.travel_m.size() - 1) * motion.step_s;
     const auto samples = static_cast<std::ptrdiff_t>(end_s * imu.rate_hz + 1e-6) + 1;
-    ImuReadings readings;
-    readings.t_s.reserve(static_cast<std::size_t>(samples));
-    readings.acc_mps2.reserve(static_cast<std::size_t>(samples));
-    readings.gyro_radps.reserve(static_cast<std::size_t>(samples));
+    ImuReadings readings = room_for(static_cast<std::size_t>(samples));
 
     std::ptrdiff_t step = -static_cast<std::ptrdiff_t>(settling_s * steps_hz);
     const auto time_s = [&](double steps) { return steps / steps_hz; };
