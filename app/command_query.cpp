@@ -1,10 +1,9 @@
 #include "app/commands.hpp"
 #include "app/segment_options.hpp"
+#include "app/segment_output.hpp"
+#include "app/stretch_output.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/export.hpp"
-#include "storage/json.hpp"
-#include "storage/utc.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +17,39 @@ namespace {
 
 constexpr double near_m = 50; // about the width of a road with its verges, and a fix's error
 
+/// What --worst asks for.
+struct WorstOptions {
+    std::size_t count; ///< 0: nothing
+    bool single_segments;
+    std::optional<double> above_mm_per_m; ///< what is poor; nothing: by the store's classes
+    double least_length_m;
+};
+
+WorstOptions parse_worst(const Arguments& arguments) {
+    const auto count = arguments.integer("--worst");
+    if (count && *count < 1) {
+        throw UsageError{fmt::format("--worst is {}, expected at least 1", *count)};
+    }
+    for (const auto* name : {"--segments", "--above", "--min-length"}) {
+        if (!count && arguments.flag(name)) {
+            throw UsageError{fmt::format("{} goes with --worst N", name)};
+        }
+    }
+    const WorstOptions options{
+        .count = static_cast<std::size_t>(count.value_or(0)),
+        .single_segments = arguments.flag("--segments"),
+        .above_mm_per_m = arguments.number("--above"),
+        .least_length_m = arguments.number("--min-length", RoadStretchConfig{}.least_length_m)};
+    if (const auto above = options.above_mm_per_m; above && !(*above >= 0 && *above <= 100)) {
+        throw UsageError{fmt::format("--above is {}, expected an IRI of 0 to 100 mm/m", *above)};
+    }
+    if (!(options.least_length_m >= 0)) {
+        throw UsageError{
+            fmt::format("--min-length is {}, expected 0 m or more", options.least_length_m)};
+    }
+    return options;
+}
+
 struct QueryOptions {
     std::filesystem::path store;
     SegmentFilter filter;
@@ -25,6 +57,7 @@ struct QueryOptions {
     double radius_m;
     std::string format;
     bool history;
+    WorstOptions worst;
 };
 
 QueryOptions parse_query(const Arguments& arguments) {
@@ -34,7 +67,8 @@ QueryOptions parse_query(const Arguments& arguments) {
                          .near = {},
                          .radius_m = arguments.number("--radius", near_m),
                          .format = arguments.choice("--format", formats),
-                         .history = arguments.flag("--history")};
+                         .history = arguments.flag("--history"),
+                         .worst = parse_worst(arguments)};
     if (arguments.flag("--json")) {
         options.format = "json";
     }
@@ -57,15 +91,12 @@ QueryOptions parse_query(const Arguments& arguments) {
             throw UsageError{fmt::format("--segment: {}", error.what())};
         }
     }
-    if (const auto worst = arguments.integer("--worst")) {
-        if (*worst < 1) {
-            throw UsageError{fmt::format("--worst is {}, expected at least 1", *worst)};
-        }
-        options.filter.worst = static_cast<std::size_t>(*worst);
+    if (options.worst.single_segments) {
+        options.filter.worst = options.worst.count;
     }
     const auto& filter = options.filter;
     if (!options.near && !filter.box && !filter.way_id && !filter.key && filter.name_part.empty() &&
-        filter.worst == 0) {
+        options.worst.count == 0) {
         throw UsageError{
             "expected what to look for: --near, --bbox, --way, --segment, --name or --worst"};
     }
@@ -154,161 +185,48 @@ std::vector<SegmentRecord> found_in(const RoadStore& store, const QueryOptions& 
     return records;
 }
 
-std::string table_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
-    std::string table = fmt::format("{:<18} {:<24} {:>17} {:>6} {:>13}  {:<6} {:>6} {:>5}  {}\n",
-                                    "segment",
-                                    "road",
-                                    "from-to m",
-                                    "IRI",
-                                    "90 %",
-                                    "class",
-                                    "passes",
-                                    "cars",
-                                    "last seen");
-    for (const auto& record : records) {
-        const auto& segment = record.segment;
-        const auto road = record.name.empty() ? record.highway : record.name;
-        table += fmt::format("{:<18} {:<24.24} {:>8.1f}-{:>8.1f}",
-                             name_of(segment.key),
-                             road,
-                             segment.from_m,
-                             segment.to_m);
-        if (!record.state) {
-            table += "      -             -  (nobody drove it yet)\n";
-            continue;
-        }
-        const auto& state = *record.state;
-        table += fmt::format(" {:>6.2f} {:>5.2f} - {:>5.2f}  {:<6} {:>6} {:>5}  {}\n",
-                             state.iri_um / 1000.0,
-                             state.low_um / 1000.0,
-                             state.high_um / 1000.0,
-                             classes.classes[class_index(classes, state.iri_um / 1000.0)].name,
-                             state.passes,
-                             state.vehicles,
-                             state.last_seen_ms ? utc_text(*state.last_seen_ms).substr(0, 10)
-                                                : "undated");
+void print_worst_stretches(const RoadStore& store,
+                           const std::vector<SegmentRecord>& records,
+                           const QueryOptions& options,
+                           const Console& console) {
+    const auto& classes = *class_table(store.settings().class_table);
+    RoadStretchConfig config;
+    config.above_mm_per_m = options.worst.above_mm_per_m.value_or(poor_above(classes));
+    config.least_length_m = options.worst.least_length_m;
+    auto stretches = worst_stretches(store.roads(), records, config);
+    stretches.resize(std::min(stretches.size(), options.worst.count));
+    if (stretches.empty()) {
+        console.say(fmt::format(
+            "nothing found: no stretch of {:g} m or more with a mean IRI above {:.2f} mm/m "
+            "(--min-length and --above ask for less, --segments for single segments)",
+            config.least_length_m,
+            config.above_mm_per_m));
     }
-    return table;
-}
-
-std::string json_object_of(const SegmentRecord& record, const ClassTable& classes) {
-    JsonObject object;
-    const auto values = field_values(record, classes);
-    const auto fields = segment_fields();
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        if (!values[i]) {
-            object.add(fields[i].name, nullptr);
-        } else if (fields[i].type == Field::Type::text) {
-            object.add(fields[i].name, *values[i]);
-        } else {
-            object.add(fields[i].name, JsonRaw{*values[i]});
-        }
+    if (!stretches.empty() || options.format != "table") {
+        print(stretches_text(stretches, options.format));
     }
-    return object.text();
-}
-
-std::string json_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
-    std::vector<std::string> objects;
-    objects.reserve(records.size());
-    for (const auto& record : records) {
-        objects.push_back(json_object_of(record, classes));
-    }
-    return json_array(objects) + "\n";
-}
-
-std::string csv_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
-    auto csv = csv_header() + "\n";
-    for (const auto& record : records) {
-        csv += csv_row(record, classes) + "\n";
-    }
-    return csv;
-}
-
-std::string geojson_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
-    std::vector<std::string> features;
-    features.reserve(records.size());
-    for (const auto& record : records) {
-        features.push_back(geojson_feature(record, classes));
-    }
-    JsonObject collection;
-    collection.add("type", std::string{"FeatureCollection"})
-        .add("features", JsonRaw{json_array(features)});
-    return collection.text() + "\n";
-}
-
-std::string history_table(const std::vector<PassRecord>& passes) {
-    auto table = fmt::format("{:<22} {:<16} {:>6} {:>6} {:>7} {:>10}  {}\n",
-                             "when",
-                             "vehicle",
-                             "IRI",
-                             "sd",
-                             "km/h",
-                             "confidence",
-                             "trip");
-    for (const auto& record : passes) {
-        const auto& pass = record.pass;
-        table += fmt::format("{:<22} {:<16} {:>6.2f} {:>6.2f} {:>7.1f} {:>10.2f}  {:.12}\n",
-                             record.utc_ms ? utc_text(*record.utc_ms / 1000 * 1000) : "undated",
-                             record.vehicle,
-                             pass.iri_um / 1000.0,
-                             pass.sd_um / 1000.0,
-                             pass.speed_mmps * 3.6e-3,
-                             pass.confidence_ppm / 1e6,
-                             record.trip_sha256);
-    }
-    return table;
-}
-
-std::string history_json(const std::vector<PassRecord>& passes) {
-    const auto um = [](std::optional<IriUm> iri_um) {
-        return iri_um ? json_number(*iri_um / 1000.0, 3) : JsonValue{nullptr};
-    };
-    std::vector<std::string> objects;
-    for (const auto& record : passes) {
-        const auto& pass = record.pass;
-        JsonObject object;
-        object.add("segment", name_of(pass.segment))
-            .add("utc", record.utc_ms ? JsonValue{utc_text(*record.utc_ms)} : JsonValue{nullptr})
-            .add("vehicle", record.vehicle)
-            .add("iri", um(pass.iri_um))
-            .add("iri_sd", um(pass.sd_um))
-            .add("iri_left", um(pass.iri_left_um))
-            .add("iri_right", um(pass.iri_right_um))
-            .add("hri", um(pass.iri_centre_um))
-            .add("speed_mps", JsonNumber{pass.speed_mmps / 1000.0, 3})
-            .add("covered_m", JsonNumber{pass.covered_mm / 1000.0, 3})
-            .add("confidence", JsonNumber{pass.confidence_ppm / 1e6, 3})
-            .add("validity", name_of_validity(pass.validity))
-            .add("trip", record.trip_sha256);
-        objects.push_back(object.text());
-    }
-    return json_array(objects) + "\n";
 }
 
 void run_query(const Arguments& arguments, const Console& console) {
     const auto options = parse_query(arguments);
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     warn_of_waiting(store, options.store, console);
-    const auto& classes = *class_table(store.settings().class_table);
 
     const auto records = found_in(store, options);
     if (options.history) {
-        const auto passes = store.history(*options.filter.key);
-        print(options.format == "json" ? history_json(passes) : history_table(passes));
+        print(history_text(store.history(*options.filter.key), options.format));
+        return;
+    }
+    if (options.worst.count > 0 && !options.worst.single_segments) {
+        print_worst_stretches(store, records, options, console);
         return;
     }
     if (records.empty()) {
         console.say("nothing found: no segment with a pass meets these conditions (--all shows the "
                     "others)");
     }
-    if (options.format == "json") {
-        print(json_of(records, classes));
-    } else if (options.format == "csv") {
-        print(csv_of(records, classes));
-    } else if (options.format == "geojson") {
-        print(geojson_of(records, classes));
-    } else if (!records.empty()) {
-        print(table_of(records, classes));
+    if (!records.empty() || options.format != "table") {
+        print(segments_text(records, *class_table(store.settings().class_table), options.format));
     }
 }
 
@@ -320,7 +238,13 @@ constexpr std::array options{
     way_option,
     Option{"--segment", "KEY", "One segment, such as 123456+0007."},
     name_option,
-    Option{"--worst", "N", "The N roughest of what the other options leave, the roughest first."},
+    Option{"--worst",
+           "N",
+           "The N roughest stretches of what the other options leave, the roughest first."},
+    Option{"--min-length", "METRES", "With --worst: leave out shorter stretches.", "100"},
+    Option{
+        "--above", "IRI", "With --worst: what is poor, in mm/m.", "above the store's middle class"},
+    Option{"--segments", "", "With --worst: single segments, not stretches."},
     all_option,
     Option{
         "--history", "", "With --segment: every pass over it instead of what they say together."},
@@ -334,7 +258,9 @@ const Command query_command{
     .summary = "Ask a store: near a place, in a box, along a way, the worst",
     .about = "Conditions add up. IRI is in mm/m, with its 90 % interval; from-to is metres along "
              "the way from its\n"
-             "first node, whatever the driving direction (+ in the key: forward, -: backward).",
+             "first node, whatever the driving direction (+ in the key: forward, -: backward). "
+             "--worst joins poor\n"
+             "segments that follow each other on one road to stretches.",
     .example = "  macadam query roads.gpkg --worst 10\n"
                "  macadam query roads.gpkg --near 37.7258,-122.4720 --radius 100\n"
                "  macadam query roads.gpkg --way 123456 --format csv\n"

@@ -45,6 +45,7 @@ std::span<const Command> commands() {
                                   query_command,
                                   export_command,
                                   render_command,
+                                  report_command,
                                   info_command,
                                   iri_command,
                                   trace_command,

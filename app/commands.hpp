@@ -43,6 +43,7 @@ extern const Command import_command; // app/command_import.cpp
 extern const Command query_command;  // app/command_query.cpp
 extern const Command export_command; // app/command_export.cpp
 extern const Command render_command; // app/command_render.cpp
+extern const Command report_command; // app/command_report.cpp
 extern const Command info_command;   // app/command_info.cpp
 extern const Command iri_command;    // app/command_iri.cpp
 extern const Command trace_command;  // app/command_trace.cpp

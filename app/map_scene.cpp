@@ -69,6 +69,35 @@ std::string subtitle_of(const StoreInfo& info, bool whole) {
 
 } // namespace
 
+std::vector<MapLine>
+map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes) {
+    // Each direction is a segment of its own; what was driven one way only is still a road of two
+    // sides where the map lets cars go both ways.
+    std::map<std::pair<std::int64_t, std::uint32_t>, int> directions;
+    SegmentFilter filter;
+    filter.box = box;
+    filter.with_state_only = false;
+    store.visit(filter, [&](const SegmentRecord& record) {
+        ++directions[{record.segment.key.way_id, record.segment.key.index}];
+    });
+    std::vector<MapLine> lines;
+    store.visit(filter, [&](const SegmentRecord& record) {
+        const auto& key = record.segment.key;
+        MapLine line;
+        line.line = record.segment.line;
+        line.forward = key.forward;
+        line.both_ways = directions.at({key.way_id, key.index}) == 2;
+        line.rank = rank_of(record.highway);
+        line.name = record.name;
+        if (record.state) {
+            line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
+            line.certain = record.state->sd_um <= certain_sd * record.state->iri_um;
+        }
+        lines.push_back(std::move(line));
+    });
+    return lines;
+}
+
 MapScene map_scene(const RoadStore& store,
                    const std::optional<GeoBox>& box,
                    const ClassTable& classes,
@@ -86,21 +115,11 @@ MapScene map_scene(const RoadStore& store,
         }
     }
 
-    // Each direction is a segment of its own; what was driven one way only is still a road of two
-    // sides where the map lets cars go both ways.
-    std::map<std::pair<std::int64_t, std::uint32_t>, int> directions;
-    bool nothing_there = true;
-    SegmentFilter filter;
-    filter.box = shown_around(scene.box);
-    filter.with_state_only = false;
-    store.visit(filter, [&](const SegmentRecord& record) {
-        ++directions[{record.segment.key.way_id, record.segment.key.index}];
-        nothing_there =
-            nothing_there && !std::ranges::any_of(record.segment.line, [&](auto& point) {
-                return contains(scene.box, point);
-            });
-    });
-    if (nothing_there) {
+    scene.lines = map_lines(store, shown_around(scene.box), classes);
+    if (std::ranges::none_of(scene.lines, [&](const MapLine& line) {
+            return std::ranges::any_of(line.line,
+                                       [&](auto& point) { return contains(scene.box, point); });
+        })) {
         throw InputError{fmt::format(
             "nothing to draw: the store has no road between {:.5f},{:.5f} and {:.5f},{:.5f}",
             scene.box.south_deg,
@@ -108,20 +127,6 @@ MapScene map_scene(const RoadStore& store,
             scene.box.north_deg,
             scene.box.east_deg)};
     }
-    store.visit(filter, [&](const SegmentRecord& record) {
-        const auto& key = record.segment.key;
-        MapLine line;
-        line.line = record.segment.line;
-        line.forward = key.forward;
-        line.both_ways = directions.at({key.way_id, key.index}) == 2;
-        line.rank = rank_of(record.highway);
-        line.name = record.name;
-        if (record.state) {
-            line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
-            line.certain = record.state->sd_um <= certain_sd * record.state->iri_um;
-        }
-        scene.lines.push_back(std::move(line));
-    });
     return scene;
 }
 

@@ -5,8 +5,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace macadam {
+
+/// The segments of a store that touch a box, in the order of their keys, with their classes; those
+/// without a pass as roads without a measurement.
+std::vector<MapLine>
+map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes);
 
 /// What a picture of a store shows: its segments in the box (nothing: all that was driven), with
 /// their classes, the roads without a measurement, and the words around them.

@@ -174,6 +174,9 @@ Placement placement_of(const MapScene& scene,
                        const Layout& layout,
                        TypeSetter& setter) {
     const auto frame = fitted_frame(scene.box, inset(layout.map, margin_px * layout.unit));
+    if (legend.entries.empty()) {
+        return {frame, {}, {}};
+    }
     const auto card = legend_card(legend, 1, layout.unit, setter);
     const auto corners = corners_of(layout.map, card);
     const auto hidden = hidden_by(scene, frame, card, corners);
@@ -198,7 +201,9 @@ Image furnished(Image roads,
                      text.quiet ? colours.quiet_ink : colours.ink);
     }
     draw_footer(canvas, setter, layout, placement.frame, style);
-    draw_legend(canvas, setter, placement.card, placement.corner, colours);
+    if (!placement.card.legend.entries.empty()) {
+        draw_legend(canvas, setter, placement.card, placement.corner, colours);
+    }
     return std::move(canvas).finished();
 }
 

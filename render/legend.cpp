@@ -94,6 +94,9 @@ void draw_swatch(Canvas& canvas,
 } // namespace
 
 Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable& classes) {
+    if (!style.legend) {
+        return {};
+    }
     const auto colours = ramp_colours(style.ramp, classes.classes.size());
     Legend legend{.title = title_of(style), .entries = {}};
     for (std::size_t i = 0; i < classes.classes.size(); ++i) {

@@ -22,7 +22,8 @@ struct Legend {
     std::vector<LegendEntry> entries;
 };
 
-/// The classes with their values, then what else the scene's lines show.
+/// The classes with their values, then what else the scene's lines show. Nothing if the style wants
+/// no legend.
 Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable& classes);
 
 /// The legend as a table on a card, `columns` entries beside each other.

@@ -34,6 +34,9 @@ std::string geojson_feature(const SegmentRecord& record, const ClassTable& class
 std::string csv_row(const SegmentRecord& record, const ClassTable& classes);
 std::string csv_header();
 
+/// Text as a CSV cell, quoted where it must be, as in csv_row.
+std::string csv_text(std::string_view text);
+
 /// Writes segments to a file in the order of visit(); its kind is its suffix: .geojson, .geojsonl,
 /// .csv, .gpkg (the layer `roughness` with its style, without passes, trips or vehicles). The file
 /// appears when it is whole, or not at all. \returns how many segments were written.

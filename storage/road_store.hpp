@@ -5,7 +5,7 @@
 #include "mapping/iri_class.hpp"
 #include "mapping/pass.hpp"
 #include "mapping/road_network.hpp"
-#include "mapping/segment.hpp"
+#include "mapping/segment_record.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -40,14 +40,6 @@ struct TripRecord {
     std::size_t rows_used = 0;
 };
 
-/// A segment in its place with what is known of it.
-struct SegmentRecord {
-    Segment segment;
-    std::string name;
-    std::string highway;
-    std::optional<SegmentState> state; ///< nothing: no pass yet
-};
-
 /// Which segments to visit; all conditions hold together.
 struct SegmentFilter {
     std::optional<GeoBox> box;
@@ -64,6 +56,20 @@ struct PassRecord {
     std::string trip_sha256;
     std::string vehicle; ///< pseudonym
     std::optional<std::int64_t> utc_ms;
+};
+
+/// What the trips of one car gave, read with one vehicle model by one method.
+struct VehicleUse {
+    std::string vehicle; ///< pseudonym
+    std::string vehicle_model;
+    std::string method;
+    std::size_t trips = 0;
+    std::size_t undated_trips = 0;
+    std::size_t passes = 0;
+    double km = 0; ///< driven
+    double matched_km = 0;
+    std::size_t rows_read = 0;
+    std::size_t rows_used = 0;
 };
 
 /// An import that began and did not end.
@@ -145,6 +151,9 @@ public:
     std::vector<PassRecord> history(const SegmentKey& key) const;
 
     StoreInfo info() const;
+
+    /// In the order of (pseudonym, model, method).
+    std::vector<VehicleUse> vehicle_uses() const;
 
     /// Segments whose new passes are not yet fused, as StoreInfo::waiting; quick.
     std::size_t waiting() const;

@@ -264,6 +264,31 @@ StoreInfo RoadStore::info() const {
             .box = cover.box};
 }
 
+std::vector<VehicleUse> RoadStore::vehicle_uses() const {
+    auto select = impl_->database.prepare(
+        "SELECT vehicle.pseudonym, vehicle_model, method, count(*), count(*) - count(t0_utc_ms),"
+        " sum((SELECT count(*) FROM pass WHERE pass.trip = trip.id)), sum(distance_mm),"
+        " sum(matched_mm), sum(rows_read), sum(rows_used)"
+        " FROM trip JOIN vehicle ON vehicle.id = trip.vehicle GROUP BY 1, 2, 3 ORDER BY 1, 2, 3");
+    const auto number = [&](int column) {
+        return static_cast<std::size_t>(select.integer(column));
+    };
+    std::vector<VehicleUse> uses;
+    while (select.step()) {
+        uses.push_back({.vehicle = select.text(0),
+                        .vehicle_model = select.text(1),
+                        .method = select.text(2),
+                        .trips = number(3),
+                        .undated_trips = number(4),
+                        .passes = number(5),
+                        .km = static_cast<double>(select.integer(6)) / 1e6,
+                        .matched_km = static_cast<double>(select.integer(7)) / 1e6,
+                        .rows_read = number(8),
+                        .rows_used = number(9)});
+    }
+    return uses;
+}
+
 std::size_t RoadStore::waiting() const {
     return count(impl_->database, "SELECT count(*) FROM segment_dirty");
 }

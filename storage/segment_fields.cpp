@@ -65,23 +65,6 @@ std::vector<Text> values_without_state() {
     return values;
 }
 
-/// Halfway along the line.
-GeoPoint middle_of(const std::vector<GeoPoint>& line) {
-    double whole_m = 0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        whole_m += distance_m(line[i - 1], line[i]);
-    }
-    double left_m = whole_m / 2;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        const double step_m = distance_m(line[i - 1], line[i]);
-        if (step_m > 0 && step_m >= left_m) {
-            return between(line[i - 1], line[i], left_m / step_m);
-        }
-        left_m -= step_m;
-    }
-    return line.back();
-}
-
 std::string coordinates_of(const std::vector<GeoPoint>& line) {
     std::vector<std::string> points;
     points.reserve(line.size());
@@ -104,18 +87,16 @@ bool looks_like_formula(std::string_view text) {
     return text.find_first_of("=+-@\t\r") == 0;
 }
 
-std::string csv_cell(const Field& field, const Text& value) {
-    const auto text = value.value_or("");
-    const bool plain = text.find_first_of(",\"\r\n") == std::string::npos &&
-                       !(field.type == Type::text && looks_like_formula(text));
-    if (plain) {
-        return text;
-    }
-    std::string quoted{"\""};
+std::string quoted(std::string_view text) {
+    std::string cell{"\""};
     for (const char c : text) {
-        quoted += c == '"' ? "\"\"" : std::string(1, c);
+        cell += c == '"' ? "\"\"" : std::string(1, c);
     }
-    return quoted + "\"";
+    return cell + "\"";
+}
+
+std::string csv_cell(const Field& field, const Text& value) {
+    return field.type == Type::text ? csv_text(value.value_or("")) : value.value_or("");
 }
 
 } // namespace
@@ -161,7 +142,7 @@ std::string csv_row(const SegmentRecord& record, const ClassTable& classes) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
         row += csv_cell(fields[i], values[i]) + ",";
     }
-    const auto middle = middle_of(record.segment.line);
+    const auto middle = halfway_along(record.segment.line);
     return row +
            fmt::format(
                "{:.{}f},{:.{}f}", middle.lat_deg, place_decimals, middle.lon_deg, place_decimals);
@@ -173,6 +154,12 @@ std::string csv_header() {
         header += fmt::format("{},", field.name);
     }
     return header + "lat_deg,lon_deg";
+}
+
+std::string csv_text(std::string_view text) {
+    const bool plain =
+        text.find_first_of(",\"\r\n") == std::string_view::npos && !looks_like_formula(text);
+    return plain ? std::string{text} : quoted(text);
 }
 
 } // namespace macadam

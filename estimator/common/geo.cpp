@@ -1,7 +1,9 @@
 #include "estimator/common/geo.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace macadam {
@@ -71,6 +73,23 @@ double course_deg(const GeoPoint& a, const GeoPoint& b) {
 
 GeoPoint between(const GeoPoint& a, const GeoPoint& b, double fraction) {
     return {std::lerp(a.lat_deg, b.lat_deg, fraction), std::lerp(a.lon_deg, b.lon_deg, fraction)};
+}
+
+GeoPoint halfway_along(std::span<const GeoPoint> line) {
+    assert(!line.empty());
+    double whole_m = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        whole_m += distance_m(line[i - 1], line[i]);
+    }
+    double left_m = whole_m / 2;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const double step_m = distance_m(line[i - 1], line[i]);
+        if (step_m > 0 && step_m >= left_m) {
+            return between(line[i - 1], line[i], left_m / step_m);
+        }
+        left_m -= step_m;
+    }
+    return line.back();
 }
 
 } // namespace macadam

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 namespace macadam {
 
 /// A place on the ellipsoid, WGS 84. -90 <= lat_deg <= 90, -180 <= lon_deg <= 180.
@@ -47,5 +49,8 @@ double course_deg(const GeoPoint& a, const GeoPoint& b);
 
 /// The place on the straight line from `a` (fraction 0) to `b` (fraction 1).
 GeoPoint between(const GeoPoint& a, const GeoPoint& b, double fraction);
+
+/// The place half-way along a line. \param line  at least one point.
+GeoPoint halfway_along(std::span<const GeoPoint> line);
 
 } // namespace macadam

@@ -184,7 +184,8 @@ TEST_F(Refusals, OfAServersAddressAreMisuse) {
                                                       {"import", server, good_},
                                                       {"query", server, "--worst", "1"},
                                                       {"export", server, "-o", "a.csv"},
-                                                      {"render", server, "-o", "a.png"}};
+                                                      {"render", server, "-o", "a.png"},
+                                                      {"report", server, "-o", "a.html"}};
     for (const auto& call : calls) {
         const auto run = run_macadam(call);
         EXPECT_EQ(run.exit_status, 2) << call.front();

@@ -50,8 +50,16 @@ TEST(Program, SaysItsVersion) {
 }
 
 TEST(Program, ExplainsEveryCommand) {
-    for (const auto* name :
-         {"init", "import", "query", "export", "render", "info", "iri", "trace", "match"}) {
+    for (const auto* name : {"init",
+                             "import",
+                             "query",
+                             "export",
+                             "render",
+                             "report",
+                             "info",
+                             "iri",
+                             "trace",
+                             "match"}) {
         EXPECT_THAT(expect_done({name, "--help"}).out, HasSubstr("example"));
     }
 }
@@ -126,9 +134,14 @@ TEST(Program, ImportsAFolderOfSimulatedCarsAndFindsTheRoughPatch) {
     const auto import = expect_done({"import", store, (folder / "trips").string()});
     EXPECT_THAT(import.err, HasSubstr("2 trips imported"));
 
-    const auto worst = expect_done({"query", store, "--worst", "1", "--format", "csv"}).out;
+    const auto worst =
+        expect_done({"query", store, "--worst", "1", "--segments", "--format", "csv"}).out;
     EXPECT_EQ(lines_in(worst), 2U);
     EXPECT_THAT(worst, HasSubstr(",poor,2,1,"));
+    const auto stretches =
+        expect_done({"query", store, "--worst", "5", "--min-length", "60", "--format", "csv"}).out;
+    EXPECT_EQ(lines_in(stretches), 2U) << stretches; // the patch is one stretch
+    EXPECT_THAT(stretches, HasSubstr(",2,2,1,"));    // of two passes by one car
 }
 
 TEST(Program, TakesATownOfOpenStreetMapAsItsNetworkAndNamesWhoseItIs) {
@@ -197,7 +210,7 @@ TEST(Program, GivesTheWorstOfWhatIsNearTheWorstFirst) {
     const std::vector<std::string> near{
         "query", store, "--near", "37.7258,-122.4720", "--radius", "60", "--format", "csv"};
     auto worst = near;
-    worst.insert(worst.end(), {"--worst", "2"});
+    worst.insert(worst.end(), {"--worst", "2", "--segments"});
     const auto all = expect_done(near).out;
     const auto two = expect_done(worst).out;
     EXPECT_GT(lines_in(all), 4U);

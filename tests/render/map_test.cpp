@@ -131,6 +131,13 @@ TEST(Map, HasAnEntryInItsLegendForEveryClass) {
     }
 }
 
+TEST(Map, HasNoLegendWhereThePageHasIt) {
+    const auto image =
+        render_map(scene({road({{-400, 0}, {400, 0}}, 0)}, 400), {.legend = false}, 512, 512);
+    EXPECT_EQ(count_of(image, {0, 0, 512, 512}, poor), 0U);
+    EXPECT_GT(count_of(image, {0, 0, 512, 512}, good), 20U);
+}
+
 TEST(Map, PutsTheLegendWhereNoRoadIs) {
     TypeSetter setter;
     auto diagonal = scene({road({{-400, 400}, {400, -400}}, 2)}, 400); // north-west to south-east

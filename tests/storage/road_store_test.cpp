@@ -247,6 +247,33 @@ TEST(RoadStore, AddsUpWhatItHolds) {
     EXPECT_EQ(info.first_seen_ms, trip_record(0).t0_utc_ms);
 }
 
+TEST(RoadStore, SaysWhatTheTripsOfEachCarGave) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    EXPECT_THAT(store.vehicle_uses(), IsEmpty());
+    for (int number = 0; number < 4; ++number) { // trips 0 and 3 are of one car, 3 is undated
+        auto trip = trip_record(number);
+        trip.distance_mm = 1'500'000;
+        trip.matched_mm = 1'200'000;
+        trip.rows_read = 1000;
+        trip.rows_used = 900;
+        trip.method = number == 1 ? "other" : "kf";
+        store.add_trip(trip, passes_of(number));
+    }
+    const auto uses = store.vehicle_uses();
+    ASSERT_THAT(uses, SizeIs(3));
+    EXPECT_TRUE(std::ranges::is_sorted(uses, {}, &VehicleUse::vehicle));
+    const auto twice = std::ranges::find(uses, 2U, &VehicleUse::trips);
+    ASSERT_NE(twice, uses.end());
+    EXPECT_EQ(twice->method, "kf");
+    EXPECT_EQ(twice->vehicle_model, "golden-car");
+    EXPECT_EQ(twice->undated_trips, 1U);
+    EXPECT_EQ(twice->passes, 40U);
+    EXPECT_NEAR(twice->km, 3.0, 1e-9);
+    EXPECT_NEAR(twice->matched_km, 2.4, 1e-9);
+    EXPECT_EQ(twice->rows_read, 2000U);
+    EXPECT_EQ(twice->rows_used, 1800U);
+}
+
 // ------------------------------------------------------------------------------------- filters
 
 TEST(RoadStore, FindsSegmentsByWayKeyAndName) {

@@ -1,0 +1,97 @@
+#include "app/commands.hpp"
+#include "app/output_guard.hpp"
+#include "app/report_values.hpp"
+#include "app/segment_options.hpp"
+
+#include "storage/atomic_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace macadam {
+namespace {
+
+struct ReportOptions {
+    std::filesystem::path store;
+    std::filesystem::path output;
+    ReportConfig report;
+};
+
+constexpr std::int64_t most_stretches = 200; // each has a map of about 60 kB
+
+std::size_t parse_worst(const Arguments& arguments) {
+    const auto worst =
+        arguments.integer("--worst").value_or(static_cast<std::int64_t>(ReportConfig{}.worst));
+    if (worst < 0 || worst > most_stretches) {
+        throw UsageError{fmt::format("--worst is {}, expected 0 to {}", worst, most_stretches)};
+    }
+    return static_cast<std::size_t>(worst);
+}
+
+MapStyle parse_style(const Arguments& arguments) {
+    MapStyle style;
+    style.left_hand_traffic = arguments.flag("--left-hand");
+    if (const auto name = arguments.value("--classes")) {
+        style.classes = class_table(*name);
+        if (style.classes == nullptr) {
+            throw UsageError{fmt::format("--classes is '{}', expected fhwa or five", *name)};
+        }
+    }
+    return style;
+}
+
+ReportOptions parse_report(const Arguments& arguments) {
+    const auto output = arguments.value("--output");
+    if (!output || !output->ends_with(".html")) {
+        throw UsageError{
+            output ? fmt::format("-o is '{}', expected a name that ends in .html", *output)
+                   : std::string{"-o report.html is missing"}};
+    }
+    return {.store = store_file(arguments),
+            .output = *output,
+            .report = {.title = arguments.value("--title").value_or("Road roughness"),
+                       .worst = parse_worst(arguments),
+                       .style = parse_style(arguments)}};
+}
+
+void run_report(const Arguments& arguments, const Console& console) {
+    auto options = parse_report(arguments);
+    const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    refuse_to_replace(options.output, {options.store});
+    warn_of_waiting(store, options.store, console);
+    if (options.report.style.classes == nullptr) {
+        options.report.style.classes = class_table(store.settings().class_table);
+    }
+    const auto html =
+        report_html(report_of(store, options.report, console.progress("drawing maps")));
+
+    AtomicFile file{options.output};
+    file.write(html);
+    file.commit();
+    console.say(fmt::format(
+        "{}: {:.1f} MB", options.output.string(), static_cast<double>(html.size()) / 1e6));
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{
+    Option{"-o,--output", "FILE", "The report, an .html file."},
+    Option{"--title", "TEXT", "Over the report.", "Road roughness"},
+    Option{"--worst", "N", "How many of the worst stretches to list, each with a map.", "20"},
+    Option{"--classes", "NAME", "fhwa (good, fair, poor) or five.", "the store's"},
+    Option{"--left-hand", "", "Traffic keeps left: maps draw each direction on that side."}};
+
+} // namespace
+
+const Command report_command{
+    .name = "report",
+    .summary = "Write up what a store knows: condition, worst stretches, coverage, data",
+    .about = "One HTML file that needs nothing else: it opens in any browser, on a phone too, and "
+             "prints on A4. The same\nstore gives the same bytes.",
+    .example = "  macadam report roads.gpkg -o report.html --title \"Spring survey 2026\"\n"
+               "  macadam report roads.gpkg -o report.html --worst 50 --classes five",
+    .operands = operands,
+    .options = options,
+    .run = run_report};
+
+} // namespace macadam

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "render/map.hpp"
+#include "render/report/report.hpp"
+#include "storage/road_store.hpp"
+
+#include <string>
+
+namespace macadam {
+
+struct ReportConfig {
+    std::string title;
+    std::size_t worst = 20; ///< stretches to list
+    MapStyle style;         ///< ramp, classes (not null) and side of the traffic
+};
+
+/// All that a report of a store says, with its pictures.
+/// \param progress  is told of pictures drawn; a stop ends it. \throws InputError if stopped.
+Report report_of(const RoadStore& store, const ReportConfig& config, const Progress& progress = {});
+
+} // namespace macadam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "mapping/worst_stretches.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+/// Stretches as `query --worst` prints them, the first with rank 1.
+/// \param format  table, json, csv or geojson.
+std::string stretches_text(std::span<const RoadStretch> stretches, std::string_view format);
+
+/// "123456+ 100.0-240.0", several ways parted by "; ": metres along each way from its first node.
+std::string linear_reference(const RoadStretch& stretch);
+
+/// "N", "NE", ...: from the first place of a stretch to its last.
+std::string_view heading_of(const RoadStretch& stretch);
+
+} // namespace macadam

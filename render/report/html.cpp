@@ -1,0 +1,111 @@
+#include "render/report/html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace macadam {
+namespace {
+
+constexpr std::string_view replacement = "\xEF\xBF\xBD"; // U+FFFD
+
+/// How many bytes the UTF-8 sequence at the front of `text` has; 0 if there is none (RFC 3629).
+std::size_t sequence_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+    };
+    const auto follows = [&](std::size_t i, unsigned low, unsigned high) {
+        return low <= byte(i) && byte(i) <= high;
+    };
+    const auto first = byte(0);
+    if (first < 0x80) {
+        return 1;
+    }
+    if (0xC2 <= first && first <= 0xDF) {
+        return follows(1, 0x80, 0xBF) ? 2 : 0;
+    }
+    if (0xE0 <= first && first <= 0xEF) {
+        const unsigned low = first == 0xE0 ? 0xA0 : 0x80;
+        const unsigned high = first == 0xED ? 0x9F : 0xBF; // no surrogates
+        return follows(1, low, high) && follows(2, 0x80, 0xBF) ? 3 : 0;
+    }
+    if (0xF0 <= first && first <= 0xF4) {
+        const unsigned low = first == 0xF0 ? 0x90 : 0x80;
+        const unsigned high = first == 0xF4 ? 0x8F : 0xBF;
+        return follows(1, low, high) && follows(2, 0x80, 0xBF) && follows(3, 0x80, 0xBF) ? 4 : 0;
+    }
+    return 0;
+}
+
+std::string_view as_html(char c, std::string_view itself) {
+    switch (c) {
+    case '&':
+        return "&amp;";
+    case '<':
+        return "&lt;";
+    case '>':
+        return "&gt;";
+    case '"':
+        return "&quot;";
+    case '\'':
+        return "&#39;";
+    default:
+        return static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? " " : itself;
+    }
+}
+
+} // namespace
+
+std::string escaped(std::string_view text) {
+    std::string html;
+    html.reserve(text.size());
+    while (!text.empty()) {
+        const auto length = sequence_length(text);
+        html += length == 0   ? replacement
+                : length == 1 ? as_html(text.front(), text.substr(0, 1))
+                              : text.substr(0, length);
+        text.remove_prefix(std::max<std::size_t>(1, length));
+    }
+    return html;
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](std::size_t k) -> std::uint32_t {
+            return i + k < bytes.size() ? bytes[i + k] : 0;
+        };
+        const std::uint32_t group = byte(0) << 16U | byte(1) << 8U | byte(2);
+        const auto known = std::min<std::size_t>(3, bytes.size() - i) + 1;
+        for (std::size_t k = 0; k < 4; ++k) {
+            text += k < known ? digits[group >> (18 - 6 * k) & 63U] : '=';
+        }
+    }
+    return text;
+}
+
+std::string html_of(const HtmlTable& table) {
+    const auto class_of = [&](std::size_t column) {
+        return table.columns[column].number ? " class=\"n\"" : "";
+    };
+    auto html = fmt::format("<div class=\"wide\" role=\"region\" aria-label=\"{0}\" "
+                            "tabindex=\"0\"><table>\n<caption>{0}</caption>\n<thead><tr>",
+                            escaped(table.caption));
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        html += fmt::format("<th scope=\"col\"{}>{}</th>", class_of(i), table.columns[i].title);
+    }
+    html += "</tr></thead>\n<tbody>\n";
+    for (const auto& row : table.rows) {
+        html += fmt::format("<tr><th scope=\"row\"{}>{}</th>", class_of(0), row.front());
+        for (std::size_t i = 1; i < row.size(); ++i) {
+            html += fmt::format("<td{}>{}</td>", class_of(i), row[i]);
+        }
+        html += "</tr>\n";
+    }
+    return html + "</tbody>\n</table></div>\n";
+}
+
+} // namespace macadam

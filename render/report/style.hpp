@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace macadam {
+
+/// The style sheet of a report: for narrow and wide, light and dark screens, and for paper.
+std::string report_style();
+
+} // namespace macadam

@@ -1,0 +1,292 @@
+#include "render/report/report.hpp"
+
+#include "render/report/figures.hpp"
+#include "render/report/html.hpp"
+#include "render/report/numbers.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <regex>
+
+namespace macadam {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+
+const ClassTable& fhwa = *class_table("fhwa");
+
+/// Whether every element that is opened is closed in order; what is wrong first, or nothing. Knows
+/// the elements without content that a report uses.
+std::string flaw_in(const std::string& html) {
+    constexpr std::array<std::string_view, 4> empty{"meta", "img", "br", "!DOCTYPE"};
+    std::vector<std::string> open;
+    for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
+        const auto end = html.find('>', at);
+        if (end == std::string::npos) {
+            return "a tag that does not end";
+        }
+        const auto tag = html.substr(at + 1, end - at - 1);
+        const auto name = tag.substr(0, tag.find_first_of(" /\n", tag.front() == '/' ? 1 : 0));
+        if (std::ranges::count(tag, '"') % 2 != 0) {
+            return "odd quotes in <" + tag + ">";
+        }
+        if (name.front() == '/') {
+            if (open.empty() || open.back() != name.substr(1)) {
+                return "<" + name + "> closes " + (open.empty() ? "nothing" : open.back());
+            }
+            open.pop_back();
+        } else if (tag.back() != '/' && std::ranges::find(empty, name) == empty.end()) {
+            open.push_back(name);
+        }
+        if (name == "style") {
+            at = html.find("</style>", end) - 1;
+        }
+    }
+    return open.empty() ? "" : "<" + open.back() + "> stays open";
+}
+
+RoadSummary summary_of(double network_m, std::vector<double> class_m) {
+    RoadSummary roads;
+    roads.network_m = network_m;
+    for (const double length_m : class_m) {
+        roads.covered_m += length_m;
+        roads.classes.push_back({length_m, length_m, length_m});
+    }
+    roads.thrice_m = roads.covered_m / 2;
+    roads.mean = {roads.covered_m, 2.5, 0.25, 2.1, 2.9};
+    roads.p50 = 2.2;
+    roads.p85 = 3.3;
+    roads.p95 = 4.4;
+    return roads;
+}
+
+ReportStretch stretch_named(const std::string& name) {
+    RoadStretch stretch{};
+    stretch.name = name;
+    stretch.highway = "residential";
+    stretch.parts = {{123456, true, 100, 240}};
+    stretch.line = {{45.75, 4.85}, {45.751, 4.85}};
+    stretch.length_m = 140;
+    stretch.mean = {140, 4.56, 0.5, 3.74, 5.38};
+    stretch.worst_iri = 7.89;
+    stretch.least_passes = 2;
+    stretch.median_passes = 5;
+    stretch.vehicles = 3;
+    stretch.middle = {45.7505, 4.85};
+    return {stretch, "N", "123456+ 100.0-240.0", "2026-03-01", {{1, 2, 3}, {4, 5}, 480, 360}};
+}
+
+Report town() {
+    Report report;
+    report.title = "Spring survey";
+    report.period = "2026-03-01 to 2026-04-02";
+    report.network_source = "town.osm.pbf";
+    report.attribution = "© OpenStreetMap contributors (ODbL)";
+    report.classes = &fhwa;
+    report.colours = {0x2c7bb6, 0xfee090, 0xd7191c};
+    report.summary.all = summary_of(20000, {1000, 2000, 5000});
+    report.summary.kinds = {summary_of(20000, {1000, 2000, 5000})};
+    report.summary.kinds[0].kind = "living_street";
+    report.histogram = {1, {{1000, 0, 0}, {0, 2000, 500}, {0, 0, 4500}}};
+    report.segments = 1000;
+    report.segments_with_passes = 400;
+    report.map = {{0, 0, 0}, {255, 255}, 1400, 1050};
+    report.poor_above_mm_per_m = 2.683;
+    report.least_stretch_m = 100;
+    report.stretches = 12;
+    report.stretches_m = 2345;
+    report.worst = {stretch_named("Rue de l'Épée"), stretch_named("")};
+    report.vehicles = {{"v-0123456789ab", "suv", "kf", 12, 2, 12345, 80, 60, 1000, 900}};
+    return report;
+}
+
+Report nothing_measured() {
+    Report report;
+    report.title = "Before the first trip";
+    report.network_source = "town.osm.pbf";
+    report.classes = &fhwa;
+    report.colours = {0x2c7bb6, 0xfee090, 0xd7191c};
+    report.summary.all = summary_of(20000, {0, 0, 0});
+    report.histogram = {1, {{0, 0, 0}}};
+    report.map = {{0}, {0}, 1400, 1050};
+    return report;
+}
+
+TEST(Report, ClosesEveryElementThatItOpens) {
+    EXPECT_EQ(flaw_in(report_html(town())), "");
+    EXPECT_EQ(flaw_in(report_html(nothing_measured())), "");
+}
+
+TEST(Report, SaysTheNumbersItWasGiven) {
+    const auto html = report_html(town());
+    EXPECT_THAT(html, HasSubstr("<b>8.00 km</b>"));
+    EXPECT_THAT(html, HasSubstr("40.0 % of the network of 20.0 km"));
+    EXPECT_THAT(html, HasSubstr("<b>2.50 mm/m</b>"));
+    EXPECT_THAT(html, HasSubstr("90 % interval 2.10 – 2.90; 158 in/mi")); // 2.5 * 63.36
+    EXPECT_THAT(html, HasSubstr("<b>62.5 %</b>"));                        // 5 of 8 km
+    EXPECT_THAT(html, HasSubstr(">Living street</th>"));
+    EXPECT_THAT(html, HasSubstr("12&#8239;345 passes over segments"));
+    EXPECT_THAT(html, HasSubstr("123456+ 100.0-240.0"));
+    EXPECT_THAT(html, HasSubstr("Residential without a name"));
+    EXPECT_THAT(html, HasSubstr("Driven 2026-03-01 to 2026-04-02."));
+}
+
+TEST(Report, HasATableRowForEachStretchThatLeadsToItsMap) {
+    const auto html = report_html(town());
+    for (const auto* id : {"stretch-1", "stretch-2"}) {
+        EXPECT_THAT(html, HasSubstr(fmt::format("href=\"#{}\"", id)));
+        EXPECT_THAT(html, HasSubstr(fmt::format("id=\"{}\"", id)));
+    }
+}
+
+TEST(Report, AsksForNothingFromOutside) {
+    const auto html = report_html(town());
+    EXPECT_THAT(html, Not(HasSubstr("://")));
+    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(html, Not(HasSubstr("<link")));
+    EXPECT_THAT(html, Not(HasSubstr("@import")));
+    EXPECT_THAT(html, Not(HasSubstr("url(")));
+    const std::regex source{"(src|href)=\"(?!data:image/png;base64,|#)"};
+    EXPECT_FALSE(std::regex_search(html, source));
+}
+
+TEST(Report, TakesNoNameForMarkup) {
+    const std::string hostile = "\"><script>alert('x')</script>&amp;\x01\xff";
+    auto report = town();
+    report.title = report.period = report.network_source = report.attribution = hostile;
+    report.worst = {stretch_named(hostile)};
+    report.worst[0].heading = report.worst[0].reference = report.worst[0].seen = hostile;
+    report.vehicles[0].name = report.vehicles[0].model = report.vehicles[0].method = hostile;
+    report.summary.kinds[0].kind = hostile;
+    const auto html = report_html(report);
+    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(html, Not(HasSubstr("\xff")));
+    EXPECT_THAT(html, HasSubstr("&quot;&gt;&lt;script&gt;alert(&#39;x&#39;)"));
+    EXPECT_EQ(flaw_in(html), "");
+}
+
+TEST(Report, DescribesEveryPictureAndNamesEveryTable) {
+    const auto html = report_html(town());
+    const auto count = [&](const char* what) {
+        const std::regex each{what};
+        return std::distance(std::sregex_iterator{html.begin(), html.end(), each}, {});
+    };
+    EXPECT_EQ(count("<img "), count("<img [^>]*alt=\"[^\"]{10,}\""));
+    EXPECT_EQ(count("<table>"), count("<caption>[^<]{10,}</caption>"));
+    EXPECT_EQ(count("<th>"), 0); // each says what it is the head of
+    EXPECT_EQ(count("<svg "), count("role=\"img\"") + count("aria-hidden=\"true\""));
+}
+
+TEST(Report, OfNothingMeasuredSaysSo) {
+    const auto html = report_html(nothing_measured());
+    EXPECT_THAT(html, HasSubstr("Nothing was measured yet."));
+    EXPECT_THAT(html, HasSubstr("No trip was imported yet."));
+    EXPECT_THAT(html, HasSubstr("0 % of the network of 20.0 km"));
+    EXPECT_THAT(html, Not(HasSubstr("Mean IRI")));
+    EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(Report, OfGoodRoadsHasNoWorstStretch) {
+    auto report = town();
+    report.worst.clear();
+    report.stretches = 0;
+    EXPECT_THAT(report_html(report),
+                HasSubstr("No stretch of 100 m or more has a mean IRI above 2.68 mm/m."));
+}
+
+TEST(Report, AddsUpTheCarsThatItDoesNotList) {
+    auto report = town();
+    report.vehicles.assign(100, report.vehicles[0]);
+    for (std::size_t i = 0; i < report.vehicles.size(); ++i) {
+        report.vehicles[i].name = fmt::format("v-{}", i / 2); // each car with two methods
+    }
+    const auto html = report_html(report);
+    EXPECT_THAT(html, HasSubstr("<b>50 cars</b>"));
+    EXPECT_THAT(html, HasSubstr(">70 more rows</th>"));
+    EXPECT_THAT(html, HasSubstr("1200 trips"));
+}
+
+TEST(Html, EscapesWhatMarkupIsMadeOf) {
+    EXPECT_EQ(escaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
+    EXPECT_EQ(escaped("Épée 漢字 😀"), "Épée 漢字 😀");
+    EXPECT_EQ(escaped("a\nb\x7f"), "a b ");
+}
+
+TEST(Html, ReplacesWhatIsNoUtf8) {
+    const std::string sign = "\xEF\xBF\xBD";
+    EXPECT_EQ(escaped("a\xC0\xAF"), "a" + sign + sign);                // '/' in two bytes
+    EXPECT_EQ(escaped("\xED\xA0\x80"), sign + sign + sign);            // half of a surrogate pair
+    EXPECT_EQ(escaped("\xF4\x90\x80\x80"), sign + sign + sign + sign); // above U+10FFFF
+    EXPECT_EQ(escaped("\xE2\x82"), sign + sign);                       // cut off
+}
+
+TEST(Html, EncodesTheVectorsOfRfc4648) {
+    const auto encoded = [](std::string_view text) {
+        return base64({reinterpret_cast<const std::uint8_t*>(text.data()), // NOLINT(*-cast)
+                       text.size()});
+    };
+    EXPECT_EQ(encoded(""), "");
+    EXPECT_EQ(encoded("f"), "Zg==");
+    EXPECT_EQ(encoded("fo"), "Zm8=");
+    EXPECT_EQ(encoded("foo"), "Zm9v");
+    EXPECT_EQ(encoded("foob"), "Zm9vYg==");
+    EXPECT_EQ(encoded("fooba"), "Zm9vYmE=");
+    EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+TEST(ReportNumbers, HaveTheDecimalsThatFit) {
+    EXPECT_EQ(km_text(1234, 9999), "1.23");
+    EXPECT_EQ(km_text(1234, 50000), "1.2");
+    EXPECT_EQ(km_text(1234567, 2e6), "1235");
+    EXPECT_EQ(count_text(9999), "9999");
+    EXPECT_EQ(count_text(1234567), "1&#8239;234&#8239;567");
+    EXPECT_EQ(percent_text(0, 5), "0 %");
+    EXPECT_EQ(percent_text(1, 2000), "&lt; 0.1 %");
+    EXPECT_EQ(percent_text(1, 3), "33.3 %");
+    EXPECT_EQ(percent_text(0, 0), "–");
+}
+
+TEST(ReportNumbers, SayTheBordersOfTheClassesInBothUnits) {
+    EXPECT_EQ(range_text(fhwa, 0, true), "below 95");
+    EXPECT_EQ(range_text(fhwa, 1, false), "1.50 – 2.68");
+    EXPECT_EQ(range_text(fhwa, 2, true), "above 170");
+    EXPECT_EQ(range_text(*class_table("five"), 0, false), "up to 1.50");
+}
+
+/// The attribute's values of all bars, in their order.
+std::vector<double> bars(const std::string& svg, const std::string& attribute) {
+    const std::regex bar{"<rect class=\"bar\"[^>]* " + attribute + "=\"([0-9.]+)\""};
+    std::vector<double> values;
+    for (std::sregex_iterator i{svg.begin(), svg.end(), bar}, end; i != end; ++i) {
+        values.push_back(std::stod((*i)[1]));
+    }
+    return values;
+}
+
+TEST(Histogram, DrawsBarsAsHighAsTheRoadIsLong) {
+    const auto report = town();
+    const auto svg = histogram_svg(report.histogram, report.summary.all.mean, fhwa, report.colours);
+    const auto heights = bars(svg, "height");
+    ASSERT_EQ(heights.size(), 4U); // 1000, 2000 with 500 on top, 4500 m
+    EXPECT_NEAR(heights[1] / heights[0], 2, 0.01);
+    EXPECT_NEAR(heights[2] / heights[0], 0.5, 0.01);
+    EXPECT_NEAR(heights[3] / heights[0], 4.5, 0.01);
+    const auto y = bars(svg, "y");
+    EXPECT_NEAR(y[2] + heights[2], y[1], 0.02); // on top of the other
+}
+
+TEST(ShareBar, IsPartedAsTheRoadIs) {
+    const auto svg = share_bar_svg(town().summary.all, fhwa, town().colours);
+    EXPECT_THAT(svg, HasSubstr("x=\"12.50\" width=\"25.00\""));
+    EXPECT_THAT(svg, HasSubstr("x=\"37.50\" width=\"62.50\""));
+    EXPECT_THAT(share_bar_svg(nothing_measured().summary.all, fhwa, town().colours), IsEmpty());
+}
+
+} // namespace
+} // namespace macadam
