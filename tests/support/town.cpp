@@ -36,7 +36,7 @@ RoadNetwork made_up_town(int side) {
                         "",
                         "",
                         id % 5 == 0 ? Oneway::forward : Oneway::no,
-                        {a, 10000 + id, b},
+                        {a, 1000000 + id, b},
                         {crossings[a], middle, crossings[b]}});
     };
     for (int i = 0; i < side * side; ++i) {

@@ -1,0 +1,245 @@
+#!/usr/bin/python3
+"""Measures the program and its parts and writes what was found as Markdown.
+
+usage: measure.py BUILD_DIR WORK_DIR OUT.md [NAME...]
+
+BUILD_DIR  a release build with the target `benches`
+WORK_DIR   where the measured data is made and kept between runs
+NAME       start process estimation matching store render; all when none is named
+
+Machines are shared and noisy. So what is to be compared runs turn by turn in one go, the figure is
+the median of the turns, and the ratio is what counts. CPU seconds are user and system together.
+"""
+
+import datetime
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+FLEET = SOURCE / "sample_data" / "fleet"
+TRIPS = 160  # enough for 20 CPU seconds of import
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+class Usage:
+    """What one run of a program took."""
+
+    def __init__(self, wall_s, cpu_s, peak_mb):
+        self.wall_s, self.cpu_s, self.peak_mb = wall_s, cpu_s, peak_mb
+
+
+def run(words):
+    begin = time.monotonic()
+    child = subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    errors = child.stderr.read()
+    _, status, used = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        sys.exit(f"{' '.join(map(str, words))} failed: {errors.decode()}")
+    return Usage(time.monotonic() - begin, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
+
+
+def median(runs):
+    return Usage(*(statistics.median(getattr(one, name) for one in runs) for name in ("wall_s", "cpu_s", "peak_mb")))
+
+
+def in_turns(turns, *commands):
+    """Each command is (before, words). Returns one median per command."""
+    taken = [[] for _ in commands]
+    for turn in range(turns):
+        for number, (before, words) in enumerate(commands):
+            before()
+            taken[number].append(run(words))
+            say(f"  turn {turn + 1}: {taken[number][-1].wall_s:.2f} s  {Path(words[0]).name} {' '.join(map(str, words[1:3]))}")
+    return [median(runs) for runs in taken]
+
+
+def nothing():
+    pass
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def start(macadam, work):
+    version, help_ = in_turns(9, (nothing, [macadam, "--version"]), (nothing, [macadam, "import", "--help"]))
+    return "## Start\n\n" + table(
+        ["command", "wall ms", "peak MB"],
+        [["--version", f"{version.wall_s * 1e3:.0f}", f"{version.peak_mb:.0f}"],
+         ["import --help", f"{help_.wall_s * 1e3:.0f}", f"{help_.peak_mb:.0f}"]])
+
+
+def fleet(macadam, work):
+    """A year of the sample fleet's driving, made once."""
+    folder = work / f"fleet-{TRIPS}"
+    if not (folder / "truth.csv").exists():
+        shutil.rmtree(folder, ignore_errors=True)
+        say(f"simulating {TRIPS} trips into {folder}")
+        took = run([macadam, "simulate", "-o", folder, "--network", FLEET / "network.osm.pbf",
+                    "--recipe", FLEET / "recipe.toml", "--trips", TRIPS, "--seed", 1, "--jobs", os.cpu_count()])
+        (folder / "simulated.json").write_text(json.dumps(vars(took)))
+    return folder
+
+
+def hours_and_mb(trips):
+    """Recorded hours by the last time stamp of each log, and MB on disk."""
+    seconds = 0.0
+    for trip in trips:
+        tail = subprocess.run(f"gzip -dc '{trip}' | tail -n 2 | head -n 1", shell=True, capture_output=True, text=True, check=True)
+        seconds += float(tail.stdout.split(",")[0])
+    return seconds / 3600, sum(trip.stat().st_size for trip in trips) / 1e6
+
+
+def process(macadam, work):
+    folder = fleet(macadam, work)
+    trips = sorted((folder / "trips").iterdir())
+    empty, store = work / "empty.gpkg", work / "store.gpkg"
+    empty.unlink(missing_ok=True)
+    run([macadam, "init", empty, "--network", folder / "network.osm.pbf"])
+
+    def fresh():
+        shutil.copyfile(empty, store)
+
+    def importing(paths, jobs):
+        return fresh, [macadam, "import", store, *paths, "--vehicles", folder / "vehicles", "--method", "kf", "--jobs", jobs, "--quiet"]
+
+    text = import_tables(trips, importing)
+    text += output_tables(macadam, work, store)
+    simulated = json.loads((folder / "simulated.json").read_text())
+    hours, mb = hours_and_mb(trips)
+    text += "### Simulating\n\n" + table(
+        ["what", "trips", "hours of driving", "MB of .gz", "wall s", "CPU s", "x real time per CPU"],
+        [["simulate", str(TRIPS), f"{hours:.1f}", f"{mb:.0f}", f"{simulated['wall_s']:.0f}", f"{simulated['cpu_s']:.0f}",
+          f"{hours * 3600 / simulated['cpu_s']:.0f}"]])
+    return "## Whole commands\n\n" + text
+
+
+def import_tables(trips, importing):
+    hours, mb = hours_and_mb(trips)
+    one, two, unpack = in_turns(3, importing(trips, 1), importing(trips, 2),
+                                (nothing, ["gzip", "-dc", *trips]))
+    rows = [[name, f"{len(trips)}", f"{used.wall_s:.1f}", f"{used.cpu_s:.1f}", f"{used.peak_mb:.0f}",
+             f"{hours * 3600 / used.cpu_s:,.0f}", f"{one.wall_s / used.wall_s:.2f}"]
+            for name, used in (("import --jobs 1", one), ("import --jobs 2", two), ("gzip -dc of the same logs", unpack))]
+    text = f"### Importing {hours:.1f} h of driving ({mb:.0f} MB)\n\n" + table(
+        ["what", "trips", "wall s", "CPU s", "peak MB", "x real time per CPU", "times faster than --jobs 1"], rows)
+    rows = []
+    for part in (8, 4, 2, 1):
+        some = trips[: len(trips) // part]
+        (used,) = in_turns(1, importing(some, 1))
+        rows.append([str(len(some)), f"{used.cpu_s:.2f}", f"{used.cpu_s / len(some) * 1e3:.0f}", f"{used.peak_mb:.0f}"])
+    return text + "\nGrowth with the number of trips, one job:\n\n" + table(
+        ["trips", "CPU s", "CPU ms a trip", "peak MB"], rows) + "\n"
+
+
+def output_tables(macadam, work, store):
+    """Questions and outputs of the store that the last import left, beside GDAL's tools."""
+    ours, theirs = work / "ours.geojson", work / "theirs.geojson"
+
+    def gone(*files):
+        return lambda: [file.unlink(missing_ok=True) for file in files]
+
+    box = json.loads(subprocess.run([macadam, "query", store, "--worst", "1", "--json"], capture_output=True, check=True).stdout)
+    lat, lon = place_in(box)
+    west, south, east, north = lon - 0.01, lat - 0.006, lon + 0.01, lat + 0.006
+    asked = in_turns(
+        7,
+        (nothing, [macadam, "query", store, "--bbox", f"{west},{south},{east},{north}", "--format", "geojson"]),
+        (nothing, ["ogr2ogr", "-f", "GeoJSON", "/dev/stdout", store, "roughness", "-spat", west, south, east, north]),
+        (gone(ours), [macadam, "export", store, "-o", ours, "--quiet"]),
+        (gone(theirs), ["ogr2ogr", "-f", "GeoJSON", "-lco", "RFC7946=YES", theirs, store, "roughness"]),
+        (gone(work / "map.png"), [macadam, "render", store, "-o", work / "map.png", "--size", "2048x2048", "--quiet"]),
+        (gone(work / "report.html"), [macadam, "report", store, "-o", work / "report.html", "--quiet"]),
+        (nothing, [macadam, "info", store]))
+    names = ["query --bbox", "ogr2ogr -spat", "export .geojson", "ogr2ogr to GeoJSON", "render 2048 x 2048", "report", "info"]
+    beside = ["", f"{asked[1].cpu_s / asked[0].cpu_s:.1f}", "", f"{asked[3].cpu_s / asked[2].cpu_s:.1f}", "", "", ""]
+    return "### Asking and handing on\n\n" + table(
+        ["what", "wall ms", "CPU ms", "peak MB", "CPU, times the line above"],
+        [[name, f"{used.wall_s * 1e3:.0f}", f"{used.cpu_s * 1e3:.0f}", f"{used.peak_mb:.0f}", ratio]
+         for name, used, ratio in zip(names, asked, beside)]) + "\n"
+
+
+def place_in(value):
+    """The first latitude and longitude in a JSON answer."""
+    if isinstance(value, dict):
+        if "lat" in value and "lon" in value:
+            return value["lat"], value["lon"]
+        if "coordinates" in value:
+            flat = value["coordinates"]
+            while isinstance(flat[0], list):
+                flat = flat[0]
+            return flat[1], flat[0]
+        value = list(value.values())
+    for item in value if isinstance(value, list) else []:
+        if (found := place_in(item)) is not None:
+            return found
+    return None
+
+
+def part(build, name, title, note):
+    """One program of Google Benchmark as a table of CPU times and counters."""
+    say(f"{name}_bench")
+    done = subprocess.run([build / "tests" / "bench" / f"{name}_bench", "--benchmark_format=json"], capture_output=True, check=True)
+    rows = []
+    for one in json.loads(done.stdout)["benchmarks"]:
+        if one.get("aggregate_name") == "RMS":
+            continue
+        if one.get("aggregate_name") == "BigO":
+            rows.append([one["run_name"], f"grows as {one['big_o']}", ""])
+            continue
+        counters = ", ".join(f"{key} {one[key]:,.0f}" for key in
+                             ("samples/s", "x_real_time", "fixes/s", "edges", "found", "segments", "passes/s", "lines") if key in one)
+        rows.append([one["name"], f"{one['cpu_time']:.2f} {one['time_unit']}", counters])
+    return f"## {title}\n\n{note}\n\n" + table(["what", "CPU", "of it"], rows)
+
+
+PARTS = {
+    "estimation": ("Estimation", "The filter as the paper writes it (matrices of any size, covariance at every sample) beside ours, "
+                                 "and the whole way from vibration to IRI, on 15 minutes to 2 hours at 100 Hz."),
+    "matching": ("Matching", "The plain hidden Markov matcher of Newson and Krumm beside ours on the same trips (positions alone, "
+                             "one a second), with trips and networks of growing size."),
+    "store": ("Store", "About 1,400 segments out of stores of growing size, and trips of 500 passes added and fused one by one."),
+    "render": ("Picture", "The streets of towns of growing size at 2048 x 2048, beside Cairo with casing and round joins. "
+                          "Ours begins by waking the software renderer, which costs the small towns most."),
+}
+
+
+def machine():
+    model = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "unknown processor")
+    return f"{model}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} when it began"
+
+
+def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
+    build, work, out = (Path(word).resolve() for word in sys.argv[1:4])
+    names = sys.argv[4:] or ["start", "process", *PARTS]
+    unknown = set(names) - {"start", "process", *PARTS}
+    if unknown:
+        sys.exit(f"measure.py: no bench '{unknown.pop()}'; there are start, process, {', '.join(PARTS)}")
+    work.mkdir(parents=True, exist_ok=True)
+    macadam = SOURCE / "build" / "macadam"
+    text = f"Measured on {datetime.date.today()}: {machine()}.\n\n"
+    if "start" in names:
+        text += start(macadam, work) + "\n"
+    if "process" in names:
+        text += process(macadam, work) + "\n"
+    for name in (name for name in PARTS if name in names):
+        text += part(build, name, *PARTS[name]) + "\n"
+    out.write_text(text)
+    print(text)
+
+
+main()
