@@ -49,7 +49,8 @@ std::span<const Command> commands() {
                                   info_command,
                                   iri_command,
                                   trace_command,
-                                  match_command};
+                                  match_command,
+                                  simulate_command};
     return table;
 }
 

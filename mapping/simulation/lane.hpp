@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mapping/road_network.hpp"
-#include "mapping/segment.hpp"
+#include "mapping/segment_truth.hpp"
 #include "mapping/simulation/fleet_recipe.hpp"
 
 #include <cstdint>
@@ -37,17 +37,6 @@ RoadSurface lane_surface(const FleetRecipe& recipe,
                          const RoadNetwork& roads,
                          const Lane& lane,
                          std::uint64_t seed);
-
-/// What a profiler would find on a segment, mm/m. from_m < to_m along the way from its first node.
-struct SegmentTruth {
-    SegmentKey key;
-    double from_m;
-    double to_m;
-    double iri_left;
-    double iri_right;
-    double mri; ///< mean of both
-    double hri; ///< of the mean profile
-};
 
 /// The golden car (estimator/iri.hpp) on both wheel paths of the whole lane without a restart; a
 /// segment is the mean over its cells. In the order of the keys.

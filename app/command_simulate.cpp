@@ -1,0 +1,226 @@
+#include "app/commands.hpp"
+#include "app/in_parallel.hpp"
+#include "app/lane_store.hpp"
+
+#include "estimator/common/error.hpp"
+#include "mapping/simulation/fleet.hpp"
+#include "storage/atomic_file.hpp"
+#include "storage/network_reader.hpp"
+#include "storage/osm_writer.hpp"
+#include "storage/recipe_file.hpp"
+#include "storage/trip_writer.hpp"
+#include "storage/truth_file.hpp"
+#include "storage/vehicle_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t most_jobs = 256;
+constexpr std::int64_t most_trips = 1'000'000;
+constexpr std::size_t most_lane_bytes = std::size_t{1} << 30; // about 1,000 km
+constexpr int quick_compression = 1; // noise hardly gets smaller by more, only slower
+
+struct SimulateOptions {
+    fs::path folder;
+    fs::path network;
+    FleetRecipe recipe;
+    std::uint64_t seed;
+    std::size_t jobs;
+};
+
+std::int64_t
+integer_from(const Arguments& arguments, const char* name, std::int64_t fallback, Bounds range) {
+    const auto value = arguments.integer(name).value_or(fallback);
+    if (static_cast<double>(value) < range.low || static_cast<double>(value) > range.high) {
+        throw UsageError{
+            fmt::format("{} is {}, expected {:.0f} to {:.0f}", name, value, range.low, range.high)};
+    }
+    return value;
+}
+
+std::string needed(const Arguments& arguments, const char* name, const char* said) {
+    const auto value = arguments.value(name);
+    if (!value) {
+        throw UsageError{fmt::format("{} is missing", said)};
+    }
+    return *value;
+}
+
+SimulateOptions parse_simulate(const Arguments& arguments) {
+    SimulateOptions options{
+        .folder = needed(arguments, "--output", "-o DIR"),
+        .network = needed(arguments, "--network", "--network FILE"),
+        .recipe = {},
+        .seed = static_cast<std::uint64_t>(integer_from(arguments, "--seed", 1, {0, 9e15})),
+        .jobs =
+            static_cast<std::size_t>(integer_from(arguments, "--jobs", 1, {1, double{most_jobs}}))};
+    const auto trips = integer_from(arguments, "--trips", 0, {0, double{most_trips}});
+    const auto recipe = arguments.value("--recipe");
+    options.recipe = recipe ? read_recipe(*recipe) : parse_recipe("", "the sample recipe");
+    if (trips > 0) {
+        options.recipe.driving.trips = static_cast<std::size_t>(trips);
+    }
+    return options;
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder)) {
+        throw InputError{fmt::format("{}: cannot be made as a folder: {}",
+                                     folder.string(),
+                                     error ? error.message() : "a file is in the way")};
+    }
+}
+
+void make_empty_folder(const fs::path& folder) {
+    make_folder(folder);
+    if (!fs::is_empty(folder)) {
+        throw InputError{
+            fmt::format("{}: is not empty, expected a new or an empty folder", folder.string())};
+    }
+}
+
+void write_file(const fs::path& file, std::string_view text) {
+    AtomicFile out{file};
+    out.write(text);
+    out.commit();
+}
+
+/// The network as whoever reads DIR/network.osm.pbf has it: places are on that format's grid.
+RoadNetwork written_network(const SimulateOptions& options, const Console& console) {
+    const auto file = options.folder / "network.osm.pbf";
+    const auto given =
+        build_network(read_network(options.network, {}, console.progress("reading roads")));
+    write_osm(given.ways, file);
+    return build_network(read_network(file));
+}
+
+void write_truth(const RoadNetwork& roads,
+                 LaneStore& surfaces,
+                 const SimulateOptions& options,
+                 const Console& console) {
+    const auto lanes = drivable_lanes(roads);
+    std::vector<std::string> rows(lanes.size());
+    in_parallel(
+        lanes.size(),
+        options.jobs,
+        [&](std::size_t i) {
+            rows[i] = truth_rows(lane_truth(roads, lanes[i], *surfaces(lanes[i])));
+        },
+        console.progress("paving"));
+    AtomicFile out{options.folder / "truth.csv"};
+    out.write(std::string{truth_header} + "\n");
+    for (const auto& lane : rows) {
+        out.write(lane);
+    }
+    out.commit();
+}
+
+void write_vehicles(const Fleet& fleet, const fs::path& folder) {
+    make_folder(folder);
+    for (const auto& car : fleet.cars) {
+        write_file(folder / (car.written.name + ".toml"),
+                   "# Written by 'macadam simulate': the true car, as wrong as the recipe says.\n" +
+                       vehicle_text(car.written));
+    }
+}
+
+double driven_km(const TripLog& trip) {
+    double sum_m = 0;
+    for (std::size_t i = 1; i < trip.fixes.size(); ++i) {
+        sum_m += distance_m(trip.fixes[i - 1].at, trip.fixes[i].at);
+    }
+    return sum_m / 1000;
+}
+
+void run_simulate(const Arguments& arguments, const Console& console) {
+    if (arguments.flag("--show-recipe")) {
+        print(sample_recipe());
+        return;
+    }
+    const auto options = parse_simulate(arguments);
+    make_empty_folder(options.folder);
+    const auto roads = written_network(options, console);
+    const auto fleet = make_fleet(options.recipe, roads, options.seed);
+    write_vehicles(fleet, options.folder / "vehicles");
+
+    LaneStore surfaces{
+        [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
+        most_lane_bytes};
+    write_truth(roads, surfaces, options, console);
+
+    const auto trips = options.folder / "trips";
+    make_folder(trips);
+    const auto whole = fleet.recipe.driving.trips;
+    std::vector<double> km(whole);
+    in_parallel(
+        whole,
+        options.jobs,
+        [&](std::size_t number) {
+            const auto trip = simulate_trip(fleet, roads, std::ref(surfaces), number);
+            km[number] = driven_km(trip);
+            write_trip(trip, trips / (trip.meta.trip_id + ".trip.csv.gz"), quick_compression);
+        },
+        console.progress("driving"));
+
+    double sum_km = 0;
+    for (const double trip_km : km) {
+        sum_km += trip_km;
+    }
+    console.say(fmt::format("{}: {} by {}, {:.0f} km, over {}",
+                            options.folder.string(),
+                            counted(whole, "trip"),
+                            counted(fleet.cars.size(), "car"),
+                            sum_km,
+                            counted(roads.ways.size(), "road")));
+}
+
+constexpr std::array options{
+    Option{"-o,--output", "DIR", "The folder to make: new, or empty."},
+    Option{"--network",
+           "FILE",
+           "The roads: .osm.pbf, .osm, or any line layer that GDAL reads (.gpkg, .geojson, ...)."},
+    Option{"--recipe", "FILE.toml", "Cars, roads, trips, sensors.", "the sample recipe"},
+    Option{"--show-recipe", "", "Print the sample recipe, with a remark on every key."},
+    Option{"--seed", "N", "Another number, another fleet on other roads.", "1"},
+    Option{"--trips", "N", "How many trips, whatever the recipe says."},
+    Option{"--jobs", "N", "Trips to work on at once; the files are the same for any number.", "1"}};
+
+} // namespace
+
+const Command simulate_command{
+    .name = "simulate",
+    .summary = "Make trips of known cars over known roads, with the truth beside them",
+    .about =
+        "Every way of the network gets a surface in each direction, cars with two axles, dampers,\n"
+        "friction and tyres drive over it, and their sensors log what they would: DIR/trips/,\n"
+        "DIR/vehicles/, DIR/network.osm.pbf, and DIR/truth.csv with the true IRI of every "
+        "segment.\n"
+        "The same network, recipe and seed give the same bytes on every machine.",
+    .example = "  macadam simulate -o fleet --network town.osm.pbf\n"
+               "  macadam simulate --show-recipe > mine.toml            a recipe to start from\n"
+               "  macadam simulate -o year --network town.osm.pbf --recipe mine.toml --trips 1000 "
+               "--jobs 8\n"
+               "How well are the roads found again?\n"
+               "  macadam init fleet/roads.gpkg --network fleet/network.osm.pbf\n"
+               "  macadam import fleet/roads.gpkg fleet/trips\n"
+               "  macadam info fleet/roads.gpkg --truth fleet/truth.csv",
+    .operands = {},
+    .options = options,
+    .run = run_simulate};
+
+} // namespace macadam

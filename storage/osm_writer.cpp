@@ -1,0 +1,124 @@
+#include "storage/osm_writer.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/atomic_file.hpp"
+#include "storage/osm_tags.hpp"
+
+#include <fmt/core.h>
+
+#include <osmium/builder/attr.hpp>
+#include <osmium/io/header.hpp>
+#include <osmium/io/pbf_output.hpp>
+#include <osmium/io/writer.hpp>
+#include <osmium/memory/buffer.hpp>
+
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <new>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+using namespace osmium::builder::attr; // NOLINT(google-build-using-namespace): names of attributes
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
+
+osmium::Location location_of(const GeoPoint& place) {
+    return osmium::Location{place.lon_deg, place.lat_deg};
+}
+
+std::map<std::int64_t, osmium::Location> nodes_of(std::span<const Way> ways) {
+    std::map<std::int64_t, osmium::Location> nodes;
+    for (const auto& way : ways) {
+        for (std::size_t i = 0; i < way.node_ids.size(); ++i) {
+            const auto location = location_of(way.line[i]);
+            const auto [at, fresh] = nodes.emplace(way.node_ids[i], location);
+            if (!fresh && at->second != location) {
+                throw InputError{fmt::format(
+                    "node '{}' of way '{}' has two places, expected one", way.node_ids[i], way.id)};
+            }
+        }
+    }
+    return nodes;
+}
+
+/// The way's class, if readers of OSM know it for a road of cars.
+std::string class_of(const Way& way) {
+    const OsmTags tags = [&](std::string_view key) -> const char* {
+        return key == "highway" ? way.highway.c_str() : key == "tracktype" ? "grade1" : nullptr;
+    };
+    return is_drivable(tags) ? way.highway : "road";
+}
+
+std::vector<std::pair<std::string, std::string>> tags_of(const Way& way) {
+    std::vector<std::pair<std::string, std::string>> tags;
+    tags.emplace_back("highway", class_of(way));
+    if (way.highway == "track") {
+        tags.emplace_back("tracktype", "grade1"); // the only ones that are read
+    }
+    if (!way.name.empty()) {
+        tags.emplace_back("name", way.name);
+    }
+    // Said of every way, because some classes are oneway unless they say that they are not.
+    tags.emplace_back("oneway",
+                      way.oneway == Oneway::no        ? "no"
+                      : way.oneway == Oneway::forward ? "yes"
+                                                      : "-1");
+    return tags;
+}
+
+void add_way(osmium::memory::Buffer& buffer, const Way& way) {
+    const auto tags = tags_of(way);
+    osmium::builder::add_way(buffer, _id(way.id), _nodes(way.node_ids), _tags(tags));
+}
+
+/// Hands a full buffer over to the writer.
+osmium::memory::Buffer flushed(osmium::io::Writer& writer, osmium::memory::Buffer buffer) {
+    if (buffer.committed() < buffer_bytes / 2) {
+        return buffer;
+    }
+    writer(std::move(buffer));
+    return osmium::memory::Buffer{buffer_bytes, osmium::memory::Buffer::auto_grow::yes};
+}
+
+void write(std::span<const Way> ways, const std::filesystem::path& file) {
+    osmium::io::File osm{file.string(), "pbf,add_metadata=none"};
+    osmium::io::Header header;
+    header.set("generator", "macadam");
+    header.set("sorting", "Type_then_ID");
+    osmium::io::Writer writer{osm, header, osmium::io::overwrite::allow};
+    osmium::memory::Buffer buffer{buffer_bytes, osmium::memory::Buffer::auto_grow::yes};
+    for (const auto& [id, place] : nodes_of(ways)) {
+        osmium::builder::add_node(buffer, _id(id), _location(place));
+        buffer = flushed(writer, std::move(buffer));
+    }
+    for (const auto& way : ways) {
+        add_way(buffer, way);
+        buffer = flushed(writer, std::move(buffer));
+    }
+    writer(std::move(buffer));
+    writer.close();
+}
+
+} // namespace
+
+void write_osm(std::span<const Way> ways, const std::filesystem::path& file) {
+    AtomicFile whole{std::filesystem::absolute(file)};
+    try {
+        write(ways, whole.temporary());
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw InputError{fmt::format("{}: cannot be written: {}", file.string(), error.what())};
+    }
+    whole.commit();
+}
+
+} // namespace macadam
