@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/byte_stream.hpp"
 #include "storage/foreign/foreign_trip.hpp"
+#include "storage/rawlog_reader.hpp"
 #include "storage/text.hpp"
 #include "storage/text_lines.hpp"
 #include "storage/trip_meta.hpp"
@@ -109,15 +110,17 @@ void expect_end(TextLines& lines, std::string_view line, std::size_t rows) {
     }
 }
 
+std::size_t bytes_on_disk(const TripSource& source) {
+    std::error_code unknown_size;
+    const auto size = std::filesystem::file_size(source.file, unknown_size);
+    return unknown_size ? 0 : static_cast<std::size_t>(size);
+}
+
 /// Tells now and then how far the file was read, and stops when that is wished.
 class Pace {
 public:
     Pace(const TripSource& source, const Progress& progress)
-        : name_{source.name()}, progress_{progress} {
-        std::error_code unknown_size;
-        const auto size = std::filesystem::file_size(source.file, unknown_size);
-        whole_ = unknown_size ? 0 : static_cast<std::size_t>(size);
-    }
+        : name_{source.name()}, progress_{progress}, whole_{bytes_on_disk(source)} {}
 
     void step(const TextLines& lines) {
         constexpr std::size_t rows_between = 1 << 16;
@@ -133,7 +136,7 @@ public:
 private:
     std::string name_;
     const Progress& progress_;
-    std::size_t whole_ = 0;
+    std::size_t whole_;
     std::size_t rows_ = 0;
 };
 
@@ -204,6 +207,9 @@ std::string content_sha256(const TripSource& source) {
 TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress) {
     if (is_foreign(source)) {
         return read_foreign_trip(source, needs, progress);
+    }
+    if (source.name().ends_with(rawlog_suffix)) {
+        return read_rawlog({open(source), source.name(), bytes_on_disk(source)}, needs, progress);
     }
     TextLines lines{open(source), source.name()};
     expect_first_line(lines, source.name());

@@ -5,6 +5,7 @@
 #include "storage/foreign/cells.hpp"
 #include "storage/foreign/phone_export.hpp"
 #include "storage/foreign/trip_mapping.hpp"
+#include "storage/rawlog_reader.hpp"
 
 #include <fmt/core.h>
 
@@ -28,7 +29,8 @@ bool ends_with_one(std::string_view name, const std::string_view (&suffixes)[cou
 }
 
 bool is_trip_name(std::string_view name) {
-    static constexpr std::string_view suffixes[] = {".trip.csv", ".trip.csv.gz", ".trip.csv.zst"};
+    static constexpr std::string_view suffixes[] = {
+        ".trip.csv", ".trip.csv.gz", ".trip.csv.zst", rawlog_suffix};
     return ends_with_one(name, suffixes);
 }
 
