@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/segment_options.hpp"
+#include "app/truth_output.hpp"
 
 #include "storage/json.hpp"
 #include "storage/utc.hpp"
@@ -7,6 +8,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -15,7 +19,8 @@ double share(double part, double whole) {
     return whole > 0 ? part / whole : 0;
 }
 
-std::string json_of(const StoreInfo& info, const std::string& digest) {
+/// \param truth  JSON; "" = not asked for
+std::string json_of(const StoreInfo& info, const std::string& digest, const std::string& truth) {
     const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
     std::vector<std::string> classes;
     for (const auto& [name, km] : info.classes) {
@@ -37,6 +42,9 @@ std::string json_of(const StoreInfo& info, const std::string& digest) {
         .add("classes", JsonRaw{json_array(classes)})
         .add("generation", std::int64_t{info.generation})
         .add("digest", digest);
+    if (!truth.empty()) {
+        object.add("truth", JsonRaw{truth});
+    }
     return object.text() + "\n";
 }
 
@@ -79,15 +87,26 @@ void run_info(const Arguments& arguments, const Console& console) {
     warn_of_waiting(store, file, console);
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
+        return;
+    }
+    std::optional<TruthComparison> truth;
+    if (const auto truth_file = arguments.value("--truth")) {
+        truth = compared(store, *truth_file);
+    }
+    const auto info = store.info();
+    if (arguments.flag("--json")) {
+        print(json_of(info, store.digest(), truth ? json_of(*truth) : ""));
     } else {
-        const auto info = store.info();
-        print(arguments.flag("--json") ? json_of(info, store.digest()) : text_of(info));
+        print(text_of(info) + (truth ? "\n" + text_of(*truth) : ""));
     }
 }
 
 constexpr std::array operands{store_operand};
 constexpr std::array options{
     Option{"--json", "", "The same as one JSON object, with the digest."},
+    Option{"--truth",
+           "FILE.csv",
+           "How near the truth is: a truth.csv of 'macadam simulate' or of a profiler."},
     Option{"--digest",
            "",
            "Only the digest: 64 hex digits, the same for the same content on any machine."}};
@@ -99,7 +118,8 @@ const Command info_command{
     .summary = "What a store holds: coverage, passes, vehicles, kilometres per class",
     .about = "Lengths count each direction by itself.",
     .example = "  macadam info roads.gpkg\n"
-               "  macadam info roads.gpkg --digest       has anything changed?",
+               "  macadam info roads.gpkg --digest       has anything changed?\n"
+               "  macadam info fleet/roads.gpkg --truth fleet/truth.csv",
     .operands = operands,
     .options = options,
     .run = run_info};
