@@ -23,7 +23,7 @@ struct CarModel {
 };
 
 /// \throws InputError if a number is out of its range or the car has no axles.
-CarModel car_model(const CarRecipe& car);
+CarModel car_model(const CarRecipe& recipe);
 
 /// Places and rates of heave (up), pitch (nose down) and roll (left side up) of the body and of
 /// the four wheels (up), from where they stand at rest on a level road.

@@ -60,7 +60,7 @@ double atan_series(double t) {
 double atan_of_fraction(double t) {
     constexpr double atan_of_quarters[] = {
         0, 0.24497866312686414, 0.4636476090008061, 0.6435011087932844, 0.7853981633974483};
-    const int nearest = static_cast<int>(4 * t + 0.5);
+    const int nearest = static_cast<int>(std::floor(4 * t + 0.5));
     const double c = nearest / 4.0;
     return atan_of_quarters[nearest] + atan_series((t - c) / (1 + t * c));
 }

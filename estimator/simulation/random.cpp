@@ -28,7 +28,7 @@ std::uint64_t seed_of(std::initializer_list<std::uint64_t> numbers) {
     return seed;
 }
 
-Random::Random(std::uint64_t seed) : state_{}, spare_{0}, has_spare_{false} {
+Random::Random(std::uint64_t seed) {
     for (auto& word : state_) {
         seed += golden_gamma;
         word = mixed(seed);

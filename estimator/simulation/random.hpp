@@ -28,9 +28,9 @@ public:
     double normal();                          ///< mean 0, standard deviation 1
 
 private:
-    std::uint64_t state_[4];
-    double spare_;
-    bool has_spare_;
+    std::uint64_t state_[4]{};
+    double spare_ = 0;
+    bool has_spare_ = false;
 };
 
 } // namespace macadam

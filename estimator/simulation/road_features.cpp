@@ -24,7 +24,7 @@ void add(RoadSurface& surface,
     const double first_at = std::clamp(std::ceil(from_m / surface.step_m), 0.0, last);
     const double last_at = std::clamp(std::floor((from_m + length_m) / surface.step_m), -1.0, last);
     for (std::size_t line = 0; line < surface.elevation_m.size(); ++line) {
-        const double lateral_m = static_cast<double>(surface.line_lateral_m[line]);
+        const auto lateral_m = static_cast<double>(surface.line_lateral_m[line]);
         for (double at = first_at; at <= last_at; ++at) {
             surface.elevation_m[line][static_cast<std::size_t>(at)] +=
                 static_cast<float>(height_m(at * surface.step_m - from_m, lateral_m));

@@ -122,7 +122,7 @@ ImuReadings simulate_imu(const CarRecipe& car,
     const Runout runout{car, random};
     const double steps_hz = even_steps_hz(imu);
     const double dt_s = 1 / steps_hz;
-    const auto steps_a_sample = static_cast<std::ptrdiff_t>(steps_hz / imu.rate_hz + 0.5);
+    const auto steps_a_sample = std::lround(steps_hz / imu.rate_hz);
     Imu sensor{imu, dt_s, seed_of({seed, 2})};
 
     const double end_s = static_cast<double>(motion.travel_m.size() - 1) * motion.step_s;

@@ -93,7 +93,7 @@ FeltRoad::Heights FeltRoad::at(double station_m) const {
     return heights;
 }
 
-Runout::Runout(const CarRecipe& car, Random& random) : height_m_{}, turns_per_m_{} {
+Runout::Runout(const CarRecipe& car, Random& random) {
     if (!(car.tyre_radius_m >= 0.1 && car.tyre_radius_m <= 1)) {
         throw InputError{
             fmt::format("car: tyre_radius_m is {}, expected 0.1 to 1", car.tyre_radius_m)};

@@ -42,8 +42,8 @@ public:
 private:
     static constexpr std::size_t part_count = 512;
 
-    std::array<std::array<double, part_count + 1>, 4> height_m_;
-    PerWheel turns_per_m_;
+    std::array<std::array<double, part_count + 1>, 4> height_m_{};
+    PerWheel turns_per_m_{};
 };
 
 } // namespace macadam
