@@ -132,10 +132,8 @@ const std::string& dirty_passes() {
 FusionInput input_in(const Statement& row) {
     const SegmentKey key{
         row.integer(1), row.text(2) == "forward", static_cast<std::uint32_t>(row.integer(3))};
-    FusionInput input{pass_in(row, 7, key), row.text(4), row.integer(5), row.known_integer(6)};
-    if (input.utc_ms) {
-        *input.utc_ms += input.pass.t_ms;
-    }
+    FusionInput input{pass_in(row, 7, key), row.text(4), row.integer(5), known_utc_ms(row, 6)};
+    input.utc_ms = utc_ms_of(input.utc_ms, input.pass);
     return input;
 }
 

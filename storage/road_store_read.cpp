@@ -231,10 +231,8 @@ std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
     std::vector<PassRecord> passes;
     while (select.step()) {
         PassRecord record{
-            pass_in(select, 3, key), select.text(0), select.text(1), select.known_integer(2)};
-        if (record.utc_ms) {
-            *record.utc_ms += record.pass.t_ms;
-        }
+            pass_in(select, 3, key), select.text(0), select.text(1), known_utc_ms(select, 2)};
+        record.utc_ms = utc_ms_of(record.utc_ms, record.pass);
         passes.push_back(std::move(record));
     }
     return passes;
@@ -257,8 +255,8 @@ StoreInfo RoadStore::info() const {
             .km = cover.length_m / 1000,
             .network_km = real_meta(database, "network_m") / 1000,
             .classes = lengths_of(database, impl_->classes()),
-            .first_seen_ms = seen.known_integer(0),
-            .last_seen_ms = seen.known_integer(1),
+            .first_seen_ms = known_utc_ms(seen, 0),
+            .last_seen_ms = known_utc_ms(seen, 1),
             .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
             .generation = 1,
             .box = cover.box};

@@ -29,6 +29,13 @@ std::optional<IriUm> known_whole_in(const Statement& row, int column) {
                                : std::optional{static_cast<IriUm>(row.integer(column))};
 }
 
+constexpr std::int64_t first_utc_ms = -62'135'596'800'000; // 0001-01-01T00:00:00Z
+constexpr std::int64_t last_utc_ms = 253'402'300'799'999;  // 9999-12-31T23:59:59.999Z
+
+std::optional<std::int64_t> unless_absurd(std::int64_t utc_ms) {
+    return utc_ms >= first_utc_ms && utc_ms <= last_utc_ms ? std::optional{utc_ms} : std::nullopt;
+}
+
 constexpr int first_state_column = 8;
 
 SegmentState state_in(const Statement& row, const SegmentKey& segment) {
@@ -44,8 +51,8 @@ SegmentState state_in(const Statement& row, const SegmentKey& segment) {
             .validity = static_cast<std::uint8_t>(row.integer(c + 12)),
             .passes = static_cast<std::int32_t>(row.integer(c + 7)),
             .vehicles = static_cast<std::int32_t>(row.integer(c + 8)),
-            .first_seen_ms = row.known_integer(c + 9),
-            .last_seen_ms = row.known_integer(c + 10),
+            .first_seen_ms = known_utc_ms(row, c + 9),
+            .last_seen_ms = known_utc_ms(row, c + 10),
             .trend_um_per_year = known_um_in(row, c + 11)};
 }
 
@@ -114,6 +121,16 @@ Pass pass_in(const Statement& row, int first, const SegmentKey& segment) {
             .covered_mm = static_cast<std::int32_t>(row.integer(first + 9)),
             .confidence_ppm = static_cast<std::int32_t>(row.integer(first + 10)),
             .t_ms = row.integer(first + 11)};
+}
+
+std::optional<std::int64_t> known_utc_ms(const Statement& row, int column) {
+    return row.is_null(column) ? std::nullopt : unless_absurd(row.integer(column));
+}
+
+std::optional<std::int64_t> utc_ms_of(const std::optional<std::int64_t>& trip_utc_ms,
+                                      const Pass& pass) {
+    const bool can_be_added = unless_absurd(pass.t_ms).has_value();
+    return trip_utc_ms && can_be_added ? unless_absurd(*trip_utc_ms + pass.t_ms) : std::nullopt;
 }
 
 const char* name_of_index(bool centre_only) {

@@ -6,6 +6,8 @@
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace macadam {
@@ -27,6 +29,14 @@ void write_state(Statement& insert,
 extern const char* const pass_columns;
 inline constexpr int pass_column_count = 12;
 Pass pass_in(const Statement& row, int first, const SegmentKey& segment);
+
+/// A time in milliseconds since 1970; nothing for a column that holds none, or none of the years 1
+/// to 9999, which nobody who means well has written.
+std::optional<std::int64_t> known_utc_ms(const Statement& row, int column);
+
+/// The time of a pass from that of its trip's begin; nothing where that is none.
+std::optional<std::int64_t> utc_ms_of(const std::optional<std::int64_t>& trip_utc_ms,
+                                      const Pass& pass);
 
 /// "HRI>MRI" or "MRI".
 const char* name_of_index(bool centre_only);

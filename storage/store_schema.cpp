@@ -2,12 +2,14 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/geopackage.hpp"
+#include "storage/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -116,14 +118,18 @@ CREATE VIEW roughness AS
 template <typename Value>
 std::string bytes_of(const std::vector<Value>& values) {
     std::string bytes(values.size() * sizeof(Value), '\0');
-    std::memcpy(bytes.data(), values.data(), bytes.size());
+    if (!values.empty()) {
+        std::memcpy(bytes.data(), values.data(), bytes.size());
+    }
     return bytes;
 }
 
 template <typename Value>
 std::vector<Value> values_of(std::string_view bytes) {
     std::vector<Value> values(bytes.size() / sizeof(Value));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Value));
+    if (!values.empty()) {
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Value));
+    }
     return values;
 }
 
@@ -200,7 +206,26 @@ Written write_segments(Database& database, const RoadNetwork& roads, const Progr
     return written;
 }
 
+bool is_on_globe(const GeoPoint& at) {
+    return std::abs(at.lat_deg) <= 90 && std::abs(at.lon_deg) <= 180;
+}
+
+/// What a network can be built of: a store can be changed with any tool for SQLite.
+void expect_sound(const Way& way, const Database& database) {
+    const bool sound = way.line.size() >= 2 && way.line.size() == way.node_ids.size() &&
+                       way.oneway <= Oneway::backward && std::ranges::all_of(way.line, is_on_globe);
+    if (!sound) {
+        throw InputError{fmt::format("{}: way '{}' is no line of places on the globe, each with "
+                                     "its node; the store was changed",
+                                     database.file().string(),
+                                     way.id)};
+    }
+}
+
 // ---------------------------------------------------------------------------------------- meta
+
+constexpr double least_segment_m = 0.1; // far below and above what 'macadam init' takes
+constexpr double most_segment_m = 100'000;
 
 void put(Database& database, std::string_view key, std::string_view value) {
     database.prepare("INSERT INTO meta VALUES (?, ?)").run(key, value);
@@ -286,10 +311,25 @@ void check_store(Database& database) {
 }
 
 StoreSettings read_settings(Database& database) {
-    return {.segment_length_m = real_meta(database, "segment_length_m"),
-            .class_table = meta(database, "class_table"),
-            .network_source = meta(database, "network_source"),
-            .attribution = meta(database, "attribution")};
+    StoreSettings settings{.segment_length_m = real_meta(database, "segment_length_m"),
+                           .class_table = meta(database, "class_table"),
+                           .network_source = meta(database, "network_source"),
+                           .attribution = meta(database, "attribution")};
+    const auto refuse = [&](std::string_view key, std::string_view expected) {
+        throw InputError{fmt::format("{}: {} is {}, expected {}; the store was changed",
+                                     database.file().string(),
+                                     key,
+                                     in_quotes(meta(database, key)),
+                                     expected)};
+    };
+    if (class_table(settings.class_table) == nullptr) {
+        refuse("class_table", "fhwa or five");
+    }
+    if (!(settings.segment_length_m >= least_segment_m &&
+          settings.segment_length_m <= most_segment_m)) {
+        refuse("segment_length_m", "a length of segments");
+    }
+    return settings;
 }
 
 std::vector<Way> read_ways(Database& database) {
@@ -303,6 +343,7 @@ std::vector<Way> read_ways(Database& database) {
                         .oneway = static_cast<Oneway>(select.integer(3)),
                         .node_ids = values_of<std::int64_t>(select.blob(4)),
                         .line = values_of<GeoPoint>(select.blob(5))});
+        expect_sound(ways.back(), database);
     }
     return ways;
 }

@@ -158,6 +158,48 @@ TEST(StoreFaults, OfOtherGeoPackagesAndVersionsAreNamed) {
     EXPECT_THAT(refusal(), HasSubstr("is a store of version '2', expected version 1"));
 }
 
+/// What any tool for SQLite can do to a store.
+std::filesystem::path changed_store(const std::string& sql) {
+    const auto file = test_folder() / "a.gpkg";
+    {
+        auto store = new_store(file);
+        import_trips(store, 2);
+    }
+    Database{file, Database::Access::write}.run(sql);
+    return file;
+}
+
+TEST(StoreFaults, OfSettingsThatNobodyKnowsAreNamed) {
+    const auto refusal = [](const std::string& sql) {
+        const auto file = changed_store(sql);
+        return refusal_of([&] { RoadStore::open(file, RoadStore::Access::read); });
+    };
+    EXPECT_THAT(refusal("UPDATE meta SET value = 'none' WHERE key = 'class_table'"),
+                HasSubstr("class_table is 'none', expected fhwa or five"));
+    EXPECT_THAT(refusal("UPDATE meta SET value = '0' WHERE key = 'segment_length_m'"),
+                HasSubstr("segment_length_m is '0', expected a length of segments"));
+}
+
+TEST(StoreFaults, OfAWayThatIsNoLineAreNamed) {
+    for (const std::string change : {"node_ids = x''",
+                                     "points = zeroblob(8)",
+                                     "points = randomblob(0), node_ids = x''",
+                                     "oneway = 7"}) {
+        const auto file = changed_store("UPDATE way SET " + change + " WHERE way_id = 2");
+        const auto store = RoadStore::open(file, RoadStore::Access::read);
+        EXPECT_THAT(refusal_of([&] { store.roads(); }), HasSubstr("way '2' is no line")) << change;
+    }
+}
+
+TEST(StoreFaults, OfATimeBeyondAllYearsLeaveItUnknown) {
+    const auto file = changed_store("UPDATE trip SET t0_utc_ms = 9223372036854775807;"
+                                    "UPDATE pass SET t_ms = 9223372036854775807;"
+                                    "UPDATE segment_state SET last_seen_ms = -9223372036854775808");
+    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    EXPECT_EQ(store.history({1, true, 0}).at(0).utc_ms, std::nullopt);
+    EXPECT_EQ(store.info().last_seen_ms, std::nullopt);
+}
+
 TEST(Sqlite, SaysThatTheDiskIsFull) {
     Database database{test_folder() / "a.db", Database::Access::create};
     database.run("PRAGMA max_page_count = 3; CREATE TABLE a(b)");
