@@ -140,10 +140,10 @@ Found trips_in(const std::vector<std::filesystem::path>& paths,
             continue;
         }
         if (found.trips.empty()) {
-            console.warn(
-                fmt::format("{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst), nor "
-                            "an export of phyphox or Sensor Logger",
-                            path.string()));
+            console.warn(fmt::format(
+                "{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst), nor "
+                "an export of phyphox or Sensor Logger",
+                path.string()));
         }
         if (found.other_files > 0) {
             console.say(
@@ -221,8 +221,7 @@ constexpr std::array operands{
     store_operand,
     Operand{
         "PATH",
-        "Trip logs, exports of phyphox and Sensor Logger (folders or .zip), folders of them "
-        "(searched to any depth), or archives (.zip, .tar, .tar.gz).",
+        "Trip logs, phones' exports, folders of them (to any depth), or archives (.zip, .tar.gz).",
         true}};
 
 constexpr std::array options{

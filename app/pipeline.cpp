@@ -16,6 +16,8 @@ namespace {
 constexpr double slow_sampling_hz = 80; // below it the shortest waves of IRI begin to be missed
 constexpr double steep_tilt_deg = 15;   // more than a careless mounting
 constexpr double odd_scale = 0.05;      // wheel speed against GNSS
+constexpr double odd_gravity = 0.1;     // sensors for cars and phones are good to 3 %
+constexpr double standard_gravity_mps2 = 9.80665; // CGPM 1901
 
 /// The typical rate of the vibration, from the middle step of its stamps.
 double rate_hz(const TriaxialSamples& acc) {
@@ -41,7 +43,17 @@ warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mount
             slow_sampling_hz));
     }
     if (mounting.moved) {
-        warnings.emplace_back("gravity changed its direction: the sensor moved during the trip");
+        warnings.emplace_back("gravity changed: the sensor moved during the trip");
+    }
+    if (mounting.gravity_mps2 > 0 &&
+        std::abs(mounting.gravity_mps2 / standard_gravity_mps2 - 1) > odd_gravity) {
+        warnings.push_back(fmt::format("gravity was felt as {:.2f} m/s2: the accelerometer's scale "
+                                       "is off, or the sensor was not at rest in the car",
+                                       mounting.gravity_mps2));
+    }
+    if (!trip.meta.gravity_included && trip.meta.frame == Frame::sensor &&
+        !trip.meta.mount_rpy_deg && !trip.meta.mount_quat) {
+        warnings.emplace_back("the log has no gravity: z is taken for the vertical");
     }
     if (mounting.tilt_deg > steep_tilt_deg) {
         warnings.push_back(fmt::format("the sensor stood {:.0f} degrees from level; corrected",
@@ -129,7 +141,8 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
     const auto mounting = estimate_mounting(trip, odometer);
 
     IriTrace roughness{.runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
-    for (const auto& span : find_stretches(trip, odometer, config.stretch, use)) {
+    for (const auto& span :
+         find_stretches(trip, odometer, config.stretch, use, mounting.otherwise)) {
         const auto stretch = make_stretch(trip, span, odometer, mounting, config.stretch);
         roughness.runs.push_back(estimate_iri(stretch, vehicle, config.estimator));
     }

@@ -14,6 +14,7 @@ constexpr double position_noise_m = 20;  // beyond what the receiver says, seldo
 constexpr double odometer_slack = 1.3;   // wheel slip, speeds that were missed
 constexpr double moving_mps = 0.5;       // faster than this a receiver's place must change
 constexpr double stale_s = 0.5;          // no receiver for cars stands exactly still so often
+constexpr double outvoting_s = 2.5;      // receivers stray for a second beside a wall and come back
 constexpr double standing_mps = 1;       // slower than this on the whole: it stood, and then left
 
 // Places nearer than this are one: thirty metres of road between places of 4 m error are known to
@@ -161,10 +162,14 @@ FixTrack track_of(const TripLog& trip, const OdometerConfig& config, const Odome
     for (const auto i : kept) {
         places.push_back(place_of(trip.fixes[i], trip.meta.gnss_latency_s));
     }
-    const auto links = plausible_chain(places.size(), [&](std::size_t i, std::size_t j) {
+    const auto follows = [&](std::size_t i, std::size_t j) {
         return i == j || distance_m(places[i].at, places[j].at) <=
                              farthest_m(places[i], places[j], config, farthest);
-    });
+    };
+    const auto long_enough = [&](std::size_t i, std::size_t j) {
+        return places[j].t_s - places[i].t_s >= outvoting_s;
+    };
+    const auto links = plausible_chain(places.size(), follows, long_enough);
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (links[i] == ChainLink::dropped) {
             track.use[kept[i]] = code(RowReason::implausible);

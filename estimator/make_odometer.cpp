@@ -84,13 +84,15 @@ std::vector<Reading> plausible_readings(std::size_t count,
                                         At at,
                                         const OdometerConfig& config,
                                         std::vector<std::uint8_t>& use) {
-    const auto links = plausible_chain(count, [&](std::size_t i, std::size_t j) {
+    const auto follows = [&](std::size_t i, std::size_t j) {
         const Reading a = at(i);
         const Reading b = at(j);
         const double most_mps = config.max_accel_mps2 * (b.t_s - a.t_s) + speed_noise_mps;
         return std::abs(b.speed_mps) <= config.max_speed_mps &&
                std::abs(b.speed_mps - a.speed_mps) <= most_mps;
-    });
+    };
+    const auto links =
+        plausible_chain(count, follows, [](std::size_t, std::size_t) { return true; });
     Thinner thinner;
     for (std::size_t i = 0; i < count; ++i) {
         use[i] = links[i] == ChainLink::dropped ? code(RowReason::implausible) : 0;

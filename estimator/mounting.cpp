@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -19,7 +20,10 @@ constexpr double window_s = 1;      // long against vibration, short against bra
 constexpr double steady_mps2 = 0.5; // less is neither braking nor accelerating
 constexpr double chunk_s = 30;      // hills and bends average out
 constexpr double wander_deg = 8;    // a 10 % grade is 5.7 degrees, camber 1.5
-constexpr double brisk_mps2 = 0.5;  // braking that shows which way is forward
+constexpr double forever_s = std::numeric_limits<double>::infinity();
+constexpr double wander_mps2 = 1;  // ten times what hills and bends leave over half a minute
+constexpr double other_deg = 20;   // the vertical is felt 6 % too weak, and worse beyond
+constexpr double brisk_mps2 = 0.5; // braking that shows which way is forward
 constexpr std::size_t least_brisk = 8;
 
 // Standard gravity within what a scale error of 25 % and a hill explain. Anything else is no
@@ -88,8 +92,16 @@ double angle_deg(const Vector3d& a, const Vector3d& b) {
     return deg_per_rad * std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Whether any half minute felt gravity from another side than the whole trip did.
-bool wandered(const std::vector<Window>& windows, const Vector3d& gravity) {
+/// The force of about half a minute against that of the whole trip.
+struct Chunk {
+    TimeSpan time;
+    double off_deg;
+    double off_mps2;
+};
+
+/// A last chunk that is too short to be judged is as the one before it.
+std::vector<Chunk> chunks_of(const std::vector<Window>& windows, const Vector3d& gravity) {
+    std::vector<Chunk> chunks;
     std::size_t begin = 0;
     while (begin < windows.size()) {
         std::vector<Vector3d> forces;
@@ -98,13 +110,37 @@ bool wandered(const std::vector<Window>& windows, const Vector3d& gravity) {
              ++end) {
             forces.push_back(windows[end].force_mps2);
         }
-        if (static_cast<double>(forces.size()) * window_s > chunk_s / 2 &&
-            angle_deg(median(std::move(forces)), gravity) > wander_deg) {
-            return true;
+        // Chunks share their borders, and the outermost reach to the ends of the trip.
+        const TimeSpan time{begin == 0 ? -forever_s : windows[begin].middle_s - window_s / 2,
+                            end == windows.size() ? forever_s
+                                                  : windows[end].middle_s - window_s / 2};
+        if (static_cast<double>(forces.size()) * window_s > chunk_s / 2) {
+            const auto force = median(std::move(forces));
+            chunks.push_back(
+                {time, angle_deg(force, gravity), std::abs(force.norm() - gravity.norm())});
+        } else if (!chunks.empty()) {
+            chunks.push_back({time, chunks.back().off_deg, chunks.back().off_mps2});
         }
         begin = end;
     }
-    return false;
+    return chunks;
+}
+
+bool wandered(const std::vector<Chunk>& chunks) {
+    return std::ranges::any_of(chunks, [](const Chunk& chunk) {
+        return chunk.off_deg > wander_deg || chunk.off_mps2 > wander_mps2;
+    });
+}
+
+/// When the rotation that fits the whole trip does not fit.
+std::vector<TimeSpan> hung_otherwise(const std::vector<Chunk>& chunks) {
+    std::vector<TimeSpan> spans;
+    for (const auto& chunk : chunks) {
+        if (chunk.off_deg > other_deg || chunk.off_mps2 > wander_mps2) {
+            spans.push_back(chunk.time);
+        }
+    }
+    return spans;
 }
 
 /// Intrinsic z-y-x: yaw, then pitch, then roll.
@@ -165,6 +201,7 @@ Mounting estimate_mounting(const TripLog& trip, const Odometer& odometer) {
                       .gravity_mps2 = 0,
                       .tilt_deg = 0,
                       .moved = false,
+                      .otherwise = {},
                       .gravity_missing = false,
                       .heading_unknown = false};
     const auto windows = windows_of(trip.acc, odometer);
@@ -178,7 +215,9 @@ Mounting estimate_mounting(const TripLog& trip, const Odometer& odometer) {
     if (trip.meta.gravity_included && !mounting.gravity_missing) {
         mounting.gravity_mps2 = gravity.norm();
         mounting.tilt_deg = angle_deg(stated * gravity, Vector3d::UnitZ());
-        mounting.moved = wandered(windows, gravity);
+        const auto chunks = chunks_of(windows, gravity);
+        mounting.moved = wandered(chunks);
+        mounting.otherwise = hung_otherwise(chunks);
         mounting.to_vehicle =
             Eigen::Quaterniond::FromTwoVectors(stated * gravity, Vector3d::UnitZ())
                 .toRotationMatrix() *

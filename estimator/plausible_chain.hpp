@@ -18,13 +18,14 @@ inline constexpr std::size_t outvoting = 3;
 /// Sorts single faults from true jumps in a row of readings.
 ///
 /// A reading that cannot follow from the last one kept waits. If `outvoting` readings that wait
-/// follow from each other they are kept, and the first of them restarts; if a later one follows
-/// from the last one kept again, those that waited were faults.
+/// follow from each other long enough they are kept, and the first of them restarts; if a later one
+/// follows from the last one kept again, those that waited were faults.
 ///
-/// \param follows  whether reading j can come after reading i < j; false for i = j if the
-///                 reading is worth nothing by itself.
-template <typename Follows>
-std::vector<ChainLink> plausible_chain(std::size_t count, Follows follows) {
+/// \param follows      whether reading j can come after reading i < j; false for i = j if the
+///                     reading is worth nothing by itself.
+/// \param long_enough  whether what readings i to j agree on outvotes what was believed before.
+template <typename Follows, typename LongEnough>
+std::vector<ChainLink> plausible_chain(std::size_t count, Follows follows, LongEnough long_enough) {
     std::vector<ChainLink> links(count, ChainLink::dropped);
     std::vector<std::size_t> waiting;
     bool begun = false;
@@ -52,7 +53,7 @@ std::vector<ChainLink> plausible_chain(std::size_t count, Follows follows) {
             waiting.clear();
         }
         waiting.push_back(i);
-        if (waiting.size() >= outvoting) {
+        if (waiting.size() >= outvoting && long_enough(waiting.front(), i)) {
             keep_waiting();
         }
     }

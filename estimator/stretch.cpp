@@ -51,6 +51,11 @@ std::uint8_t unfit(const Odometer& odometer, double t_s, double min_speed_mps) {
     return speed_mps < min_speed_mps || odometer.reversing(t_s) ? code(RowReason::too_slow) : 0;
 }
 
+bool is_within(std::span<const TimeSpan> spans, double t_s) {
+    return std::ranges::any_of(
+        spans, [=](const TimeSpan& span) { return t_s >= span.from_s && t_s <= span.to_s; });
+}
+
 enum class Axis : int { y = 1, z = 2 };
 
 /// Values of one of the vehicle's axes at their own times; samples without a reading are left out.
@@ -195,7 +200,8 @@ std::vector<TravelSpan> slow_parts(const Odometer& odometer, double min_speed_mp
 std::vector<StretchSpan> find_stretches(const TripLog& trip,
                                         const Odometer& odometer,
                                         const StretchConfig& config,
-                                        TripUse& use) {
+                                        TripUse& use,
+                                        std::span<const TimeSpan> moved) {
     const auto& t_s = trip.acc.t_s;
     if (t_s.size() < 2) {
         std::ranges::fill(use.acc, code(RowReason::short_stretch));
@@ -220,7 +226,9 @@ std::vector<StretchSpan> find_stretches(const TripLog& trip,
     for (std::size_t i = 0; i < t_s.size(); ++i) {
         const bool cut = i > first && (t_s[i] - t_s[i - 1] > max_gap_s ||
                                        t_s[i] - t_s[first] > config.longest_s);
-        const auto reason = unfit(odometer, t_s[i], config.min_speed_mps);
+        const auto reason = is_within(moved, t_s[i])
+                                ? code(RowReason::sensor_moved)
+                                : unfit(odometer, t_s[i], config.min_speed_mps);
         if ((cut || reason != 0) && i > first) {
             keep(first, i);
             first = i;

@@ -6,9 +6,16 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <vector>
 
 namespace macadam {
+
+/// A part of a trip's time, from_s < to_s.
+struct TimeSpan {
+    double from_s;
+    double to_s;
+};
 
 /// The rotation from the sensor's axes to the vehicle's, and how it was found.
 struct Mounting {
@@ -16,6 +23,7 @@ struct Mounting {
     double gravity_mps2;        ///< mean specific force along the vehicle's z when included, else 0
     double tilt_deg;            ///< how far the stated axes stood from level
     bool moved;                 ///< gravity wandered by more than the road's camber explains
+    std::vector<TimeSpan> otherwise; ///< when it wandered so far that to_vehicle does not hold
     bool gravity_missing; ///< it should be included, but what was felt is not it: nothing levelled
     bool heading_unknown; ///< to be found from braking and accelerating, of which there was too
                           ///< little
@@ -65,11 +73,14 @@ struct Stretch {
 /// Cuts a trip at gaps, stops, reversing and where no speed is known; says in `use.acc` why the
 /// samples outside did not serve.
 ///
+/// \param moved  when the sensor hung otherwise (Mounting::otherwise): nothing is made of it.
+///
 /// \throws InputError  if vibration was sampled slower than least_rate_hz.
 std::vector<StretchSpan> find_stretches(const TripLog& trip,
                                         const Odometer& odometer,
                                         const StretchConfig& config,
-                                        TripUse& use);
+                                        TripUse& use,
+                                        std::span<const TimeSpan> moved = {});
 
 /// One stretch on its even grid: rotated by `mounting`, low-passed against aliasing where the grid
 /// is coarser than the log, interpolated by a cubic. One at a time, to hold little memory.

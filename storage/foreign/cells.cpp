@@ -33,7 +33,7 @@ std::string taken_quoted(std::string_view& line, char separator) {
         }
     }
     line.remove_prefix(std::min(line.find(separator, i), line.size()));
-    return cell;
+    return std::string{trimmed(cell)};
 }
 
 std::string taken_plain(std::string_view& line, char separator) {
