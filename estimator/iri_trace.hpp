@@ -17,7 +17,8 @@ enum class Method : std::uint8_t {
 
 /// Which accelerations the method is given.
 enum class Channels : std::uint8_t {
-    automatic, ///< both where the vehicle's IMU height is known, else vertical, else lateral
+    automatic, ///< both where the vehicle's IMU height is known and bends do not drown the lateral
+               ///< acceleration, else vertical, else lateral
     vertical,
     lateral,
     both,

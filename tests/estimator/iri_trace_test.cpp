@@ -48,6 +48,21 @@ TEST(IriTrace, PutsABumpOnTheSideWhereItIs) {
     EXPECT_GT(*mean.left_mm_per_m, 3 * *mean.right_mm_per_m);
 }
 
+/// Driven in wide bends: v^2 kappa swings by 1 m/s2 every two seconds and says nothing of the road.
+TEST(IriTrace, DoesWithoutTheLateralAccelerationWhereBendsDrownIt) {
+    const auto car = audi_with_height();
+    const auto ride = ride_of(car, elevation_of_bump, elevation_of_bump);
+    auto stretch = stretch_of(ride, true, true);
+    for (std::size_t i = 0; i < stretch.lateral_mps2.size(); ++i) {
+        stretch.lateral_mps2[i] += static_cast<float>(
+            std::sin(2 * std::numbers::pi * 0.6 * stretch.step_s * static_cast<double>(i)));
+    }
+    const auto run = estimate_iri(stretch, car, {});
+    EXPECT_TRUE(run.left_mm_per_m.empty());
+    EXPECT_EQ(run.centre_mm_per_m,
+              estimate_iri(stretch_of(ride, true, false), car, {}).centre_mm_per_m);
+}
+
 TEST(IriTrace, PutsABumpAtTheTravelWhereItIs) {
     const auto ride = ride_of(audi(), elevation_of_bump, elevation_of_bump);
     const auto run = estimate_iri(stretch_of(ride, true, false), audi(), {});
