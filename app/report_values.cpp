@@ -18,7 +18,8 @@ constexpr double least_histogram_mm_per_m = 4;
 constexpr double most_histogram_mm_per_m = 12;
 
 constexpr int map_width_px = 1400;
-constexpr int map_height_px = 1050;
+constexpr int least_map_height_px = 875;
+constexpr int most_map_height_px = 1250;
 constexpr int stretch_width_px = 480;
 constexpr int stretch_height_px = 360;
 constexpr double least_margin_m = 60; // around a stretch: the next side streets
@@ -77,11 +78,22 @@ ReportPicture picture_of(const MapScene& scene, MapStyle style, int width_px, in
     return picture;
 }
 
+/// As high as a box needs at the map's width, within what suits a page.
+int map_height_for(const GeoBox& box) {
+    const double middle_deg = (box.south_deg + box.north_deg) / 2;
+    const double width_m = distance_m({middle_deg, box.west_deg}, {middle_deg, box.east_deg});
+    const double height_m =
+        distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.west_deg});
+    return std::clamp(static_cast<int>(map_width_px * height_m / std::max(width_m, 1.0)),
+                      least_map_height_px,
+                      most_map_height_px);
+}
+
 ReportPicture map_of(const RoadStore& store, const MapStyle& style) {
     auto scene = map_scene(store, std::nullopt, *style.classes, "");
     scene.subtitle.clear();    // the page says it
     scene.attribution.clear(); // likewise
-    return picture_of(scene, style, map_width_px, map_height_px);
+    return picture_of(scene, style, map_width_px, map_height_for(scene.box));
 }
 
 GeoBox box_around(const RoadStretch& stretch) {
@@ -101,6 +113,7 @@ MapScene scene_of(const RoadStore& store,
                   const std::vector<SegmentRecord>& measured,
                   const ClassTable& classes) {
     MapScene scene;
+    scene.scale_bar = false; // too small to read on a phone; the page says how long the stretch is
     scene.box = box_around(stretch);
     const auto around = grown(scene.box,
                               distance_m({scene.box.south_deg, scene.box.west_deg},

@@ -200,7 +200,9 @@ Image furnished(Image roads,
                      text.at,
                      text.quiet ? colours.quiet_ink : colours.ink);
     }
-    draw_footer(canvas, setter, layout, placement.frame, style);
+    if (layout.scale_bar) {
+        draw_footer(canvas, setter, layout, placement.frame, style);
+    }
     if (!placement.card.legend.entries.empty()) {
         draw_legend(canvas, setter, placement.card, placement.corner, colours);
     }

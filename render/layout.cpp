@@ -12,6 +12,7 @@ constexpr double subtitle_px = 17;
 constexpr double attribution_px = 13;
 constexpr double margin_px = 26;
 constexpr double scale_room_px = 300;
+constexpr double scale_height_px = 50;
 constexpr double line_height = 1.3; // of the em
 constexpr double ascent = 0.93;     // of DejaVu Sans, of the em
 constexpr double most_header = 0.3; // of the sheet's height
@@ -89,7 +90,9 @@ Layout layout_of(const MapScene& scene, int width_px, int height_px, TypeSetter&
     const TextLook small{attribution_px * unit};
     const auto credit =
         block(setter, scene.attribution, small, width - scale_width - margin, most_px * 0.5);
-    const double footer = std::max(credit.height_px() + margin * 0.8, 50 * unit);
+    const double scale_height = scene.scale_bar ? scale_height_px * unit : 0;
+    const double credit_height = credit.lines.empty() ? 0 : credit.height_px() + margin * 0.8;
+    const double footer = std::max(credit_height, scale_height);
     const double bottom = std::round(height_px - footer);
     double y = bottom + (footer - credit.height_px()) / 2;
     for (const auto& line : credit.lines) {
@@ -98,6 +101,7 @@ Layout layout_of(const MapScene& scene, int width_px, int height_px, TypeSetter&
         y += credit.look.size_px * line_height;
     }
     layout.map = {0, std::round(top), double(width_px), bottom};
+    layout.scale_bar = scene.scale_bar;
     layout.scale_room = {margin, bottom, margin + scale_width, double(height_px)};
     return layout;
 }

@@ -22,6 +22,7 @@ struct Layout {
     PixelBox map;
     std::vector<PlacedText> texts;
     PixelBox scale_room; ///< for north arrow and scale bar
+    bool scale_bar = true;
 };
 
 /// One thousandth of the shorter side; small pictures get more, so that their text can be read.

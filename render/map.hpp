@@ -39,6 +39,7 @@ struct MapScene {
     std::string subtitle;         ///< period, kilometres, cars
     std::string attribution;      ///< whose data
     std::vector<double> class_km; ///< length of each class, for the legend; empty: not shown
+    bool scale_bar = true;        ///< with north arrow; false: the words around say how large it is
 };
 
 /// Eight-bit RGB, top row first.

@@ -22,6 +22,10 @@ std::string count_text(std::size_t count, std::string_view one, std::string_view
     return fmt::format("{} {}", count_text(count), count == 1 ? one : many);
 }
 
+std::string unbroken(const std::string& html) {
+    return "<span class=\"nw\">" + html + "</span>";
+}
+
 std::string picture_html(const ReportPicture& picture, const std::string& alt) {
     const auto image = [&](const char* look, const std::vector<std::uint8_t>& png) {
         return fmt::format("<img class=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" "

@@ -16,6 +16,9 @@ std::string sentence_case(std::string_view name);
 /// "1 car", "12 cars".
 std::string count_text(std::size_t count, std::string_view one, std::string_view many);
 
+/// HTML that stays on one line.
+std::string unbroken(const std::string& html);
+
 /// The picture for the page's look. \param alt  HTML.
 std::string picture_html(const ReportPicture& picture, const std::string& alt);
 

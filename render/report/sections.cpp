@@ -15,8 +15,8 @@ namespace {
 /// Length in the classes that count as poor.
 double poor_m(const Report& report) {
     double length_m = 0;
-    for (std::size_t c = 0; c < report.colours.size(); ++c) {
-        if (report.classes->classes[c].to_mm_per_m > report.poor_above_mm_per_m) {
+    for (std::size_t c = 1; c < report.colours.size(); ++c) {
+        if (report.classes->classes[c - 1].to_mm_per_m >= report.poor_above_mm_per_m) {
             length_m += report.summary.all.classes[c].length_m;
         }
     }
@@ -33,13 +33,13 @@ std::string key(const std::string& what, const std::string& value, const std::st
 std::string head_section(const Report& report) {
     const auto& all = report.summary.all;
     const auto total = total_of(report.vehicles);
-    auto html =
-        fmt::format("<header>\n<h1>{}</h1>\n<p class=\"quiet\">Road roughness (IRI) from "
-                    "the sensors of ordinary cars. {}</p>\n",
-                    escaped(report.title),
-                    total.trips == 0        ? "Nothing was measured yet."
-                    : report.period.empty() ? "The trips are not dated."
-                                            : fmt::format("Driven {}.", escaped(report.period)));
+    auto html = fmt::format("<header>\n<h1>{}</h1>\n<p class=\"quiet\">Road roughness (IRI) from "
+                            "the sensors of ordinary cars. {}</p>\n",
+                            escaped(report.title),
+                            total.trips == 0 ? "Nothing was measured yet."
+                            : report.period.empty()
+                                ? "The trips are not dated."
+                                : fmt::format("Driven {}.", unbroken(escaped(report.period))));
     html += "<dl class=\"key\">\n";
     html += key("Measured",
                 km_text(all.covered_m, all.covered_m) + " km",
@@ -50,7 +50,7 @@ std::string head_section(const Report& report) {
         html += key("Mean IRI",
                     iri_text(all.mean.iri) + " mm/m",
                     fmt::format("90 % interval {}; {:.0f} in/mi",
-                                interval_text(all.mean),
+                                unbroken(interval_text(all.mean)),
                                 all.mean.iri * in_per_mi_of_mm_per_m));
         html += key("Poor",
                     percent_text(poor_m(report), all.covered_m),
@@ -61,7 +61,7 @@ std::string head_section(const Report& report) {
                     count_text(report.stretches),
                     fmt::format("of {:.0f} m or more, {} km together",
                                 report.least_stretch_m,
-                                km_text(report.stretches_m, report.stretches_m)));
+                                km_text(report.stretches_m, all.covered_m)));
     }
     html +=
         key("Driven by",
@@ -84,17 +84,17 @@ std::string condition_section(const Report& report) {
                       {}};
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         const auto& range = all.classes[c];
-        classes.rows.push_back(
-            {swatch_svg(report.colours[c]) + sentence_case(report.classes->classes[c].name),
-             range_text(*report.classes, c, false),
-             range_text(*report.classes, c, true),
-             km_text(range.length_m, all.covered_m),
-             percent_text(range.length_m, all.covered_m),
-             fmt::format("{} – {}",
-                         km_text(range.low_m, all.covered_m),
-                         km_text(range.high_m, all.covered_m))});
+        classes.rows.push_back({unbroken(swatch_svg(report.colours[c]) +
+                                         sentence_case(report.classes->classes[c].name)),
+                                range_text(*report.classes, c, false),
+                                range_text(*report.classes, c, true),
+                                km_text(range.length_m, all.covered_m),
+                                percent_text(range.length_m, all.covered_m),
+                                fmt::format("{} – {}",
+                                            km_text(range.low_m, all.covered_m),
+                                            km_text(range.high_m, all.covered_m))});
     }
-    HtmlTable kinds{"Roughness by kind of road, weighted by length (IRI in mm/m)",
+    HtmlTable kinds{"Roughness by kind of road, IRI in mm/m",
                     {{"Kind of road"},
                      {"km", true},
                      {"Mean", true},
@@ -154,13 +154,13 @@ std::string map_section(const Report& report) {
 
 std::string coverage_section(const Report& report) {
     const auto& all = report.summary.all;
-    HtmlTable table{"Length of road by kind of road, km; each direction that may be driven counts",
+    HtmlTable table{"Kilometres by kind of road, each direction counted",
                     {{"Kind of road"},
                      {"On the map", true},
                      {"At least 1 pass", true},
-                     {"", true},
+                     {"Share", true},
                      {"At least 3 passes", true},
-                     {"", true}},
+                     {"Share", true}},
                     {}};
     const auto add = [&](const RoadSummary& roads, const std::string& name) {
         table.rows.push_back({name,

@@ -41,12 +41,13 @@ li{margin:.25rem 0}
 .wide{overflow-x:auto;margin:1rem 0}
 .wide:focus-visible{outline:2px solid var(--edge);outline-offset:2px}
 table{border-collapse:collapse;font-size:.9rem;line-height:1.35;font-variant-numeric:tabular-nums}
-caption{text-align:left;font-size:.875rem;padding-bottom:.35rem}
+caption{text-align:left;font-size:.875rem;padding-bottom:.35rem;max-width:calc(100vw - 2rem)}
 th,td{padding:.38rem .7rem;text-align:left;vertical-align:top;border-bottom:1px solid var(--rule)}
 th:first-child{padding-left:0}
 thead th{vertical-align:bottom;font-size:.8125rem;font-weight:600;color:var(--quiet);border-bottom-color:var(--edge)}
 tbody th{font-weight:500}
 .n{text-align:right;white-space:nowrap}
+.nw,.key .nw{display:inline;white-space:nowrap}
 .all th,.all td{font-weight:650}
 .swatch{width:.85em;height:.85em;margin-right:.5em;vertical-align:-.06em}
 .bar{stroke:var(--edge);stroke-width:.6}
@@ -54,7 +55,7 @@ tbody th{font-weight:500}
 .histogram{display:block;width:100%;max-width:36rem;height:auto;margin:1rem 0}
 .histogram text{fill:var(--quiet)}
 .grid{stroke:var(--rule)}
-.mean{stroke:var(--ink);stroke-dasharray:3 3}
+.mean{stroke:var(--ink);stroke-width:1.2;stroke-dasharray:3 3}
 .legend{display:flex;flex-wrap:wrap;gap:.3rem 1.3rem;list-style:none;padding:0;font-size:.9rem}
 .legend li{margin:0;font-variant-numeric:tabular-nums}
 .road{display:inline-block;width:1.6em;height:0;border-top:2px solid var(--quiet);opacity:.6;margin-right:.5em;vertical-align:.25em}
@@ -80,10 +81,10 @@ constexpr const char* on_paper = R"(
 h1{font-size:20pt}h2{font-size:13pt;margin-top:1.6rem;padding-top:.7rem}
 h2,h3,caption{break-after:avoid}p,li{orphans:3;widows:3}
 tr,figure,.key div,.histogram{break-inside:avoid}thead{display:table-header-group}
-.wide{overflow:visible}table{font-size:8.5pt}th,td{padding:.25rem .45rem}.share{width:5.5rem}
+.wide{overflow:visible;break-inside:avoid}.histogram{max-width:88mm}.legend{break-after:avoid}table{font-size:8.5pt}th,td{padding:.25rem .45rem}.share{width:5.5rem}
 .key{grid-template-columns:repeat(3,1fr);gap:.5rem}.key b{font-size:14pt}
 .cards{grid-template-columns:1fr 1fr 1fr;gap:.8rem}.cards figcaption{font-size:8.5pt}
-.map img{max-height:165mm;width:auto;max-width:100%}a{text-decoration:none}}
+.map img{max-height:135mm;width:auto;max-width:100%}a{text-decoration:none}}
 )";
 
 } // namespace

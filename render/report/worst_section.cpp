@@ -54,7 +54,7 @@ std::string card_of(const ReportStretch& of, std::size_t rank) {
     const auto& stretch = of.stretch;
     const auto name = name_of(stretch);
     const auto alt = fmt::format("Map of stretch {}: {}", rank, name);
-    return fmt::format("<figure id=\"stretch-{}\">{}<figcaption><h3>{} · {}, {}</h3>"
+    return fmt::format("<figure id=\"stretch-{}\">{}<figcaption><h3>{} · {}, towards {}</h3>"
                        "<b>IRI {}</b> ({}) over {:.0f} m<br>Way {}<br>Middle {:.5f}, {:.5f}<br>{}"
                        "</figcaption></figure>\n",
                        rank,

@@ -19,13 +19,15 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// A store of a road of 1200 m whose third quarter is rough, driven by two trips of one car.
+/// A store of a road of 1200 m whose third quarter is poor and the rest good, driven by two trips
+/// of one car.
 class ReportProgram : public ::testing::Test {
 protected:
     void SetUp() override {
         folder_ = fresh_folder();
         store_ = (folder_ / "roads.gpkg").string();
-        const auto road = patched_road([](double x_m) { return x_m >= 600 && x_m < 900; }, 4);
+        // Waves of a poor road, and a quarter of them outside the third quarter.
+        const auto road = patched_road([](double x_m) { return x_m < 600 || x_m >= 900; }, 0.25);
         std::vector<std::string> trips;
         for (const double speed_mps : {15.0, 22.0}) {
             const Drive drive{.length_m = 1200,

@@ -138,6 +138,16 @@ TEST(Map, HasNoLegendWhereThePageHasIt) {
     EXPECT_GT(count_of(image, {0, 0, 512, 512}, good), 20U);
 }
 
+TEST(Map, IsAllMapWhereThePageHasTheWords) {
+    auto bare = scene({road({{0, 400}, {0, -400}}, 0)}, 400);
+    bare.title.clear();
+    bare.scale_bar = false;
+    const auto image = render_map(bare, {.legend = false}, 512, 384);
+    const auto colours = palette(MapStyle::Theme::light);
+    EXPECT_EQ(count_of(image, {0, 0, 512, 384}, colours.page), 0U);
+    EXPECT_EQ(count_of(image, {0, 0, 512, 384}, colours.ink), 0U);
+}
+
 TEST(Map, PutsTheLegendWhereNoRoadIs) {
     TypeSetter setter;
     auto diagonal = scene({road({{-400, 400}, {400, -400}}, 2)}, 400); // north-west to south-east
