@@ -16,7 +16,8 @@ constexpr double grid_m = 1;
 constexpr double sharpest_per_m = 0.5; // no car turns within less than 2 m
 constexpr double least_step_m = 0.05;  // of travel between points: a turn on the spot still moves
 constexpr double corner_cosine = 0.87; // 30 degrees: from here on a bend is a corner
-constexpr std::size_t corner_box = 3;  // three boxes of 7 m make of a corner a turn of 6 m radius
+// Three boxes of 17 m turn into the near lane on a radius of 5 m, into the far one on 10 m.
+constexpr std::size_t corner_box = 8;
 constexpr std::size_t widest_box = 40;
 constexpr std::size_t wander_box = 20;
 

@@ -176,7 +176,7 @@ yaw_rates(const DrivenPath& path, std::span<const double> travel_m, std::span<co
     return yaw_radps;
 }
 
-Motion motion_of(const DrivenPath& path, std::vector<double> speed_mps) {
+Motion motion_of(const DrivenPath& path, double begin_m, std::vector<double> speed_mps) {
     for (int i = 0; i < 2; ++i) {
         speed_mps = boxed(speed_mps, pedal_box);
         for (auto& speed : speed_mps) {
@@ -184,7 +184,7 @@ Motion motion_of(const DrivenPath& path, std::vector<double> speed_mps) {
         }
     }
     Motion motion{.step_s = step_s,
-                  .travel_m = {margin_m},
+                  .travel_m = {begin_m},
                   .speed_mps = std::move(speed_mps),
                   .acc_mps2 = {},
                   .yaw_rate_radps = {}};
@@ -216,9 +216,11 @@ Motion drive_along(const DrivenPath& path,
                                      path.travel_m.back(),
                                      shortest_m)};
     }
-    const auto plan = planned(
-        path, allowed_mps(path, roads, driving, seed), stops_of(roads, route, driving, seed));
-    return motion_of(path, speed_over_time(within_reach(plan, driving)));
+    const auto plan = within_reach(planned(path,
+                                           allowed_mps(path, roads, driving, seed),
+                                           stops_of(roads, route, driving, seed)),
+                                   driving);
+    return motion_of(path, plan.travel_m.front(), speed_over_time(plan));
 }
 
 } // namespace macadam

@@ -1,0 +1,140 @@
+#include "mapping/simulation/lane.hpp"
+
+#include "estimator/iri.hpp"
+#include "support/road_art.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+using namespace macadam;
+using namespace macadam::testing;
+
+namespace {
+
+RoadArt street() {
+    return road_art("A------B------C", 100, {"ABC"}); // 1400 m
+}
+
+FleetRecipe recipe_of(std::vector<RoadRule> rules) {
+    FleetRecipe recipe;
+    recipe.roads = std::move(rules);
+    return recipe;
+}
+
+RoadRule rule(double iri_mm_per_m) {
+    RoadRule rule;
+    rule.iri_mm_per_m = Bounds{iri_mm_per_m, iri_mm_per_m};
+    return rule;
+}
+
+Way way_of(std::int64_t id, const char* highway) {
+    return {.id = id, .name = "Main Street", .highway = highway, .node_ids = {}, .line = {}};
+}
+
+double iri_of(const FleetRecipe& recipe, const Way& way) {
+    return road_recipe(recipe, way, true, 1).iri_mm_per_m;
+}
+
+} // namespace
+
+TEST(Lane, IsTheSameForEveryCarAndAnotherInTheOtherDirection) {
+    const auto art = street();
+    const auto recipe = recipe_of({rule(2)});
+    const auto first = lane_surface(recipe, art.roads, {0, true}, 1);
+    EXPECT_EQ(lane_surface(recipe, art.roads, {0, true}, 1).elevation_m, first.elevation_m);
+    EXPECT_NE(lane_surface(recipe, art.roads, {0, false}, 1).elevation_m, first.elevation_m);
+    EXPECT_NE(lane_surface(recipe, art.roads, {0, true}, 2).elevation_m, first.elevation_m);
+}
+
+TEST(Lane, IsAsLongAsItsWayToTheMillimetre) {
+    const auto art = street();
+    EXPECT_NEAR(lane_surface(recipe_of({rule(2)}), art.roads, {0, true}, 1).length_m(),
+                art.roads.way_point_m[0].back(),
+                0.00051);
+}
+
+TEST(Lane, OfALaterRuleHasWhatThatSays) {
+    auto town = rule(4);
+    town.highways = {"residential", "service"};
+    auto named = rule(5);
+    named.name = "Main Street";
+    named.highways = {"service"};
+    auto one = rule(6);
+    one.way_id = 12;
+    const auto recipe = recipe_of({rule(2), town, named, one});
+    EXPECT_EQ(iri_of(recipe, way_of(1, "primary")), 2);
+    EXPECT_EQ(iri_of(recipe, way_of(1, "residential")), 4);
+    EXPECT_EQ(iri_of(recipe, way_of(1, "service")), 5);
+    EXPECT_EQ(iri_of(recipe, way_of(12, "service")), 6);
+}
+
+TEST(Lane, OfARuleForAShareIsDrawnByItsWay) {
+    auto some = rule(5);
+    some.share = 0.2;
+    const auto recipe = recipe_of({rule(2), some});
+    int chosen = 0;
+    for (std::int64_t id = 0; id < 2000; ++id) {
+        chosen += iri_of(recipe, way_of(id, "primary")) == 5 ? 1 : 0;
+    }
+    EXPECT_NEAR(chosen, 400, 54); // three standard deviations of a binomial
+}
+
+TEST(LaneTruth, AddsUpToTheIriOfTheWholeLane) {
+    const auto art = street();
+    for (const bool forward : {true, false}) {
+        const auto surface = lane_surface(recipe_of({rule(3)}), art.roads, {0, forward}, 1);
+        double left = 0;
+        double length_m = 0;
+        for (const auto& segment : lane_truth(art.roads, {0, forward}, surface)) {
+            left += segment.iri_left * (segment.to_m - segment.from_m);
+            length_m += segment.to_m - segment.from_m;
+        }
+        const auto paths = wheel_paths(surface);
+        // Borders of segments fall to the nearest 5 cm: 0.1 % each, and seldom the same way.
+        EXPECT_NEAR(left / length_m, iri_mm_per_m(paths.left_m, paths.step_m), 0.01);
+    }
+}
+
+TEST(LaneTruth, CountsAlongTheWayWhateverTheDirection) {
+    const auto art = street();
+    auto surface = lane_surface(recipe_of({rule(3)}), art.roads, {0, false}, 1);
+    for (auto& line : surface.elevation_m) { // smooth but for the last 30 m that are driven
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const double to_end_m = surface.length_m() - static_cast<double>(i) * surface.step_m;
+            line[i] = to_end_m < 30 && i % 40 < 20 ? 0.01F : 0.0F;
+        }
+    }
+    const auto truth = lane_truth(art.roads, {0, false}, surface);
+    EXPECT_EQ(truth.front().key.index, 0U);
+    EXPECT_FALSE(truth.front().key.forward);
+    EXPECT_GT(truth.front().mri, 3);
+    EXPECT_LT(truth.back().mri, 1e-6);
+}
+
+TEST(LaneTruth, HasARowForEachSegmentThatMayBeDriven) {
+    const auto art = road_art(R"(
+        A------B------C
+               |
+               D
+    )",
+                              100,
+                              {"ABC", "DB>"});
+    std::size_t expected = 0;
+    for (std::uint32_t link = 0; link < art.roads.links.size(); ++link) {
+        for (const bool forward : {true, false}) {
+            const auto edge = edge_of(LinkId{link}, forward);
+            expected += is_drivable(art.roads, edge) ? segments_of(art.roads, edge).size() : 0;
+        }
+    }
+    std::vector<SegmentKey> keys;
+    for (const auto& lane : drivable_lanes(art.roads)) {
+        const auto surface = lane_surface(recipe_of({}), art.roads, lane, 1);
+        for (const auto& segment : lane_truth(art.roads, lane, surface)) {
+            keys.push_back(segment.key);
+        }
+    }
+    EXPECT_EQ(keys.size(), expected);
+    EXPECT_TRUE(std::ranges::is_sorted(keys));
+}
