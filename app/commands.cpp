@@ -50,6 +50,7 @@ std::span<const Command> commands() {
                                   iri_command,
                                   trace_command,
                                   match_command,
+                                  convert_command,
                                   simulate_command};
     return table;
 }

@@ -48,6 +48,7 @@ extern const Command info_command;     // app/command_info.cpp
 extern const Command iri_command;      // app/command_iri.cpp
 extern const Command trace_command;    // app/command_trace.cpp
 extern const Command match_command;    // app/command_match.cpp
+extern const Command convert_command;  // app/command_convert.cpp
 extern const Command simulate_command; // app/command_simulate.cpp
 
 } // namespace macadam
