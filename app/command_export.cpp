@@ -43,8 +43,10 @@ void run_export(const Arguments& arguments, const Console& console) {
 
 constexpr std::array operands{store_operand};
 constexpr std::array options{
-    Option{
-        "-o,--output", "FILE", "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg."},
+    Option{"-o,--output",
+           "FILE",
+           "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, "
+           ".fgb."},
     bbox_option,
     way_option,
     name_option,
@@ -54,7 +56,7 @@ constexpr std::array options{
 
 const Command export_command{
     .name = "export",
-    .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage",
+    .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage, FlatGeobuf",
     .about = "One feature a segment and direction, its line in driving direction, with IRI, its 90 "
              "% interval,\n"
              "class, passes and linear reference (docs/outputs.md names every column). No trips, "

@@ -1,9 +1,11 @@
 #include "storage/export.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/late_library.hpp"
 #include "storage/atomic_file.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/json.hpp"
+#include "storage/late/flatgeobuf.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/sqlite.hpp"
 
@@ -17,7 +19,8 @@
 namespace macadam {
 namespace {
 
-constexpr std::array<std::string_view, 4> suffixes{".geojson", ".geojsonl", ".csv", ".gpkg"};
+constexpr std::array<std::string_view, 5> suffixes{
+    ".geojson", ".geojsonl", ".csv", ".gpkg", ".fgb"};
 
 const ClassTable& classes_of(const RoadStore& store) {
     return *class_table(store.settings().class_table);
@@ -159,6 +162,49 @@ std::size_t write_geopackage(const RoadStore& store,
     return written;
 }
 
+// ---------------------------------------------------------------------------------- FlatGeobuf
+
+std::vector<FlatGeobufColumn> flatgeobuf_columns() {
+    using Type = FlatGeobufColumn::Type;
+    std::vector<FlatGeobufColumn> columns;
+    for (const auto& field : segment_fields()) {
+        const bool is_time = field.name == "first_seen" || field.name == "last_seen";
+        columns.push_back({field.name,
+                           is_time                           ? Type::time
+                           : field.type == Field::Type::text ? Type::text
+                           : field.type == Field::Type::real ? Type::real
+                                                             : Type::integer});
+    }
+    return columns;
+}
+
+std::size_t write_flatgeobuf(const RoadStore& store,
+                             const SegmentFilter& filter,
+                             const std::filesystem::path& temporary,
+                             const std::filesystem::path& file,
+                             const Progress& progress) {
+    auto* const write = late_function<FlatGeobufWrite>("macadam_gdal.so", flatgeobuf_write_name);
+    auto with_suffix = temporary; // GDAL makes a folder for a name without it
+    with_suffix += ".fgb";
+    const FlatGeobufLayer layer{
+        .file = with_suffix,
+        .name = "roughness",
+        .description = fmt::format("Roughness (IRI, mm/m). {}", store.settings().attribution),
+        .columns = flatgeobuf_columns()};
+    std::size_t written = 0;
+    try {
+        write(layer, [&](const FlatGeobufPut& put) {
+            written = each(store, filter, progress, [&](const SegmentRecord& record) {
+                put(record.segment.line, field_values(record, classes_of(store)));
+            });
+        });
+    } catch (const InputError& error) {
+        throw InputError{fmt::format("{}: {}", file.string(), error.what())};
+    }
+    std::filesystem::rename(with_suffix, temporary);
+    return written;
+}
+
 std::size_t write_as(std::string_view suffix,
                      const RoadStore& store,
                      const SegmentFilter& filter,
@@ -173,6 +219,9 @@ std::size_t write_as(std::string_view suffix,
     }
     if (suffix == ".csv") {
         return write_csv(store, filter, out, progress);
+    }
+    if (suffix == ".fgb") {
+        return write_flatgeobuf(store, filter, out.temporary(), file, progress);
     }
     return write_geopackage(store, filter, out.temporary(), file, progress);
 }

@@ -38,8 +38,9 @@ std::string csv_header();
 std::string csv_text(std::string_view text);
 
 /// Writes segments to a file in the order of visit(); its kind is its suffix: .geojson, .geojsonl,
-/// .csv, .gpkg (the layer `roughness` with its style, without passes, trips or vehicles). The file
-/// appears when it is whole, or not at all. \returns how many segments were written.
+/// .csv, .gpkg (the layer `roughness` with its style, without passes, trips or vehicles), .fgb
+/// (FlatGeobuf, in the order of its spatial index). The file appears when it is whole, or not at
+/// all. \returns how many segments were written.
 ///
 /// \throws InputError  for a suffix that is not known, or if the file cannot be written.
 std::size_t export_segments(const RoadStore& store,

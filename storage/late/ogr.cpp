@@ -1,11 +1,11 @@
 #include "storage/late/ogr.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/late/gdal_errors.hpp"
 #include "storage/osm_tags.hpp"
 #include "storage/text.hpp"
 
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <fmt/core.h>
 #include <ogrsf_frmts.h>
 
@@ -22,23 +22,6 @@
 namespace macadam {
 
 namespace {
-
-/// GDAL's complaints go into our messages, not to the console.
-class Quiet {
-public:
-    Quiet() {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-        CPLErrorReset();
-    }
-    Quiet(const Quiet&) = delete;
-    Quiet& operator=(const Quiet&) = delete;
-    ~Quiet() { CPLPopErrorHandler(); }
-};
-
-std::string gdal_said(std::string_view otherwise) {
-    const char* const text = CPLGetLastErrorMsg();
-    return text != nullptr && *text != '\0' ? text : std::string{otherwise};
-}
 
 GDALDatasetUniquePtr open(const std::filesystem::path& file) {
     // Files only, and nothing that leads to other files or to the network.

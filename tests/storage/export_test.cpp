@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <sstream>
 
 namespace macadam {
@@ -163,7 +164,8 @@ TEST(Export, RefusesSuffixesItDoesNotKnow) {
     const auto store = new_store(folder / "a.gpkg");
     EXPECT_THAT(
         refusal_of([&] { export_segments(store, {}, folder / "out.xls"); }),
-        HasSubstr("out.xls: suffix '.xls', expected one of .geojson, .geojsonl, .csv, .gpkg"));
+        HasSubstr("out.xls: suffix '.xls', expected one of .geojson, .geojsonl, .csv, .gpkg, "
+                  ".fgb"));
 }
 
 TEST(Export, LeavesNothingOfAFileThatCouldNotBeFinished) {
@@ -244,6 +246,92 @@ TEST(GeoPackage, ExportsNoTripsPassesOrVehicles) {
     EXPECT_EQ(
         exported.number("SELECT count(*) FROM roughness JOIN rtree_roughness_geom ON fid = id"),
         20);
+}
+
+// ---------------------------------------------------------------------------------- FlatGeobuf
+
+/// The features of a file by their segment, as GDAL's own tool reads them. What is not known is
+/// left out, as FlatGeobuf does.
+std::map<std::string, json> features_by_gdal(const std::filesystem::path& folder,
+                                             const std::string& name) {
+    const auto out = folder / (name + ".json");
+    EXPECT_EQ(output_of(folder,
+                        "ogr2ogr -f GeoJSON -lco RFC7946=YES -lco COORDINATE_PRECISION=9 " +
+                            out.string() + " " + (folder / name).string()),
+              "");
+    std::map<std::string, json> features;
+    const auto collection = json::parse(content_of(out));
+    for (auto feature : collection["features"]) {
+        auto& properties = feature["properties"];
+        for (auto each = properties.begin(); each != properties.end();) {
+            each = each->is_null() ? properties.erase(each) : std::next(each);
+        }
+        features.emplace(properties["segment"], feature);
+    }
+    return features;
+}
+
+TEST(FlatGeobuf, HoldsWhatTheGeoJsonHolds) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    const auto all = export_segments(store, all_segments(), folder / "out.geojson");
+    EXPECT_EQ(export_segments(store, all_segments(), folder / "out.fgb"), all);
+    const auto expected = features_by_gdal(folder, "out.geojson");
+    const auto found = features_by_gdal(folder, "out.fgb");
+    ASSERT_EQ(found.size(), all);
+    ASSERT_EQ(expected.size(), all);
+    for (const auto& [segment, feature] : expected) {
+        ASSERT_TRUE(found.contains(segment));
+        EXPECT_EQ(found.at(segment)["properties"], feature["properties"]) << segment;
+        const auto& a = found.at(segment)["geometry"]["coordinates"];
+        const auto& b = feature["geometry"]["coordinates"];
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            EXPECT_NEAR(a[i][0].get<double>(), b[i][0].get<double>(), 6e-8); // of 7 decimals
+            EXPECT_NEAR(a[i][1].get<double>(), b[i][1].get<double>(), 6e-8);
+        }
+    }
+}
+
+TEST(FlatGeobuf, ShowsItsRoughnessAsTypedColumns) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    export_segments(store, {}, folder / "out.fgb");
+    const auto info = output_of(folder, "ogrinfo -ro -so -al " + (folder / "out.fgb").string());
+    for (const auto* line : {"Layer name: roughness",
+                             "Geometry: Line String",
+                             "Feature Count: 20",
+                             "GEOGCRS[\"WGS 84\"",
+                             "segment: String",
+                             "way_id: Integer64",
+                             "iri: Real",
+                             "passes: Integer",
+                             "first_seen: DateTime"}) {
+        EXPECT_THAT(info, HasSubstr(line));
+    }
+}
+
+TEST(FlatGeobuf, HasASpatialIndex) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 1);
+    export_segments(store, {}, folder / "out.fgb");
+    const auto capabilities =
+        output_of(folder,
+                  "/usr/bin/python3 -c \"from osgeo import ogr; d = ogr.Open('" +
+                      (folder / "out.fgb").string() +
+                      "'); print(d.GetLayer(0).TestCapability(ogr.OLCFastSpatialFilter))\"");
+    EXPECT_THAT(capabilities, ::testing::AnyOf("1\n", "True\n"));
+}
+
+TEST(FlatGeobuf, CanBeEmpty) {
+    const auto folder = test_folder();
+    const auto store = new_store(folder / "a.gpkg");
+    EXPECT_EQ(export_segments(store, {}, folder / "out.fgb"), 0U);
+    EXPECT_THAT(output_of(folder, "ogrinfo -ro -so -al " + (folder / "out.fgb").string()),
+                HasSubstr("Feature Count: 0"));
 }
 
 // ---------------------------------------------------------------------------------------- JSON
