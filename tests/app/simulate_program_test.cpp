@@ -1,0 +1,195 @@
+// `simulate` and what holds a store against its truth, by the program itself.
+
+#include "support/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// Two blocks of a town of about 400 m, one street of them oneway.
+const std::string town = R"(<osm version="0.6">
+<node id="1" lat="48.4000000" lon="15.6000000"/>
+<node id="2" lat="48.4000000" lon="15.6054000"/>
+<node id="3" lat="48.4000000" lon="15.6108000"/>
+<node id="4" lat="48.4036000" lon="15.6000000"/>
+<node id="5" lat="48.4036000" lon="15.6054000"/>
+<node id="6" lat="48.4036000" lon="15.6108000"/>
+<way id="11"><nd ref="1"/><nd ref="2"/><nd ref="3"/><tag k="highway" v="primary"/><tag k="name" v="Ring"/></way>
+<way id="12"><nd ref="4"/><nd ref="5"/><nd ref="6"/><tag k="highway" v="primary"/></way>
+<way id="13"><nd ref="1"/><nd ref="4"/><tag k="highway" v="residential"/></way>
+<way id="14"><nd ref="2"/><nd ref="5"/><tag k="highway" v="residential"/><tag k="oneway" v="yes"/></way>
+<way id="15"><nd ref="3"/><nd ref="6"/><tag k="highway" v="residential"/></way>
+</osm>
+)";
+
+const std::string recipe = R"([trips]
+count = 3
+length_km = [1.2, 1.4]
+stop_share = 0
+[[car]]
+id = "one"
+[[car]]
+id = "two"
+)";
+
+class Simulate : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fresh_folder();
+        write_file(folder_ / "town.osm", town);
+        write_file(folder_ / "recipe.toml", recipe);
+    }
+
+    std::string at(const char* name) const { return (folder_ / name).string(); }
+
+    testing::Run simulate(const char* to, std::vector<std::string> more = {}) const {
+        std::vector<std::string> words{
+            "simulate", "-o", at(to), "--network", at("town.osm"), "--recipe", at("recipe.toml")};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_macadam(words);
+    }
+
+    /// Names below the folder, and what is in the files.
+    std::map<std::string, std::string> files_in(const char* name) const {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : fs::recursive_directory_iterator{folder_ / name}) {
+            if (entry.is_regular_file()) {
+                files[fs::relative(entry.path(), folder_ / name).string()] =
+                    read_file(entry.path());
+            }
+        }
+        return files;
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(Simulate, LeavesTripsVehiclesNetworkAndTruth) {
+    const auto run = simulate("fleet");
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    std::vector<std::string> names;
+    for (const auto& [name, content] : files_in("fleet")) {
+        names.push_back(name);
+    }
+    EXPECT_THAT(names,
+                ElementsAre("network.osm.pbf",
+                            "trips/one-0001.trip.csv.gz",
+                            "trips/one-0002.trip.csv.gz",
+                            "trips/two-0003.trip.csv.gz",
+                            "truth.csv",
+                            "vehicles/one.toml",
+                            "vehicles/two.toml"));
+    EXPECT_THAT(read_file(folder_ / "fleet" / "truth.csv"),
+                StartsWith("segment,way_id,direction,from_m,to_m,iri_left,iri_right,mri,hri\n"
+                           "11+0000,11,forward,0.000,"));
+}
+
+TEST_F(Simulate, GivesTheSameBytesWhateverTheThreads) {
+    ASSERT_EQ(simulate("a").exit_status, 0);
+    ASSERT_EQ(simulate("b", {"--jobs", "2"}).exit_status, 0);
+    EXPECT_EQ(files_in("a"), files_in("b"));
+}
+
+TEST_F(Simulate, GivesOtherTripsForAnotherSeed) {
+    ASSERT_EQ(simulate("a", {"--trips", "1"}).exit_status, 0);
+    ASSERT_EQ(simulate("b", {"--trips", "1", "--seed", "2"}).exit_status, 0);
+    const auto first = files_in("a");
+    const auto second = files_in("b");
+    EXPECT_NE(first.at("trips/one-0001.trip.csv.gz"), second.at("trips/one-0001.trip.csv.gz"));
+    EXPECT_NE(first.at("truth.csv"), second.at("truth.csv"));
+    EXPECT_EQ(first.at("network.osm.pbf"), second.at("network.osm.pbf"));
+}
+
+TEST_F(Simulate, IsFoundAgainByAnImport) {
+    ASSERT_EQ(simulate("fleet").exit_status, 0);
+    const auto store = at("roads.gpkg");
+    ASSERT_EQ(run_macadam({"init", store, "--network", at("fleet/network.osm.pbf")}).exit_status,
+              0);
+    const auto import = run_macadam({"import", store, at("fleet/trips"), "--channels", "vertical"});
+    ASSERT_EQ(import.exit_status, 0) << import.err;
+    const auto info = run_macadam({"info", store, "--truth", at("fleet/truth.csv")});
+    EXPECT_EQ(info.exit_status, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("against truth"));
+    EXPECT_THAT(info.out, HasSubstr("\nprimary"));
+    const auto json = run_macadam({"info", store, "--json", "--truth", at("fleet/truth.csv")});
+    EXPECT_THAT(json.out, HasSubstr("\"truth\":{\"all\":{\"segments\":"));
+    EXPECT_THAT(json.out, HasSubstr("\"rmse_100m\":"));
+}
+
+TEST_F(Simulate, TakesANetworkThatIsNotOsm) {
+    write_file(folder_ / "ring.geojson",
+               R"({"type":"FeatureCollection","features":[
+               {"type":"Feature","properties":{},"geometry":{"type":"LineString",
+               "coordinates":[[15.6,48.4],[15.61,48.4]]}},
+               {"type":"Feature","properties":{},"geometry":{"type":"LineString",
+               "coordinates":[[15.61,48.4],[15.61,48.405],[15.6,48.4]]}}]})");
+    const auto run = run_macadam({"simulate",
+                                  "-o",
+                                  at("fleet"),
+                                  "--network",
+                                  at("ring.geojson"),
+                                  "--recipe",
+                                  at("recipe.toml"),
+                                  "--trips",
+                                  "1"});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_EQ(
+        run_macadam({"init", at("x.gpkg"), "--network", at("fleet/network.osm.pbf")}).exit_status,
+        0);
+}
+
+TEST_F(Simulate, KeepsOutOfAFolderWithSomethingInIt) {
+    fs::create_directory(folder_ / "full");
+    write_file(folder_ / "full" / "thesis.txt", "all of it");
+    const auto run = simulate("full");
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("full: is not empty, expected a new or an empty folder"));
+    EXPECT_EQ(files_in("full").size(), 1U);
+}
+
+TEST_F(Simulate, ShowsARecipeThatItTakes) {
+    const auto shown = run_macadam({"simulate", "--show-recipe"});
+    EXPECT_EQ(shown.exit_status, 0);
+    write_file(folder_ / "recipe.toml", shown.out);
+    EXPECT_EQ(simulate("fleet", {"--trips", "1", "--quiet"}).err, "");
+}
+
+TEST_F(Simulate, SaysWhatIsMissingOrWrong) {
+    EXPECT_EQ(run_macadam({"simulate"}).exit_status, 2);
+    EXPECT_THAT(run_macadam({"simulate", "-o", at("x")}).err,
+                HasSubstr("--network FILE is missing"));
+    EXPECT_THAT(simulate("x", {"--jobs", "0"}).err, HasSubstr("--jobs is 0, expected 1 to 256"));
+    write_file(folder_ / "recipe.toml", "[trips]\ncount = 0\n");
+    const auto run = simulate("x");
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("recipe.toml:2: 'trips.count' is '0'"));
+    EXPECT_FALSE(fs::exists(folder_ / "x"));
+}
+
+TEST_F(Simulate, TruthOfOtherRoadsIsRefused) {
+    ASSERT_EQ(simulate("fleet", {"--trips", "1"}).exit_status, 0);
+    const auto store = at("roads.gpkg");
+    ASSERT_EQ(run_macadam({"init", store, "--network", at("town.osm")}).exit_status, 0);
+    ASSERT_EQ(run_macadam({"import", store, at("fleet/trips")}).exit_status, 0);
+    write_file(folder_ / "truth.csv",
+               "segment,way_id,direction,from_m,to_m,iri_left,iri_right,mri,hri\n"
+               "99+0000,99,forward,0,20,1,1,1,1\n");
+    const auto run = run_macadam({"info", store, "--truth", at("truth.csv")});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("expected the truth of this store's network"));
+}
+
+} // namespace
+} // namespace macadam::testing
