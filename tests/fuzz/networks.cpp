@@ -1,0 +1,64 @@
+#include "fuzz/input_file.hpp"
+#include "fuzz/rules.hpp"
+#include "fuzz/targets.hpp"
+
+#include "mapping/segment.hpp"
+#include "storage/network_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace macadam::fuzz {
+namespace {
+
+bool is_on_globe(const GeoPoint& at) {
+    return std::abs(at.lat_deg) <= 90 && std::abs(at.lon_deg) <= 180;
+}
+
+void expect_sound(const std::vector<Way>& ways) {
+    expect(!ways.empty(), "a map without a road is refused");
+    expect(std::ranges::adjacent_find(ways, std::greater_equal{}, &Way::id) == ways.end(),
+           "ids rise");
+    for (const auto& way : ways) {
+        expect(way.line.size() >= 2, "a way has two ends");
+        expect(way.line.size() == way.node_ids.size(), "every node has its place");
+        expect(std::ranges::all_of(way.line, is_on_globe), "places are on the globe");
+    }
+}
+
+/// A way's segments cover it without a gap, as far as that can be told from their borders.
+void expect_sound(const RoadNetwork& roads) {
+    for (std::uint32_t link = 0; link < roads.links.size(); ++link) {
+        const auto segments = segments_of(roads, edge_of(LinkId{link}, true));
+        expect(segments.size() == roads.links[link].segments, "a link has the segments it counts");
+        expect(segments.front().from_m == roads.links[link].from_m, "segments begin with the link");
+        expect(segments.back().to_m == roads.links[link].to_m, "segments end with the link");
+    }
+}
+
+void read_as(const std::string& name, std::string_view input) {
+    const auto file = input_file(name, input);
+    may_refuse([&] {
+        auto ways = read_network(file);
+        expect_sound(ways);
+        expect_sound(build_network(std::move(ways)));
+    });
+}
+
+} // namespace
+
+void osm_xml(std::string_view input) {
+    read_as("a.osm", input);
+}
+
+void osm_pbf(std::string_view input) {
+    read_as("a.osm.pbf", input);
+}
+
+void line_layer(std::string_view input) {
+    read_as("a.geojson", input);
+}
+
+} // namespace macadam::fuzz

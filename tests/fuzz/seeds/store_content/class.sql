@@ -1,0 +1,1 @@
+UPDATE meta SET value = 'none' WHERE key = 'class_table';

@@ -1,0 +1,92 @@
+#include "fuzz/rules.hpp"
+#include "fuzz/targets.hpp"
+
+#include "app/commands.hpp"
+#include "app/segment_options.hpp"
+#include "mapping/segment.hpp"
+#include "storage/geopackage.hpp"
+#include "storage/utc.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace macadam::fuzz {
+namespace {
+
+std::vector<std::string> lines_of(std::string_view text) {
+    std::vector<std::string> lines;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const auto end = std::min(text.find('\n', begin), text.size());
+        lines.emplace_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return lines;
+}
+
+/// Every value read in every way in which a command could ask for it.
+void ask_for_everything(const Command& command, const Arguments& arguments) {
+    constexpr std::array<std::string_view, 2> words{"kf", "table"};
+    for (const auto& option : command.options) {
+        const auto name = option.name.substr(option.name.rfind(',') + 1);
+        arguments.flag(name);
+        arguments.values(name);
+        may_refuse<UsageError>([&] { arguments.number(name); });
+        may_refuse<UsageError>([&] { arguments.integer(name); });
+        may_refuse<UsageError>([&] { arguments.choice(name, words); });
+        may_refuse<UsageError>([&] {
+            if (const auto degrees = arguments.numbers(name, 4)) {
+                const auto box = box_of(*degrees);
+                expect(!is_empty(box), "a box that is taken holds a place");
+            }
+        });
+    }
+    for (const auto& operand : command.operands) {
+        expect(!arguments.operands(operand.name).empty(), "every operand has a word");
+    }
+}
+
+} // namespace
+
+void geometry_blob(std::string_view input) {
+    const auto line = line_of_geometry(input);
+    const bool has_numbers = std::ranges::none_of(
+        line, [](const auto& at) { return std::isnan(at.lat_deg) || std::isnan(at.lon_deg); });
+    if (has_numbers) {
+        expect(line_of_geometry(geometry_of(line)) == line,
+               "a line is the same after one more trip");
+    }
+}
+
+void segment_key(std::string_view input) {
+    may_refuse([&] {
+        const auto key = parse_segment_key(input);
+        expect(parse_segment_key(name_of(key)) == key, "a key is the same after one more trip");
+    });
+}
+
+void utc_time(std::string_view input) {
+    if (const auto utc_s = parse_utc_s(input)) {
+        constexpr double half_ms = 0.5e-3;
+        const auto again = parse_utc_s(utc_text(std::llround(*utc_s * 1000)));
+        expect(again && std::abs(*again - *utc_s) <= half_ms + 1e-6,
+               "a time is the same to the ms");
+    }
+}
+
+void command_line(std::string_view input) {
+    auto words = lines_of(input);
+    const auto* const command = command_named(words.front());
+    if (command == nullptr) {
+        return;
+    }
+    words.erase(words.begin());
+    may_refuse<UsageError>([&] {
+        ask_for_everything(*command, {command->options, command->operands, std::move(words)});
+    });
+}
+
+} // namespace macadam::fuzz
