@@ -18,7 +18,7 @@ struct ReportOptions {
     ReportConfig report;
 };
 
-constexpr std::int64_t most_stretches = 200; // each has a map of about 60 kB
+constexpr std::int64_t most_stretches = 200; // each has maps of about 100 kB
 
 std::size_t parse_worst(const Arguments& arguments) {
     const auto worst =

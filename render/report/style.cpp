@@ -36,7 +36,7 @@ li{margin:.25rem 0}
 .key div{background:var(--ground);border:1px solid var(--rule);border-radius:.5rem;padding:.7rem .85rem}
 .key dt{font-size:.8125rem;line-height:1.3}
 .key dd{margin:.15rem 0 0}
-.key b{display:block;font-size:1.5rem;line-height:1.2;font-weight:650;font-variant-numeric:tabular-nums}
+.key b{display:block;white-space:nowrap;font-size:1.35rem;line-height:1.2;font-weight:650;font-variant-numeric:tabular-nums}
 .key span{display:block;font-size:.8125rem;line-height:1.35;color:var(--quiet);font-variant-numeric:tabular-nums}
 .wide{overflow-x:auto;margin:1rem 0}
 .wide:focus-visible{outline:2px solid var(--edge);outline-offset:2px}
