@@ -160,6 +160,7 @@ void run_convert(const Arguments& arguments, const Console& console) {
     const auto options = parse_convert(arguments);
     const auto tasks = tasks_of(options);
     std::vector<fs::path> inputs;
+    inputs.reserve(tasks.size());
     for (const auto& task : tasks) {
         inputs.push_back(task.trip.file);
     }

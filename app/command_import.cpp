@@ -141,7 +141,7 @@ Found trips_in(const std::vector<std::filesystem::path>& paths,
         }
         if (found.trips.empty()) {
             console.warn(fmt::format(
-                "{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst), nor "
+                "{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst, *.rawlog), nor "
                 "an export of phyphox or Sensor Logger",
                 path.string()));
         }

@@ -22,6 +22,10 @@ bool is_text(std::string_view bytes) {
     });
 }
 
+[[noreturn]] void refuse_end(std::string_view within) {
+    throw InputError{fmt::format("the file ends within {}", within)};
+}
+
 } // namespace
 
 RawlogObjects::RawlogObjects(std::unique_ptr<ByteStream> bytes, std::string name)
@@ -183,10 +187,6 @@ std::size_t RawlogObjects::size_to_next() {
             fill();
         }
     }
-}
-
-void RawlogObjects::refuse_end(std::string_view within) const {
-    throw InputError{fmt::format("the file ends within {}", within)};
 }
 
 /// What a file that does not begin like a rawlog is, if that is easily told.

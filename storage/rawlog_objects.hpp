@@ -52,7 +52,6 @@ private:
     RawlogObject object_at(const RawlogHead& head);
     std::size_t size_to_next();
     bool closes_frame(std::string_view object) const;
-    [[noreturn]] void refuse_end(std::string_view within) const;
     std::string kind_of_file() const;
 
     std::unique_ptr<ByteStream> bytes_;

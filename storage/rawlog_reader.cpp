@@ -208,7 +208,7 @@ private:
         row.value[static_cast<std::size_t>(column)] = value;
     }
 
-    void fill(TripRow& row, const RawlogImu& imu) const {
+    static void fill(TripRow& row, const RawlogImu& imu) {
         set(row, TripColumn::acc_x, imu.acc_mps2[0]);
         set(row, TripColumn::acc_y, imu.acc_mps2[1]);
         set(row, TripColumn::acc_z, imu.acc_mps2[2]);
@@ -237,7 +237,7 @@ private:
         }
     }
 
-    void fill(TripRow& /*row*/, const RawlogComment& /*comment*/) const {}
+    static void fill(TripRow& /*row*/, const RawlogComment& /*comment*/) {}
 
     std::int64_t t0_ticks_;
     double accuracy_per_hdop_m_;

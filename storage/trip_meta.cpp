@@ -170,7 +170,7 @@ std::string_view name_of(Frame frame) {
 
 /// To the millisecond if that is all there is, otherwise to the microsecond.
 std::string utc_text_of(double utc_s) {
-    if (const auto text = utc_text(std::llround(utc_s * 1e3)); parse_utc_s(text) == utc_s) {
+    if (auto text = utc_text(std::llround(utc_s * 1e3)); parse_utc_s(text) == utc_s) {
         return text;
     }
     const auto utc_us = std::llround(utc_s * 1e6);
