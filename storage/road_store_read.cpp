@@ -97,6 +97,15 @@ void bind(Statement& select, const SegmentFilter& filter) {
     }
 }
 
+void expect_line(const SegmentRecord& record, const Database& database) {
+    if (!is_line(record.segment.line)) {
+        throw InputError{fmt::format("{}: segment '{}' has no line of places on the globe; the "
+                                     "store was changed",
+                                     database.file().string(),
+                                     name_of(record.segment.key))};
+    }
+}
+
 // ---------------------------------------------------------------------------------------- info
 
 std::size_t count(Database& database, const char* sql) {
@@ -211,6 +220,7 @@ void RoadStore::visit(const SegmentFilter& filter,
     std::size_t visited = 0;
     while ((filter.worst == 0 || visited < filter.worst) && select.step()) {
         const auto record = record_in(select);
+        expect_line(record, impl_->database);
         if (!filter.box || meets(*filter.box, record.segment.line)) {
             visitor(record);
             ++visited;

@@ -206,14 +206,10 @@ Written write_segments(Database& database, const RoadNetwork& roads, const Progr
     return written;
 }
 
-bool is_on_globe(const GeoPoint& at) {
-    return std::abs(at.lat_deg) <= 90 && std::abs(at.lon_deg) <= 180;
-}
-
-/// What a network can be built of: a store can be changed with any tool for SQLite.
+/// What a network can be built of.
 void expect_sound(const Way& way, const Database& database) {
-    const bool sound = way.line.size() >= 2 && way.line.size() == way.node_ids.size() &&
-                       way.oneway <= Oneway::backward && std::ranges::all_of(way.line, is_on_globe);
+    const bool sound = is_line(way.line) && way.line.size() == way.node_ids.size() &&
+                       way.oneway <= Oneway::backward;
     if (!sound) {
         throw InputError{fmt::format("{}: way '{}' is no line of places on the globe, each with "
                                      "its node; the store was changed",
@@ -264,6 +260,12 @@ bool has_table(Database& database, std::string_view name) {
 }
 
 } // namespace
+
+bool is_line(std::span<const GeoPoint> line) {
+    return line.size() >= 2 && std::ranges::all_of(line, [](const GeoPoint& at) {
+               return std::abs(at.lat_deg) <= 90 && std::abs(at.lon_deg) <= 180;
+           });
+}
 
 void write_store(Database& database,
                  const RoadNetwork& roads,

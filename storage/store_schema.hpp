@@ -5,6 +5,7 @@
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 
+#include <span>
 #include <vector>
 
 namespace macadam {
@@ -18,9 +19,16 @@ void write_store(Database& database,
 /// \throws InputError  if the file is no GeoPackage, no store, or of a version that is not known.
 void check_store(Database& database);
 
+/// \throws InputError  for a class table or segment length that nobody knows.
 StoreSettings read_settings(Database& database);
 
 /// The ways as they were written, in the order of their ids.
+///
+/// \throws InputError  if one is no line on the globe.
 std::vector<Way> read_ways(Database& database);
+
+/// Two or more places, all on the globe. A store can be changed with any tool for SQLite, so its
+/// lines are looked at before anything is made of them.
+bool is_line(std::span<const GeoPoint> line);
 
 } // namespace macadam

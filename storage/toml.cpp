@@ -6,8 +6,26 @@
 
 #include <fmt/core.h>
 
-// toml++ 3.3 says of a letter beyond ASCII that it cannot be there when it asks whether it is a
-// blank, and then anything may happen. Those functions answer no instead.
+namespace macadam {
+namespace {
+
+/// toml++ met what its parser takes for impossible.
+struct TomlGaveUp {};
+
+[[noreturn]] void give_up() {
+    throw TomlGaveUp{};
+}
+
+} // namespace
+} // namespace macadam
+
+// toml++ 3.3 ends the program at some texts that are no TOML ("[[=", "t = 2026-03-01T:"): what it
+// asserts is not always so.
+#define TOML_ASSERT(expression)                                                                    \
+    (static_cast<bool>(expression) ? static_cast<void>(0) : macadam::give_up())
+
+// It also says of a letter beyond ASCII that it cannot be there when it asks whether it is a blank,
+// and then anything may happen. Those functions answer no instead.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
@@ -89,6 +107,8 @@ TomlTable top_of(std::string_view text, const std::string& name) {
     } catch (const toml::parse_error& error) {
         throw InputError{fmt::format(
             "{}:{}: {}", name, std::max(error.source().begin.line, 1U), error.description())};
+    } catch (const TomlGaveUp&) {
+        throw InputError{fmt::format("{}: is no TOML that can be read", name)};
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "files.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/geopackage.hpp"
 #include "storage/sqlite.hpp"
 #include "store_world.hpp"
 
@@ -165,7 +166,9 @@ std::filesystem::path changed_store(const std::string& sql) {
         auto store = new_store(file);
         import_trips(store, 2);
     }
-    Database{file, Database::Access::write}.run(sql);
+    Database database{file, Database::Access::write};
+    add_geometry_functions(database); // for the triggers
+    database.run(sql);
     return file;
 }
 
@@ -189,6 +192,13 @@ TEST(StoreFaults, OfAWayThatIsNoLineAreNamed) {
         const auto store = RoadStore::open(file, RoadStore::Access::read);
         EXPECT_THAT(refusal_of([&] { store.roads(); }), HasSubstr("way '2' is no line")) << change;
     }
+}
+
+TEST(StoreFaults, OfASegmentWithoutALineAreNamed) {
+    const auto file = changed_store("UPDATE segment SET geom = x'4750' WHERE seq = 3");
+    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    EXPECT_THAT(refusal_of([&] { store.visit({}, [](const SegmentRecord&) {}); }),
+                HasSubstr("segment '1+0003' has no line"));
 }
 
 TEST(StoreFaults, OfATimeBeyondAllYearsLeaveItUnknown) {

@@ -30,6 +30,14 @@ TEST(Toml, GivesWhatStandsThere) {
     EXPECT_EQ(recipe.tables("car")[1].text("name"), "two");
 }
 
+TEST(Toml, RefusesWhatMakesItsParserGiveUp) {
+    for (const std::string text : {"[[=", "t = 2026-03-01T:", "\u00e9 = 1", "a = 1 \u02a5"}) {
+        EXPECT_THAT(refusal_of([&] { parse_toml(text, "a.toml"); }),
+                    ::testing::StartsWith("a.toml"))
+            << text;
+    }
+}
+
 TEST(Toml, GivesNothingForWhatMayBeMissing) {
     EXPECT_FALSE(recipe.maybe_number("mass_kg"));
     EXPECT_FALSE(recipe.maybe_text("colour"));
