@@ -1,131 +1,19 @@
 #include "storage/recipe_file.hpp"
 
+#include "storage/recipe_keys.hpp"
 #include "storage/toml.hpp"
 #include "storage/utc.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
 namespace macadam {
 namespace {
 
-constexpr TomlRange share{[](double x) { return x >= 0 && x <= 1; }, "a number from 0 to 1"};
-constexpr TomlRange short_distance{[](double x) { return std::abs(x) <= 20; },
-                                   "metres, from -20 to 20"};
-constexpr TomlRange rate{[](double x) { return x > 0 && x <= 1000; },
-                         "a number of hertz, above 0 and at most 1000"};
-
-/// Where a key's number goes, and what it may be.
-template <typename Recipe>
-struct NumberKey {
-    std::string_view name;
-    TomlRange range;
-    double& (*place)(Recipe&);
-};
-
-template <typename Recipe>
-struct BoundsKey {
-    std::string_view name;
-    Bounds& (*place)(Recipe&);
-};
-
-template <typename Recipe>
-struct OptionalKey {
-    std::string_view name;
-    TomlRange range;
-    std::optional<double>& (*place)(Recipe&);
-};
-
-// clang-format off
-constexpr std::array driving_numbers{
-    NumberKey<DrivingRecipe>{"return_share", share, [](auto& r) -> double& { return r.return_share; }},
-    NumberKey<DrivingRecipe>{"stop_share", share, [](auto& r) -> double& { return r.stop_share; }},
-    NumberKey<DrivingRecipe>{"acceleration_mps2", positive_number, [](auto& r) -> double& { return r.acceleration_mps2; }},
-    NumberKey<DrivingRecipe>{"braking_mps2", positive_number, [](auto& r) -> double& { return r.braking_mps2; }},
-    NumberKey<DrivingRecipe>{"lateral_mps2", positive_number, [](auto& r) -> double& { return r.lateral_mps2; }},
-    NumberKey<DrivingRecipe>{"lane_offset_m", short_distance, [](auto& r) -> double& { return r.lane_offset_m; }},
-    NumberKey<DrivingRecipe>{"oneway_offset_m", short_distance, [](auto& r) -> double& { return r.oneway_offset_m; }},
-    NumberKey<DrivingRecipe>{"wander_m", not_negative_number, [](auto& r) -> double& { return r.wander_m; }},
-    NumberKey<DrivingRecipe>{"wander_length_m", positive_number, [](auto& r) -> double& { return r.wander_length_m; }},
-};
-constexpr std::array driving_bounds{
-    BoundsKey<DrivingRecipe>{"length_km", [](auto& r) -> Bounds& { return r.length_km; }},
-    BoundsKey<DrivingRecipe>{"stop_s", [](auto& r) -> Bounds& { return r.stop_s; }},
-    BoundsKey<DrivingRecipe>{"driver", [](auto& r) -> Bounds& { return r.driver; }},
-};
-constexpr std::array gnss_numbers{
-    NumberKey<GnssRecipe>{"rate_hz", rate, [](auto& r) -> double& { return r.rate_hz; }},
-    NumberKey<GnssRecipe>{"sigma_m", not_negative_number, [](auto& r) -> double& { return r.sigma_m; }},
-    NumberKey<GnssRecipe>{"correlation_s", not_negative_number, [](auto& r) -> double& { return r.correlation_s; }},
-    NumberKey<GnssRecipe>{"white_m", not_negative_number, [](auto& r) -> double& { return r.white_m; }},
-    NumberKey<GnssRecipe>{"speed_sd_mps", not_negative_number, [](auto& r) -> double& { return r.speed_sd_mps; }},
-    NumberKey<GnssRecipe>{"outages_per_hour", not_negative_number, [](auto& r) -> double& { return r.outages_per_hour; }},
-    NumberKey<GnssRecipe>{"antenna_ahead_m", short_distance, [](auto& r) -> double& { return r.antenna_ahead_m; }},
-    NumberKey<GnssRecipe>{"antenna_left_m", short_distance, [](auto& r) -> double& { return r.antenna_left_m; }},
-};
-constexpr std::array gnss_bounds{
-    BoundsKey<GnssRecipe>{"latency_s", [](auto& r) -> Bounds& { return r.latency_s; }},
-    BoundsKey<GnssRecipe>{"outage_s", [](auto& r) -> Bounds& { return r.outage_s; }},
-    BoundsKey<GnssRecipe>{"first_fix_s", [](auto& r) -> Bounds& { return r.first_fix_s; }},
-};
-constexpr std::array imu_numbers{
-    NumberKey<ImuRecipe>{"rate_hz", rate, [](auto& r) -> double& { return r.rate_hz; }},
-    NumberKey<ImuRecipe>{"noise_mps2", positive_number, [](auto& r) -> double& { return r.noise_mps2; }},
-    NumberKey<ImuRecipe>{"noise_radps", positive_number, [](auto& r) -> double& { return r.noise_radps; }},
-    NumberKey<ImuRecipe>{"lowpass_hz", not_negative_number, [](auto& r) -> double& { return r.lowpass_hz; }},
-    NumberKey<ImuRecipe>{"quantum_mps2", not_negative_number, [](auto& r) -> double& { return r.quantum_mps2; }},
-    NumberKey<ImuRecipe>{"quantum_radps", not_negative_number, [](auto& r) -> double& { return r.quantum_radps; }},
-    NumberKey<ImuRecipe>{"jitter_s", not_negative_number, [](auto& r) -> double& { return r.jitter_s; }},
-};
-constexpr std::array spread_numbers{
-    NumberKey<SensorSpread>{"acc_bias_mps2", not_negative_number, [](auto& r) -> double& { return r.acc_bias_mps2; }},
-    NumberKey<SensorSpread>{"gyro_bias_radps", not_negative_number, [](auto& r) -> double& { return r.gyro_bias_radps; }},
-    NumberKey<SensorSpread>{"tilt_deg", not_negative_number, [](auto& r) -> double& { return r.tilt_deg; }},
-};
-constexpr std::array odometer_numbers{
-    NumberKey<OdometerRecipe>{"rate_hz", rate, [](auto& r) -> double& { return r.rate_hz; }},
-    NumberKey<OdometerRecipe>{"scale_sd", share, [](auto& r) -> double& { return r.scale_sd; }},
-    NumberKey<OdometerRecipe>{"noise_mps", not_negative_number, [](auto& r) -> double& { return r.noise_mps; }},
-    NumberKey<OdometerRecipe>{"quantum_mps", not_negative_number, [](auto& r) -> double& { return r.quantum_mps; }},
-};
-constexpr std::array road_numbers{
-    OptionalKey<RoadRule>{"waviness", positive_number, [](auto& r) -> std::optional<double>& { return r.waviness; }},
-    OptionalKey<RoadRule>{"level_sd", not_negative_number, [](auto& r) -> std::optional<double>& { return r.level_sd; }},
-    OptionalKey<RoadRule>{"level_length_m", positive_number, [](auto& r) -> std::optional<double>& { return r.level_length_m; }},
-    OptionalKey<RoadRule>{"coherency_length_m", not_negative_number, [](auto& r) -> std::optional<double>& { return r.coherency_length_m; }},
-    OptionalKey<RoadRule>{"joint_spacing_m", not_negative_number, [](auto& r) -> std::optional<double>& { return r.joint_spacing_m; }},
-    OptionalKey<RoadRule>{"joint_step_mm", not_negative_number, [](auto& r) -> std::optional<double>& { return r.joint_step_mm; }},
-    OptionalKey<RoadRule>{"patches_per_km", not_negative_number, [](auto& r) -> std::optional<double>& { return r.patches_per_km; }},
-    OptionalKey<RoadRule>{"potholes_per_km", not_negative_number, [](auto& r) -> std::optional<double>& { return r.potholes_per_km; }},
-};
-constexpr std::array car_numbers{
-    NumberKey<CarRecipe>{"ms_kg", positive_number, [](auto& r) -> double& { return r.vehicle.half_car.ms_kg; }},
-    NumberKey<CarRecipe>{"mu_kg", positive_number, [](auto& r) -> double& { return r.vehicle.half_car.mu_kg; }},
-    NumberKey<CarRecipe>{"ks_n_per_m", positive_number, [](auto& r) -> double& { return r.vehicle.half_car.ks_n_per_m; }},
-    NumberKey<CarRecipe>{"cs_ns_per_m", positive_number, [](auto& r) -> double& { return r.vehicle.half_car.cs_ns_per_m; }},
-    NumberKey<CarRecipe>{"kt_n_per_m", positive_number, [](auto& r) -> double& { return r.vehicle.half_car.kt_n_per_m; }},
-    NumberKey<CarRecipe>{"is_kgm2", positive_number, [](auto& r) -> double& { return r.vehicle.half_car.is_kgm2; }},
-    NumberKey<CarRecipe>{"l_m", positive_number, [](auto& r) -> double& { return r.vehicle.half_car.l_m; }},
-    NumberKey<CarRecipe>{"wheelbase_m", positive_number, [](auto& r) -> double& { return r.vehicle.axles->wheelbase_m; }},
-    NumberKey<CarRecipe>{"cg_to_front_m", positive_number, [](auto& r) -> double& { return r.vehicle.axles->cg_to_front_m; }},
-    NumberKey<CarRecipe>{"dynamic_index", positive_number, [](auto& r) -> double& { return r.vehicle.axles->dynamic_index; }},
-    NumberKey<CarRecipe>{"rear_ratio", positive_number, [](auto& r) -> double& { return r.vehicle.axles->rear_ratio; }},
-    NumberKey<CarRecipe>{"imu_x_m", short_distance, [](auto& r) -> double& { return r.vehicle.imu.x_m; }},
-    NumberKey<CarRecipe>{"imu_y_m", short_distance, [](auto& r) -> double& { return r.vehicle.imu.y_m; }},
-    NumberKey<CarRecipe>{"imu_height_m", short_distance, [](auto& r) -> double& { return r.vehicle.imu.height_above_roll_axis_m; }},
-    NumberKey<CarRecipe>{"friction_n", not_negative_number, [](auto& r) -> double& { return r.friction_n; }},
-    NumberKey<CarRecipe>{"rebound_ratio", positive_number, [](auto& r) -> double& { return r.rebound_ratio; }},
-    NumberKey<CarRecipe>{"bump_stop_gap_m", positive_number, [](auto& r) -> double& { return r.bump_stop_gap_m; }},
-    NumberKey<CarRecipe>{"tyre_nonuniformity_n", not_negative_number, [](auto& r) -> double& { return r.tyre_nonuniformity_n; }},
-    NumberKey<CarRecipe>{"antiroll_n_per_m", not_negative_number, [](auto& r) -> double& { return r.antiroll_n_per_m; }},
-};
-// clang-format on
+using namespace recipe_keys; // NOLINT(google-build-using-namespace): nothing but tables
 
 /// The keys of one table, as they are asked for: what is left over is refused.
 class Reader {
