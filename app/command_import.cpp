@@ -30,8 +30,9 @@ struct ImportOptions {
 constexpr std::int64_t most_jobs = 256;
 constexpr double most_trim_m = 100000;
 
-PipelineConfig trimming_config_of(const Arguments& arguments) {
+PipelineConfig config_of(const Arguments& arguments) {
     auto config = pipeline_config_of(arguments);
+    config.estimator.tracks = false; // a map lives by its headline
     config.trim_m = arguments.number("--trim", 0);
     if (!(config.trim_m >= 0 && config.trim_m <= most_trim_m)) {
         throw UsageError{
@@ -50,7 +51,7 @@ ImportOptions parse_import(const Arguments& arguments) {
             .paths = {paths.begin(), paths.end()},
             .jobs = static_cast<std::size_t>(jobs),
             .json = arguments.flag("--json"),
-            .pipeline = trimming_config_of(arguments),
+            .pipeline = config_of(arguments),
             .mapping = mapping_of(arguments)};
 }
 

@@ -17,8 +17,7 @@ enum class Method : std::uint8_t {
 
 /// Which accelerations the method is given.
 enum class Channels : std::uint8_t {
-    automatic, ///< both where the vehicle's IMU height is known and bends do not drown the lateral
-               ///< acceleration, else vertical, else lateral
+    automatic, ///< vertical, else lateral; `tracks` says when both
     vertical,
     lateral,
     both,
@@ -27,6 +26,11 @@ enum class Channels : std::uint8_t {
 struct EstimatorConfig {
     Method method = Method::kf;
     Channels channels = Channels::automatic;
+
+    /// What `automatic` makes of a lateral acceleration beside a vertical one. True: both tracks
+    /// are estimated from the two where the vehicle's IMU height is known and the road is straight.
+    /// False: the lateral one is left out, which costs the tracks and gives the better headline.
+    bool tracks = true;
     bool filters = true; ///< the paper's 13, 11 and 0.5 Hz filters
     double q_over_r = 1e9;
     double lateral_regression = 1.39; ///< reference = 1.39 * estimate, paper section VI-B
