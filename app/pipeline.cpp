@@ -2,6 +2,7 @@
 
 #include "app/trip_trim.hpp"
 
+#include "estimator/common/gravity.hpp"
 #include "estimator/latency.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,6 @@ constexpr double slow_sampling_hz = 80; // below it the shortest waves of IRI be
 constexpr double steep_tilt_deg = 15;   // more than a careless mounting
 constexpr double odd_scale = 0.05;      // wheel speed against GNSS
 constexpr double odd_gravity = 0.1;     // sensors for cars and phones are good to 3 %
-constexpr double standard_gravity_mps2 = 9.80665; // CGPM 1901
 
 /// The typical rate of the vibration, from the middle step of its stamps.
 double rate_hz(const TriaxialSamples& acc) {

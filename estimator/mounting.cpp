@@ -1,5 +1,7 @@
 #include "estimator/stretch.hpp"
 
+#include "estimator/common/gravity.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 namespace macadam {
 namespace {
@@ -21,9 +24,10 @@ constexpr double steady_mps2 = 0.5; // less is neither braking nor accelerating
 constexpr double chunk_s = 30;      // hills and bends average out
 constexpr double wander_deg = 8;    // a 10 % grade is 5.7 degrees, camber 1.5
 constexpr double forever_s = std::numeric_limits<double>::infinity();
-constexpr double wander_mps2 = 1;  // ten times what hills and bends leave over half a minute
-constexpr double other_deg = 20;   // the vertical is felt 6 % too weak, and worse beyond
-constexpr double brisk_mps2 = 0.5; // braking that shows which way is forward
+constexpr double wander_mps2 = 1;        // ten times what hills and bends leave over half a minute
+constexpr double other_deg = 20;         // the vertical is felt 6 % too weak, and worse beyond
+constexpr double steepest_pull_deg = 25; // 4.6 m/s2, harder than anybody drives for half a minute
+constexpr double brisk_mps2 = 0.5;       // braking that shows which way is forward
 constexpr std::size_t least_brisk = 8;
 
 // Standard gravity within what a scale error of 25 % and a hill explain. Anything else is no
@@ -75,7 +79,7 @@ Vector3d median(std::vector<Vector3d> values) {
 }
 
 /// Mean force while neither braking nor accelerating; of all windows if there are few such.
-Vector3d steady_force(const std::vector<Window>& windows) {
+Vector3d steady_force(std::span<const Window> windows) {
     std::vector<Vector3d> steady;
     std::vector<Vector3d> all;
     all.reserve(windows.size());
@@ -96,7 +100,7 @@ double angle_deg(const Vector3d& a, const Vector3d& b) {
 struct Chunk {
     TimeSpan time;
     double off_deg;
-    double off_mps2;
+    double off_mps2; ///< positive: stronger
 };
 
 /// A last chunk that is too short to be judged is as the one before it.
@@ -104,20 +108,17 @@ std::vector<Chunk> chunks_of(const std::vector<Window>& windows, const Vector3d&
     std::vector<Chunk> chunks;
     std::size_t begin = 0;
     while (begin < windows.size()) {
-        std::vector<Vector3d> forces;
         std::size_t end = begin;
-        for (; end < windows.size() && windows[end].middle_s - windows[begin].middle_s < chunk_s;
-             ++end) {
-            forces.push_back(windows[end].force_mps2);
+        while (end < windows.size() && windows[end].middle_s - windows[begin].middle_s < chunk_s) {
+            ++end;
         }
         // Chunks share their borders, and the outermost reach to the ends of the trip.
         const TimeSpan time{begin == 0 ? -forever_s : windows[begin].middle_s - window_s / 2,
                             end == windows.size() ? forever_s
                                                   : windows[end].middle_s - window_s / 2};
-        if (static_cast<double>(forces.size()) * window_s > chunk_s / 2) {
-            const auto force = median(std::move(forces));
-            chunks.push_back(
-                {time, angle_deg(force, gravity), std::abs(force.norm() - gravity.norm())});
+        if (static_cast<double>(end - begin) * window_s > chunk_s / 2) {
+            const auto force = steady_force(std::span{windows}.subspan(begin, end - begin));
+            chunks.push_back({time, angle_deg(force, gravity), force.norm() - gravity.norm()});
         } else if (!chunks.empty()) {
             chunks.push_back({time, chunks.back().off_deg, chunks.back().off_mps2});
         }
@@ -126,17 +127,29 @@ std::vector<Chunk> chunks_of(const std::vector<Window>& windows, const Vector3d&
     return chunks;
 }
 
+/// Whether braking or a bend tilts what is felt: both add a pull to gravity, which is then felt
+/// stronger, as the hypotenuse. A sensor that hangs otherwise feels the same gravity elsewhere.
+bool is_pulled(const Chunk& chunk) {
+    const double by_pull_mps2 = standard_gravity_mps2 / std::cos(chunk.off_deg / deg_per_rad);
+    return chunk.off_deg < steepest_pull_deg &&
+           chunk.off_mps2 > (by_pull_mps2 - standard_gravity_mps2) / 2;
+}
+
+bool hangs_otherwise(const Chunk& chunk, double least_deg) {
+    return std::abs(chunk.off_mps2) > wander_mps2 ||
+           (chunk.off_deg > least_deg && !is_pulled(chunk));
+}
+
 bool wandered(const std::vector<Chunk>& chunks) {
-    return std::ranges::any_of(chunks, [](const Chunk& chunk) {
-        return chunk.off_deg > wander_deg || chunk.off_mps2 > wander_mps2;
-    });
+    return std::ranges::any_of(
+        chunks, [](const Chunk& chunk) { return hangs_otherwise(chunk, wander_deg); });
 }
 
 /// When the rotation that fits the whole trip does not fit.
 std::vector<TimeSpan> hung_otherwise(const std::vector<Chunk>& chunks) {
     std::vector<TimeSpan> spans;
     for (const auto& chunk : chunks) {
-        if (chunk.off_deg > other_deg || chunk.off_mps2 > wander_mps2) {
+        if (hangs_otherwise(chunk, other_deg)) {
             spans.push_back(chunk.time);
         }
     }

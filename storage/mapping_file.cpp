@@ -1,6 +1,7 @@
 #include "storage/mapping_file.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/gravity.hpp"
 #include "storage/foreign/built_in_mappings.hpp"
 #include "storage/toml.hpp"
 #include "storage/trip_meta.hpp"
@@ -17,7 +18,6 @@ namespace macadam {
 namespace {
 
 constexpr double deg_in_rad = 0.017453292519943295; // pi / 180
-constexpr double standard_gravity_mps2 = 9.80665;   // CGPM 1901
 constexpr double hour_s = 3600;
 
 // Keys by the table in which they may stand.

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "estimator/common/gravity.hpp"
 #include "estimator/simulation/simulated_car.hpp"
 
 #include <array>
 
 namespace macadam {
 
-inline constexpr double standard_gravity_mps2 = 9.80665; ///< ISO 80000-3
 
 using PerWheel = std::array<double, 4>; ///< front left, front right, rear left, rear right
 

@@ -1,6 +1,7 @@
 #include "storage/foreign/phone_export.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/gravity.hpp"
 #include "storage/foreign/cells.hpp"
 #include "storage/foreign/text_decoding.hpp"
 #include "storage/foreign/trip_files.hpp"
@@ -16,7 +17,6 @@ namespace macadam {
 
 namespace {
 
-constexpr double standard_gravity_mps2 = 9.80665; // CGPM 1901
 
 // Files by what they hold, as the two apps name them. phyphox: "Accelerometer" is with gravity;
 // Sensor Logger: it is without.

@@ -134,6 +134,17 @@ TEST(Mounting, NoticesAPhoneThatSlid) {
     EXPECT_TRUE(estimate_mounting(car.trip, odometer_of(car.trip)).moved);
 }
 
+TEST(Mounting, TakesALongBendOrRampForNoSlidPhone) {
+    // A minute's slip road at 2.5 m/s2 to the side, then half a minute of accelerating by 1.5.
+    const auto force = [](double t_s) {
+        return Vector3d{t_s >= 150 && t_s < 180 ? 1.5 : 0, t_s >= 60 && t_s < 120 ? 2.5 : 0, 9.81};
+    };
+    const auto car = drive(240, 50, steady, force, Eigen::Matrix3d::Identity());
+    const auto mounting = estimate_mounting(car.trip, odometer_of(car.trip));
+    EXPECT_FALSE(mounting.moved);
+    EXPECT_TRUE(mounting.otherwise.empty());
+}
+
 TEST(Mounting, TakesNoGravityFromAnAxisThatDoesNotFeelIt) {
     // Only the lateral axis was logged: its few centimetres per second squared are no gravity.
     auto lateral = drive(60, 100, steady, shaking, Eigen::Matrix3d::Identity()).trip;
