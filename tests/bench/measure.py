@@ -151,8 +151,8 @@ def output_tables(macadam, work, store):
     def gone(*files):
         return lambda: [file.unlink(missing_ok=True) for file in files]
 
-    box = json.loads(subprocess.run([macadam, "query", store, "--worst", "1", "--json"], capture_output=True, check=True).stdout)
-    lat, lon = place_in(box)
+    answer = subprocess.run([macadam, "query", store, "--worst", "1", "--json"], capture_output=True, check=True).stdout
+    lat, lon = (json.loads(answer)[0][name] for name in ("lat_deg", "lon_deg"))
     west, south, east, north = lon - 0.01, lat - 0.006, lon + 0.01, lat + 0.006
     asked = in_turns(
         7,
@@ -169,23 +169,6 @@ def output_tables(macadam, work, store):
         ["what", "wall ms", "CPU ms", "peak MB", "CPU, times the line above"],
         [[name, f"{used.wall_s * 1e3:.0f}", f"{used.cpu_s * 1e3:.0f}", f"{used.peak_mb:.0f}", ratio]
          for name, used, ratio in zip(names, asked, beside)]) + "\n"
-
-
-def place_in(value):
-    """The first latitude and longitude in a JSON answer."""
-    if isinstance(value, dict):
-        if "lat" in value and "lon" in value:
-            return value["lat"], value["lon"]
-        if "coordinates" in value:
-            flat = value["coordinates"]
-            while isinstance(flat[0], list):
-                flat = flat[0]
-            return flat[1], flat[0]
-        value = list(value.values())
-    for item in value if isinstance(value, list) else []:
-        if (found := place_in(item)) is not None:
-            return found
-    return None
 
 
 def part(build, name, title, note):
