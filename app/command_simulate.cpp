@@ -217,7 +217,7 @@ const Command simulate_command{
                "--jobs 8\n"
                "How well are the roads found again?\n"
                "  macadam init fleet/roads.gpkg --network fleet/network.osm.pbf\n"
-               "  macadam import fleet/roads.gpkg fleet/trips --channels vertical\n"
+               "  macadam import fleet/roads.gpkg fleet/trips\n"
                "  macadam info fleet/roads.gpkg --truth fleet/truth.csv",
     .operands = {},
     .options = options,
