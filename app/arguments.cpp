@@ -30,8 +30,10 @@ void add_options(CLI::App& parser,
     for (const auto& option : options) {
         auto& values = words[long_name(option.name)];
         if (option.value.empty()) {
-            parser.add_flag_function(std::string{option.name},
-                                     [&values](std::int64_t) { values = {"yes"}; });
+            parser
+                .add_flag_function(std::string{option.name},
+                                   [&values](std::int64_t) { values = {"yes"}; })
+                ->disable_flag_override();
         } else if (option.many) {
             parser.add_option(std::string{option.name}, values)->expected(1, -1);
         } else {

@@ -83,6 +83,11 @@ TEST(Arguments, RefuseAnOptionWithoutItsValue) {
     EXPECT_THAT(refusal({"a.gpkg", "--length"}), HasSubstr("--length"));
 }
 
+TEST(Arguments, RefuseAValueForAFlag) {
+    EXPECT_THAT(refusal({"a.gpkg", "--json=k"}), HasSubstr("--json"));
+    EXPECT_THAT(refusal({"a.gpkg", "--json=2"}), HasSubstr("--json"));
+}
+
 TEST(Arguments, QuoteAWordThatIsNoNumber) {
     const auto arguments = parse({"a.gpkg", "--length", "20m"});
     try {
