@@ -45,6 +45,10 @@ inline constexpr std::uint8_t too_slow = 1;
 inline constexpr std::uint8_t start_up = 2;
 inline constexpr std::uint8_t gap = 4;
 inline constexpr std::uint8_t indicative = 8;
+
+/// Of a pass that is indicative because only the lateral acceleration was there. Without a name:
+/// whoever counts such passes asks for it.
+inline constexpr std::uint8_t lateral_alone = 16;
 } // namespace validity
 
 /// "ok", or the names of the flags joined by '|', in the order above.
