@@ -36,6 +36,8 @@ void add_options(CLI::App& parser,
                 ->disable_flag_override();
         } else if (option.many) {
             parser.add_option(std::string{option.name}, values)->expected(1, -1);
+        } else if (option.value.starts_with('[')) {
+            parser.add_option(std::string{option.name}, values)->expected(0, 1)->take_last();
         } else {
             parser.add_option(std::string{option.name}, values)
                 ->expected(1)

@@ -19,7 +19,7 @@ struct UsageError : std::runtime_error {
 /// An option as the table of a command lists it: enough to parse it, and to explain it.
 struct Option {
     std::string_view name;       ///< "--length", or "-o,--output"
-    std::string_view value;      ///< what its value is, "METRES"; "" for a flag
+    std::string_view value;      ///< "METRES", "[METRES]" if it may be left out, "" for a flag
     std::string_view help;       ///< one sentence
     std::string_view fallback{}; ///< the value without the option, as help shows it; "" = none
     bool many = false;           ///< takes all the words up to the next option

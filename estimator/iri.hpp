@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,17 +33,87 @@ rectified_stroke_mm_per_m(std::span<const double> elevation_m, double step_m, bo
 /// The first 11 m only set the car in motion, so a stretch much shorter than 50 m says little.
 double iri_mm_per_m(std::span<const double> elevation_m, double step_m, bool envelope = true);
 
+/// The same for a profile that comes point by point, in the memory of its first 11 m.
+///
+///     stroke.push(z); while (const auto value = stroke.next()) ...; stroke.finish(); while ...
+class RectifiedStroke {
+public:
+    /// \throws InputError  if not 0 < step_m <= 0.3.
+    explicit RectifiedStroke(double step_m, bool envelope = true);
+
+    /// \throws InputError  if the elevation is not finite.
+    void push(double elevation_m);
+
+    /// No more points. \throws InputError  if there were fewer than 2.
+    void finish();
+
+    /// The next value in mm/m, in the order of the profile; nothing until more points are there.
+    std::optional<double> next();
+
+private:
+    void start();
+
+    double step_m_;
+    std::size_t patch_;
+    std::array<double, 16> transition_; ///< column by column
+    std::array<double, 4> response_;
+    std::array<double, 4> state_{};
+    std::vector<double> elevation_m_; ///< from the first that is still needed on
+    std::size_t first_ = 0;
+    std::size_t pushed_ = 0;
+    bool started_ = false;
+};
+
+/// Whole steps that the tyre's 250 mm are taken for, at least 1. A tie goes up, as in the standard,
+/// whatever the rounding of the step.
+std::size_t envelope_steps(double step_m);
+
+/// What stands for the stroke between two points of an uneven profile.
+enum class StrokeValue : std::uint8_t {
+    integral, ///< its mean, with its zero crossings
+    at_end,   ///< its value at the end, as the standard has it on even steps
+};
+
 /// The profile between two stations, on uneven stations: the golden car over the straight lines
 /// between them, solved exactly, after a continuous 250 mm moving average.
 ///
 /// \param station_m  rising, as many as elevation_m; steps of 0.3 m in the mean and 0.6 m each at
 ///                   most.
 /// \param edges_m    m + 1 rising borders of segments within the stations.
-/// \returns          m means of the rectified stroke, integrated with its zero crossings.
+/// \param value      at_end makes sense without an envelope: the program published for uneven
+///                   stations (F. Sroubek, M. Sorel, J. Zak 2021) does so.
+/// \returns          m means of the rectified stroke.
 std::vector<double> exact_iri_mm_per_m(std::span<const double> station_m,
                                        std::span<const double> elevation_m,
                                        std::span<const double> edges_m,
-                                       bool envelope = true);
+                                       bool envelope = true,
+                                       StrokeValue value = StrokeValue::integral);
+
+/// The same for a profile that comes point by point, in the memory of its first 11 m and its edges.
+class ExactIri {
+public:
+    explicit ExactIri(std::vector<double> edges_m,
+                      bool envelope = true,
+                      StrokeValue value = StrokeValue::integral);
+    ExactIri(ExactIri&&) noexcept;
+    ExactIri& operator=(ExactIri&&) noexcept;
+    ~ExactIri();
+
+    /// \throws InputError  for a number that is not finite or a step that is not 0 < step <= 0.6 m.
+    void push(double station_m, double elevation_m);
+
+    /// No more points.
+    /// \throws InputError  if there were fewer than 2, if their mean step is over 0.3 m, or if the
+    ///                     edges do not rise from the first station to the last at most.
+    void finish();
+
+    /// The mean over the next segment; nothing until more points are there.
+    std::optional<double> next();
+
+private:
+    class Drive;
+    std::unique_ptr<Drive> drive_;
+};
 
 inline constexpr double golden_speed_mps = 80 / 3.6; ///< ASTM E1926
 inline constexpr double contact_patch_m = 0.25;      ///< ASTM E1926: base of the moving average

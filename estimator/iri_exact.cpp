@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <functional>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -22,44 +24,19 @@ constexpr double look_every_m = 0.02;
 // One station lost of an even profile at the coarsest step.
 constexpr double longest_step_m = 2 * coarsest_step_m;
 
-void check(std::span<const double> station_m,
-           std::span<const double> elevation_m,
-           std::span<const double> edges_m) {
-    if (station_m.size() < 2 || station_m.size() != elevation_m.size()) {
+void check_step(double station_m, double step_m) {
+    if (!(step_m > 0 && step_m <= longest_step_m)) {
+        throw InputError{fmt::format("profile step at station {} m is {:.6g} m, expected 0 to {}",
+                                     station_m,
+                                     step_m,
+                                     longest_step_m)};
+    }
+}
+
+void check_within(std::span<const double> edges_m, double first_m, double last_m) {
+    if (edges_m.front() < first_m || edges_m.back() > last_m) {
         throw InputError{
-            fmt::format("profile has {} stations and {} elevations, expected as many, at least 2",
-                        station_m.size(),
-                        elevation_m.size())};
-    }
-    for (std::size_t i = 0; i < station_m.size(); ++i) {
-        if (!std::isfinite(station_m[i]) || !std::isfinite(elevation_m[i])) {
-            throw InputError{fmt::format("profile point {} is '{} {}', expected finite numbers",
-                                         i,
-                                         station_m[i],
-                                         elevation_m[i])};
-        }
-        const double step_m = i == 0 ? coarsest_step_m : station_m[i] - station_m[i - 1];
-        if (!(step_m > 0 && step_m <= longest_step_m)) {
-            throw InputError{
-                fmt::format("profile step at station {} m is {:.6g} m, expected 0 to {}",
-                            station_m[i],
-                            step_m,
-                            longest_step_m)};
-        }
-    }
-    const double mean_step_m =
-        (station_m.back() - station_m.front()) / static_cast<double>(station_m.size() - 1);
-    // Stations are printed with a few decimals: their differences are not held to the last bit.
-    if (mean_step_m > coarsest_step_m * (1 + 1e-9)) {
-        throw InputError{fmt::format("profile step is {:.6g} m in the mean, expected 0 to {}",
-                                     mean_step_m,
-                                     coarsest_step_m)};
-    }
-    if (edges_m.size() < 2 || !std::ranges::is_sorted(edges_m, std::less_equal{}) ||
-        edges_m.front() < station_m.front() || edges_m.back() > station_m.back()) {
-        throw InputError{fmt::format("segment borders must rise from {} m to {} m at most",
-                                     station_m.front(),
-                                     station_m.back())};
+            fmt::format("segment borders must rise from {} m to {} m at most", first_m, last_m)};
     }
 }
 
@@ -84,24 +61,6 @@ private:
     std::span<const double> elevation_m_;
     std::size_t piece_ = 0;
 };
-
-/// Where the slope that the car is given bends (with the box) or jumps (without), and the edges.
-std::vector<double>
-breaks_of(std::span<const double> station_m, std::span<const double> edges_m, double half_box_m) {
-    std::vector<double> breaks_m{station_m.front()};
-    for (const double at_m : station_m) {
-        for (const double break_m : {at_m - half_box_m, at_m + half_box_m}) {
-            if (break_m > station_m.front() && break_m < edges_m.back()) {
-                breaks_m.push_back(break_m);
-            }
-        }
-    }
-    breaks_m.insert(breaks_m.end(), edges_m.begin(), edges_m.end());
-    std::ranges::sort(breaks_m);
-    const auto repeated = std::ranges::unique(breaks_m);
-    breaks_m.erase(repeated.begin(), repeated.end());
-    return breaks_m;
-}
 
 /// The golden car in its natural modes, over distance: two conjugate pairs, of which one each is
 /// kept. Every pole lies left of zero, so nothing ever grows.
@@ -220,46 +179,194 @@ double rectified_integral(const Piece& piece, double length_m) {
     return sum + std::abs(piece.integral(from_m, length_m));
 }
 
+/// Where the slope that the car is given bends (with the box) or jumps (without), after `after_m`
+/// and up to `until_m`, and the edges there.
+std::vector<double> breaks_between(std::span<const double> station_m,
+                                   std::span<const double> edges_m,
+                                   double half_box_m,
+                                   double after_m,
+                                   double until_m) {
+    std::vector<double> breaks_m;
+    const auto add = [&](double at_m) {
+        if (at_m > after_m && at_m <= until_m) {
+            breaks_m.push_back(at_m);
+        }
+    };
+    for (const double at_m : station_m) {
+        add(at_m - half_box_m);
+        add(at_m + half_box_m);
+    }
+    for (auto edge = std::ranges::upper_bound(edges_m, after_m);
+         edge != edges_m.end() && *edge <= until_m;
+         ++edge) {
+        breaks_m.push_back(*edge);
+    }
+    std::ranges::sort(breaks_m);
+    const auto repeated = std::ranges::unique(breaks_m);
+    breaks_m.erase(repeated.begin(), repeated.end());
+    return breaks_m;
+}
+
 } // namespace
+
+/// Drives in batches, each as far as the box lies on points that are there.
+class ExactIri::Drive {
+public:
+    Drive(std::vector<double> edges_m, bool envelope, StrokeValue value)
+        : edges_m_{std::move(edges_m)},
+          half_box_m_{envelope ? contact_patch_m / 2 : 0}, value_{value} {}
+
+    void push(double station_m, double elevation_m) {
+        if (!std::isfinite(station_m) || !std::isfinite(elevation_m)) {
+            throw InputError{fmt::format("profile point {} is '{} {}', expected finite numbers",
+                                         pushed_,
+                                         station_m,
+                                         elevation_m)};
+        }
+        if (pushed_ == 0) {
+            first_station_m_ = station_m;
+            at_m_ = station_m;
+        } else {
+            check_step(station_m, station_m - station_m_.back());
+        }
+        ++pushed_;
+        station_m_.push_back(station_m);
+        elevation_m_.push_back(elevation_m);
+        constexpr std::size_t batch = 512;
+        if (pushed_ % batch == 0 && station_m - first_station_m_ > start_up_m + contact_patch_m) {
+            drive_to(station_m - half_box_m_);
+        }
+    }
+
+    void finish() {
+        if (pushed_ < 2) {
+            throw InputError{fmt::format("profile has {} points, expected at least 2", pushed_)};
+        }
+        const double mean_step_m =
+            (station_m_.back() - first_station_m_) / static_cast<double>(pushed_ - 1);
+        // Stations are printed with a few decimals: differences are not held to the last bit.
+        if (mean_step_m > coarsest_step_m * (1 + 1e-9)) {
+            throw InputError{fmt::format("profile step is {:.6g} m in the mean, expected 0 to {}",
+                                         mean_step_m,
+                                         coarsest_step_m)};
+        }
+        check_within(edges_m_, first_station_m_, station_m_.back());
+        drive_to(edges_m_.back());
+    }
+
+    std::optional<double> next() {
+        if (told_ == means_.size()) {
+            return {};
+        }
+        return means_[told_++];
+    }
+
+private:
+    void start() {
+        const double base_m = std::min(start_up_m, station_m_.back() - first_station_m_);
+        PiecewiseLine profile{station_m_, elevation_m_};
+        const double rise_m = profile(first_station_m_ + base_m) - elevation_m_.front();
+        car_.emplace(rise_m / base_m);
+    }
+
+    void drive_to(double until_m) {
+        if (!car_) {
+            start();
+        }
+        PiecewiseLine front{station_m_, elevation_m_};
+        PiecewiseLine rear{station_m_, elevation_m_};
+        const auto boxed_slope = [&](double at_m) {
+            return (front(at_m + half_box_m_) - rear(at_m - half_box_m_)) / contact_patch_m;
+        };
+        const bool boxed = half_box_m_ > 0;
+        double slope = boxed ? boxed_slope(at_m_) : 0;
+        for (const double next_m : breaks_between(
+                 station_m_, edges_m_, half_box_m_, at_m_, std::min(until_m, edges_m_.back()))) {
+            const double length_m = next_m - at_m_;
+            const double from = boxed ? slope : (front(next_m) - rear(at_m_)) / length_m;
+            slope = boxed ? boxed_slope(next_m) : from;
+            add(car_->drive(from, slope, length_m), next_m);
+        }
+        forget();
+    }
+
+    /// The stroke between at_m_ and `next_m`, to the segment that it lies in.
+    void add(const Piece& piece, double next_m) {
+        const double length_m = next_m - at_m_;
+        if (at_m_ >= edges_m_.front()) {
+            sum_ += 1000 * (value_ == StrokeValue::integral ? rectified_integral(piece, length_m)
+                                                            : std::abs(piece(length_m)) * length_m);
+            const double from_m = edges_m_[means_.size()];
+            if (const double to_m = edges_m_[means_.size() + 1]; next_m >= to_m) {
+                means_.push_back(std::exchange(sum_, 0) / (to_m - from_m));
+            }
+        }
+        at_m_ = next_m;
+    }
+
+    /// Drops the points that no box reaches back to any more.
+    void forget() {
+        const auto needed = std::ranges::upper_bound(station_m_, at_m_ - half_box_m_);
+        const auto passed = std::max<std::ptrdiff_t>(0, needed - station_m_.begin() - 1);
+        station_m_.erase(station_m_.begin(), station_m_.begin() + passed);
+        elevation_m_.erase(elevation_m_.begin(), elevation_m_.begin() + passed);
+    }
+
+    std::vector<double> edges_m_;
+    double half_box_m_;
+    StrokeValue value_;
+    std::vector<double> station_m_; ///< of the points that are still needed
+    std::vector<double> elevation_m_;
+    std::size_t pushed_ = 0;
+    double first_station_m_ = 0;
+    double at_m_ = 0; ///< how far the car is
+    std::optional<GoldenDrive> car_;
+    double sum_ = 0;
+    std::vector<double> means_;
+    std::size_t told_ = 0;
+};
+
+ExactIri::ExactIri(std::vector<double> edges_m, bool envelope, StrokeValue value)
+    : drive_{std::make_unique<Drive>(std::move(edges_m), envelope, value)} {}
+
+ExactIri::ExactIri(ExactIri&&) noexcept = default;
+ExactIri& ExactIri::operator=(ExactIri&&) noexcept = default;
+ExactIri::~ExactIri() = default;
+
+void ExactIri::push(double station_m, double elevation_m) {
+    drive_->push(station_m, elevation_m);
+}
+
+void ExactIri::finish() {
+    drive_->finish();
+}
+
+std::optional<double> ExactIri::next() {
+    return drive_->next();
+}
 
 std::vector<double> exact_iri_mm_per_m(std::span<const double> station_m,
                                        std::span<const double> elevation_m,
                                        std::span<const double> edges_m,
-                                       bool envelope) {
-    check(station_m, elevation_m, edges_m);
-
-    const double half_box_m = envelope ? contact_patch_m / 2 : 0;
-    const auto breaks_m = breaks_of(station_m, edges_m, half_box_m);
-    const double start_m = station_m.front();
-    const double base_m = std::min(start_up_m, station_m.back() - start_m);
-    PiecewiseLine profile{station_m, elevation_m};
-    GoldenDrive car{(profile(start_m + base_m) - elevation_m.front()) / base_m};
-
-    PiecewiseLine front{station_m, elevation_m};
-    PiecewiseLine rear{station_m, elevation_m};
-    const auto boxed_slope = [&](double at_m) {
-        return (front(at_m + half_box_m) - rear(at_m - half_box_m)) / contact_patch_m;
-    };
-
-    std::vector<double> iri(edges_m.size() - 1);
-    double slope = envelope ? boxed_slope(start_m) : 0;
-    std::size_t segment = 0;
-    for (std::size_t i = 0; i + 1 < breaks_m.size(); ++i) {
-        const double length_m = breaks_m[i + 1] - breaks_m[i];
-        const double from =
-            envelope ? slope : (front(breaks_m[i + 1]) - rear(breaks_m[i])) / length_m;
-        const double to = envelope ? boxed_slope(breaks_m[i + 1]) : from;
-        const auto piece = car.drive(from, to, length_m);
-        if (breaks_m[i] >= edges_m.front()) {
-            segment += breaks_m[i] >= edges_m[segment + 1] ? 1 : 0;
-            iri[segment] += 1000 * rectified_integral(piece, length_m);
-        }
-        slope = to;
+                                       bool envelope,
+                                       StrokeValue value) {
+    if (station_m.size() < 2 || station_m.size() != elevation_m.size()) {
+        throw InputError{
+            fmt::format("profile has {} stations and {} elevations, expected as many, at least 2",
+                        station_m.size(),
+                        elevation_m.size())};
     }
-    for (std::size_t i = 0; i < iri.size(); ++i) {
-        iri[i] /= edges_m[i + 1] - edges_m[i];
+    ExactIri iri{{edges_m.begin(), edges_m.end()}, envelope, value};
+    check_within(edges_m, station_m.front(), station_m.back());
+    for (std::size_t i = 0; i < station_m.size(); ++i) {
+        iri.push(station_m[i], elevation_m[i]);
     }
-    return iri;
+    iri.finish();
+    std::vector<double> means;
+    while (const auto mean = iri.next()) {
+        means.push_back(*mean);
+    }
+    return means;
 }
 
 } // namespace macadam

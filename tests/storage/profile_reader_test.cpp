@@ -96,7 +96,7 @@ TEST(ProfileReader, RefusesWhatIsNoProfile) {
     EXPECT_THAT(refusal_of_text("a.txt", "0 1\n"),
                 EndsWith("has 1 rows of numbers, expected at least two"));
     EXPECT_THAT(refusal_of_text("a.txt", ""), HasSubstr("has 0 rows"));
-    EXPECT_THAT(refusal_of_text("a.pro", "0 1\n1 1\n"),
-                EndsWith("a.pro: ends in '.pro', expected a profile in .csv or .txt"));
+    EXPECT_THAT(refusal_of_text("a.ppf", "0 1\n1 1\n"),
+                EndsWith("a.ppf: ends in '.ppf', expected a profile in .csv, .txt, .erd or .pro"));
     EXPECT_THAT(refusal_of_text("a.txt", "1\n2\n", 0.0), HasSubstr("expected metres above 0"));
 }
