@@ -48,6 +48,7 @@ std::span<const Command> commands() {
                                   report_command,
                                   info_command,
                                   iri_command,
+                                  identify_command,
                                   trace_command,
                                   match_command,
                                   convert_command,

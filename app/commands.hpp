@@ -39,6 +39,7 @@ std::string help_of_all();
 void run(const Command& command, std::vector<std::string> words);
 
 extern const Command init_command;     // app/command_init.cpp
+extern const Command identify_command; // app/command_identify.cpp
 extern const Command import_command;   // app/command_import.cpp
 extern const Command query_command;    // app/command_query.cpp
 extern const Command export_command;   // app/command_export.cpp

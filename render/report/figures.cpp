@@ -1,5 +1,6 @@
 #include "render/report/figures.hpp"
 
+#include "render/nice_step.hpp"
 #include "render/report/html.hpp"
 #include "render/report/numbers.hpp"
 
@@ -24,18 +25,6 @@ constexpr double text_size = 12;
 
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-/// The smallest of 1, 2, 5, 10, ... (times a power of ten) that parts `most` into at most `parts`.
-double nice_step(double most, int parts) {
-    const double least = most / parts;
-    const double power = std::pow(10.0, std::floor(std::log10(least)));
-    for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power >= least) {
-            return factor * power;
-        }
-    }
-    return 10 * power;
 }
 
 std::string label(double x, double y, const char* anchor, const std::string& text) {
