@@ -30,7 +30,7 @@ HalfCar unknown_car(const HalfCar& car) {
 /// The car of the paper's table III, by Runge-Kutta over its forces, gain 0.72 and all.
 TEST(SpectrumFit, ReturnsTheTrueParametersOfAOneAxleCarWithoutNoise) {
     const auto profile = rough_profile(500, 0, 31);
-    const auto ride = ride_over(one_axle_ride(audi(), profile, 15, 200), profile, 0);
+    const auto ride = ride_over(one_axle_ride(audi(), profile, 15, 100), profile, 0);
     ASSERT_TRUE(ride);
     const auto fit = fit_spectra(*ride, unknown_car(audi().half_car), 0, {});
     const auto& truth = audi().half_car;
@@ -50,7 +50,7 @@ TEST(SpectrumFit, ReturnsTheTrueRollInertiaWhereTheHeightIsKnown) {
     car.half_car.is_kgm2 = 800;
     car.imu.height_above_roll_axis_m = 0.4;
     const auto profile = rough_profile(500, 0, 41);
-    const auto ride = ride_over(one_axle_ride(car, profile, 15, 200), profile, 0);
+    const auto ride = ride_over(one_axle_ride(car, profile, 15, 100), profile, 0);
     ASSERT_TRUE(ride);
     const auto fit = fit_spectra(*ride, unknown_car(car.half_car), 0.4, {});
     EXPECT_NEAR(fit.found.is_kgm2, 800, 0.01 * 800);
@@ -59,7 +59,7 @@ TEST(SpectrumFit, ReturnsTheTrueRollInertiaWhereTheHeightIsKnown) {
 /// Amplitudes know nothing of place: metres of error in the match do no harm to speak of.
 TEST(SpectrumFit, BearsThreeMetresOfErrorInThePlace) {
     const auto profile = rough_profile(500, 0, 31);
-    const auto stretch = one_axle_ride(audi(), profile, 15, 200);
+    const auto stretch = one_axle_ride(audi(), profile, 15, 50);
     const auto right = fit_spectra(*ride_over(stretch, profile, 0), audi().half_car, 0, {});
     const auto off = fit_spectra(*ride_over(stretch, profile, 3), audi().half_car, 0, {});
     EXPECT_NEAR(off.found.ks_n_per_m, right.found.ks_n_per_m, 0.03 * right.found.ks_n_per_m);
