@@ -265,6 +265,8 @@ std::string json_of(const SpectrumFit& fit,
             .add("relative_sd", json_number(fit.relative_sd.at(std::string{name}), 4));
         parameters.add(name, JsonRaw{one.text()});
     }
+    auto meaning = meaning_of(fit.gain, vehicle);
+    std::ranges::replace(meaning, '\n', ' ');
     const auto modes = modes_of(fit.found);
     const auto correlation = place.found ? std::optional{place.found->correlation} : std::nullopt;
     const auto misfit = [](const ChannelSpectra& spectra) {
@@ -282,7 +284,7 @@ std::string json_of(const SpectrumFit& fit,
         .add("bounce_hz", JsonNumber{modes.bounce_hz, 3})
         .add("bounce_damping", JsonNumber{modes.bounce_damping, 3})
         .add("hop_hz", JsonNumber{modes.hop_hz, 2})
-        .add("meaning", meaning_of(fit.gain, vehicle));
+        .add("meaning", std::move(meaning));
     return object.text() + "\n";
 }
 

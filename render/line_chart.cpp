@@ -14,13 +14,14 @@ namespace {
 
 // In the figure's own units; 720 of them are 160 mm of a page.
 constexpr double width = 720;
-constexpr double panel_height = 320;
+constexpr double panel_height = 340;
 constexpr double left = 66;
 constexpr double right = 704;
-constexpr double top = 40;
-constexpr double bottom = 266;
+constexpr double top = 60;
+constexpr double bottom = 286;
 constexpr double text_size = 14;
 constexpr double legend_line = 34;
+constexpr double letter = 0.6 * text_size; // of a name in the legend, about
 
 struct Axes {
     double from_x;
@@ -124,19 +125,20 @@ std::string line_svg(const ChartLine& line, const Axes& axes, const Palette& col
                        points);
 }
 
+/// In a row between title and axes, where it hides nothing.
 std::string legend_svg(const ChartPanel& panel, double down, const Palette& colours) {
-    constexpr double row = 20;
+    const double y = down + 42;
+    double x = left;
     std::string svg;
-    double y = down + top + 14;
     for (const auto& line : panel.lines) {
         svg += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n",
-                           right - legend_line - 4,
+                           x,
                            y,
-                           right - 4,
+                           x + legend_line,
                            y,
                            stroke_of(line.look, colours));
-        svg += text_svg(right - legend_line - 12, y + 5, "end", line.name);
-        y += row;
+        svg += text_svg(x + legend_line + 6, y + 5, "start", line.name);
+        x += legend_line + 30 + letter * static_cast<double>(line.name.size());
     }
     return svg;
 }
