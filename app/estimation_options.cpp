@@ -10,6 +10,8 @@ namespace {
 constexpr double least_rate_hz = 40;
 constexpr double most_rate_hz = 2000;
 
+constexpr double smoother_samples_a_metre = 2.6; // waves of 1 m, of which IRI has little left
+
 Channels channels_named(const std::string& name) {
     if (name == "vertical") {
         return Channels::vertical;
@@ -23,11 +25,13 @@ Channels channels_named(const std::string& name) {
 } // namespace
 
 PipelineConfig pipeline_config_of(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 1> methods{"kf"};
+    constexpr std::array<std::string_view, 2> methods{"smoother", "kf"};
     constexpr std::array<std::string_view, 4> channels{"automatic", "vertical", "lateral", "both"};
 
     PipelineConfig config;
-    arguments.choice("--method", methods);
+    const bool smoother = arguments.choice("--method", methods) != "kf";
+    config.estimator.method = smoother ? Method::smoother : Method::kf;
+    config.stretch.samples_a_metre = smoother ? smoother_samples_a_metre : 0;
     config.estimator.channels = channels_named(arguments.choice("--channels", channels));
     config.estimator.filters = !arguments.flag("--no-filters");
     if (const auto rate_hz = arguments.number("--rate")) {

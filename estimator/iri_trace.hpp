@@ -12,7 +12,8 @@
 namespace macadam {
 
 enum class Method : std::uint8_t {
-    kf, ///< the published Kalman filter on a quarter car or lateral half-car
+    kf,       ///< the published Kalman filter on a quarter car or lateral half-car
+    smoother, ///< two axles, both tracks, every sensor at once (smoothed_iri.hpp)
 };
 
 /// Which accelerations the method is given.
@@ -65,6 +66,12 @@ struct IriRun {
     std::vector<float> speed_mps;
     double lead_in_m;
     bool indicative; ///< from lateral vibration alone
+
+    /// Of the smoother, empty of the filter: what each of some roads that could have been adds to
+    /// the headline over each metre from start_travel_m on.
+    std::vector<std::vector<float>> scatter_mm_per_m;
+    double common_sd = 0; ///< relative, alike along the whole run: the car is not known exactly
+    double random_sd = 0; ///< relative, of one metre, independent of the next: what models leave
 };
 
 /// In the order of travel, not overlapping; between two runs nothing is known.

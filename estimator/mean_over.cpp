@@ -16,6 +16,9 @@ struct Sums {
     double tracks_m = 0; ///< of covered_m, where left and right are known
     double lead_in_m = 0;
     double indicative_m = 0;
+    std::vector<double> scatter; ///< of each road that could have been
+    double common_sd = 0;
+    double random_sd = 0;
 };
 
 double end_m(const IriRun& run) {
@@ -57,6 +60,14 @@ void add(const IriRun& run, double from_m, double to_m, Sums& sums) {
         sums.speed += length_m * value_at(run.speed_mps, i);
         sums.tracks_m += run.left_mm_per_m.empty() ? 0 : length_m;
         sums.indicative_m += run.indicative ? length_m : 0;
+        sums.common_sd = run.common_sd;
+        sums.random_sd = run.random_sd;
+        sums.scatter.resize(run.scatter_mm_per_m.size());
+        for (std::size_t road = 0; road < sums.scatter.size(); ++road) {
+            const auto& metres = run.scatter_mm_per_m[road];
+            const auto metre = static_cast<std::size_t>(cell_from_m - run.start_travel_m);
+            sums.scatter[road] += length_m * value_at(metres, std::min(metre, metres.size() - 1));
+        }
     }
 }
 
@@ -126,6 +137,18 @@ double vehicle_part(const Vehicle& vehicle) {
     return std::sqrt(sum);
 }
 
+/// By the scatter of the roads that could have been, and by what they do not show.
+double sd_of_smoother_mm_per_m(double iri_mm_per_m, const Sums& sums) {
+    double square = 0;
+    for (const double sum : sums.scatter) {
+        square += sum * sum;
+    }
+    const double roads = static_cast<double>(sums.scatter.size());
+    const double scatter = std::sqrt(square / (roads - 1)) / sums.covered_m;
+    const double random = sums.random_sd / std::sqrt(std::max(sums.covered_m, 1.0));
+    return std::hypot(scatter, iri_mm_per_m * std::hypot(random, sums.common_sd));
+}
+
 } // namespace
 
 double sd_of_kf_mm_per_m(double iri_mm_per_m,
@@ -164,11 +187,12 @@ IriMean mean_over(const IriTrace& trace, double from_m, double to_m, const Vehic
         mean.right_mm_per_m = sums.right / sums.tracks_m;
         mean.mri_mm_per_m = (*mean.left_mm_per_m + *mean.right_mm_per_m) / 2;
     }
-    mean.sd_mm_per_m = sd_of_kf_mm_per_m(mean.mri_mm_per_m.value_or(*mean.hri_mm_per_m),
-                                         sums.covered_m,
-                                         mean.speed_mps,
-                                         sums.indicative_m > 0,
-                                         vehicle);
+    const double headline = mean.mri_mm_per_m.value_or(*mean.hri_mm_per_m);
+    mean.sd_mm_per_m =
+        sums.scatter.empty()
+            ? sd_of_kf_mm_per_m(
+                  headline, sums.covered_m, mean.speed_mps, sums.indicative_m > 0, vehicle)
+            : sd_of_smoother_mm_per_m(headline, sums);
     return mean;
 }
 

@@ -56,7 +56,7 @@ bool is_within(std::span<const TimeSpan> spans, double t_s) {
         spans, [=](const TimeSpan& span) { return t_s >= span.from_s && t_s <= span.to_s; });
 }
 
-enum class Axis : int { y = 1, z = 2 };
+enum class Axis : int { x = 0, y = 1, z = 2 };
 
 /// Values of one of the vehicle's axes at their own times; samples without a reading are left out.
 struct Trace {
@@ -68,9 +68,11 @@ bool contributes(const Mounting& mounting, Axis axis, int sensor_axis) {
     return std::abs(mounting.to_vehicle(static_cast<int>(axis), sensor_axis)) > minor_share;
 }
 
-Trace rotated(const TripLog& trip, const StretchSpan& span, const Mounting& mounting, Axis axis) {
-    const auto& acc = trip.acc;
-    const std::vector<float>* readings[] = {&acc.x, &acc.y, &acc.z};
+Trace rotated(const TriaxialSamples& samples,
+              const StretchSpan& span,
+              const Mounting& mounting,
+              Axis axis) {
+    const std::vector<float>* readings[] = {&samples.x, &samples.y, &samples.z};
     Trace trace;
     for (std::size_t i = span.first; i <= span.last; ++i) {
         double sum = 0;
@@ -84,7 +86,7 @@ Trace rotated(const TripLog& trip, const StretchSpan& span, const Mounting& moun
             }
         }
         if (whole) {
-            trace.t_s.push_back(acc.t_s[i]);
+            trace.t_s.push_back(samples.t_s[i]);
             trace.value.push_back(sum);
         }
     }
@@ -136,22 +138,13 @@ Grid grid_of(double from_s, double to_s, double rate_hz) {
     return {from_s, 1 / rate_hz, steps + 1};
 }
 
-double own_rate_hz(const TripLog& trip, const StretchSpan& span) {
+double own_rate_hz(const TriaxialSamples& samples, const StretchSpan& span) {
     return static_cast<double>(span.last - span.first) /
-           (trip.acc.t_s[span.last] - trip.acc.t_s[span.first]);
+           (samples.t_s[span.last] - samples.t_s[span.first]);
 }
 
-/// One axis on the grid, less its mean; empty if it was not sampled throughout.
-std::vector<float> channel(const TripLog& trip,
-                           const StretchSpan& span,
-                           const Mounting& mounting,
-                           Axis axis,
-                           const Grid& grid) {
-    auto trace = rotated(trip, span, mounting, axis);
-    if (trace.t_s.size() < least_samples || 2 * trace.t_s.size() < span.last - span.first + 1) {
-        return {};
-    }
-    const double own_hz = own_rate_hz(trip, span);
+/// The trace on the grid, low-passed before if it is finer.
+std::vector<double> evened(Trace trace, const Grid& grid, double own_hz) {
     if (own_hz * grid.step_s > same_rate) {
         const auto fine = grid_of(trace.t_s.front(), trace.t_s.back(), own_hz);
         const auto sections = butterworth_lowpass(alias_order, alias_corner / grid.step_s, own_hz);
@@ -164,7 +157,21 @@ std::vector<float> channel(const TripLog& trip,
             trace.t_s[i] = fine.start_s + static_cast<double>(i) * fine.step_s;
         }
     }
-    const auto even = on_grid(trace, grid.start_s, grid.step_s, grid.count);
+    return on_grid(trace, grid.start_s, grid.step_s, grid.count);
+}
+
+/// One axis of the accelerometer on the grid, less its mean; empty if it was not sampled
+/// throughout.
+std::vector<float> channel(const TripLog& trip,
+                           const StretchSpan& span,
+                           const Mounting& mounting,
+                           Axis axis,
+                           const Grid& grid) {
+    auto trace = rotated(trip.acc, span, mounting, axis);
+    if (trace.t_s.size() < least_samples || 2 * trace.t_s.size() < span.last - span.first + 1) {
+        return {};
+    }
+    const auto even = evened(std::move(trace), grid, own_rate_hz(trip.acc, span));
     double sum = 0;
     for (const double value : even) {
         sum += value;
@@ -174,6 +181,64 @@ std::vector<float> channel(const TripLog& trip,
     std::ranges::transform(
         even, out.begin(), [&](double v) { return static_cast<float>(v - mean); });
     return out;
+}
+
+/// One axis of the gyroscope on the grid; empty if it was not sampled throughout, as often as the
+/// accelerometer may be at least.
+std::vector<float> rate_channel(const TripLog& trip,
+                                const Mounting& mounting,
+                                Axis axis,
+                                const Grid& grid,
+                                const StretchConfig& config) {
+    const auto& t_s = trip.gyro.t_s;
+    const double end_s = grid.start_s + grid.step_s * static_cast<double>(grid.count - 1);
+    const auto after = std::ranges::upper_bound(t_s, grid.start_s);
+    const auto end = std::ranges::lower_bound(t_s, end_s);
+    if (after == t_s.begin() || end == t_s.end()) {
+        return {};
+    }
+    const StretchSpan span{static_cast<std::size_t>(after - t_s.begin() - 1),
+                           static_cast<std::size_t>(end - t_s.begin())};
+    auto trace = rotated(trip.gyro, span, mounting, axis);
+    if (trace.t_s.size() < least_samples || trace.t_s.front() > grid.start_s ||
+        trace.t_s.back() < end_s) {
+        return {};
+    }
+    const double max_gap_s = std::max(config.max_gap_s, config.max_gap_steps * median_step_s(t_s));
+    for (std::size_t i = 1; i < trace.t_s.size(); ++i) {
+        if (trace.t_s[i] - trace.t_s[i - 1] > max_gap_s) {
+            return {};
+        }
+    }
+    const double own_hz = own_rate_hz(trip.gyro, span);
+    if (own_hz < config.least_rate_hz * 0.99) {
+        return {};
+    }
+    const auto even = evened(std::move(trace), grid, own_hz);
+    return {even.begin(), even.end()};
+}
+
+/// The rate of the grid of a stretch.
+double grid_rate_hz(const TripLog& trip,
+                    const StretchSpan& span,
+                    const Odometer& odometer,
+                    const StretchConfig& config) {
+    const double own_hz = own_rate_hz(trip.acc, span);
+    if (config.rate_hz > 0) {
+        return config.rate_hz;
+    }
+    if (config.samples_a_metre > 0) {
+        const double from_s = trip.acc.t_s[span.first];
+        const double to_s = trip.acc.t_s[span.last];
+        double fastest_mps = 0;
+        for (double t_s = from_s; t_s <= to_s; t_s += 1) {
+            fastest_mps = std::max(fastest_mps, odometer.speed_mps(t_s));
+        }
+        const double enough_hz =
+            std::max(config.enough_rate_hz, config.samples_a_metre * fastest_mps);
+        return own_hz / std::max(1.0, std::floor(own_hz / enough_hz));
+    }
+    return std::min(own_hz, config.most_rate_hz);
 }
 
 } // namespace
@@ -249,15 +314,17 @@ Stretch make_stretch(const TripLog& trip,
                      const Odometer& odometer,
                      const Mounting& mounting,
                      const StretchConfig& config) {
-    const double rate_hz = config.rate_hz > 0
-                               ? config.rate_hz
-                               : std::min(own_rate_hz(trip, span), config.most_rate_hz);
-    const auto grid = grid_of(trip.acc.t_s[span.first], trip.acc.t_s[span.last], rate_hz);
+    const auto grid = grid_of(trip.acc.t_s[span.first],
+                              trip.acc.t_s[span.last],
+                              grid_rate_hz(trip, span, odometer, config));
 
     Stretch stretch{.start_s = grid.start_s,
                     .step_s = grid.step_s,
                     .vertical_mps2 = channel(trip, span, mounting, Axis::z, grid),
                     .lateral_mps2 = channel(trip, span, mounting, Axis::y, grid),
+                    .roll_radps = rate_channel(trip, mounting, Axis::x, grid, config),
+                    .pitch_radps = rate_channel(trip, mounting, Axis::y, grid, config),
+                    .yaw_radps = rate_channel(trip, mounting, Axis::z, grid, config),
                     .speed_mps = std::vector<float>(grid.count),
                     .travel_m = std::vector<double>(grid.count)};
     for (std::size_t i = 0; i < grid.count; ++i) {

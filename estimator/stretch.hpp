@@ -37,6 +37,11 @@ Mounting estimate_mounting(const TripLog& trip, const Odometer& odometer);
 struct StretchConfig {
     double rate_hz = 0; ///< of the even grid; 0: the log's own rate, at most most_rate_hz
     double most_rate_hz = 200;
+
+    /// Not 0: a whole part of the log's own rate, the lowest that is at least enough_rate_hz and
+    /// gives every metre driven so many samples.
+    double samples_a_metre = 0;
+    double enough_rate_hz = 48;
     double least_rate_hz = 40; ///< below it a log cannot carry the wavelengths that IRI weighs
     double min_speed_mps = 5;
     double max_gap_s = 0.06;    ///< longest hole in the vibration that is interpolated, ...
@@ -66,6 +71,9 @@ struct Stretch {
     double step_s;
     std::vector<float> vertical_mps2; ///< vehicle's z, up, gravity removed; empty if not sampled
     std::vector<float> lateral_mps2;  ///< vehicle's y, left; empty if not sampled
+    std::vector<float> roll_radps;    ///< about the vehicle's x; empty if not sampled throughout
+    std::vector<float> pitch_radps;   ///< about y
+    std::vector<float> yaw_radps;     ///< about z
     std::vector<float> speed_mps;
     std::vector<double> travel_m; ///< of the centre of gravity
 };

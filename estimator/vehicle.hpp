@@ -17,6 +17,7 @@ struct HalfCar {
     double kt_n_per_m;  ///< tyre stiffness, per wheel
     double is_kgm2;     ///< roll inertia of half the body (the paper's I_s)
     double l_m;         ///< half the track width
+    double antiroll_n_per_m = 0; ///< of a bar, at each wheel as the body rolls
 };
 
 struct Axles {

@@ -1,0 +1,254 @@
+#include "estimator/smoothed_iri.hpp"
+
+#include "estimator/smoother/friction.hpp"
+#include "estimator/smoother/wheel_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace macadam {
+namespace {
+
+constexpr std::size_t tuning_samples = 3000;
+constexpr std::size_t least_tuning_samples = 1200;
+
+constexpr double core_m = 1500;            // of a piece, ...
+constexpr std::size_t core_samples = 9000; // ... or so many, if the car is slow: some 25 MB
+constexpr double margin_m = 150;           // on both sides, where start-up and windows reach
+
+// Of the channels' zeros, variance a second: gravity's share on hills and in bends, what the yaw
+// rate does not explain of a bend's pull, drift of the gyroscope.
+constexpr std::array<double, channel_count> zero_drift{1e-4, 1e-2, 1e-6, 1e-6};
+constexpr double lateral_drift_without_yaw = 1;
+constexpr double usual_height_m =
+    0.3; // of an IMU above the roll axis, where only the lateral is felt
+
+// What linear cars leave of the readings beside sensor noise, over their rms within some seconds.
+constexpr double model_part = 0.02;
+constexpr double model_window_s = 4;
+
+// Of every IRI alike, what simulated cars of known parameters leave (docs/method.md).
+constexpr double common_part = 0.02;
+constexpr double random_part = 0.10; // of 1 m, independent from metre to metre
+constexpr double indicative_common = 0.20;
+
+bool wants(const EstimatorConfig& config, Channels channel) {
+    return config.channels == Channels::automatic || config.channels == Channels::both ||
+           config.channels == channel;
+}
+
+std::vector<double> doubles(const std::vector<float>& values, double over) {
+    std::vector<double> out(values.size());
+    std::ranges::transform(
+        values, out.begin(), [=](float v) { return static_cast<double>(v) / over; });
+    return out;
+}
+
+/// Sensor noise and what the model leaves of a channel, per sample.
+std::vector<double> variance_of(const std::vector<double>& felt, double noise, double step_s) {
+    const auto reach = static_cast<std::size_t>(model_window_s / 2 / step_s);
+    std::vector<double> sums(felt.size() + 1);
+    for (std::size_t k = 0; k < felt.size(); ++k) {
+        sums[k + 1] = sums[k] + felt[k] * felt[k];
+    }
+    std::vector<double> variance(felt.size());
+    for (std::size_t k = 0; k < felt.size(); ++k) {
+        const std::size_t from = k - std::min(k, reach);
+        const std::size_t to = std::min(felt.size(), k + reach + 1);
+        const double power = (sums[to] - sums[from]) / static_cast<double>(to - from);
+        variance[k] = noise * noise + model_part * model_part * power;
+    }
+    return variance;
+}
+
+/// The whole stretch as a passage, without cars.
+Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
+    Passage passage;
+    passage.first_sample = std::llround(stretch.start_s / stretch.step_s);
+    passage.travel_m = stretch.travel_m;
+    passage.drift = zero_drift;
+    const bool rates = config.channels == Channels::automatic;
+    auto& [vertical, lateral, roll, pitch] = passage.felt;
+    if (wants(config, Channels::vertical)) {
+        vertical = doubles(stretch.vertical_mps2, vehicle.gain);
+    }
+    if (rates) {
+        roll = doubles(stretch.roll_radps, 1);
+        pitch = doubles(stretch.pitch_radps, 1);
+    }
+    const bool height = vehicle.imu.height_above_roll_axis_m > 0;
+    if (wants(config, Channels::lateral) && (height || (vertical.empty() && roll.empty()))) {
+        lateral = doubles(stretch.lateral_mps2, vehicle.gain);
+        for (std::size_t k = 0; k < lateral.size() && !stretch.yaw_radps.empty(); ++k) {
+            lateral[k] -=
+                static_cast<double>(stretch.yaw_radps[k] * stretch.speed_mps[k]) / vehicle.gain;
+        }
+        passage.drift[1] = stretch.yaw_radps.empty() ? lateral_drift_without_yaw : zero_drift[1];
+    }
+    const double noise[] = {vehicle.imu.noise_mps2 / vehicle.gain,
+                            vehicle.imu.noise_mps2 / vehicle.gain,
+                            vehicle.imu.noise_radps,
+                            vehicle.imu.noise_radps};
+    if (const auto turn_m = wheel_turn_m(passage)) {
+        passage = without_wheel_order(std::move(passage), *turn_m);
+    }
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        passage.variance[channel] =
+            variance_of(passage.felt[channel], noise[channel], stretch.step_s);
+    }
+    return passage;
+}
+
+Vehicle with_height(Vehicle vehicle) {
+    if (vehicle.imu.height_above_roll_axis_m <= 0) {
+        vehicle.imu.height_above_roll_axis_m = usual_height_m;
+    }
+    return vehicle;
+}
+
+/// Samples [from, to) of a passage.
+Passage piece_of(const Passage& whole, std::size_t from, std::size_t to) {
+    const auto cut = [=](const std::vector<double>& values) {
+        return values.empty()
+                   ? values
+                   : std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(from),
+                                         values.begin() + static_cast<std::ptrdiff_t>(to));
+    };
+    Passage piece{.cars = whole.cars,
+                  .which = {},
+                  .first_sample = whole.first_sample + static_cast<std::int64_t>(from),
+                  .travel_m = cut(whole.travel_m),
+                  .felt = {},
+                  .variance = {},
+                  .drift = whole.drift};
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        piece.felt[channel] = cut(whole.felt[channel]);
+        piece.variance[channel] = cut(whole.variance[channel]);
+    }
+    return piece;
+}
+
+std::size_t sample_at(const Passage& passage, double travel_m) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(passage.travel_m, travel_m) -
+                                    passage.travel_m.begin());
+}
+
+bool is_felt(const Passage& passage) {
+    return std::ranges::any_of(passage.felt, [](const auto& felt) { return !felt.empty(); });
+}
+
+/// The cells [from, to) of an estimate, on the grid's own count, put behind what is there.
+void append(const std::vector<float>& cells,
+            const RoadGrid& grid,
+            std::ptrdiff_t from,
+            std::ptrdiff_t to,
+            std::vector<float>& onto) {
+    for (std::ptrdiff_t cell = from; cell < to; ++cell) {
+        onto.push_back(cells[static_cast<std::size_t>(cell - grid.first_cell)]);
+    }
+}
+
+void append(const std::vector<std::vector<float>>& metres,
+            const RoadGrid& grid,
+            std::ptrdiff_t from_cell,
+            std::ptrdiff_t to_cell,
+            std::vector<std::vector<float>>& onto) {
+    onto.resize(metres.size());
+    const double cells_a_metre = 1 / grid.cell_m;
+    const auto metre = [&](std::ptrdiff_t cell) {
+        return static_cast<std::size_t>(static_cast<double>(cell - grid.first_cell) /
+                                        cells_a_metre);
+    };
+    for (std::size_t road = 0; road < metres.size(); ++road) {
+        const auto per_metre = static_cast<std::ptrdiff_t>(cells_a_metre);
+        for (std::ptrdiff_t cell = from_cell; cell + per_metre <= to_cell; cell += per_metre) {
+            const std::size_t at = std::min(metre(cell), metres[road].size() - 1);
+            onto[road].push_back(metres[road][at]);
+        }
+    }
+}
+
+} // namespace
+
+TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
+    auto passage = passage_of(stretch, vehicle, config);
+    if (passage.travel_m.size() < least_tuning_samples || !is_felt(passage)) {
+        return {.vehicle = vehicle,
+                .friction_n = 0,
+                .friction_sd_n = 0,
+                .uncertainty = vehicle.uncertainty,
+                .iri_sd = 0.1};
+    }
+    const std::size_t count = std::min(passage.travel_m.size(), tuning_samples);
+    const std::size_t from = (passage.travel_m.size() - count) / 2;
+    Vehicle tunable = with_height(vehicle);
+    if (passage.felt[0].empty() || passage.felt[3].empty()) {
+        tunable.uncertainty.clear();
+    }
+    auto piece = piece_of(passage, from, from + count);
+    piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
+    return tuned_car(piece, tunable, {});
+}
+
+IriRun smoothed_iri(const Stretch& stretch, const TunedCar& car, const EstimatorConfig& config) {
+    const SmootherConfig smoother;
+    IriRun run{.start_travel_m = stretch.travel_m.empty() ? 0 : stretch.travel_m.front(),
+               .cell_m = smoother.cell_m,
+               .left_mm_per_m = {},
+               .right_mm_per_m = {},
+               .centre_mm_per_m = {},
+               .speed_mps = {},
+               .lead_in_m = config.lead_in_m,
+               .indicative = false};
+    auto passage = passage_of(stretch, car.vehicle, config);
+    if (!is_felt(passage) || passage.travel_m.size() < 3) {
+        return run;
+    }
+    passage.cars = cars_with_friction(with_height(car.vehicle), stretch.step_s);
+    const auto felt = felt_by({&passage, 1});
+    run.indicative = !felt.mean;
+    run.common_sd = std::hypot(common_part, car.iri_sd, run.indicative ? indicative_common : 0);
+    run.random_sd = random_part;
+
+    const double first_m = passage.travel_m.front() + passage.cars.front().car.front_m;
+    const double last_m = passage.travel_m.back() + passage.cars.front().car.rear_m;
+    const auto cells_a_metre = static_cast<std::ptrdiff_t>(std::lround(1 / smoother.cell_m));
+    auto cell = static_cast<std::ptrdiff_t>(std::ceil(first_m)) * cells_a_metre;
+    const auto end = static_cast<std::ptrdiff_t>(std::floor(last_m)) * cells_a_metre;
+    run.start_travel_m = static_cast<double>(cell) * smoother.cell_m;
+    while (cell < end) {
+        const double from_m = static_cast<double>(cell) * smoother.cell_m;
+        const std::size_t first = sample_at(passage, from_m - margin_m);
+        const std::size_t furthest =
+            std::min(passage.travel_m.size() - 1, sample_at(passage, from_m) + core_samples);
+        const double until_m =
+            std::min(from_m + core_m, std::max(from_m + 1, passage.travel_m[furthest]));
+        const std::size_t last =
+            std::min(passage.travel_m.size(), sample_at(passage, until_m + margin_m) + 1);
+        auto to = std::min(end, static_cast<std::ptrdiff_t>(std::floor(until_m)) * cells_a_metre);
+        if (last == passage.travel_m.size()) {
+            to = end;
+        }
+        to = std::max(to, std::min(end, cell + cells_a_metre));
+        const auto estimate = smooth_passages(
+            {{piece_of(passage, first, last), with_height(car.vehicle), car.friction_n}}, smoother);
+        if (felt.half && felt.mean) {
+            append(estimate.left_mm_per_m, estimate.grid, cell, to, run.left_mm_per_m);
+            append(estimate.right_mm_per_m, estimate.grid, cell, to, run.right_mm_per_m);
+            append(estimate.tracks_scatter, estimate.grid, cell, to, run.scatter_mm_per_m);
+        } else {
+            append(estimate.centre_scatter, estimate.grid, cell, to, run.scatter_mm_per_m);
+        }
+        append(estimate.centre_mm_per_m, estimate.grid, cell, to, run.centre_mm_per_m);
+        cell = to;
+    }
+    for (std::size_t i = 0; i < run.centre_mm_per_m.size(); ++i) {
+        const double at_m = run.start_travel_m + (static_cast<double>(i) + 0.5) * run.cell_m;
+        const std::size_t k = std::min(sample_at(passage, at_m), stretch.speed_mps.size() - 1);
+        run.speed_mps.push_back(stretch.speed_mps[k]);
+    }
+    return run;
+}
+
+} // namespace macadam

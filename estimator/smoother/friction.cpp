@@ -1,0 +1,80 @@
+#include "estimator/smoother/friction.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr double harder = 1.06;    // from one car to the next: the nearest is within 3 %
+constexpr std::size_t cars = 24;   // up to 3.8 times the damping
+constexpr double slip_mps = 0.005; // below it friction only begins
+constexpr double reach_m = 25;
+constexpr double least_rate2 = 1e-6; // (1 mm/s)^2: below, nothing moves that friction could hold
+
+/// How fast the four suspensions are pressed together.
+std::array<double, 4> stroke_rates(const CarState& x, const LinearCar& car, double l_m) {
+    const double front = x[5] - x[1] + car.front_m * x[3];
+    const double rear = x[7] - x[1] + car.rear_m * x[3];
+    const double front_half = x[11] - l_m * x[9];
+    const double rear_half = x[13] - l_m * x[9];
+    return {front + front_half, front - front_half, rear + rear_half, rear - rear_half};
+}
+
+} // namespace
+
+std::vector<CarSteps> cars_with_friction(const Vehicle& vehicle, double step_s) {
+    std::vector<CarSteps> all;
+    Vehicle harder_and_harder = vehicle;
+    for (std::size_t i = 0; i < cars; ++i) {
+        all.push_back(car_steps(linear_car(harder_and_harder), step_s));
+        harder_and_harder.half_car.cs_ns_per_m *= harder;
+    }
+    return all;
+}
+
+std::vector<std::uint8_t> damping_with_friction(const Passage& passage,
+                                                const Vehicle& vehicle,
+                                                const RoadGrid& grid,
+                                                std::span<const std::vector<Pair>> roads_m,
+                                                double friction_n) {
+    const std::size_t n = passage.travel_m.size();
+    const auto& car = passage.cars.front().car;
+    std::vector<double> work(n + 1);  // sums of rate * direction, ...
+    std::vector<double> power(n + 1); // ... and of rate^2
+    for (const auto& road_m : roads_m) {
+        const auto states = ride_over(passage, grid, road_m);
+        for (std::size_t k = 0; k < n; ++k) {
+            for (const double rate : stroke_rates(states[k], car, vehicle.half_car.l_m)) {
+                work[k + 1] += rate * rate / std::hypot(rate, slip_mps);
+                power[k + 1] += rate * rate;
+            }
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        work[k + 1] += work[k];
+        power[k + 1] += power[k];
+    }
+    const double own = vehicle.half_car.cs_ns_per_m;
+    std::vector<std::uint8_t> which(n);
+    std::size_t from = 0;
+    std::size_t to = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        while (passage.travel_m[k] - passage.travel_m[from] > reach_m) {
+            ++from;
+        }
+        while (to + 1 < n && passage.travel_m[to + 1] - passage.travel_m[k] <= reach_m) {
+            ++to;
+        }
+        const double seen = power[to + 1] - power[from];
+        const double least =
+            least_rate2 * 4 * static_cast<double>((to + 1 - from) * roads_m.size());
+        const double added = friction_n * (work[to + 1] - work[from]) / std::max(seen, least);
+        const double car_number = std::round(std::log1p(added / own) / std::log(harder));
+        which[k] = static_cast<std::uint8_t>(std::min(car_number, static_cast<double>(cars - 1)));
+    }
+    return which;
+}
+
+} // namespace macadam

@@ -1,0 +1,165 @@
+#include "estimator/smoother/wheel_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace macadam {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double least_turn_m = 1.6; // radius 0.25 m, a small car's
+constexpr double most_turn_m = 2.5;  // radius 0.40 m, a van's
+constexpr double piece_m = 200;      // wheels of 0.3 % other radius drift by a third of a turn
+constexpr std::size_t least_pieces = 4;
+constexpr std::size_t most_pieces = 24; // enough to tell; the rest of a long trip is not looked at
+constexpr double memory_m = 60;         // of the line's amplitude and phase, to either side
+constexpr int neighbours = 12; // frequencies on each side that tell what the road has there
+
+/// What a channel has at a frequency in distance, from one sample to another.
+Complex line_at(const Passage& passage,
+                const std::vector<double>& felt,
+                std::size_t from,
+                std::size_t to,
+                double turns_per_m) {
+    Complex sum = 0;
+    for (std::size_t k = from + 1; k < to; ++k) {
+        const double run_m = passage.travel_m[k] - passage.travel_m[k - 1];
+        sum += felt[k] * run_m *
+               std::polar(1.0, -2 * std::numbers::pi * turns_per_m * passage.travel_m[k]);
+    }
+    return sum;
+}
+
+/// Samples at which pieces of piece_m begin and end.
+std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const Passage& passage) {
+    std::vector<std::pair<std::size_t, std::size_t>> pieces;
+    std::size_t from = 0;
+    for (std::size_t k = 1; k < passage.travel_m.size(); ++k) {
+        if (passage.travel_m[k] - passage.travel_m[from] >= piece_m) {
+            pieces.emplace_back(from, k);
+            from = k;
+        }
+    }
+    if (pieces.size() > most_pieces) { // evenly spread
+        std::vector<std::pair<std::size_t, std::size_t>> some;
+        for (std::size_t i = 0; i < most_pieces; ++i) {
+            some.push_back(pieces[i * pieces.size() / most_pieces]);
+        }
+        return some;
+    }
+    return pieces;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+/// The slowly changing part of `felt` that turns with the frequency: amplitude and phase over
+/// memory_m to either side.
+std::vector<double>
+line_of(const Passage& passage, const std::vector<double>& felt, double turns_per_m) {
+    const std::size_t n = felt.size();
+    std::vector<Complex> turned(n);
+    std::vector<double> run_m(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        run_m[k] = k == 0 ? 0 : passage.travel_m[k] - passage.travel_m[k - 1];
+        turned[k] = std::polar(1.0, -2 * std::numbers::pi * turns_per_m * passage.travel_m[k]);
+    }
+    std::vector<Complex> sum(n);
+    std::vector<double> weight(n);
+    Complex running = 0;
+    double running_m = 0;
+    for (std::size_t k = 0; k < n; ++k) { // what lies behind, and here
+        const double keep = std::exp(-run_m[k] / memory_m);
+        running = keep * running + felt[k] * run_m[k] * turned[k];
+        running_m = keep * running_m + run_m[k];
+        sum[k] = running;
+        weight[k] = running_m;
+    }
+    running = 0;
+    running_m = 0;
+    for (std::size_t k = n - 1; k-- > 0;) { // what lies ahead
+        const double keep = std::exp(-run_m[k + 1] / memory_m);
+        running = keep * (running + felt[k + 1] * run_m[k + 1] * turned[k + 1]);
+        running_m = keep * (running_m + run_m[k + 1]);
+        sum[k] += running;
+        weight[k] += running_m;
+    }
+    std::vector<double> line(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        line[k] = weight[k] > 0 ? 2 * (sum[k] * std::conj(turned[k])).real() / weight[k] : 0;
+    }
+    return line;
+}
+
+} // namespace
+
+std::optional<double> wheel_turn_m(const Passage& passage) {
+    const auto pieces = pieces_of(passage);
+    if (pieces.size() < least_pieces) {
+        return std::nullopt;
+    }
+    const double step = 0.5 / piece_m; // two a resolution
+    const auto first = static_cast<std::size_t>(1 / most_turn_m / step);
+    const auto last = static_cast<std::size_t>(1 / least_turn_m / step);
+    const std::size_t lowest = first - neighbours;
+    std::vector<double> power(last + neighbours + 1 - lowest);
+    double channels = 0;
+    for (const auto& felt : passage.felt) {
+        if (felt.empty()) {
+            continue;
+        }
+        ++channels;
+        std::vector<double> own(power.size());
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            for (const auto& [from, to] : pieces) {
+                own[i] += std::norm(
+                    line_at(passage, felt, from, to, static_cast<double>(lowest + i) * step));
+            }
+        }
+        const double usual = median(own);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            power[i] += usual > 0 ? own[i] / usual : 0;
+        }
+    }
+    double best = 0;
+    std::size_t at = 0;
+    for (std::size_t i = neighbours; i + neighbours < power.size(); ++i) {
+        std::vector<double> around;
+        for (std::size_t k = 3; k <= neighbours; ++k) {
+            around.push_back(power[i - k]);
+            around.push_back(power[i + k]);
+        }
+        const double ratio = power[i] / median(std::move(around));
+        if (ratio > best) {
+            best = ratio;
+            at = i;
+        }
+    }
+    // Over `looks` independent looks the power of a road without a line scatters by 1 /
+    // sqrt(looks); the largest of some hundred frequencies stays below five of those.
+    const double looks = static_cast<double>(pieces.size()) * channels;
+    if (!(best > 1 + 5 / std::sqrt(looks))) {
+        return std::nullopt;
+    }
+    return 1 / (static_cast<double>(lowest + at) * step);
+}
+
+Passage without_wheel_order(Passage passage, double turn_m) {
+    for (auto& felt : passage.felt) {
+        for (int harmonic = 1; harmonic <= 2 && !felt.empty(); ++harmonic) {
+            const auto line = line_of(passage, felt, harmonic / turn_m);
+            for (std::size_t k = 0; k < felt.size(); ++k) {
+                felt[k] -= line[k];
+            }
+        }
+    }
+    return passage;
+}
+
+} // namespace macadam
