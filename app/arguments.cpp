@@ -66,11 +66,25 @@ void distribute(std::span<const Operand> operands,
     }
 }
 
+/// CLI11 would name the flag without its dashes.
+void expect_flags_alone(std::span<const Option> options, const std::vector<std::string>& words) {
+    for (const auto& word : words) {
+        const auto name = word.substr(0, word.find('='));
+        const bool is_flag = std::ranges::any_of(options, [&](const Option& option) {
+            return option.value.empty() && long_name(option.name) == name;
+        });
+        if (is_flag && name.size() < word.size()) {
+            throw UsageError{fmt::format("{} takes no value, but '{}' is given", name, word)};
+        }
+    }
+}
+
 } // namespace
 
 Arguments::Arguments(std::span<const Option> options,
                      std::span<const Operand> operands,
                      std::vector<std::string> words) {
+    expect_flags_alone(options, words);
     CLI::App parser;
     parser.set_help_flag();
     add_options(parser, options, words_);

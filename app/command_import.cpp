@@ -96,15 +96,23 @@ std::string spoken(const RowCount& rows) {
     return words;
 }
 
+std::string notes(const std::vector<std::string>& warnings) {
+    std::string lines;
+    for (const auto& warning : warnings) {
+        lines += fmt::format("          note: {}\n", warning);
+    }
+    return lines;
+}
+
 std::string text_lines(const TripOutcome& outcome) {
     if (outcome.result == TripOutcome::Result::rejected) {
         return fmt::format("rejected  {}\n", outcome.error);
     }
-    if (outcome.result == TripOutcome::Result::known) {
-        return fmt::format("known     {}\n", outcome.file);
-    }
     const auto& trip = outcome.trip;
-    auto lines =
+    if (outcome.result == TripOutcome::Result::known) {
+        return fmt::format("known     {}\n", outcome.file) + notes(trip.warnings);
+    }
+    const auto lines =
         fmt::format("imported  {}: {}; {:.2f} km driven, {:.2f} km on the network; car '{}'\n"
                     "          {}\n",
                     outcome.file,
@@ -113,10 +121,7 @@ std::string text_lines(const TripOutcome& outcome) {
                     trip.matched_m / 1000,
                     outcome.vehicle,
                     spoken(trip.rows));
-    for (const auto& warning : trip.warnings) {
-        lines += fmt::format("          note: {}\n", warning);
-    }
-    return lines;
+    return lines + notes(trip.warnings);
 }
 
 /// The trips of the paths, and the paths that are none, as rejected.

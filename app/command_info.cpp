@@ -34,6 +34,7 @@ std::string json_of(const StoreInfo& info, const std::string& digest, const std:
     object.add("trips", whole(info.trips))
         .add("undated_trips", whole(info.undated_trips))
         .add("passes", whole(info.passes))
+        .add("passes_lateral_alone", whole(info.lateral_passes))
         .add("vehicles", JsonRaw{json_string_array(info.vehicles)})
         .add("segments", whole(info.segments))
         .add("segments_with_passes", whole(info.segments_with_passes))
@@ -75,6 +76,11 @@ std::string text_of(const StoreInfo& info) {
         info.km,
         info.segments_with_passes,
         100 * share(info.km, info.network_km));
+    if (info.lateral_passes > 0) {
+        text += fmt::format("lateral     {} of the passes from lateral vibration alone, which is "
+                            "far less accurate\n",
+                            info.lateral_passes);
+    }
     for (const auto& [name, km] : info.classes) {
         text += fmt::format("{:<12}{:.2f} km, {:.1f} %\n", name, km, 100 * share(km, info.km));
     }

@@ -28,18 +28,27 @@ TripRecord record_of(const TripSource& source, const TripMeta& meta, const TripO
     record.trip_id = meta.trip_id;
     record.vehicle_id = meta.vehicle_id;
     record.file_name = source.file.filename().string();
-    if (meta.t0_utc_s) {
-        record.t0_utc_ms = thousandths(*meta.t0_utc_s);
+    if (meta.t0_utc_s && outcome.trip.begin_ms) {
+        record.t0_utc_ms = thousandths(*meta.t0_utc_s) + *outcome.trip.begin_ms;
     }
     // The name of a car's own file is its vehicle_id, which the store does not keep.
-    record.vehicle_model =
-        built_in_vehicle(outcome.vehicle) != nullptr ? outcome.vehicle : "own file";
+    record.vehicle_model = outcome.built_in_vehicle ? outcome.vehicle : std::string{own_file_model};
     record.method = "kf";
     record.distance_mm = thousandths(outcome.trip.distance_m);
     record.matched_mm = thousandths(outcome.trip.matched_m);
     record.rows_read = outcome.trip.rows.read;
     record.rows_used = outcome.trip.rows.used;
+    record.row_reasons = outcome.trip.rows.reasons;
     return record;
+}
+
+/// What to say of a trip that is in the store already.
+std::vector<std::string> spoken_known(const PipelineConfig& config) {
+    if (config.trim_m > 0) {
+        return {"stays as it was imported: its ends are not left out after the fact; a new store "
+                "has to be made for that"};
+    }
+    return {};
 }
 
 /// One trip from file to passes. What is wrong with it becomes part of the outcome.
@@ -59,6 +68,7 @@ TripOutcome worked_out(const TripSource& source,
         outcome.trip_id = meta.trip_id;
         const auto chosen = vehicles(source.file, meta.vehicle_id);
         outcome.vehicle = chosen.vehicle.name;
+        outcome.built_in_vehicle = chosen.built_in;
         outcome.trip.rows.read = outcome.trip.rows.rejected = trip.rows.size();
         outcome.trip = naming(outcome.file, [&] {
             return passes_of(std::move(trip), chosen.vehicle, roads, config);
@@ -179,6 +189,7 @@ ImportTotals import_trips(RoadStore& store,
             const std::scoped_lock lock{store_in_use};
             if (store.knows_trip(outcome.sha256)) {
                 outcome.result = TripOutcome::Result::known;
+                outcome.trip.warnings = spoken_known(config);
                 return outcome;
             }
         }

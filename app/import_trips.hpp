@@ -21,7 +21,8 @@ struct TripOutcome {
     Result result = Result::rejected;
     TripResult trip;
     std::string vehicle;
-    std::string error; ///< why it was rejected
+    bool built_in_vehicle = false; ///< not one of the user's files
+    std::string error;             ///< why it was rejected
     TripRecord record;
 };
 

@@ -2,6 +2,7 @@
 
 #include "app/trip_trim.hpp"
 
+#include "estimator/common/error.hpp"
 #include "estimator/common/gravity.hpp"
 #include "estimator/latency.hpp"
 
@@ -33,10 +34,68 @@ double rate_hz(const TriaxialSamples& acc) {
     return 1 / *middle;
 }
 
+enum class Axis : int { lateral = 1, vertical = 2 };
+
+/// Whether the sensor's axis nearest to one of the vehicle's gave anything.
+bool was_sampled(const TripLog& trip, const Mounting& mounting, Axis axis) {
+    const std::vector<float>* readings[] = {&trip.acc.x, &trip.acc.y, &trip.acc.z};
+    Eigen::Index nearest = 0;
+    mounting.to_vehicle.row(static_cast<int>(axis)).cwiseAbs().maxCoeff(&nearest);
+    return std::ranges::any_of(*readings[nearest], [](float value) { return !std::isnan(value); });
+}
+
+/// \throws InputError  if the log lacks the vibration that is asked for.
+void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels) {
+    const bool vertical = was_sampled(trip, mounting, Axis::vertical);
+    const bool lateral = was_sampled(trip, mounting, Axis::lateral);
+    if (!vertical && (channels == Channels::vertical || channels == Channels::both)) {
+        throw InputError{"holds no vertical acceleration, expected acc_z_mps2"};
+    }
+    if (!lateral && channels == Channels::lateral) {
+        throw InputError{"holds no lateral acceleration, expected acc_y_mps2"};
+    }
+    if (!vertical && !lateral) {
+        throw InputError{"holds neither vertical nor lateral acceleration, expected acc_z_mps2"};
+    }
+}
+
+double length_m(const IriRun& run) {
+    return run.cell_m * static_cast<double>(run.centre_mm_per_m.size());
+}
+
+/// What to say where the lateral acceleration stood in for the vertical one.
+std::vector<std::string> spoken_lateral(const IriTrace& roughness, Channels channels) {
+    double whole_m = 0;
+    double lateral_m = 0;
+    for (const auto& run : roughness.runs) {
+        whole_m += length_m(run);
+        lateral_m += run.indicative ? length_m(run) : 0;
+    }
+    if (channels == Channels::lateral || lateral_m <= 0) {
+        return {};
+    }
+    const auto where =
+        lateral_m < whole_m
+            ? fmt::format(" on {:.2f} of {:.2f} km", lateral_m / 1000, whole_m / 1000)
+            : std::string{};
+    return {fmt::format("no vertical acceleration{}: estimated from the lateral one alone, which "
+                        "is far less accurate",
+                        where)};
+}
+
+/// The samples of a stretch in which the channel in use was not sampled.
+TripUse without_vibration(TripUse use, const StretchSpan& span) {
+    const auto first = use.acc.begin() + static_cast<std::ptrdiff_t>(span.first);
+    std::fill(first,
+              first + static_cast<std::ptrdiff_t>(span.last - span.first + 1),
+              static_cast<std::uint8_t>(RowReason::unused_channel));
+    return use;
+}
+
 std::vector<std::string>
 warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
     std::vector<std::string> warnings;
-    if (const double hz = rate_hz(trip.acc); hz < slow_sampling_hz) {
+    if (const double hz = rate_hz(trip.acc); hz > 0 && hz < slow_sampling_hz) {
         warnings.push_back(fmt::format(
             "vibration was sampled at {:.0f} Hz; below {:.0f} Hz short waves are missed",
             hz,
@@ -109,6 +168,23 @@ double length_on_roads_m(const MatchedTrace& matched) {
     return length_m;
 }
 
+/// When what is told of a trip begins, since its t0: not where it departed if its ends are left
+/// out. Nothing if nothing is told.
+std::optional<std::int64_t> begin_of(const TravelSpan& told, const Odometer& odometer) {
+    if (told.from_m <= 0) {
+        return 0;
+    }
+    return told.from_m < told.to_m ? std::optional{std::llround(1000 * odometer.t_s(told.from_m))}
+                                   : std::nullopt;
+}
+
+std::vector<Pass> counting_from(std::int64_t begin_ms, std::vector<Pass> passes) {
+    for (auto& pass : passes) {
+        pass.t_ms -= begin_ms;
+    }
+    return passes;
+}
+
 /// Why a trip gave no pass.
 std::string spoken_emptiness(const IriTrace& roughness, const MatchedTrace& matched) {
     if (length_on_roads_m(matched) <= 0) {
@@ -139,14 +215,21 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
     auto use = unused(trip);
     auto odometer = make_odometer(trip, config.odometer, use);
     const auto mounting = estimate_mounting(trip, odometer);
+    expect_channels(trip, mounting, config.estimator.channels);
 
     IriTrace roughness{.runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
     for (const auto& span :
          find_stretches(trip, odometer, config.stretch, use, mounting.otherwise)) {
         const auto stretch = make_stretch(trip, span, odometer, mounting, config.stretch);
-        roughness.runs.push_back(estimate_iri(stretch, vehicle, config.estimator));
+        auto run = estimate_iri(stretch, vehicle, config.estimator);
+        if (run.centre_mm_per_m.empty()) {
+            use = without_vibration(std::move(use), span);
+        } else {
+            roughness.runs.push_back(std::move(run));
+        }
     }
-    auto warnings = warnings_of(trip, odometer, mounting);
+    auto warnings = spoken_lateral(roughness, config.estimator.channels);
+    std::ranges::move(warnings_of(trip, odometer, mounting), std::back_inserter(warnings));
     return {std::move(odometer), std::move(roughness), std::move(use), std::move(warnings)};
 }
 
@@ -168,21 +251,20 @@ TripResult passes_of(TripLog trip,
     std::ranges::move(trace.warnings, std::back_inserter(warnings));
 
     const auto told = told_part(trace.odometer, config.trim_m);
-    auto passes = cut_passes(trace.roughness,
-                             config.trim_m > 0 ? trimmed(matched, told, roads) : matched,
-                             roads,
-                             vehicle,
-                             config.pass);
+    const auto kept = config.trim_m > 0 ? trimmed(matched, told, roads) : matched;
+    const auto begin_ms = begin_of(told, trace.odometer);
+    auto passes = cut_passes(trace.roughness, kept, roads, vehicle, config.pass);
     if (config.trim_m > 0) {
         warnings.push_back(spoken_trim(told, config.trim_m));
     }
-    if (passes.empty() && told.from_m < told.to_m) {
+    if (passes.empty() && begin_ms) {
         warnings.push_back(spoken_emptiness(trace.roughness, matched));
     }
-    return {.passes = std::move(passes),
+    return {.passes = counting_from(begin_ms.value_or(0), std::move(passes)),
             .rows = account(trip, trace.use),
-            .distance_m = trace.odometer.whole_m(),
-            .matched_m = length_on_roads_m(matched),
+            .begin_ms = begin_ms,
+            .distance_m = std::max(0.0, told.to_m - told.from_m),
+            .matched_m = length_on_roads_m(kept),
             .warnings = std::move(warnings)};
 }
 

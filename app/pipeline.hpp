@@ -5,6 +5,8 @@
 #include "mapping/map_match.hpp"
 #include "mapping/pass.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,10 +38,12 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
 
 /// What one trip gives to the store, with every row of its log accounted for.
 struct TripResult {
-    std::vector<Pass> passes;
+    std::vector<Pass> passes; ///< their times count from begin_ms on
     RowCount rows;
-    double distance_m = 0;
-    double matched_m = 0; ///< on roads of the network
+    std::optional<std::int64_t> begin_ms{0}; ///< of what is told, since the trip's t0; nothing: too
+                                             ///< short to tell anything
+    double distance_m = 0;                   ///< of what is told
+    double matched_m = 0;                    ///< of it, on roads of the network
     std::vector<std::string> warnings;
 };
 

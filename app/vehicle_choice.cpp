@@ -20,15 +20,15 @@ std::string built_in_names() {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-Vehicle named_or_read(const std::string& name) {
+ChosenVehicle named_or_read(const std::string& name) {
     if (const auto* const built_in = built_in_vehicle(name)) {
-        return *built_in;
+        return {*built_in, true, ""};
     }
     if (!fs::exists(name) && !name.ends_with(".toml")) {
         throw UsageError{fmt::format(
             "--vehicle is '{}', expected a TOML file or one of {}", name, built_in_names())};
     }
-    return read_vehicle(name);
+    return {read_vehicle(name), false, ""};
 }
 
 std::vector<fs::path> toml_files(const fs::path& folder) {
@@ -96,22 +96,23 @@ const VehicleChoice::ByName& VehicleChoice::in_folder(const fs::path& folder) {
 
 ChosenVehicle VehicleChoice::operator()(const fs::path& trip_file, const std::string& vehicle_id) {
     if (for_all_) {
-        return {*for_all_, ""};
+        return *for_all_;
     }
     const auto trip_folder = fs::absolute(trip_file).lexically_normal().parent_path();
     const auto folders = folder_ ? std::vector{*folder_} : vehicle_folders(trip_folder);
     for (const auto& folder : folders) {
         const auto& known = in_folder(folder);
         if (const auto found = known.find(vehicle_id); found != known.end()) {
-            return {found->second, ""};
+            return {found->second, false, ""};
         }
     }
     if (const auto* const built_in = built_in_vehicle(vehicle_id)) {
-        return {*built_in, ""};
+        return {*built_in, true, ""};
     }
     const auto who = vehicle_id.empty() ? std::string{"the trip names no vehicle_id"}
                                         : fmt::format("no vehicle file for '{}'", vehicle_id);
-    return {*built_in_vehicle("generic"), who + "; taken as 'generic', with a wide uncertainty"};
+    return {
+        *built_in_vehicle("generic"), true, who + "; taken as 'generic', with a wide uncertainty"};
 }
 
 } // namespace macadam

@@ -25,6 +25,7 @@ inline constexpr Option vehicles_option{
 
 struct ChosenVehicle {
     Vehicle vehicle;
+    bool built_in;       ///< not from a file, which may use the same name
     std::string warning; ///< "" or that the car is not known
 };
 
@@ -44,7 +45,7 @@ private:
     using ByName = std::map<std::string, Vehicle>;
     const ByName& in_folder(const std::filesystem::path& folder);
 
-    std::optional<Vehicle> for_all_;
+    std::optional<ChosenVehicle> for_all_;
     std::optional<std::filesystem::path> folder_;
     std::map<std::filesystem::path, ByName> read_;
     std::mutex reading_;

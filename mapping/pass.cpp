@@ -195,9 +195,16 @@ double driven_m(const Passage& passage) {
     return sum_m;
 }
 
+/// MRI inferred from HRI is indicative, too; from then on the flag does not tell why.
+std::uint8_t validity_of(const Reading& reading) {
+    unsigned flags = reading.validity;
+    flags |= (flags & validity::indicative) != 0 ? validity::lateral_alone : 0U;
+    flags |= reading.centre_only ? validity::indicative : 0U;
+    return static_cast<std::uint8_t>(flags);
+}
+
 Pass quantised(const Passage& passage, const Reading& r, double covered_m) {
     const double confidence = passage.confident_m / passage.offset_m;
-    const auto flags = r.centre_only ? r.validity | validity::indicative : int{r.validity};
     return {
         .segment = passage.segment,
         .occurrence = 0,
@@ -207,7 +214,7 @@ Pass quantised(const Passage& passage, const Reading& r, double covered_m) {
         .iri_um = whole_um(r.iri / r.covered_m),
         .sd_um = std::max(1, whole_um(r.sd / r.covered_m)),
         .centre_only = r.centre_only,
-        .validity = static_cast<std::uint8_t>(flags),
+        .validity = validity_of(r),
         .speed_mmps = static_cast<std::int32_t>(std::lround(r.speed / r.covered_m * thousandths)),
         .covered_mm = static_cast<std::int32_t>(std::lround(covered_m * thousandths)),
         .confidence_ppm =

@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/atomic_file.hpp"
 #include "storage/road_store_impl.hpp"
+#include "storage/row_reasons.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/sha256.hpp"
 
@@ -213,7 +214,9 @@ bool RoadStore::add_trip(const TripRecord& trip, std::span<const Pass> passes) {
     if (has_trip(database, trip.sha256)) {
         return false;
     }
-    write_passes(database, write_trip(database, trip), passes);
+    const auto row = write_trip(database, trip);
+    write_row_reasons(database, row, trip.row_reasons);
+    write_passes(database, row, passes);
     all.commit();
     return true;
 }

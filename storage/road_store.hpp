@@ -9,10 +9,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace macadam {
@@ -25,6 +27,9 @@ struct StoreSettings {
     std::string attribution;    ///< whom a picture of these roads must name
 };
 
+/// Instead of a model's name: the user's own, whose name would tell the car.
+inline constexpr std::string_view own_file_model = "own file";
+
 /// What the store keeps of a trip: no positions, no log.
 struct TripRecord {
     std::string sha256; ///< unique
@@ -32,12 +37,13 @@ struct TripRecord {
     std::string vehicle_id; ///< kept only as a pseudonym; "" = not stated
     std::string file_name;
     std::optional<std::int64_t> t0_utc_ms; ///< nothing: undated
-    std::string vehicle_model;             ///< name of the Vehicle that was used
+    std::string vehicle_model; ///< name of the built-in Vehicle that was used, or own_file_model
     std::string method;
     std::int64_t distance_mm = 0;
     std::int64_t matched_mm = 0;
     std::size_t rows_read = 0;
     std::size_t rows_used = 0;
+    std::map<std::string, std::size_t> row_reasons{}; ///< why the others were not
 };
 
 /// Which segments to visit; all conditions hold together.
@@ -88,6 +94,7 @@ struct StoreInfo {
     std::size_t trips = 0;
     std::size_t undated_trips = 0;
     std::size_t passes = 0;
+    std::size_t lateral_passes = 0;    ///< of them, from lateral vibration alone
     std::vector<std::string> vehicles; ///< pseudonyms, in byte order
     std::size_t segments = 0;
     std::size_t segments_with_passes = 0;
@@ -154,6 +161,9 @@ public:
 
     /// In the order of (pseudonym, model, method).
     std::vector<VehicleUse> vehicle_uses() const;
+
+    /// Why rows of the trips' logs entered no estimate; trips of version 0.1 did not tell.
+    std::map<std::string, std::size_t> row_reasons() const;
 
     /// Segments whose new passes are not yet fused, as StoreInfo::waiting; quick.
     std::size_t waiting() const;

@@ -112,6 +112,11 @@ std::size_t count(Database& database, const char* sql) {
     return static_cast<std::size_t>(database.number(sql));
 }
 
+std::size_t count_with(Database& database, std::uint8_t flag) {
+    return count(database,
+                 fmt::format("SELECT count(*) FROM pass WHERE (validity & {}) <> 0", flag).c_str());
+}
+
 double real_meta(Database& database, const char* key) {
     auto select = database.prepare("SELECT CAST(value AS REAL) FROM meta WHERE key = ?");
     return select.bind(key).step() ? select.real(0) : 0;
@@ -258,6 +263,7 @@ StoreInfo RoadStore::info() const {
             .trips = count(database, "SELECT count(*) FROM trip"),
             .undated_trips = count(database, "SELECT count(*) FROM trip WHERE t0_utc_ms IS NULL"),
             .passes = count(database, "SELECT count(*) FROM pass"),
+            .lateral_passes = count_with(database, validity::lateral_alone),
             .vehicles = pseudonyms(database),
             .segments = static_cast<std::size_t>(real_meta(database, "segments")),
             .segments_with_passes = static_cast<std::size_t>(

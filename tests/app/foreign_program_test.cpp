@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const auto loggers = fs::path{MACADAM_SOURCE_DIR} / "tests/data/loggers";
 
@@ -59,6 +60,18 @@ TEST(ForeignLogs, LoseTheirEndsByTrimAndSaySo) {
     const auto import = run_macadam({"import", store, phone, "--trim", "300"});
     EXPECT_THAT(import.out, HasSubstr(" trimmed"));
     EXPECT_THAT(import.out, HasSubstr("note: the first and the last 300 m were left out"));
+}
+
+TEST(ForeignLogs, ThatAreKnownKeepTheirEndsInSpiteOfTrimWhichIsSaid) {
+    const auto folder = fresh_folder();
+    const auto phone = phyphox_export(folder / "phone").string();
+    const auto store = (folder / "roads.gpkg").string();
+    run_macadam({"init", store, "--trace", phone});
+    run_macadam({"import", store, phone});
+    const auto again = run_macadam({"import", store, phone, "--trim", "300"});
+    EXPECT_THAT(again.out, HasSubstr("known "));
+    EXPECT_THAT(again.out, HasSubstr("note: stays as it was imported"));
+    EXPECT_THAT(run_macadam({"import", store, phone}).out, Not(HasSubstr("note:")));
 }
 
 TEST(ForeignLogs, AreReadByAMapping) {

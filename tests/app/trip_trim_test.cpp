@@ -6,6 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <optional>
+
 namespace macadam {
 namespace {
 
@@ -69,6 +72,32 @@ TEST_F(TrimmedTrip, AccountsForEveryRow) {
     EXPECT_NEAR(static_cast<double>(rows.reasons.at("trimmed")),
                 static_cast<double>(rows.read) / 2,
                 0.01 * static_cast<double>(rows.read));
+}
+
+TEST_F(TrimmedTrip, TellsNeitherTheDepartureNorTheWholeWay) {
+    const auto trimmed = result(300);
+    // 300 m at 20 m/s; the receiver's latency of 0.2 s lets the trip begin 4 m earlier.
+    EXPECT_NEAR(static_cast<double>(trimmed.begin_ms.value()), 14800, 50);
+    EXPECT_NEAR(trimmed.distance_m, 604, 2);
+    EXPECT_LE(trimmed.matched_m, trimmed.distance_m + 1); // a match is good to a metre
+}
+
+TEST_F(TrimmedTrip, LeavesTheTimesOfItsPassesWhereTheyWere) {
+    const auto trimmed = result(300);
+    const auto whole = result(0);
+    const auto& first = trimmed.passes.front();
+    const auto same = std::ranges::find(whole.passes, first.segment, &Pass::segment);
+    ASSERT_NE(same, whole.passes.end());
+    EXPECT_EQ(whole.begin_ms, 0);
+    // The match is cut at whole segments, its times to the rounding of a millisecond.
+    EXPECT_NEAR(static_cast<double>(first.t_ms + trimmed.begin_ms.value()),
+                static_cast<double>(same->t_ms),
+                1);
+}
+
+TEST_F(TrimmedTrip, TellsNoTimeIfNothingIsLeft) {
+    EXPECT_EQ(result(620).begin_ms, std::nullopt);
+    EXPECT_EQ(result(620).distance_m, 0);
 }
 
 TEST_F(TrimmedTrip, SaysWhatWasLeftOut) {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+
+namespace macadam {
+
+/// A folder that is filled when all of it is there, or not at all: work goes on in another folder,
+/// `NAME.part-PID`, which commit() moves into place. Without commit() nothing is left. If the
+/// program is killed, that folder lies beside the place, or in it if the place was there before.
+///
+/// \throws InputError  from every call that fails; the message names the folder and the cause.
+class AtomicFolder {
+public:
+    /// \param folder  a new name, or an empty folder.
+    explicit AtomicFolder(std::filesystem::path folder);
+    AtomicFolder(const AtomicFolder&) = delete;
+    AtomicFolder& operator=(const AtomicFolder&) = delete;
+    ~AtomicFolder();
+
+    /// Where to work before commit().
+    const std::filesystem::path& temporary() const { return temporary_; }
+
+    void commit();
+
+private:
+    std::filesystem::path folder_;
+    bool exists_;
+    std::filesystem::path temporary_;
+};
+
+} // namespace macadam
