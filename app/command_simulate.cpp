@@ -1,10 +1,14 @@
 #include "app/commands.hpp"
 #include "app/in_parallel.hpp"
+#include "app/interruption.hpp"
 #include "app/lane_store.hpp"
+#include "app/trip_place.hpp"
 
 #include "estimator/common/error.hpp"
 #include "mapping/simulation/fleet.hpp"
+#include "mapping/simulation/idle_rules.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/atomic_folder.hpp"
 #include "storage/network_reader.hpp"
 #include "storage/osm_writer.hpp"
 #include "storage/recipe_file.hpp"
@@ -18,6 +22,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <numeric>
+#include <stop_token>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -36,6 +42,7 @@ constexpr int quick_compression = 1; // noise hardly gets smaller by more, only 
 struct SimulateOptions {
     fs::path folder;
     fs::path network;
+    std::string recipe_name;
     FleetRecipe recipe;
     std::uint64_t seed;
     std::size_t jobs;
@@ -63,34 +70,25 @@ SimulateOptions parse_simulate(const Arguments& arguments) {
     SimulateOptions options{
         .folder = needed(arguments, "--output", "-o DIR"),
         .network = needed(arguments, "--network", "--network FILE"),
+        .recipe_name = arguments.value("--recipe").value_or("the sample recipe"),
         .recipe = {},
         .seed = static_cast<std::uint64_t>(integer_from(arguments, "--seed", 1, {0, 9e15})),
         .jobs =
             static_cast<std::size_t>(integer_from(arguments, "--jobs", 1, {1, double{most_jobs}}))};
-    const auto trips = integer_from(arguments, "--trips", 0, {0, double{most_trips}});
     const auto recipe = arguments.value("--recipe");
-    options.recipe = recipe ? read_recipe(*recipe) : parse_recipe("", "the sample recipe");
-    if (trips > 0) {
-        options.recipe.driving.trips = static_cast<std::size_t>(trips);
-    }
+    options.recipe = recipe ? read_recipe(*recipe) : parse_recipe("", options.recipe_name);
+    const auto asked = static_cast<std::int64_t>(options.recipe.driving.trips);
+    options.recipe.driving.trips = static_cast<std::size_t>(
+        integer_from(arguments, "--trips", asked, {1, double{most_trips}}));
     return options;
 }
 
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error || !fs::is_directory(folder)) {
-        throw InputError{fmt::format("{}: cannot be made as a folder: {}",
-                                     folder.string(),
-                                     error ? error.message() : "a file is in the way")};
-    }
-}
-
-void make_empty_folder(const fs::path& folder) {
-    make_folder(folder);
-    if (!fs::is_empty(folder)) {
+    if (error) {
         throw InputError{
-            fmt::format("{}: is not empty, expected a new or an empty folder", folder.string())};
+            fmt::format("{}: cannot be made as a folder: {}", folder.string(), error.message())};
     }
 }
 
@@ -100,29 +98,49 @@ void write_file(const fs::path& file, std::string_view text) {
     out.commit();
 }
 
-/// The network as whoever reads DIR/network.osm.pbf has it: places are on that format's grid.
-RoadNetwork written_network(const SimulateOptions& options, const Console& console) {
-    const auto file = options.folder / "network.osm.pbf";
-    const auto given =
-        build_network(read_network(options.network, {}, console.progress("reading roads")));
+/// How to speak of the work and to end it before its time.
+struct Talk {
+    const Console& console;
+    std::stop_token stop;
+
+    Progress progress(const char* label) const {
+        auto progress = console.progress(label);
+        progress.stop = stop;
+        return progress;
+    }
+};
+
+void stop_if_wanted(const Talk& talk) {
+    if (talk.stop.stop_requested()) {
+        throw InputError{"interrupted: nothing was left behind"};
+    }
+}
+
+/// The network as whoever reads network.osm.pbf has it: places are on that format's grid.
+RoadNetwork written_network(const fs::path& network, const fs::path& folder, const Talk& talk) {
+    const auto file = folder / "network.osm.pbf";
+    const auto given = build_network(read_network(network, {}, talk.progress("reading roads")));
+    naming(network.string(), [&] { expect_osm(given.ways); });
     write_osm(given.ways, file);
     return build_network(read_network(file));
 }
 
 void write_truth(const RoadNetwork& roads,
                  LaneStore& surfaces,
-                 const SimulateOptions& options,
-                 const Console& console) {
+                 const fs::path& file,
+                 std::size_t jobs,
+                 const Talk& talk) {
     const auto lanes = drivable_lanes(roads);
     std::vector<std::string> rows(lanes.size());
     in_parallel(
         lanes.size(),
-        options.jobs,
+        jobs,
         [&](std::size_t i) {
             rows[i] = truth_rows(lane_truth(roads, lanes[i], *surfaces(lanes[i])));
         },
-        console.progress("paving"));
-    AtomicFile out{options.folder / "truth.csv"};
+        talk.progress("paving"));
+    stop_if_wanted(talk);
+    AtomicFile out{file};
     out.write(std::string{truth_header} + "\n");
     for (const auto& lane : rows) {
         out.write(lane);
@@ -147,46 +165,68 @@ double driven_km(const TripLog& trip) {
     return sum_m / 1000;
 }
 
+/// \returns km driven.
+double write_trips(const Fleet& fleet,
+                   const RoadNetwork& roads,
+                   LaneStore& surfaces,
+                   const fs::path& folder,
+                   std::size_t jobs,
+                   const Talk& talk) {
+    make_folder(folder);
+    std::vector<double> km(fleet.recipe.driving.trips);
+    in_parallel(
+        km.size(),
+        jobs,
+        [&](std::size_t number) {
+            const auto trip = simulate_trip(fleet, roads, std::ref(surfaces), number);
+            km[number] = driven_km(trip);
+            write_trip(trip, folder / (trip.meta.trip_id + ".trip.csv.gz"), quick_compression);
+        },
+        talk.progress("driving"));
+    stop_if_wanted(talk);
+    return std::accumulate(km.begin(), km.end(), 0.0);
+}
+
+struct Made {
+    std::size_t trips;
+    std::size_t cars;
+    std::size_t roads;
+    double km;
+};
+
+Made simulated(const SimulateOptions& options, const fs::path& folder, const Talk& talk) {
+    const auto roads = written_network(options.network, folder, talk);
+    stop_if_wanted(talk);
+    for (const auto& words : idle_rules(options.recipe, roads)) {
+        talk.console.warn(fmt::format("{}: {}", options.recipe_name, words));
+    }
+    const auto fleet = naming(options.network.string(),
+                              [&] { return make_fleet(options.recipe, roads, options.seed); });
+    write_vehicles(fleet, folder / "vehicles");
+    LaneStore surfaces{
+        [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
+        most_lane_bytes};
+    write_truth(roads, surfaces, folder / "truth.csv", options.jobs, talk);
+    const double km = write_trips(fleet, roads, surfaces, folder / "trips", options.jobs, talk);
+    return {fleet.recipe.driving.trips, fleet.cars.size(), roads.ways.size(), km};
+}
+
 void run_simulate(const Arguments& arguments, const Console& console) {
     if (arguments.flag("--show-recipe")) {
         print(sample_recipe());
         return;
     }
     const auto options = parse_simulate(arguments);
-    make_empty_folder(options.folder);
-    const auto roads = written_network(options, console);
-    const auto fleet = make_fleet(options.recipe, roads, options.seed);
-    write_vehicles(fleet, options.folder / "vehicles");
-
-    LaneStore surfaces{
-        [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
-        most_lane_bytes};
-    write_truth(roads, surfaces, options, console);
-
-    const auto trips = options.folder / "trips";
-    make_folder(trips);
-    const auto whole = fleet.recipe.driving.trips;
-    std::vector<double> km(whole);
-    in_parallel(
-        whole,
-        options.jobs,
-        [&](std::size_t number) {
-            const auto trip = simulate_trip(fleet, roads, std::ref(surfaces), number);
-            km[number] = driven_km(trip);
-            write_trip(trip, trips / (trip.meta.trip_id + ".trip.csv.gz"), quick_compression);
-        },
-        console.progress("driving"));
-
-    double sum_km = 0;
-    for (const double trip_km : km) {
-        sum_km += trip_km;
-    }
+    const Interruption interruption;
+    AtomicFolder folder{options.folder};
+    const auto made = simulated(options, folder.temporary(), {console, interruption.stop()});
+    folder.commit();
     console.say(fmt::format("{}: {} by {}, {:.0f} km, over {}",
                             options.folder.string(),
-                            counted(whole, "trip"),
-                            counted(fleet.cars.size(), "car"),
-                            sum_km,
-                            counted(roads.ways.size(), "road")));
+                            counted(made.trips, "trip"),
+                            counted(made.cars, "car"),
+                            made.km,
+                            counted(made.roads, "road")));
 }
 
 constexpr std::array options{

@@ -22,7 +22,7 @@ void toil(Bench& bench,
           const std::function<void(std::size_t)>& work,
           const Progress& progress) {
     std::unique_lock lock{bench.mutex};
-    while (bench.next < count && !bench.failure) {
+    while (bench.next < count && !bench.failure && !progress.stop.stop_requested()) {
         const auto number = bench.next++;
         lock.unlock();
         std::exception_ptr failure;

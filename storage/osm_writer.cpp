@@ -47,6 +47,18 @@ std::map<std::int64_t, osmium::Location> nodes_of(std::span<const Way> ways) {
     return nodes;
 }
 
+/// A text as long as libosmium takes it for a tag: 256 characters of up to 4 bytes.
+void expect_short(const std::string& text, std::string_view what, std::int64_t way) {
+    constexpr std::size_t most_bytes = 256 * 4;
+    if (text.size() > most_bytes) {
+        throw InputError{fmt::format("the {} of way '{}' has {} bytes, expected at most {}",
+                                     what,
+                                     way,
+                                     text.size(),
+                                     most_bytes)};
+    }
+}
+
 /// The way's class, if readers of OSM know it for a road of cars.
 std::string class_of(const Way& way) {
     const OsmTags tags = [&](std::string_view key) -> const char* {
@@ -107,7 +119,16 @@ void write(std::span<const Way> ways, const std::filesystem::path& file) {
 
 } // namespace
 
+void expect_osm(std::span<const Way> ways) {
+    nodes_of(ways);
+    for (const auto& way : ways) {
+        expect_short(way.name, "name", way.id);
+        expect_short(way.highway, "class", way.id);
+    }
+}
+
 void write_osm(std::span<const Way> ways, const std::filesystem::path& file) {
+    expect_osm(ways);
     AtomicFile whole{std::filesystem::absolute(file)};
     try {
         write(ways, whole.temporary());

@@ -1,10 +1,13 @@
 #include "storage/rawlog_writer.hpp"
 
+#include "estimator/common/error.hpp"
 #include "estimator/common/late_library.hpp"
 #include "storage/compressed_file.hpp"
 #include "storage/late/rawlog.hpp"
 #include "storage/rawlog_reader.hpp"
 #include "storage/trip_meta.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +108,10 @@ private:
 
 } // namespace
 
-std::size_t write_rawlog(const TripLog& trip, const std::filesystem::path& file, int level) {
+std::size_t write_rawlog(const TripLog& trip,
+                         const std::filesystem::path& file,
+                         int level,
+                         const std::stop_token& stop) {
     auto* const encode = late_function<RawlogEncode>("macadam_rawlog.so", rawlog_encode_name);
     CompressedFile out{file, Compression::gzip, level};
     const std::function<void(std::string_view)> put = [&](std::string_view bytes) {
@@ -120,6 +126,9 @@ std::size_t write_rawlog(const TripLog& trip, const std::filesystem::path& file,
     Observations observations{trip};
     for (auto each = observations.next(); each; each = observations.next(), ++count) {
         encode(*each, put);
+        if (stop.stop_requested()) {
+            throw InputError{fmt::format("{}: stopped before it was whole", file.string())};
+        }
     }
     out.commit();
     return count;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <stop_token>
 
 namespace macadam {
 
@@ -16,7 +17,11 @@ namespace macadam {
 /// without t0_utc begins in 1970. The pose of the odometry is the distance driven, straight ahead.
 ///
 /// \param level  of compression: 1 (fast) to 9 (small).
-/// \throws InputError  if the file cannot be written.
-std::size_t write_rawlog(const TripLog& trip, const std::filesystem::path& file, int level = 6);
+/// \throws InputError  if the file cannot be written, or when `stop` is requested before it is
+///                     whole.
+std::size_t write_rawlog(const TripLog& trip,
+                         const std::filesystem::path& file,
+                         int level = 6,
+                         const std::stop_token& stop = {});
 
 } // namespace macadam

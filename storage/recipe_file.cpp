@@ -4,6 +4,8 @@
 #include "storage/toml.hpp"
 #include "storage/utc.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -41,18 +43,24 @@ public:
     Recipe bounds(Recipe recipe, const std::array<BoundsKey<Recipe>, count>& keys) {
         for (const auto& key : keys) {
             Bounds& place = key.place(recipe);
-            place = bounds(key.name).value_or(place);
+            place = bounds(key.name, key.range).value_or(place);
         }
         return recipe;
     }
 
-    std::optional<Bounds> bounds(std::string_view key) {
+    std::optional<Bounds> bounds(std::string_view key, const TomlRange& range) {
         if (!has(key)) {
             return {};
         }
-        const auto numbers = table_.numbers(key, not_negative_number);
-        if (numbers.size() != 2 || numbers[0] > numbers[1]) {
-            table_.refuse(key, "two numbers, the first not above the second");
+        const auto expected =
+            fmt::format("two numbers, the first not above the second, each {}", range.words);
+        if (table_.is_number(key)) {
+            table_.refuse(key, expected);
+        }
+        const auto numbers = table_.numbers(key);
+        if (numbers.size() != 2 || !(numbers[0] <= numbers[1]) ||
+            !std::ranges::all_of(numbers, range.holds)) {
+            table_.refuse(key, expected);
         }
         return Bounds{numbers[0], numbers[1]};
     }
@@ -134,7 +142,7 @@ RoadRule road_of(Reader reader) {
     constexpr std::int64_t most_id = std::int64_t{1} << 62;
     const auto& table = reader.table();
     auto rule = reader.numbers(RoadRule{}, road_numbers);
-    rule.iri_mm_per_m = reader.bounds("iri_mm_per_m");
+    rule.iri_mm_per_m = reader.bounds("iri_mm_per_m", iri);
     if (reader.has("highway")) {
         rule.highways = one_or_several(table, "highway");
     }
@@ -204,8 +212,8 @@ FleetCarRecipe car_of(Reader reader, const ImuRecipe& imu) {
         car.acc = has("acc");
         car.gyro = has("gyro");
         car.wheel_speed = has("speed");
-        if (std::size_t{car.acc} + car.gyro + car.wheel_speed != sensors.size()) {
-            table.refuse("sensors", "some of 'acc', 'gyro' and 'speed', each once");
+        if (std::size_t{car.acc} + car.gyro + car.wheel_speed != sensors.size() || !car.acc) {
+            table.refuse("sensors", "'acc', and with it 'gyro' or 'speed' or both, each once");
         }
     }
     reader.finish();

@@ -14,6 +14,10 @@ namespace macadam::recipe_keys {
 inline constexpr TomlRange share{[](double x) { return x >= 0 && x <= 1; }, "a number from 0 to 1"};
 inline constexpr TomlRange short_distance{[](double x) { return std::abs(x) <= 20; },
                                           "metres, from -20 to 20"};
+inline constexpr TomlRange trip_km{[](double x) { return x >= 0 && x <= 300; },
+                                   "a number from 0 to 300"}; // ten hours in a town
+inline constexpr TomlRange iri{[](double x) { return x >= 0.01 && x <= 50; },
+                               "a number from 0.01 to 50"}; // as check() of a RoadRecipe has it
 inline constexpr TomlRange rate{[](double x) { return x > 0 && x <= 1000; },
                                 "a number of hertz, above 0 and at most 1000"};
 
@@ -28,6 +32,7 @@ struct NumberKey {
 template <typename Recipe>
 struct BoundsKey {
     std::string_view name;
+    TomlRange range;
     Bounds& (*place)(Recipe&);
 };
 
@@ -51,9 +56,9 @@ inline constexpr std::array driving_numbers{
     NumberKey<DrivingRecipe>{"wander_length_m", positive_number, [](auto& r) -> double& { return r.wander_length_m; }},
 };
 inline constexpr std::array driving_bounds{
-    BoundsKey<DrivingRecipe>{"length_km", [](auto& r) -> Bounds& { return r.length_km; }},
-    BoundsKey<DrivingRecipe>{"stop_s", [](auto& r) -> Bounds& { return r.stop_s; }},
-    BoundsKey<DrivingRecipe>{"driver", [](auto& r) -> Bounds& { return r.driver; }},
+    BoundsKey<DrivingRecipe>{"length_km", trip_km, [](auto& r) -> Bounds& { return r.length_km; }},
+    BoundsKey<DrivingRecipe>{"stop_s", not_negative_number, [](auto& r) -> Bounds& { return r.stop_s; }},
+    BoundsKey<DrivingRecipe>{"driver", not_negative_number, [](auto& r) -> Bounds& { return r.driver; }},
 };
 inline constexpr std::array gnss_numbers{
     NumberKey<GnssRecipe>{"rate_hz", rate, [](auto& r) -> double& { return r.rate_hz; }},
@@ -66,9 +71,9 @@ inline constexpr std::array gnss_numbers{
     NumberKey<GnssRecipe>{"antenna_left_m", short_distance, [](auto& r) -> double& { return r.antenna_left_m; }},
 };
 inline constexpr std::array gnss_bounds{
-    BoundsKey<GnssRecipe>{"latency_s", [](auto& r) -> Bounds& { return r.latency_s; }},
-    BoundsKey<GnssRecipe>{"outage_s", [](auto& r) -> Bounds& { return r.outage_s; }},
-    BoundsKey<GnssRecipe>{"first_fix_s", [](auto& r) -> Bounds& { return r.first_fix_s; }},
+    BoundsKey<GnssRecipe>{"latency_s", not_negative_number, [](auto& r) -> Bounds& { return r.latency_s; }},
+    BoundsKey<GnssRecipe>{"outage_s", not_negative_number, [](auto& r) -> Bounds& { return r.outage_s; }},
+    BoundsKey<GnssRecipe>{"first_fix_s", not_negative_number, [](auto& r) -> Bounds& { return r.first_fix_s; }},
 };
 inline constexpr std::array imu_numbers{
     NumberKey<ImuRecipe>{"rate_hz", rate, [](auto& r) -> double& { return r.rate_hz; }},

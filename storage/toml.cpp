@@ -4,7 +4,7 @@
 #include "storage/byte_stream.hpp"
 #include "storage/text.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 namespace macadam {
 namespace {
@@ -262,17 +262,18 @@ std::string TomlTable::where(std::string_view key) const {
 void TomlTable::expect_only(std::span<const std::string_view> known) const {
     for (const auto& key : keys()) {
         if (std::ranges::find(known, key) == known.end()) {
-            refuse_unknown(key);
+            refuse_unknown(key, fmt::format("{}", fmt::join(known, ", ")));
         }
     }
 }
 
-void TomlTable::refuse_unknown(std::string_view key) const {
+void TomlTable::refuse_unknown(std::string_view key, std::string_view expected) const {
     for (const auto& [name, node] : *node_->table) {
         if (name.str() == key) {
-            throw InputError{fmt::format("{}: the key {} is not known (docs/formats.md lists them)",
+            throw InputError{fmt::format("{}: the key {} is not known, expected {}",
                                          node_->place(name.source()),
-                                         node_->full(key))};
+                                         node_->full(key),
+                                         expected)};
         }
     }
     miss(key);

@@ -60,7 +60,7 @@ public:
     /// \throws InputError  naming the first key that is not among these.
     void expect_only(std::span<const std::string_view> known) const;
 
-    [[noreturn]] void refuse_unknown(std::string_view key) const;
+    [[noreturn]] void refuse_unknown(std::string_view key, std::string_view expected) const;
     [[noreturn]] void miss(std::string_view key) const;
     [[noreturn]] void refuse(std::string_view key, std::string_view expected) const;
 

@@ -216,13 +216,22 @@ void expect_suffix(const std::filesystem::path& file) {
     }
 }
 
+void stop_if_wanted(const std::stop_token& stop, const std::filesystem::path& file) {
+    if (stop.stop_requested()) {
+        throw InputError{fmt::format("{}: stopped before it was whole", file.string())};
+    }
+}
+
 } // namespace
 
 std::span<const std::string_view> trip_log_suffixes() {
     return suffixes;
 }
 
-std::size_t write_trip(const TripLog& trip, const std::filesystem::path& file, int level) {
+std::size_t write_trip(const TripLog& trip,
+                       const std::filesystem::path& file,
+                       int level,
+                       const std::stop_token& stop) {
     expect_suffix(file);
     CompressedFile out{file, compression_of(file), level};
     const auto occurring = columns_of(trip);
@@ -234,6 +243,7 @@ std::size_t write_trip(const TripLog& trip, const std::filesystem::path& file, i
         if (block.size() >= block_bytes) {
             out.write(block);
             block.clear();
+            stop_if_wanted(stop, file);
         }
     }
     out.write(block + fmt::format("# end rows: {}\n", count));

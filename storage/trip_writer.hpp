@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <stop_token>
 #include <string_view>
 
 namespace macadam {
@@ -24,7 +25,11 @@ std::span<const std::string_view> trip_log_suffixes();
 /// Rows that gave nothing, and columns that nobody knows, are not in a TripLog and so not written.
 ///
 /// \param level  of compression: 1 (fast) to 9 (small).
-/// \throws InputError  for another suffix, or if the file cannot be written.
-std::size_t write_trip(const TripLog& trip, const std::filesystem::path& file, int level = 6);
+/// \throws InputError  for another suffix, if the file cannot be written, or when `stop` is
+///                     requested before it is whole.
+std::size_t write_trip(const TripLog& trip,
+                       const std::filesystem::path& file,
+                       int level = 6,
+                       const std::stop_token& stop = {});
 
 } // namespace macadam

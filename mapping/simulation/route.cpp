@@ -221,15 +221,17 @@ Tour outward(const RoadNetwork& roads,
              const DrivingRecipe& driving,
              std::uint64_t seed,
              std::size_t trip) {
-    constexpr int most_legs = 60;
+    constexpr int most_idle_legs = 60; // one after the other
     Random random{seed_of({seed, draw_way, trip})};
     const auto taste = seed_of({seed, draw_taste, trip});
     const double length_m = 1000 * random.uniform(driving.length_km.low, driving.length_km.high);
     auto tour = begun_at(map.places[random.below(map.places.size())]);
-    for (int leg = 0; leg < most_legs && tour.length_m < length_m; ++leg) {
+    for (int idle = 0; idle < most_idle_legs && tour.length_m < length_m; ++idle) {
         const auto goal = map.places[random.below(map.places.size())];
         if (goal != tour.stations.back()) {
+            const double before_m = tour.length_m;
             tour = led_on(std::move(tour), roads, map, goal, taste);
+            idle = tour.length_m > before_m ? -1 : idle;
         }
     }
     return cut_to(std::move(tour), roads, length_m);

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -159,6 +161,102 @@ TEST_F(Simulate, KeepsOutOfAFolderWithSomethingInIt) {
     EXPECT_EQ(files_in("full").size(), 1U);
 }
 
+/// What lies in the test's folder.
+std::vector<std::string> names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator{folder}) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+TEST_F(Simulate, FillsAFolderThatIsThereAndEmpty) {
+    fs::create_directory(folder_ / "fleet");
+    ASSERT_EQ(simulate("fleet/", {"--trips", "1"}).exit_status, 0);
+    EXPECT_THAT(names_in(folder_ / "fleet"),
+                ElementsAre("network.osm.pbf", "trips", "truth.csv", "vehicles"));
+}
+
+TEST_F(Simulate, LeavesNothingWhenItFails) {
+    write_file(folder_ / "oneway.osm",
+               R"(<osm version="0.6"><node id="1" lat="48.4" lon="15.6"/>
+               <node id="2" lat="48.4" lon="15.61"/><way id="1"><nd ref="1"/><nd ref="2"/>
+               <tag k="highway" v="primary"/><tag k="oneway" v="yes"/></way></osm>)");
+    const auto run = run_macadam({"simulate", "-o", at("fleet"), "--network", at("oneway.osm")});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("oneway.osm: of 1 roads no two places lead to each other"));
+    EXPECT_THAT(names_in(folder_), ElementsAre("oneway.osm", "recipe.toml", "town.osm"));
+}
+
+TEST_F(Simulate, LeavesNothingOnAFullDisk) {
+    const auto run = run_macadam(
+        {"simulate", "-o", at("fleet"), "--network", at("town.osm"), "--recipe", at("recipe.toml")},
+        20'000);
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("cannot be written"));
+    EXPECT_THAT(names_in(folder_), ElementsAre("recipe.toml", "town.osm"));
+}
+
+TEST_F(Simulate, LeavesNothingWhenItIsInterrupted) {
+    const auto truth_is_written = [&] {
+        for (const auto& entry : fs::recursive_directory_iterator{folder_}) {
+            if (entry.path().filename() == "trips") {
+                return true;
+            }
+        }
+        return false;
+    };
+    const auto run = run_macadam_signalled({"simulate",
+                                            "-o",
+                                            at("fleet"),
+                                            "--network",
+                                            at("town.osm"),
+                                            "--recipe",
+                                            at("recipe.toml"),
+                                            "--trips",
+                                            "1000"},
+                                           truth_is_written,
+                                           SIGINT);
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("macadam simulate: interrupted: nothing was left behind"));
+    EXPECT_THAT(names_in(folder_), ElementsAre("recipe.toml", "town.osm"));
+}
+
+TEST_F(Simulate, NamesWhatAKilledRunLeftInAFolder) {
+    fs::create_directories(folder_ / "fleet" / ".part-123");
+    const auto run = simulate("fleet");
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("fleet/.part-123: is left of work that was cut off"));
+}
+
+TEST_F(Simulate, NamesTheWayThatOsmCannotHold) {
+    write_file(
+        folder_ / "long.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":")" +
+            std::string(3000, 'x') +
+            R"("},"geometry":{"type":"LineString","coordinates":[[15.6,48.4],[15.61,48.4]]}}]})");
+    const auto run = run_macadam({"simulate", "-o", at("fleet"), "--network", at("long.geojson")});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(
+        run.err,
+        HasSubstr("long.geojson: the name of way '0' has 3000 bytes, expected at most 1024"));
+}
+
+TEST_F(Simulate, WarnsOfWhatTheRecipeSaysOfRoadsThatAreNotThere) {
+    write_file(folder_ / "recipe.toml",
+               recipe + "[speed_kmh]\nresidental = 30\nmotorway = 100\n"
+                        "[[road]]\nhighway = \"motorwya\"\n[[road]]\nway_id = 1\n"
+                        "[[road]]\nway_id = 11\nname = \"Ring\"\n");
+    const auto run = simulate("fleet", {"--trips", "1", "--quiet"});
+    EXPECT_EQ(run.exit_status, 0);
+    for (const auto* words : {"class 'residental'", "class 'motorwya'", "the way_id '1'"}) {
+        EXPECT_THAT(run.err, HasSubstr("recipe.toml: no road has the "));
+        EXPECT_THAT(run.err, HasSubstr(words));
+    }
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 3);
+}
+
 TEST_F(Simulate, ShowsARecipeThatItTakes) {
     const auto shown = run_macadam({"simulate", "--show-recipe"});
     EXPECT_EQ(shown.exit_status, 0);
@@ -170,6 +268,8 @@ TEST_F(Simulate, SaysWhatIsMissingOrWrong) {
     EXPECT_EQ(run_macadam({"simulate"}).exit_status, 2);
     EXPECT_THAT(run_macadam({"simulate", "-o", at("x")}).err,
                 HasSubstr("--network FILE is missing"));
+    EXPECT_THAT(simulate("x", {"--trips", "0"}).err,
+                HasSubstr("--trips is 0, expected 1 to 1000000"));
     EXPECT_THAT(simulate("x", {"--jobs", "0"}).err, HasSubstr("--jobs is 0, expected 1 to 256"));
     write_file(folder_ / "recipe.toml", "[trips]\ncount = 0\n");
     const auto run = simulate("x");

@@ -102,7 +102,16 @@ TEST(Recipe, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(refusal_of_text("[[car]]\nid = \"a\"\nlike = \"truck\"\n"),
                 HasSubstr("mine.toml:3: 'car.like' is 'truck', expected a built-in car"));
     EXPECT_THAT(refusal_of_text("[[car]]\nid = \"a\"\nsensors = [\"acc\", \"radar\"]\n"),
-                HasSubstr("expected some of 'acc', 'gyro' and 'speed', each once"));
+                HasSubstr("expected 'acc', and with it 'gyro' or 'speed' or both, each once"));
+    EXPECT_THAT(refusal_of_text("[[car]]\nid = \"a\"\nsensors = [\"gyro\"]\n"),
+                HasSubstr("expected 'acc', and with it"));
+    EXPECT_THAT(refusal_of_text("[[road]]\niri_mm_per_m = 2\n"),
+                HasSubstr("mine.toml:2: 'road.iri_mm_per_m' is '2', expected two numbers"));
+    EXPECT_THAT(refusal_of_text("[[road]]\niri_mm_per_m = [60, 60]\n"),
+                HasSubstr("mine.toml:2: 'road.iri_mm_per_m' is an array, expected two numbers, "
+                          "the first not above the second, each a number from 0.01 to 50"));
+    EXPECT_THAT(refusal_of_text("[trips]\nlength_km = [1e9, 1e9]\n"),
+                HasSubstr("each a number from 0 to 300"));
     EXPECT_THAT(refusal_of_text("[[car]]\nid = \"a\"\nwheelbase_m = 1\ncg_to_front_m = 2\n"),
                 HasSubstr("expected less than wheelbase_m"));
 }

@@ -69,10 +69,14 @@ Run run(const std::vector<std::string>& words,
     return result;
 }
 
+fs::path out_file() {
+    return fs::path{::testing::TempDir()} / ("macadam_out_" + std::to_string(getpid()));
+}
+
 } // namespace
 
 Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_bytes) {
-    const auto out = fs::path{::testing::TempDir()} / ("macadam_out_" + std::to_string(getpid()));
+    const auto out = out_file();
     auto result = run(words, out, most_file_bytes);
     result.out = read_file(out);
     fs::remove(out);
@@ -82,12 +86,20 @@ Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_byt
 Run run_macadam_signalled(const std::vector<std::string>& words,
                           const std::string& words_before,
                           int signal) {
-    const auto out = fs::path{::testing::TempDir()} / ("macadam_out_" + std::to_string(getpid()));
+    const auto out = out_file();
     fs::remove(out);
+    return run_macadam_signalled(
+        words, [&] { return read_file(out).find(words_before) != std::string::npos; }, signal);
+}
+
+Run run_macadam_signalled(const std::vector<std::string>& words,
+                          const std::function<bool()>& is_time,
+                          int signal) {
+    const auto out = out_file();
     auto result = run(words, out, 0, [&](pid_t child) {
         constexpr auto pause = std::chrono::milliseconds{2};
         siginfo_t ended{};
-        while (read_file(out).find(words_before) == std::string::npos && ended.si_pid != child) {
+        while (!is_time() && ended.si_pid != child) {
             std::this_thread::sleep_for(pause);
             waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
         }

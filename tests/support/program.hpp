@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,11 @@ Run run_macadam_into(const std::filesystem::path& out, const std::vector<std::st
 /// ended).
 Run run_macadam_signalled(const std::vector<std::string>& words,
                           const std::string& words_before,
+                          int signal);
+
+/// The same as soon as `is_time`.
+Run run_macadam_signalled(const std::vector<std::string>& words,
+                          const std::function<bool()>& is_time,
                           int signal);
 
 /// An empty folder of the running test's own.

@@ -1,0 +1,54 @@
+#include "mapping/simulation/idle_rules.hpp"
+
+#include "mapping/network_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace macadam {
+namespace {
+
+bool is_class(const std::string& highway, const RoadNetwork& roads) {
+    return highway == "road" || road_kind(highway) != "other" ||
+           std::ranges::find(roads.ways, highway, &Way::highway) != roads.ways.end();
+}
+
+std::vector<std::string> idle_words(const RoadRule& rule, const RoadNetwork& roads) {
+    std::vector<std::string> words;
+    for (const auto& highway : rule.highways) {
+        if (!is_class(highway, roads)) {
+            words.push_back(fmt::format("no road has the class '{}'", highway));
+        }
+    }
+    if (rule.way_id && std::ranges::find(roads.ways, *rule.way_id, &Way::id) == roads.ways.end()) {
+        words.push_back(fmt::format("no road has the way_id '{}'", *rule.way_id));
+    }
+    if (!rule.name.empty() &&
+        std::ranges::find(roads.ways, rule.name, &Way::name) == roads.ways.end()) {
+        words.push_back(fmt::format("no road has the name '{}'", rule.name));
+    }
+    return words;
+}
+
+} // namespace
+
+std::vector<std::string> idle_rules(const FleetRecipe& recipe, const RoadNetwork& roads) {
+    std::vector<std::string> all;
+    const auto add = [&](const std::string& words) {
+        if (std::ranges::find(all, words) == all.end()) {
+            all.push_back(words);
+        }
+    };
+    for (const auto& [highway, speed_kmh] : recipe.driving.speed_kmh) {
+        if (!is_class(highway, roads)) {
+            add(fmt::format("no road has the class '{}'", highway));
+        }
+    }
+    for (const auto& rule : recipe.roads) {
+        std::ranges::for_each(idle_words(rule, roads), add);
+    }
+    return all;
+}
+
+} // namespace macadam
