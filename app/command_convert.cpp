@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/interruption.hpp"
 #include "app/mapping_option.hpp"
 #include "app/output_guard.hpp"
 
@@ -14,7 +15,8 @@
 #include <array>
 #include <filesystem>
 #include <map>
-#include <set>
+#include <stop_token>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -38,6 +40,17 @@ bool names_a_file(const fs::path& output) {
     return std::ranges::any_of(suffixes, [&](auto suffix) { return name.ends_with(suffix); });
 }
 
+/// A name with another ending may be meant as a file: a folder of that name would surprise.
+void expect_file_or_folder(const fs::path& output) {
+    if (!names_a_file(output) && output.has_extension() && output.has_filename() &&
+        !fs::is_directory(output)) {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in {}, or a folder (if "
+                                     "it is new and has a dot in its name, with a '/' at its end)",
+                                     output.string(),
+                                     fmt::join(suffixes, ", "))};
+    }
+}
+
 ConvertOptions parse_convert(const Arguments& arguments) {
     const auto output = arguments.value("--output");
     if (!output) {
@@ -50,6 +63,7 @@ ConvertOptions parse_convert(const Arguments& arguments) {
     if (arguments.value("--to") && names_a_file(*output)) {
         throw UsageError{fmt::format("--to is for a folder, but -o is '{}'", *output)};
     }
+    expect_file_or_folder(*output);
     const auto& trips = arguments.operands("TRIP");
     return {.trips = {trips.begin(), trips.end()},
             .output = *output,
@@ -64,55 +78,93 @@ struct Task {
     fs::path output;
 };
 
-/// The name of a trip without folder and suffix.
-std::string stem_of(const TripSource& trip) {
-    auto name = fs::path{trip.name()};
-    auto stem = (name.has_filename() ? name : name.parent_path()).filename().string();
+std::string without_suffix(const std::string& name) {
     for (const std::string_view suffix :
          {".trip.csv.gz", ".trip.csv.zst", ".trip.csv", ".rawlog", ".zip", ".csv"}) {
-        if (stem.ends_with(suffix) && stem.size() > suffix.size()) {
-            return stem.substr(0, stem.size() - suffix.size());
+        if (name.ends_with(suffix) && name.size() > suffix.size()) {
+            return name.substr(0, name.size() - suffix.size());
         }
     }
-    return stem;
+    return name;
 }
 
-std::vector<TripSource> trips_of(const ConvertOptions& options) {
-    std::vector<TripSource> trips;
+/// Where a trip lies below the path that was asked for, without suffixes: folders and archives
+/// become folders.
+fs::path place_below(const fs::path& asked, const TripSource& trip) {
+    const auto name = fs::path{trip.name()}.lexically_normal();
+    auto below = name.lexically_relative(asked.lexically_normal() / "");
+    if (below.empty() || below == "." || *below.begin() == "..") {
+        below = (name.has_filename() ? name : name.parent_path()).filename();
+    }
+    fs::path place;
+    for (const auto& part : below) {
+        if (!part.empty()) {
+            place /= without_suffix(part.string());
+        }
+    }
+    return place;
+}
+
+/// The trips of the paths that were asked for, each with its path, and why others have none.
+struct Found {
+    std::vector<std::pair<fs::path, TripSource>> trips;
+    std::vector<std::string> refused;
+};
+
+Found trips_of(const ConvertOptions& options) {
+    Found all;
     for (const auto& path : options.trips) {
-        const auto found = find_trips(path, options.mapping).trips;
-        if (found.empty()) {
-            throw InputError{fmt::format("{}: holds no trip", path.string())};
+        try {
+            const auto trips = find_trips(path, options.mapping).trips;
+            if (trips.empty()) {
+                throw InputError{fmt::format("{}: holds no trip", path.string())};
+            }
+            for (const auto& trip : trips) {
+                all.trips.emplace_back(path, trip);
+            }
+        } catch (const InputError& error) {
+            if (options.trips.size() == 1) {
+                throw;
+            }
+            all.refused.emplace_back(error.what());
         }
-        trips.insert(trips.end(), found.begin(), found.end());
     }
-    return trips;
+    return all;
 }
 
-std::vector<Task> tasks_of(const ConvertOptions& options) {
-    const auto trips = trips_of(options);
+/// What there is to do, and why the rest of what was asked for cannot be.
+struct Tasks {
+    std::vector<Task> tasks;
+    std::vector<std::string> refused;
+};
+
+Tasks tasks_of(const ConvertOptions& options) {
+    auto found = trips_of(options);
     if (names_a_file(options.output)) {
-        if (trips.size() != 1) {
+        if (found.trips.size() != 1) {
             throw InputError{fmt::format("{}: is one file, expected a folder for {} trips",
                                          options.output.string(),
-                                         trips.size())};
+                                         found.trips.size())};
         }
-        return {{trips.front(), options.output}};
+        return {{{found.trips.front().second, options.output}}, std::move(found.refused)};
     }
-    std::vector<Task> tasks;
+    Tasks all{{}, std::move(found.refused)};
     std::map<fs::path, std::string> taken;
-    for (const auto& trip : trips) {
-        const auto output = options.output / (stem_of(trip) + options.suffix);
+    for (const auto& [asked, trip] : found.trips) {
+        auto output = options.output / place_below(asked, trip);
+        output += options.suffix;
         const auto [other, is_new] = taken.try_emplace(output, trip.name());
-        if (!is_new) {
-            throw InputError{fmt::format("{}: would be written twice, of {} and of {}",
-                                         output.string(),
-                                         other->second,
-                                         trip.name())};
+        if (is_new) {
+            all.tasks.push_back({trip, output});
+        } else {
+            all.refused.push_back(
+                fmt::format("{}: would be written twice, of {} and of {}; the second is left out",
+                            output.string(),
+                            other->second,
+                            trip.name()));
         }
-        tasks.push_back({trip, output});
     }
-    return tasks;
+    return all;
 }
 
 std::string not_kept(const TripLog& trip) {
@@ -130,12 +182,28 @@ std::string not_kept(const TripLog& trip) {
     return words;
 }
 
-void convert(const Task& task, const ConvertOptions& options, const Console& console) {
+void make_folder(const fs::path& folder) {
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure) {
+        throw InputError{fmt::format("{}: cannot be made: {}", folder.string(), failure.message())};
+    }
+}
+
+void convert(const Task& task,
+             const ConvertOptions& options,
+             const Console& console,
+             const std::stop_token& stop) {
     const TripNeeds all{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
-    const auto trip = read_trip(task.trip, all, console.progress("reading"));
+    auto reading = console.progress("reading");
+    reading.stop = stop;
+    const auto trip = read_trip(task.trip, all, reading);
+    if (!names_a_file(options.output)) {
+        make_folder(task.output.parent_path());
+    }
     const bool rawlog = task.output.extension() == rawlog_suffix;
-    const auto written = rawlog ? write_rawlog(trip, task.output, options.level)
-                                : write_trip(trip, task.output, options.level);
+    const auto written = rawlog ? write_rawlog(trip, task.output, options.level, stop)
+                                : write_trip(trip, task.output, options.level, stop);
     console.say(fmt::format("{}: {} read, {} written{}",
                             task.output.string(),
                             counted(trip.rows.size(), "row"),
@@ -148,44 +216,48 @@ void convert(const Task& task, const ConvertOptions& options, const Console& con
     }
 }
 
-void make_folder(const fs::path& folder) {
-    std::error_code failure;
-    fs::create_directories(folder, failure);
-    if (failure) {
-        throw InputError{fmt::format("{}: cannot be made: {}", folder.string(), failure.message())};
-    }
-}
-
-void run_convert(const Arguments& arguments, const Console& console) {
-    const auto options = parse_convert(arguments);
-    const auto tasks = tasks_of(options);
-    std::vector<fs::path> inputs;
-    inputs.reserve(tasks.size());
-    for (const auto& task : tasks) {
-        inputs.push_back(task.trip.file);
-    }
-    for (const auto& task : tasks) {
-        refuse_to_replace(task.output, inputs);
-    }
-    if (!names_a_file(options.output)) {
-        make_folder(options.output);
-    }
-    std::size_t failed = 0;
-    for (const auto& task : tasks) {
+/// \returns how many could not be converted.
+std::size_t convert_all(const Tasks& all, const ConvertOptions& options, const Console& console) {
+    const Interruption interruption;
+    const auto stop = interruption.stop();
+    std::size_t failed = all.refused.size();
+    for (std::size_t done = 0; done < all.tasks.size(); ++done) {
         try {
-            convert(task, options, console);
+            convert(all.tasks[done], options, console, stop);
         } catch (const InputError& error) {
-            if (tasks.size() == 1) {
+            if (stop.stop_requested()) {
+                throw InputError{fmt::format("interrupted: {} of {} were not converted",
+                                             all.tasks.size() - done,
+                                             counted(all.tasks.size(), "trip"))};
+            }
+            if (all.tasks.size() + all.refused.size() == 1) {
                 throw;
             }
             ++failed;
             console.warn(error.what());
         }
     }
-    if (failed > 0) {
+    return failed;
+}
+
+void run_convert(const Arguments& arguments, const Console& console) {
+    const auto options = parse_convert(arguments);
+    const auto all = tasks_of(options);
+    for (const auto& why : all.refused) {
+        console.warn(why);
+    }
+    std::vector<fs::path> inputs;
+    inputs.reserve(all.tasks.size());
+    for (const auto& task : all.tasks) {
+        inputs.push_back(task.trip.file);
+    }
+    for (const auto& task : all.tasks) {
+        refuse_to_replace(task.output, inputs);
+    }
+    if (const auto failed = convert_all(all, options, console); failed > 0) {
         throw InputError{fmt::format("{} of {} could not be converted; the others are in {}",
                                      failed,
-                                     counted(tasks.size(), "trip"),
+                                     counted(all.tasks.size() + all.refused.size(), "trip"),
                                      options.output.string())};
     }
 }
@@ -196,8 +268,7 @@ constexpr std::array operands{Operand{
 constexpr std::array options{
     Option{"-o,--output",
            "FILE|DIR",
-           "Where to: a file (.trip.csv, .trip.csv.gz, .trip.csv.zst, .rawlog) for one trip, or a "
-           "folder."},
+           "A file (.trip.csv, .trip.csv.gz, .trip.csv.zst, .rawlog), or a folder for any number."},
     Option{"--to", "SUFFIX", "What the files in a folder become.", ".trip.csv.gz"},
     Option{"--level", "N", "Of compression: 1 is fast, 9 small.", "6"},
     mapping_option};

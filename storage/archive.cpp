@@ -23,8 +23,9 @@ using Reader = std::unique_ptr<archive, Free>;
 
 [[noreturn]] void fail(archive* reader, const std::string& name) {
     const char* const cause = archive_error_string(reader);
-    throw InputError{
-        fmt::format("{}: cannot be read: {}", name, cause != nullptr ? cause : "damaged archive")};
+    throw InputError{fmt::format("{}: the archive is cut off or damaged: {}",
+                                 name,
+                                 cause != nullptr ? cause : "its structure is broken")};
 }
 
 Reader open(const std::filesystem::path& file) {
@@ -34,7 +35,11 @@ Reader open(const std::filesystem::path& file) {
     archive_read_support_filter_gzip(reader.get());
     archive_read_support_filter_zstd(reader.get());
     if (archive_read_open_filename(reader.get(), file.c_str(), input_block) != ARCHIVE_OK) {
-        fail(reader.get(), file.string());
+        const char* const cause = archive_error_string(reader.get());
+        throw InputError{fmt::format("{}: cannot be read{}{}",
+                                     file.string(),
+                                     cause != nullptr ? ": " : "",
+                                     cause != nullptr ? cause : "")};
     }
     return reader;
 }

@@ -23,8 +23,13 @@ namespace {
 constexpr std::string_view first_line = "# macadam-trip 1";
 constexpr std::string_view end_mark = "# end rows:";
 
+/// \throws InputError  what is wrong with an archive that was found in a folder and could not be
+///                     searched, rather than that it is no log.
 std::unique_ptr<ByteStream> open(const TripSource& source) {
     if (source.member.empty()) {
+        if (source.file.extension() == ".zip") {
+            members_of(source.file);
+        }
         return decompressed(file_bytes(source.file), source.name());
     }
     return decompressed(bounded(member_bytes(source.file, source.member), source.name()),

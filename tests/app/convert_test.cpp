@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 
 namespace macadam {
@@ -96,15 +98,88 @@ TEST(Convert, RefusesToWriteOverWhatItReads) {
     EXPECT_EQ(read_file(log), tiny);
 }
 
+TEST(Convert, KeepsTheFoldersInWhichTripsLay) {
+    const auto folder = fresh_folder();
+    for (const auto* day : {"monday", "tuesday"}) {
+        std::filesystem::create_directories(folder / "trips" / day);
+        write_file(folder / "trips" / day / "00.trip.csv", tiny);
+    }
+    const auto output = folder / "out";
+    const auto run =
+        run_macadam({"convert", (folder / "trips").string() + "/", "-o", output.string()});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_TRUE(std::filesystem::exists(output / "monday" / "00.trip.csv.gz"));
+    EXPECT_TRUE(std::filesystem::exists(output / "tuesday" / "00.trip.csv.gz"));
+}
+
+TEST(Convert, GoesOnAfterAPathThatHoldsNoTrip) {
+    const auto folder = fresh_folder();
+    write_file(folder / "tiny.trip.csv", tiny);
+    write_file(folder / "cut.zip", "PK\x03\x04");
+    const auto run = run_macadam({"convert",
+                                  (folder / "cut.zip").string(),
+                                  (folder / "tiny.trip.csv").string(),
+                                  "-o",
+                                  (folder / "out").string()});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("cut.zip: the archive is cut off or damaged"));
+    EXPECT_THAT(run.err, HasSubstr("1 of 2 trips could not be converted"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / "tiny.trip.csv.gz"));
+}
+
+TEST(Convert, TakesNoNameForAFolderThatLooksLikeAFile) {
+    const auto folder = fresh_folder();
+    write_file(folder / "tiny.trip.csv", tiny);
+    const auto tiny_file = (folder / "tiny.trip.csv").string();
+    const auto run = run_macadam({"convert", tiny_file, "-o", (folder / "drive.csv").string()});
+    EXPECT_EQ(run.exit_status, 2);
+    EXPECT_THAT(run.err, HasSubstr("drive.csv', expected a name that ends in .trip.csv.gz, "));
+    EXPECT_FALSE(std::filesystem::exists(folder / "drive.csv"));
+    EXPECT_EQ(
+        run_macadam({"convert", tiny_file, "-o", (folder / "v1.2").string() + "/"}).exit_status, 0);
+    EXPECT_EQ(run_macadam({"convert", tiny_file, "-o", (folder / "v1.2").string()}).exit_status, 0);
+}
+
+/// Whether something in a folder is being written.
+bool holds_a_part(const std::filesystem::path& folder) {
+    return std::ranges::any_of(
+        std::filesystem::recursive_directory_iterator{folder}, [](const auto& entry) {
+            return entry.path().filename().string().find(".part-") != std::string::npos;
+        });
+}
+
+TEST(Convert, LeavesNoPartOfAFileWhenItIsInterrupted) {
+    const auto folder = fresh_folder();
+    constexpr int copies = 20; // more than are done before the signal comes
+    for (int i = 0; i < copies; ++i) {
+        std::filesystem::copy_file(rav4, folder / (std::to_string(i) + ".trip.csv"));
+    }
+    const auto run = testing::run_macadam_signalled(
+        {"convert", folder.string(), "-o", (folder / "out").string(), "--level", "9"},
+        [&] { return holds_a_part(folder); },
+        SIGINT);
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("macadam convert: interrupted: "));
+    EXPECT_THAT(run.err, HasSubstr(" of 20 trips were not converted"));
+    EXPECT_FALSE(holds_a_part(folder));
+}
+
 TEST(Convert, RefusesToWriteTwoTripsIntoOneFile) {
     const auto folder = fresh_folder();
     std::filesystem::create_directories(folder / "a");
     std::filesystem::create_directories(folder / "b");
     write_file(folder / "a" / "tiny.trip.csv", tiny);
     write_file(folder / "b" / "tiny.trip.csv", tiny);
-    auto run = run_macadam({"convert", folder.string(), "-o", (folder / "out").string()});
+    auto run = run_macadam({"convert",
+                            (folder / "a").string(),
+                            (folder / "b").string(),
+                            "-o",
+                            (folder / "out").string()});
     EXPECT_EQ(run.exit_status, 1);
     EXPECT_THAT(run.err, HasSubstr("tiny.trip.csv.gz: would be written twice, of "));
+    EXPECT_THAT(run.err, HasSubstr("1 of 2 trips could not be converted"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / "tiny.trip.csv.gz"));
+    std::filesystem::remove_all(folder / "out");
     run = run_macadam({"convert", folder.string(), "-o", (folder / "x.rawlog").string()});
     EXPECT_EQ(run.exit_status, 1);
     EXPECT_THAT(run.err, HasSubstr("x.rawlog: is one file, expected a folder for 2 trips"));
