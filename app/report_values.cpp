@@ -133,11 +133,15 @@ MapScene scene_of(const RoadStore& store,
 
 // --------------------------------------------------------------------------------------- values
 
+std::string spoken_model(const std::string& model) {
+    return model == own_file_model ? model : "built-in " + model;
+}
+
 std::vector<ReportVehicle> vehicles_of(const RoadStore& store) {
     std::vector<ReportVehicle> vehicles;
     for (const auto& use : store.vehicle_uses()) {
         vehicles.push_back({.name = use.vehicle,
-                            .model = use.vehicle_model,
+                            .model = spoken_model(use.vehicle_model),
                             .method = use.method,
                             .trips = use.trips,
                             .undated_trips = use.undated_trips,
@@ -187,6 +191,9 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
         report.stretches_m += stretch.length_m;
     }
     report.vehicles = vehicles_of(store);
+    report.quality = data_quality(survey.measured);
+    report.lateral_passes = info.lateral_passes;
+    report.row_reasons = store.row_reasons();
 
     stretches.resize(std::min(stretches.size(), config.worst));
     const auto pictures = stretches.size() + 1;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "mapping/data_quality.hpp"
 #include "mapping/iri_class.hpp"
 #include "mapping/network_summary.hpp"
 #include "mapping/worst_stretches.hpp"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,8 @@ struct ReportStretch {
 
 /// What the trips of one car gave.
 struct ReportVehicle {
-    std::string name; ///< pseudonym
-    std::string model;
+    std::string name;  ///< pseudonym
+    std::string model; ///< where it came from: "own file" or the name of a built-in one
     std::string method;
     std::size_t trips = 0;
     std::size_t undated_trips = 0;
@@ -60,6 +62,9 @@ struct Report {
     double stretches_m = 0;              ///< and their length
     std::vector<ReportStretch> worst;    ///< the worst of them, worst first
     std::vector<ReportVehicle> vehicles; ///< in the order in which they are listed
+    DataQuality quality;
+    std::size_t lateral_passes = 0;                 ///< from lateral vibration alone
+    std::map<std::string, std::size_t> row_reasons; ///< why rows of the logs entered no estimate
 };
 
 /// The report as one HTML page that needs nothing else: style, figures and pictures stand in it, no

@@ -116,6 +116,13 @@ Report town() {
     report.stretches_m = 2345;
     report.worst = {stretch_named("Rue de l'Épée"), stretch_named("")};
     report.vehicles = {{"v-0123456789ab", "suv", "kf", 12, 2, 12345, 80, 60, 1000, 900}};
+    report.quality.measured = {400, 8000};
+    report.quality.both_tracks = {100, 2000};
+    report.quality.inferred = {290, 5800};
+    report.quality.lateral_alone = {10, 200};
+    report.quality.start_up = {7, 140};
+    report.lateral_passes = 37;
+    report.row_reasons = {{"too_slow", 20}, {"repeated_fix", 70}};
     return report;
 }
 
@@ -194,7 +201,7 @@ TEST(Report, DescribesEveryPictureAndNamesEveryTable) {
         EXPECT_THAT(between(image, " alt=\"Map of ", "\""), SizeIs(1));
     }
     const auto tables = between(html, "<table>", "</table>");
-    EXPECT_THAT(tables, SizeIs(5));
+    EXPECT_THAT(tables, SizeIs(7));
     for (const auto& table : tables) {
         EXPECT_THAT(table, StartsWith("\n<caption>"));
         EXPECT_THAT(between(table, "<th scope=\"", "\""),
@@ -213,6 +220,26 @@ TEST(Report, OfNothingMeasuredSaysSo) {
     EXPECT_THAT(html, HasSubstr("0 % of the network of 20.0 km"));
     EXPECT_THAT(html, Not(HasSubstr("Mean IRI")));
     EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(Report, SaysWhatItsValuesRestOn) {
+    const auto html = report_html(town());
+    EXPECT_THAT(html, HasSubstr("Both wheel tracks: MRI observed</th><td class=\"n\">100</td>"));
+    EXPECT_THAT(html,
+                HasSubstr("Middle of the car: MRI inferred</th><td class=\"n\">290</td>"
+                          "<td class=\"n\">5.80</td><td class=\"n\">72.5 %</td>"));
+    EXPECT_THAT(html, HasSubstr("MRI = HRI / 0.91"));
+    EXPECT_THAT(html, HasSubstr("37 passes are from lateral vibration alone"));
+}
+
+TEST(Report, SaysWhyRowsEnteredNoEstimateTheMostFrequentReasonFirst) {
+    const auto html = report_html(town());
+    const auto frequent = html.find("Repeated fix</th><td class=\"n\">70</td>");
+    const auto rare = html.find("Too slow</th><td class=\"n\">20</td><td class=\"n\">2.0 %</td>");
+    ASSERT_NE(frequent, std::string::npos);
+    ASSERT_NE(rare, std::string::npos);
+    EXPECT_LT(frequent, rare);
+    EXPECT_THAT(html, HasSubstr("Not kept by an earlier version</th><td class=\"n\">10</td>"));
 }
 
 TEST(Report, OfGoodRoadsHasNoWorstStretch) {
