@@ -14,6 +14,7 @@ the median of the turns, and the ratio is what counts. CPU seconds are user and 
 import datetime
 import json
 import os
+import re
 import shutil
 import statistics
 import subprocess
@@ -171,21 +172,41 @@ def output_tables(macadam, work, store):
          for name, used, ratio in zip(names, asked, beside)]) + "\n"
 
 
+# What something is measured beside: the same work by other means.
+PEERS = {"filter_of_macadam": "filter_as_in_the_paper", "match_longer_trips": "match_by_newson_krumm", "draw_in_macadam": "draw_in_cairo"}
+
+
+def peak_mb(program, name):
+    """Of a process that does nothing else."""
+    return run([program, f"--benchmark_filter=^{re.escape(name)}$", "--benchmark_min_time=0.01"]).peak_mb
+
+
+def ratio_to_peer(name, times):
+    """CPU of the peer over ours, for the same size; empty where there is no peer."""
+    own, _, size = name.partition("/")
+    peer = f"{PEERS.get(own)}/{size}"
+    return f"{times[peer] / times[name]:.1f}" if peer in times else ""
+
+
 def part(build, name, title, note):
-    """One program of Google Benchmark as a table of CPU times and counters."""
+    """One program of Google Benchmark as a table of CPU times, memory, ratios and counters."""
     say(f"{name}_bench")
-    done = subprocess.run([build / "tests" / "bench" / f"{name}_bench", "--benchmark_format=json"], capture_output=True, check=True)
+    program = build / "tests" / "bench" / f"{name}_bench"
+    done = subprocess.run([program, "--benchmark_format=json"], capture_output=True, check=True)
+    found = json.loads(done.stdout)["benchmarks"]
+    times = {one["name"]: one["cpu_time"] for one in found if one["run_type"] == "iteration"}
     rows = []
-    for one in json.loads(done.stdout)["benchmarks"]:
+    for one in found:
         if one.get("aggregate_name") == "RMS":
             continue
         if one.get("aggregate_name") == "BigO":
-            rows.append([one["run_name"], f"grows as {one['big_o']}", ""])
+            rows.append([one["run_name"], f"grows as {one['big_o']}", "", "", ""])
             continue
         counters = ", ".join(f"{key} {one[key]:,.0f}" for key in
                              ("samples/s", "x_real_time", "fixes/s", "edges", "found", "segments", "passes/s", "lines") if key in one)
-        rows.append([one["name"], f"{one['cpu_time']:.2f} {one['time_unit']}", counters])
-    return f"## {title}\n\n{note}\n\n" + table(["what", "CPU", "of it"], rows)
+        rows.append([one["name"], f"{one['cpu_time']:.2f} {one['time_unit']}", f"{peak_mb(program, one['name']):.0f}",
+                     ratio_to_peer(one["name"], times), counters])
+    return f"## {title}\n\n{note}\n\n" + table(["what", "CPU", "peak MB", "CPU of the peer, times ours", "of it"], rows)
 
 
 PARTS = {
