@@ -240,7 +240,8 @@ IriRun estimate_iri(const Stretch& stretch, const Vehicle& vehicle, const Estima
                .centre_mm_per_m = {},
                .speed_mps = {},
                .lead_in_m = config.lead_in_m,
-               .indicative = channels == Channels::lateral};
+               .indicative = channels == Channels::lateral,
+               .scatter_mm_per_m = {}};
     const bool sampled = channels == Channels::lateral ? !stretch.lateral_mps2.empty()
                                                        : !stretch.vertical_mps2.empty();
     if (!sampled || stretch.travel_m.size() < 3) {

@@ -13,10 +13,6 @@ namespace {
 constexpr std::size_t tuning_samples = 3000;
 constexpr std::size_t least_tuning_samples = 1200;
 
-constexpr double core_m = 1500;            // of a piece, ...
-constexpr std::size_t core_samples = 9000; // ... or so many, if the car is slow: some 25 MB
-constexpr double margin_m = 150;           // on both sides, where start-up and windows reach
-
 // Of the channels' zeros, variance a second: gravity's share on hills and in bends, what the yaw
 // rate does not explain of a bend's pull, drift of the gyroscope.
 constexpr std::array<double, channel_count> zero_drift{1e-4, 1e-2, 1e-6, 1e-6};
@@ -191,7 +187,10 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     return tuned_car(piece, tunable, {});
 }
 
-IriRun smoothed_iri(const Stretch& stretch, const TunedCar& car, const EstimatorConfig& config) {
+IriRun smoothed_iri(const Stretch& stretch,
+                    const TunedCar& car,
+                    const EstimatorConfig& config,
+                    const PieceConfig& pieces) {
     const SmootherConfig smoother;
     IriRun run{.start_travel_m = stretch.travel_m.empty() ? 0 : stretch.travel_m.front(),
                .cell_m = smoother.cell_m,
@@ -200,7 +199,8 @@ IriRun smoothed_iri(const Stretch& stretch, const TunedCar& car, const Estimator
                .centre_mm_per_m = {},
                .speed_mps = {},
                .lead_in_m = config.lead_in_m,
-               .indicative = false};
+               .indicative = false,
+               .scatter_mm_per_m = {}};
     auto passage = passage_of(stretch, car.vehicle, config);
     if (!is_felt(passage) || passage.travel_m.size() < 3) {
         return run;
@@ -219,13 +219,13 @@ IriRun smoothed_iri(const Stretch& stretch, const TunedCar& car, const Estimator
     run.start_travel_m = static_cast<double>(cell) * smoother.cell_m;
     while (cell < end) {
         const double from_m = static_cast<double>(cell) * smoother.cell_m;
-        const std::size_t first = sample_at(passage, from_m - margin_m);
+        const std::size_t first = sample_at(passage, from_m - pieces.margin_m);
         const std::size_t furthest =
-            std::min(passage.travel_m.size() - 1, sample_at(passage, from_m) + core_samples);
+            std::min(passage.travel_m.size() - 1, sample_at(passage, from_m) + pieces.core_samples);
         const double until_m =
-            std::min(from_m + core_m, std::max(from_m + 1, passage.travel_m[furthest]));
+            std::min(from_m + pieces.core_m, std::max(from_m + 1, passage.travel_m[furthest]));
         const std::size_t last =
-            std::min(passage.travel_m.size(), sample_at(passage, until_m + margin_m) + 1);
+            std::min(passage.travel_m.size(), sample_at(passage, until_m + pieces.margin_m) + 1);
         auto to = std::min(end, static_cast<std::ptrdiff_t>(std::floor(until_m)) * cells_a_metre);
         if (last == passage.travel_m.size()) {
             to = end;

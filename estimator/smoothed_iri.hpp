@@ -12,8 +12,18 @@ namespace macadam {
 ///           for one of them alone says too little. The vehicle itself if the stretch is too short.
 TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config);
 
+/// How a stretch is cut to be smoothed.
+struct PieceConfig {
+    double core_m = 1500;            ///< of a piece, ...
+    std::size_t core_samples = 9000; ///< ... or so many, if the car is slow: some 25 MB
+    double margin_m = 150;           ///< on both sides, where start-up and windows reach
+};
+
 /// Both tracks of the road under one stretch by the joint smoother, in pieces of a kilometre or two
 /// that overlap, so that memory does not grow with the stretch.
-IriRun smoothed_iri(const Stretch& stretch, const TunedCar& car, const EstimatorConfig& config);
+IriRun smoothed_iri(const Stretch& stretch,
+                    const TunedCar& car,
+                    const EstimatorConfig& config,
+                    const PieceConfig& pieces = {});
 
 } // namespace macadam

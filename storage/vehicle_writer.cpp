@@ -26,7 +26,9 @@ std::string quoted(std::string_view text) {
 std::string half_car_text(const HalfCar& car) {
     return "\n[half_car]\n" + line("ms_kg", car.ms_kg) + line("mu_kg", car.mu_kg) +
            line("ks_n_per_m", car.ks_n_per_m) + line("cs_ns_per_m", car.cs_ns_per_m) +
-           line("kt_n_per_m", car.kt_n_per_m) + line("is_kgm2", car.is_kgm2) + line("l_m", car.l_m);
+           line("kt_n_per_m", car.kt_n_per_m) + line("is_kgm2", car.is_kgm2) +
+           line("l_m", car.l_m) +
+           (car.antiroll_n_per_m > 0 ? line("antiroll_n_per_m", car.antiroll_n_per_m) : "");
 }
 
 std::string axles_text(const Axles& axles) {

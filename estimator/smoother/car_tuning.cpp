@@ -163,7 +163,8 @@ TunedCar tuned_car(const Passage& passage, const Vehicle& vehicle, const Smoothe
         at[0] = std::max(at[0], 0.0);
         here = same;
     }
-    TunedCar tuned{.vehicle = moved(vehicle, unknowns, at), .friction_n = at[0]};
+    TunedCar tuned{
+        .vehicle = moved(vehicle, unknowns, at), .friction_n = at[0], .uncertainty = {}};
     tuned.friction_sd_n = std::sqrt(left(0, 0));
     for (std::size_t i = 0; i < unknowns.moved.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i) + 1;

@@ -47,6 +47,7 @@ Vehicle written_vehicle(const CarRecipe& car, const ImuRecipe& imu, double sd, s
     Random random{seed};
     Vehicle vehicle = car.vehicle;
     auto& body = vehicle.half_car;
+    body.antiroll_n_per_m = car.antiroll_n_per_m;
     for (auto* const number : {&body.ms_kg,
                                &body.mu_kg,
                                &body.ks_n_per_m,

@@ -37,19 +37,22 @@ TEST(VehicleFile, NeedsANameAndAHalfCar) {
     EXPECT_EQ(car.half_car.kt_n_per_m, 250000);
     EXPECT_EQ(car.half_car.is_kgm2, 500);
     EXPECT_EQ(car.half_car.l_m, 0.78);
+    EXPECT_EQ(car.half_car.antiroll_n_per_m, 0);
     EXPECT_FALSE(car.axles);
     EXPECT_TRUE(car.uncertainty.empty());
 }
 
 TEST(VehicleFile, ReadsWhatElseIsKnownOfACar) {
-    const auto car = read_text("gain = 0.9\none_axle_gain = 0.72\n" + least +
-                               "[axles]\nwheelbase_m = 2.7\ncg_to_front_m = 1.3\n"
-                               "dynamic_index = 0.95\nrear_ratio = 1.1\n"
-                               "[imu]\nx_m = -0.5\ny_m = 0.2\nheight_above_roll_axis_m = 0.3\n"
-                               "lowpass_hz = 40\nlowpass_order = 4\nnoise_mps2 = 0.1\n"
-                               "noise_radps = 0.01\n[uncertainty]\nms_kg = 0.1\ngain = 0.05\n");
+    const auto car =
+        read_text("gain = 0.9\none_axle_gain = 0.72\n" + least +
+                  "antiroll_n_per_m = 8000\n[axles]\nwheelbase_m = 2.7\ncg_to_front_m = 1.3\n"
+                  "dynamic_index = 0.95\nrear_ratio = 1.1\n"
+                  "[imu]\nx_m = -0.5\ny_m = 0.2\nheight_above_roll_axis_m = 0.3\n"
+                  "lowpass_hz = 40\nlowpass_order = 4\nnoise_mps2 = 0.1\n"
+                  "noise_radps = 0.01\n[uncertainty]\nms_kg = 0.1\ngain = 0.05\n");
     EXPECT_EQ(car.gain, 0.9);
     EXPECT_EQ(gain_for_one_axle(car), 0.72);
+    EXPECT_EQ(car.half_car.antiroll_n_per_m, 8000);
     ASSERT_TRUE(car.axles);
     EXPECT_EQ(car.axles->wheelbase_m, 2.7);
     EXPECT_EQ(car.axles->cg_to_front_m, 1.3);
@@ -63,6 +66,11 @@ TEST(VehicleFile, ReadsWhatElseIsKnownOfACar) {
     EXPECT_EQ(car.imu.noise_mps2, 0.1);
     EXPECT_EQ(car.imu.noise_radps, 0.01);
     EXPECT_EQ(car.uncertainty, (std::map<std::string, double>{{"gain", 0.05}, {"ms_kg", 0.1}}));
+}
+
+TEST(VehicleFile, RefusesABarThatPushesTheWrongWay) {
+    EXPECT_THAT(refusal_of_text(least + "antiroll_n_per_m = -1\n"),
+                HasSubstr("car.toml:10: 'half_car.antiroll_n_per_m' is '-1', expected "));
 }
 
 TEST(VehicleFile, RefusesKeysThatItDoesNotKnow) {

@@ -56,6 +56,7 @@ TEST(Fleet, WritesTheTruthOfItsCarsIfItKnowsIt) {
     const auto car = make_fleet(recipe, art.roads, 1).cars.front();
     EXPECT_EQ(car.written.half_car.ks_n_per_m, car.car.vehicle.half_car.ks_n_per_m);
     EXPECT_EQ(car.written.half_car.is_kgm2, car.car.vehicle.half_car.is_kgm2);
+    EXPECT_EQ(car.written.half_car.antiroll_n_per_m, car.car.antiroll_n_per_m);
     EXPECT_EQ(car.written.gain, 1);
     EXPECT_EQ(car.written.one_axle_gain, 0.72);
 }
