@@ -3,6 +3,7 @@
 #include "app/import_trips.hpp"
 #include "app/interruption.hpp"
 #include "app/mapping_option.hpp"
+#include "app/printable.hpp"
 #include "app/segment_options.hpp"
 
 #include "estimator/common/error.hpp"
@@ -99,27 +100,27 @@ std::string spoken(const RowCount& rows) {
 std::string notes(const std::vector<std::string>& warnings) {
     std::string lines;
     for (const auto& warning : warnings) {
-        lines += fmt::format("          note: {}\n", warning);
+        lines += fmt::format("          note: {}\n", printable_name(warning));
     }
     return lines;
 }
 
 std::string text_lines(const TripOutcome& outcome) {
     if (outcome.result == TripOutcome::Result::rejected) {
-        return fmt::format("rejected  {}\n", outcome.error);
+        return fmt::format("rejected  {}\n", printable_name(outcome.error));
     }
     const auto& trip = outcome.trip;
     if (outcome.result == TripOutcome::Result::known) {
-        return fmt::format("known     {}\n", outcome.file) + notes(trip.warnings);
+        return fmt::format("known     {}\n", printable_name(outcome.file)) + notes(trip.warnings);
     }
     const auto lines =
         fmt::format("imported  {}: {}; {:.2f} km driven, {:.2f} km on the network; car '{}'\n"
                     "          {}\n",
-                    outcome.file,
+                    printable_name(outcome.file),
                     counted(trip.passes.size(), "pass"),
                     trip.distance_m / 1000,
                     trip.matched_m / 1000,
-                    outcome.vehicle,
+                    printable_name(outcome.vehicle),
                     spoken(trip.rows));
     return lines + notes(trip.warnings);
 }
@@ -188,7 +189,11 @@ void run_import(const Arguments& arguments, const Console& console) {
     const Interruption interruption;
 
     const auto tell = [&](const TripOutcome& outcome) {
-        print(options.json ? json_line(outcome) : text_lines(outcome));
+        if (options.json) {
+            print(json_line(outcome));
+        } else {
+            print_words(text_lines(outcome));
+        }
         flush_results();
     };
     std::ranges::for_each(refused, tell);

@@ -103,7 +103,7 @@ void run_info(const Arguments& arguments, const Console& console) {
     if (arguments.flag("--json")) {
         print(json_of(info, store.digest(), truth ? json_of(*truth) : ""));
     } else {
-        print(text_of(info) + (truth ? "\n" + text_of(*truth) : ""));
+        print_words(text_of(info) + (truth ? "\n" + text_of(*truth) : ""));
     }
 }
 

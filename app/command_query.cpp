@@ -185,6 +185,15 @@ std::vector<SegmentRecord> found_in(const RoadStore& store, const QueryOptions& 
     return records;
 }
 
+/// A table is for people, the other formats are for programs.
+void print_in(const std::string& format, const std::string& text) {
+    if (format == "table") {
+        print_words(text);
+    } else {
+        print(text);
+    }
+}
+
 void print_worst_stretches(const RoadStore& store,
                            const std::vector<SegmentRecord>& records,
                            const QueryOptions& options,
@@ -203,7 +212,7 @@ void print_worst_stretches(const RoadStore& store,
             config.above_mm_per_m));
     }
     if (!stretches.empty() || options.format != "table") {
-        print(stretches_text(stretches, options.format));
+        print_in(options.format, stretches_text(stretches, options.format));
     }
 }
 
@@ -214,7 +223,7 @@ void run_query(const Arguments& arguments, const Console& console) {
 
     const auto records = found_in(store, options);
     if (options.history) {
-        print(history_text(store.history(*options.filter.key), options.format));
+        print_in(options.format, history_text(store.history(*options.filter.key), options.format));
         return;
     }
     if (options.worst.count > 0 && !options.worst.single_segments) {
@@ -226,7 +235,9 @@ void run_query(const Arguments& arguments, const Console& console) {
                     "others)");
     }
     if (!records.empty() || options.format != "table") {
-        print(segments_text(records, *class_table(store.settings().class_table), options.format));
+        print_in(
+            options.format,
+            segments_text(records, *class_table(store.settings().class_table), options.format));
     }
 }
 

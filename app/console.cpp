@@ -1,5 +1,7 @@
 #include "app/console.hpp"
 
+#include "app/printable.hpp"
+
 #include "estimator/common/error.hpp"
 
 #include <fmt/format.h>
@@ -28,12 +30,12 @@ Console::Console(bool quiet) : quiet_{quiet}, terminal_{isatty(STDERR_FILENO) ==
 
 void Console::say(std::string_view line) const {
     if (!quiet_) {
-        std::fputs(fmt::format("{}\n", line).c_str(), stderr);
+        std::fputs(fmt::format("{}\n", printable(line)).c_str(), stderr);
     }
 }
 
 void Console::warn(std::string_view line) const { // NOLINT(*-convert-member-functions-to-static)
-    std::fputs(fmt::format("macadam: warning: {}\n", line).c_str(), stderr);
+    std::fputs(fmt::format("macadam: warning: {}\n", printable(line)).c_str(), stderr);
 }
 
 Progress Console::progress(std::string label) const {
@@ -62,6 +64,10 @@ Progress Console::progress(std::string label) const {
 
 std::string counted(std::size_t count, std::string_view one) {
     return fmt::format("{} {}{}", count, one, count == 1 ? "" : one.ends_with("s") ? "es" : "s");
+}
+
+void print_words(std::string_view text) {
+    print(printable(text));
 }
 
 void print(std::string_view text) {

@@ -32,6 +32,11 @@ std::string counted(std::size_t count, std::string_view one);
 /// Results go out through here.
 /// \throws InputError  if standard output cannot take them (a full disk, a closed file).
 void print(std::string_view text);
+
+/// The same for results that people read, such as tables: what names in them would do to a terminal
+/// is spelled out (app/printable.hpp).
+void print_words(std::string_view text);
+
 void flush_results();
 
 } // namespace macadam

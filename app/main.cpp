@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@ namespace {
 
 /// To standard error. If even that cannot be written there is nobody left to tell.
 void say(const std::string& words) {
-    std::fputs(words.c_str(), stderr);
+    std::fputs(macadam::printable(words).c_str(), stderr);
 }
 
 enum ExitStatus { done = 0, failed = 1, misused = 2 };

@@ -1,5 +1,6 @@
 #include "app/segment_output.hpp"
 
+#include "app/printable.hpp"
 #include "storage/export.hpp"
 #include "storage/json.hpp"
 #include "storage/utc.hpp"
@@ -22,7 +23,7 @@ std::string table_of(const std::vector<SegmentRecord>& records, const ClassTable
                                     "last seen");
     for (const auto& record : records) {
         const auto& segment = record.segment;
-        const auto road = record.name.empty() ? record.highway : record.name;
+        const auto road = printable_name(record.name.empty() ? record.highway : record.name);
         table += fmt::format("{:<18} {:<24.24} {:>8.1f}-{:>8.1f}",
                              name_of(segment.key),
                              road,

@@ -1,5 +1,6 @@
 #include "app/stretch_output.hpp"
 
+#include "app/printable.hpp"
 #include "storage/export.hpp"
 #include "storage/json.hpp"
 #include "storage/utc.hpp"
@@ -43,11 +44,11 @@ std::string table_of(std::span<const RoadStretch> stretches) {
     for (const auto& s : stretches) {
         const auto passes = s.least_passes == s.median_passes
                                 ? fmt::format("{}", s.least_passes)
-                                : fmt::format("{}-{}", s.least_passes, s.median_passes);
+                                : fmt::format("{}-{:g}", s.least_passes, s.median_passes);
         table += fmt::format("{:>4}  {:<26.26} {:>7.0f} {:>6.2f} {:>5.2f} - {:>5.2f} {:>6.2f} "
                              "{:>6} {:>4}  {:<20} {}\n",
                              ++rank,
-                             s.name.empty() ? s.highway : s.name,
+                             printable_name(s.name.empty() ? s.highway : s.name),
                              s.length_m,
                              s.mean.iri,
                              s.mean.low,
@@ -141,7 +142,7 @@ std::string json_object_of(const RoadStretch& s, std::size_t rank) {
         .add("iri_high", JsonNumber{s.mean.high, 3})
         .add("iri_worst", JsonNumber{s.worst_iri, 3})
         .add("passes_least", std::int64_t{s.least_passes})
-        .add("passes_median", std::int64_t{s.median_passes})
+        .add("passes_median", JsonRaw{fmt::format("{}", s.median_passes)})
         .add("vehicles", std::int64_t{s.vehicles})
         .add("first_seen", text_or_null(time_cell(s.first_seen_ms)))
         .add("last_seen", text_or_null(time_cell(s.last_seen_ms)))

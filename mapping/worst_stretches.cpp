@@ -227,7 +227,7 @@ RoadStretch rated(std::vector<std::size_t> records, const Lookup& lookup, double
     std::ranges::sort(passes);
     stretch.mean = road_mean(lengths, common_share);
     stretch.least_passes = passes.front();
-    stretch.median_passes = passes[(passes.size() - 1) / 2];
+    stretch.median_passes = (passes[(passes.size() - 1) / 2] + passes[passes.size() / 2]) / 2.0;
     stretch.records = std::move(records);
     return stretch;
 }

@@ -43,7 +43,7 @@ struct RoadStretch {
     RoadMean mean;                    ///< of the measured segments
     double worst_iri;                 ///< of one segment, mm/m
     std::int32_t least_passes;
-    std::int32_t median_passes; ///< the lower of the middle two
+    double median_passes;
     std::int32_t vehicles;      ///< the most that one segment has seen
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;

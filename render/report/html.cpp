@@ -1,5 +1,7 @@
 #include "render/report/html.hpp"
 
+#include "estimator/common/utf8.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,34 +10,6 @@ namespace macadam {
 namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD"; // U+FFFD
-
-/// How many bytes the UTF-8 sequence at the front of `text` has; 0 if there is none (RFC 3629).
-std::size_t sequence_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) {
-        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-    };
-    const auto follows = [&](std::size_t i, unsigned low, unsigned high) {
-        return low <= byte(i) && byte(i) <= high;
-    };
-    const auto first = byte(0);
-    if (first < 0x80) {
-        return 1;
-    }
-    if (0xC2 <= first && first <= 0xDF) {
-        return follows(1, 0x80, 0xBF) ? 2 : 0;
-    }
-    if (0xE0 <= first && first <= 0xEF) {
-        const unsigned low = first == 0xE0 ? 0xA0 : 0x80;
-        const unsigned high = first == 0xED ? 0x9F : 0xBF; // no surrogates
-        return follows(1, low, high) && follows(2, 0x80, 0xBF) ? 3 : 0;
-    }
-    if (0xF0 <= first && first <= 0xF4) {
-        const unsigned low = first == 0xF0 ? 0x90 : 0x80;
-        const unsigned high = first == 0xF4 ? 0x8F : 0xBF;
-        return follows(1, low, high) && follows(2, 0x80, 0xBF) && follows(3, 0x80, 0xBF) ? 4 : 0;
-    }
-    return 0;
-}
 
 std::string_view as_html(char c, std::string_view itself) {
     switch (c) {
@@ -60,7 +34,7 @@ std::string escaped(std::string_view text) {
     std::string html;
     html.reserve(text.size());
     while (!text.empty()) {
-        const auto length = sequence_length(text);
+        const auto length = utf8_length(text);
         html += length == 0   ? replacement
                 : length == 1 ? as_html(text.front(), text.substr(0, 1))
                               : text.substr(0, length);
@@ -91,9 +65,12 @@ std::string html_of(const HtmlTable& table) {
     const auto class_of = [&](std::size_t column) {
         return table.columns[column].number ? " class=\"n\"" : "";
     };
-    auto html = fmt::format("<div class=\"wide\" role=\"region\" aria-label=\"{0}\" "
+    constexpr std::size_t rows_that_stay_together = 12; // on paper; more may go over a page
+    const auto* const kind = table.rows.size() > rows_that_stay_together ? "wide long" : "wide";
+    auto html = fmt::format("<div class=\"{1}\" role=\"region\" aria-label=\"{0}\" "
                             "tabindex=\"0\"><table>\n<caption>{0}</caption>\n<thead><tr>",
-                            escaped(table.caption));
+                            escaped(table.caption),
+                            kind);
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         html += fmt::format("<th scope=\"col\"{}>{}</th>", class_of(i), table.columns[i].title);
     }

@@ -20,7 +20,7 @@ std::string name_of(const RoadStretch& stretch) {
 std::string passes_text(const RoadStretch& stretch) {
     return stretch.least_passes == stretch.median_passes
                ? fmt::format("{}", stretch.least_passes)
-               : fmt::format("{} – {}", stretch.least_passes, stretch.median_passes);
+               : fmt::format("{} – {:g}", stretch.least_passes, stretch.median_passes);
 }
 
 HtmlTable table_of(const Report& report) {

@@ -43,6 +43,26 @@ SegmentFilter all_segments() {
     return {.box = {}, .way_id = {}, .key = {}, .name_part = {}, .with_state_only = false};
 }
 
+TEST(RoadStore, AddsUpWhyRowsEnteredNoEstimate) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    EXPECT_TRUE(store.row_reasons().empty());
+    for (int i = 0; i < 2; ++i) {
+        auto trip = trip_record(i);
+        trip.row_reasons = {{"too_slow", 10U + i}, {i == 0 ? "no_speed" : "merged", 1}};
+        store.add_trip(trip, passes_of(i));
+    }
+    const std::map<std::string, std::size_t> sums{{"merged", 1}, {"no_speed", 1}, {"too_slow", 21}};
+    EXPECT_EQ(store.row_reasons(), sums);
+}
+
+TEST(RoadStore, CountsPassesThatRestOnLateralVibrationAlone) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    auto passes = passes_of(0);
+    passes.front().validity = validity::indicative | validity::lateral_alone;
+    store.add_trip(trip_record(0), passes);
+    EXPECT_EQ(store.info().lateral_passes, 1U);
+}
+
 TEST(RoadStore, GivesBackTheNetworkThatItWasMadeWith) {
     const auto file = test_folder() / "a.gpkg";
     new_store(file);
