@@ -60,6 +60,9 @@ std::optional<RawlogObject> RawlogObjects::next() {
         }
         return object;
     } catch (const InputError& error) {
+        if (offset_ == 0 && rest().empty() && !ended_) {
+            throw; // it is not the rawlog that is broken, but what it is wrapped in
+        }
         const auto other = offset_ == 0 ? kind_of_file() : "";
         throw InputError{other.empty()
                              ? fmt::format("{}: {}", where(), error.what())

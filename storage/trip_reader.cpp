@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/byte_stream.hpp"
 #include "storage/foreign/foreign_trip.hpp"
+#include "storage/foreign/phone_export.hpp"
 #include "storage/rawlog_reader.hpp"
 #include "storage/text.hpp"
 #include "storage/text_lines.hpp"
@@ -36,12 +37,23 @@ std::unique_ptr<ByteStream> open(const TripSource& source) {
                         source.name());
 }
 
-void expect_first_line(TextLines& lines, const std::string& name) {
+/// Whoever names one file of an export means the export.
+void expect_no_export(const TripSource& source) {
+    if (source.member.empty() && marks_export(source.file.filename().string())) {
+        throw InputError{
+            fmt::format("{}: is one file of a phone's export, expected the folder in which it lies",
+                        source.name())};
+    }
+}
+
+void expect_first_line(TextLines& lines, const TripSource& source) {
+    const auto name = source.name();
     const auto line = lines.next();
     if (!line) {
         throw InputError{fmt::format("{}: is empty, expected a trip log ('{}')", name, first_line)};
     }
     if (*line != first_line) {
+        expect_no_export(source);
         throw InputError{
             fmt::format("{}: {}, expected '{}'", lines.where(), in_quotes(*line), first_line)};
     }
@@ -217,7 +229,7 @@ TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progre
         return read_rawlog({open(source), source.name(), bytes_on_disk(source)}, needs, progress);
     }
     TextLines lines{open(source), source.name()};
-    expect_first_line(lines, source.name());
+    expect_first_line(lines, source);
     const auto head = read_head(lines);
     expect_columns(head, needs);
     auto trip = read_rows(lines, head.header, needs, {source, progress});

@@ -111,13 +111,14 @@ TripSearch find_in_folder(const fs::path& folder) {
     const auto names = files_under(folder);
     auto other_files = names.size();
     for (const auto& name : names) {
-        if (!fs::is_regular_file(folder / name)) {
+        const bool dangles = !fs::exists(folder / name); // a link; the reader says so
+        if (!fs::is_regular_file(folder / name) && !dangles) {
             continue;
         }
         if (is_trip_name(name)) {
             trips.emplace_back(name, TripSource{.file = folder / name, .member = {}});
             --other_files;
-        } else if (is_zip_name(name)) {
+        } else if (is_zip_name(name) && !dangles) {
             auto zipped = exports_in_zip(folder / name, name);
             other_files -= zipped.empty() ? 0 : 1;
             std::move(zipped.begin(), zipped.end(), std::back_inserter(trips));

@@ -236,6 +236,9 @@ TripLog
 read_foreign_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress) {
     const auto mapping = source.mapping ? *source.mapping : mapping_of_export(source);
     const auto header = header_of(mapping);
+    if (!source.mapping) {
+        expect_files_of_export(source, needs);
+    }
     expect_channels(mapping, header, needs);
 
     Collector collector{mapping, needs, header};

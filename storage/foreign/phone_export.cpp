@@ -17,7 +17,6 @@ namespace macadam {
 
 namespace {
 
-
 // Files by what they hold, as the two apps name them. phyphox: "Accelerometer" is with gravity;
 // Sensor Logger: it is without.
 constexpr std::string_view total_files[] = {"TotalAcceleration.csv"};
@@ -306,6 +305,18 @@ bool marks_export(std::string_view file) {
 bool belongs_to_export(std::string_view file) {
     return marks_export(file) || is_one_of(file, gyro_files) || is_one_of(file, gravity_files) ||
            fits(file, time_file) || fits(file, metadata_file);
+}
+
+void expect_files_of_export(const TripSource& source, const TripNeeds& needs) {
+    const auto needed = [&](const std::string& column) {
+        return std::any_of(needs.columns.begin(), needs.columns.end(), [&](const auto& group) {
+            return std::find(group.begin(), group.end(), column) != group.end();
+        });
+    };
+    if ((needed("lat_deg") || needed("gnss_speed_mps")) && found(source, location_files).empty()) {
+        throw InputError{fmt::format("{}: holds no Location.csv, from which places and speeds come",
+                                     source.name())};
+    }
 }
 
 std::vector<std::string> used_files(const TripSource& source) {

@@ -15,6 +15,9 @@ bool marks_export(std::string_view file);
 /// Whether a file of an export, by its path within it, may be one that we read.
 bool belongs_to_export(std::string_view file);
 
+/// \throws InputError  naming the file that an export lacks for what is needed of it.
+void expect_files_of_export(const TripSource& source, const TripNeeds& needs);
+
 /// Those of an export's files that make its trip.
 std::vector<std::string> used_files(const TripSource& source);
 

@@ -15,7 +15,9 @@ namespace macadam {
 namespace {
 
 [[noreturn]] void fail() {
-    throw InputError{fmt::format("cannot be written: {}", gdal_said("GDAL does not say why"))};
+    // GDAL calls a full disk "Unexpected I/O failure".
+    throw InputError{fmt::format("cannot be written: {}; the disk may be full",
+                                 gdal_said("GDAL does not say why"))};
 }
 
 void expect(OGRErr result) {
@@ -124,7 +126,10 @@ void expect_lines(const std::filesystem::path& file, std::size_t count) {
     }
     if (found != count) {
         throw InputError{
-            fmt::format("cannot be written: of {} lines only {} can be read again", count, found)};
+            fmt::format("cannot be written: of {} lines only {} can be read again; the disk may be "
+                        "full",
+                        count,
+                        found)};
     }
 }
 

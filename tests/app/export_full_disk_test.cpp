@@ -30,6 +30,7 @@ TEST(ExportOnAFullDisk, LeavesNothingOfAFlatGeobuf) {
         const auto run = run_macadam({"export", store, "--all", "-o", file}, most_bytes);
         EXPECT_EQ(run.exit_status, 1) << most_bytes;
         EXPECT_THAT(run.err, HasSubstr("roads.fgb: cannot be written")) << most_bytes;
+        EXPECT_THAT(run.err, HasSubstr("the disk may be full")) << most_bytes;
         EXPECT_TRUE(std::filesystem::is_empty(out)) << most_bytes;
     }
 }

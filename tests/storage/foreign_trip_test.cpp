@@ -232,6 +232,21 @@ TEST(Mapping, SaysWhichColumnTheHeaderLacks) {
                 EndsWith("x.csv:1: the header has 't,acc', expected a column 'az'"));
 }
 
+TEST(PhoneExport, WithoutPlacesIsToldWhichFileItLacks) {
+    const auto folder = test_folder() / "phone";
+    written(folder, "Accelerometer.csv", acc_csv);
+    EXPECT_THAT(refusal_of([&] { read_trip(find_trips(folder).trips.at(0), needs_of_trace()); }),
+                EndsWith("phone: holds no Location.csv, from which places and speeds come"));
+}
+
+TEST(PhoneExport, IsAskedForAsAFolderWhereOneOfItsFilesIsGiven) {
+    const auto folder = phyphox_folder(test_folder() / "phone");
+    EXPECT_THAT(
+        refusal_of([&] { read_trip(find_trips(folder / "Accelerometer.csv").trips.at(0), {}); }),
+        HasSubstr("Accelerometer.csv: is one file of a phone's export, expected the folder in "
+                  "which it lies"));
+}
+
 TEST(Mapping, SaysThatTheUnitOfTimeIsAnother) {
     const auto of = mapping("[time]\ncolumn = \"t\"\nformat = \"s\"\nepoch = \"unix\"\n"
                             "[channels]\nacc_z_mps2 = {column = \"az\"}\n");
@@ -253,4 +268,7 @@ TEST(Mapping, RefusesWhatItDoesNotKnowWithItsLine) {
     EXPECT_THAT(mapping_refusal("frame = \"ENU\"\n" + small_mapping),
                 HasSubstr("m.toml:1: key 'frame' is 'ENU', expected FLU, FRD or sensor"));
     EXPECT_THAT(mapping_refusal("[channels]\nacc_z_mps2 = {column = 1}\n"), HasSubstr("time"));
+    EXPECT_THAT(
+        mapping_refusal("[time]\ncolumn = 1\nformat = \"s\"\n[channels]\nacc_z_mps2 = \"az\"\n"),
+        HasSubstr("m.toml:5: 'channels.acc_z_mps2' is 'az', expected {column = \"az\"}"));
 }

@@ -42,6 +42,29 @@ TEST(TripSearch, FindsTheTripsUnderAFolderInByteOrder) {
     EXPECT_EQ(search.other_files, 2U);
 }
 
+TEST(TripSearch, CountsALinkToNothingAsATripThatCannotBeRead) {
+    const auto folder = test_folder();
+    std::filesystem::create_symlink(folder / "gone.csv", folder / "d.trip.csv");
+    std::filesystem::create_symlink(folder / "gone.txt", folder / "notes.txt");
+    const auto search = find_trips(folder);
+    EXPECT_THAT(names_of(search, folder), ElementsAre("d.trip.csv"));
+    EXPECT_EQ(search.other_files, 1U);
+    EXPECT_THAT(refusal_of([&] { read_trip(search.trips.at(0), {}); }),
+                EndsWith("d.trip.csv: cannot be read: No such file or directory"));
+}
+
+TEST(TripSearch, HandsOnAnArchiveThatIsDamagedForTheReaderToSaySo) {
+    const auto folder = test_folder();
+    written(folder, "cut.zip", std::string{"PK\x03\x04\x14\0\0\0", 8});
+    written(folder, "noise.zip", std::string{"\x9a\0\x01\xff\x33", 5});
+    const auto search = find_trips(folder);
+    ASSERT_EQ(search.trips.size(), 2U);
+    for (const auto& trip : search.trips) {
+        EXPECT_THAT(refusal_of([&] { read_trip(trip, {}); }),
+                    HasSubstr(".zip: the archive is cut off or damaged: "));
+    }
+}
+
 TEST(TripSearch, TakesAFileForATripWhateverItsName) {
     const auto file = written(test_folder(), "drive.csv", small_log);
     const auto search = find_trips(file);
