@@ -55,6 +55,22 @@ std::vector<Way> in_order(std::vector<Way> ways) {
     return ways;
 }
 
+/// Where longitudes jump from 180 to -180 neither lines nor boxes nor plane metres hold.
+void expect_away_from_antimeridian(const std::vector<Way>& ways) {
+    constexpr double farthest_lon_deg = 179.9; // 11 km of room at the equator
+    for (const auto& way : ways) {
+        for (const auto& point : way.line) {
+            if (std::abs(point.lon_deg) > farthest_lon_deg) {
+                throw InputError{fmt::format("way '{}' reaches longitude {:g}, expected roads at "
+                                             "least {:.1f} degrees from the antimeridian",
+                                             way.id,
+                                             point.lon_deg,
+                                             180 - farthest_lon_deg)};
+            }
+        }
+    }
+}
+
 std::vector<double> distances_along(const std::vector<GeoPoint>& line) {
     std::vector<double> along_m(line.size(), 0.0);
     for (std::size_t i = 1; i < line.size(); ++i) {
@@ -247,6 +263,7 @@ RoadNetwork build_network(std::vector<Way> ways, double segment_length_m) {
     RoadNetwork roads;
     roads.segment_length_m = segment_length_m;
     roads.ways = in_order(std::move(ways));
+    expect_away_from_antimeridian(roads.ways);
     const Topology topology{node_identities(roads.ways)};
     for (std::uint32_t i = 0; i < roads.ways.size(); ++i) {
         roads.way_point_m.push_back(distances_along(roads.ways[i].line));

@@ -76,6 +76,9 @@ struct RoadNetwork {
 
 /// Links, topology, segments and index of the ways. A node is an end of a way, or a point that two
 /// ways (or one way twice) share. Ways with fewer than two different points are left out.
+///
+/// \throws InputError  if two ways have one id, or a way comes within 0.1 degrees of the
+/// antimeridian.
 RoadNetwork build_network(std::vector<Way> ways, double segment_length_m = 20);
 
 std::span<const EdgeId> out_edges(const RoadNetwork& roads, NodeId node);

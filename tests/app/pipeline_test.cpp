@@ -99,6 +99,30 @@ TEST_F(OneRoad, PutsTheCarAheadOfAnAntennaThatSitsBehind) {
     EXPECT_NEAR(centre_m(driven(false, 0.2, 20)) - centre_m(driven(false)), -20, 1);
 }
 
+/// A phone's recording that was paused for 300 m of the way.
+TEST_F(OneRoad, IsNotDrivenWhereTheRecordingWasPaused) {
+    const auto& car = *built_in_vehicle("golden-car");
+    auto trip = testing::drive_over(
+        testing::patched_road(is_rough, 4), {.length_m = length_m, .wheel_speed = false}, car);
+    const auto whole_m = passes_of(trip, car, roads(), {}).distance_m;
+    const auto is_paused = [](double t_s) { return t_s > 20 && t_s < 35; }; // at 20 m/s
+    std::erase_if(trip.fixes, [&](const GnssFix& fix) { return is_paused(fix.t_s); });
+    TriaxialSamples felt;
+    for (std::size_t i = 0; i < trip.acc.t_s.size(); ++i) {
+        if (!is_paused(trip.acc.t_s[i])) {
+            felt.t_s.push_back(trip.acc.t_s[i]);
+            felt.x.push_back(trip.acc.x[i]);
+            felt.y.push_back(trip.acc.y[i]);
+            felt.z.push_back(trip.acc.z[i]);
+        }
+    }
+    trip.acc = felt;
+    trip.rows.assign(felt.t_s.size(), row_content::acc);
+    trip.rows.insert(trip.rows.end(), trip.fixes.size(), row_content::fix);
+    // The samples on both sides of the pause are up to 0.1 s from it.
+    EXPECT_NEAR(passes_of(trip, car, roads(), {}).distance_m, whole_m - 300, 5);
+}
+
 TEST_F(OneRoad, AccountsForEveryRowOfTheTrip) {
     const auto& car = *built_in_vehicle("golden-car");
     const auto trip =

@@ -41,6 +41,20 @@ TEST(RoadNetwork, CutsAWayWhereAnotherMeetsIt) {
     EXPECT_THAT(art.roads.nodes, SizeIs(4));
 }
 
+TEST(RoadNetwork, KeepsAwayFromTheAntimeridian) {
+    for (const double lon_deg : {179.95, 180.0, -179.95}) {
+        try {
+            build_network({way(5, {1, 2, 3}, northward(3, lon_deg))});
+            FAIL() << lon_deg;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("way '5' reaches longitude "));
+            EXPECT_THAT(error.what(),
+                        HasSubstr("expected roads at least 0.1 degrees from the antimeridian"));
+        }
+    }
+    EXPECT_THAT(build_network({way(5, {1, 2}, northward(2, 179.8))}).links, SizeIs(1));
+}
+
 TEST(RoadNetwork, KeepsBendsWithinALink) {
     const auto roads = build_network({way(1, {1, 2, 3, 4}, northward(4))});
     ASSERT_THAT(roads.links, SizeIs(1));
