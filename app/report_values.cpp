@@ -68,8 +68,13 @@ std::string period_of(std::optional<std::int64_t> first_ms, std::optional<std::i
 
 // ------------------------------------------------------------------------------------- pictures
 
+MapStyle unadorned(MapStyle style) {
+    style.legend = false; // the page has it
+    return style;
+}
+
 ReportPicture picture_of(const MapScene& scene, MapStyle style, int width_px, int height_px) {
-    style.legend = false;
+    style = unadorned(style);
     ReportPicture picture{{}, {}, width_px, height_px};
     style.theme = MapStyle::Theme::light;
     picture.light_png = encode_png(render_map(scene, style, width_px, height_px));
@@ -89,11 +94,12 @@ int map_height_for(const GeoBox& box) {
                       most_map_height_px);
 }
 
-ReportPicture map_of(const RoadStore& store, const MapStyle& style) {
-    auto scene = map_scene(store, std::nullopt, *style.classes, "");
+MapScene whole_map(const RoadStore& store, const ClassTable& classes) {
+    auto scene = map_scene(store, std::nullopt, classes, "");
     scene.subtitle.clear();    // the page says it
     scene.attribution.clear(); // likewise
-    return picture_of(scene, style, map_width_px, map_height_for(scene.box));
+    scene.scale_bar = false;   // likewise, in letters that a phone shows as large as all others
+    return scene;
 }
 
 GeoBox box_around(const RoadStretch& stretch) {
@@ -197,7 +203,10 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
 
     stretches.resize(std::min(stretches.size(), config.worst));
     const auto pictures = stretches.size() + 1;
-    report.map = map_of(store, config.style);
+    const auto map = whole_map(store, classes);
+    const int map_height_px = map_height_for(map.box);
+    report.map = picture_of(map, config.style, map_width_px, map_height_px);
+    report.map_width_m = ground_width_m(map, unadorned(config.style), map_width_px, map_height_px);
     for (auto& stretch : stretches) {
         stop_if_wanted(progress);
         progress(report.worst.size() + 1, pictures);

@@ -59,6 +59,9 @@ inline constexpr int most_image_px = 16384; ///< what OSMesa can draw; more sile
 ///                     if OSMesa cannot draw.
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
 
+/// How much ground that picture shows from side to side, at half its height.
+double ground_width_m(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
+
 /// The picture as the bytes of a PNG file.
 std::vector<std::uint8_t> encode_png(const Image& image);
 

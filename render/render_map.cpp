@@ -120,4 +120,13 @@ Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int
     return furnished(std::move(image), layout, placement, style, setter);
 }
 
+double ground_width_m(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
+    check_size(width_px, height_px);
+    TypeSetter setter;
+    const auto layout = layout_of(scene, width_px, height_px, setter);
+    const auto legend = legend_of(scene, style, classes_of(style));
+    const auto frame = placement_of(scene, legend, layout, setter).frame;
+    return width_px * metres_per_px(frame, height_px / 2.0);
+}
+
 } // namespace macadam

@@ -56,6 +56,7 @@ struct Report {
     std::size_t segments = 0;
     std::size_t segments_with_passes = 0;
     ReportPicture map;
+    double map_width_m = 0; ///< of the ground, from side to side of the map
     double poor_above_mm_per_m = 0;
     double least_stretch_m = 0;
     std::size_t stretches = 0;           ///< poor ones in all

@@ -4,6 +4,7 @@
 #include "render/report/html.hpp"
 #include "render/report/numbers.hpp"
 #include "render/report/parts.hpp"
+#include "render/scale_bar.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +27,19 @@ double poor_m(const Report& report) {
 std::string key(const std::string& what, const std::string& value, const std::string& more) {
     return fmt::format(
         "<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n", what, value, more);
+}
+
+/// A bar as wide as its length is on the map, whatever the screen makes of the picture.
+std::string scale_html(double map_width_m) {
+    constexpr double most_percent = 30;
+    if (map_width_m <= 0) {
+        return {};
+    }
+    const auto bar = scale_bar(map_width_m / 100, most_percent, false); // in percent, not pixels
+    return fmt::format("<span class=\"scale\"><span style=\"width:{:.2f}%\"></span>{}, north "
+                       "up</span>",
+                       bar.width_px,
+                       bar.label);
 }
 
 } // namespace
@@ -145,10 +159,13 @@ std::string map_section(const Report& report) {
     return fmt::format("<section>\n<h2>Map</h2>\n<ul class=\"legend\" aria-label=\"Legend: IRI in "
                        "mm/m\">\n{}<li><span class=\"road\"></span>No measurement</li>\n"
                        "<li class=\"quiet\">IRI in mm/m</li>\n</ul>\n"
-                       "<figure class=\"map\">{}<figcaption>A thin line has few passes or a wide "
+                       "<figure class=\"map\" style=\"--shape:{:.3f}\">{}<figcaption>{}A thin line "
+                       "has few passes or a wide "
                        "interval. {}</figcaption></figure>\n</section>\n",
                        legend,
+                       static_cast<double>(report.map.width_px) / std::max(1, report.map.height_px),
                        picture_html(report.map, alt),
+                       scale_html(report.map_width_m),
                        escaped(report.attribution));
 }
 

@@ -46,7 +46,9 @@ th,td{padding:.38rem .7rem;text-align:left;vertical-align:top;border-bottom:1px 
 th:first-child{padding-left:0}
 thead th{vertical-align:bottom;font-size:.8125rem;font-weight:600;color:var(--quiet);border-bottom-color:var(--edge)}
 tbody th{font-weight:500}
-.n{text-align:right;white-space:nowrap}
+tbody td,tbody th{overflow-wrap:anywhere;min-width:3.5rem}
+.n,tbody .n{text-align:right;white-space:nowrap;min-width:0}
+thead .n{white-space:normal}
 .nw,.key .nw{display:inline;white-space:nowrap}
 .all th,.all td{font-weight:650}
 .swatch{width:.85em;height:.85em;margin-right:.5em;vertical-align:-.06em}
@@ -61,6 +63,8 @@ tbody th{font-weight:500}
 .road{display:inline-block;width:1.6em;height:0;border-top:2px solid var(--quiet);opacity:.6;margin-right:.5em;vertical-align:.25em}
 figure{margin:1rem 0}
 img{display:block;width:100%;height:auto;border:1px solid var(--rule);border-radius:.4rem}
+.scale{display:flex;align-items:center;gap:.5rem;margin-bottom:.3rem;color:var(--ink)}
+.scale span{height:.45rem;border:1px solid var(--ink);border-top:0}
 .dark{display:none}
 .cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,18rem),1fr));gap:1.25rem;margin:1.2rem 0}
 .cards figure{margin:0}
@@ -71,7 +75,7 @@ a{color:inherit}
 )";
 
 constexpr const char* on_a_phone = R"(
-@media (max-width:30rem){table{font-size:.8125rem}th,td{padding:.35rem .5rem}.share{width:6rem}
+@media (max-width:34rem){table{font-size:.8125rem}th,td{padding:.35rem .4rem}.share{width:5rem}
 .key{grid-template-columns:1fr 1fr;gap:.5rem}.key div{padding:.55rem .65rem}.key b{font-size:1.25rem}}
 )";
 
@@ -81,10 +85,10 @@ constexpr const char* on_paper = R"(
 h1{font-size:20pt}h2{font-size:13pt;margin-top:1.6rem;padding-top:.7rem}
 h2,h3,caption{break-after:avoid}p,li{orphans:3;widows:3}
 tr,figure,.key div,.histogram{break-inside:avoid}thead{display:table-header-group}
-.wide{overflow:visible;break-inside:avoid}.histogram{max-width:88mm}.legend{break-after:avoid}table{font-size:8.5pt}th,td{padding:.25rem .45rem}.share{width:5.5rem}
+.wide{overflow:visible;break-inside:avoid}.long{break-inside:auto}.histogram{max-width:88mm}.legend{break-after:avoid}table{font-size:8.5pt}th,td{padding:.25rem .45rem}.share{width:5.5rem}
 .key{grid-template-columns:repeat(3,1fr);gap:.5rem}.key b{font-size:14pt}
 .cards{grid-template-columns:1fr 1fr 1fr;gap:.8rem}.cards figcaption{font-size:8.5pt}
-.map img{max-height:135mm;width:auto;max-width:100%}a{text-decoration:none}}
+.map{max-width:calc(135mm*var(--shape))}a{text-decoration:none}}
 )";
 
 } // namespace

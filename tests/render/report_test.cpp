@@ -15,6 +15,7 @@ namespace macadam {
 namespace {
 
 using ::testing::AnyOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -110,6 +111,7 @@ Report town() {
     report.segments = 1000;
     report.segments_with_passes = 400;
     report.map = {{0, 0, 0}, {255, 255}, 1400, 1050};
+    report.map_width_m = 4000;
     report.poor_above_mm_per_m = poor_above(fhwa);
     report.least_stretch_m = 100;
     report.stretches = 12;
@@ -220,6 +222,19 @@ TEST(Report, OfNothingMeasuredSaysSo) {
     EXPECT_THAT(html, HasSubstr("0 % of the network of 20.0 km"));
     EXPECT_THAT(html, Not(HasSubstr("Mean IRI")));
     EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(Report, HasAScaleThatGrowsWithItsMap) {
+    // The longest round length within 30 % of 4 km is 1 km, a quarter of the width.
+    EXPECT_THAT(report_html(town()),
+                HasSubstr("<span style=\"width:25.00%\"></span>1 km, north up"));
+}
+
+TEST(Report, LetsOnlyLongTablesGoOverAPage) {
+    auto report = town();
+    EXPECT_THAT(report_html(report), Not(HasSubstr("\"wide long\"")));
+    report.vehicles.assign(20, report.vehicles[0]);
+    EXPECT_THAT(between(report_html(report), "<div class=\"", "\" role"), Contains("wide long"));
 }
 
 TEST(Report, SaysWhatItsValuesRestOn) {
