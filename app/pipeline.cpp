@@ -15,328 +15,299 @@
 namespace macadam {
 namespace {
 
-constexpr double slow_sampling_hz =
-    80; // below it the shortest waves of IRI begin to be missed
-constexpr double steep_tilt_deg = 15; // more than a careless mounting
-constexpr double odd_scale = 0.05;    // wheel speed against GNSS
-constexpr double odd_gravity =
-    0.1; // sensors for cars and phones are good to 3 %
+constexpr double slow_sampling_hz = 80; // below it the shortest waves of IRI begin to be missed
+constexpr double steep_tilt_deg = 15;   // more than a careless mounting
+constexpr double odd_scale = 0.05;      // wheel speed against GNSS
+constexpr double odd_gravity = 0.1;     // sensors for cars and phones are good to 3 %
 
 /// The typical rate of the vibration, from the middle step of its stamps.
-double rate_hz(const TriaxialSamples &acc) {
-  if (acc.t_s.size() < 2) {
-    return 0;
-  }
-  std::vector<double> steps_s(acc.t_s.size() - 1);
-  for (std::size_t i = 0; i < steps_s.size(); ++i) {
-    steps_s[i] = acc.t_s[i + 1] - acc.t_s[i];
-  }
-  const auto middle =
-      steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::ranges::nth_element(steps_s, middle);
-  return 1 / *middle;
+double rate_hz(const TriaxialSamples& acc) {
+    if (acc.t_s.size() < 2) {
+        return 0;
+    }
+    std::vector<double> steps_s(acc.t_s.size() - 1);
+    for (std::size_t i = 0; i < steps_s.size(); ++i) {
+        steps_s[i] = acc.t_s[i + 1] - acc.t_s[i];
+    }
+    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+    std::ranges::nth_element(steps_s, middle);
+    return 1 / *middle;
 }
 
 enum class Axis : int { lateral = 1, vertical = 2 };
 
 /// Whether the sensor's axis nearest to one of the vehicle's gave anything.
-bool was_sampled(const TripLog &trip, const Mounting &mounting, Axis axis) {
-  const std::vector<float> *readings[] = {&trip.acc.x, &trip.acc.y,
-                                          &trip.acc.z};
-  Eigen::Index nearest = 0;
-  mounting.to_vehicle.row(static_cast<int>(axis)).cwiseAbs().maxCoeff(&nearest);
-  return std::ranges::any_of(*readings[nearest],
-                             [](float value) { return !std::isnan(value); });
+bool was_sampled(const TripLog& trip, const Mounting& mounting, Axis axis) {
+    const std::vector<float>* readings[] = {&trip.acc.x, &trip.acc.y, &trip.acc.z};
+    Eigen::Index nearest = 0;
+    mounting.to_vehicle.row(static_cast<int>(axis)).cwiseAbs().maxCoeff(&nearest);
+    return std::ranges::any_of(*readings[nearest], [](float value) { return !std::isnan(value); });
 }
 
 /// \throws InputError  if the log lacks the vibration that is asked for.
-void expect_channels(const TripLog &trip, const Mounting &mounting,
-                     Channels channels) {
-  const bool vertical = was_sampled(trip, mounting, Axis::vertical);
-  const bool lateral = was_sampled(trip, mounting, Axis::lateral);
-  if (!vertical &&
-      (channels == Channels::vertical || channels == Channels::both)) {
-    throw InputError{"holds no vertical acceleration, expected acc_z_mps2"};
-  }
-  if (!lateral && channels == Channels::lateral) {
-    throw InputError{"holds no lateral acceleration, expected acc_y_mps2"};
-  }
-  if (!vertical && !lateral) {
-    throw InputError{
-        "holds neither vertical nor lateral acceleration, expected acc_z_mps2"};
-  }
+void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels) {
+    const bool vertical = was_sampled(trip, mounting, Axis::vertical);
+    const bool lateral = was_sampled(trip, mounting, Axis::lateral);
+    if (!vertical && (channels == Channels::vertical || channels == Channels::both)) {
+        throw InputError{"holds no vertical acceleration, expected acc_z_mps2"};
+    }
+    if (!lateral && channels == Channels::lateral) {
+        throw InputError{"holds no lateral acceleration, expected acc_y_mps2"};
+    }
+    if (!vertical && !lateral) {
+        throw InputError{"holds neither vertical nor lateral acceleration, expected acc_z_mps2"};
+    }
 }
 
-double length_m(const IriRun &run) {
-  return run.cell_m * static_cast<double>(run.centre_mm_per_m.size());
+double length_m(const IriRun& run) {
+    return run.cell_m * static_cast<double>(run.centre_mm_per_m.size());
 }
 
 /// What to say where the lateral acceleration stood in for the vertical one.
-std::vector<std::string> spoken_lateral(const IriTrace &roughness,
-                                        Channels channels) {
-  double whole_m = 0;
-  double lateral_m = 0;
-  for (const auto &run : roughness.runs) {
-    whole_m += length_m(run);
-    lateral_m += run.indicative ? length_m(run) : 0;
-  }
-  if (channels == Channels::lateral || lateral_m <= 0) {
-    return {};
-  }
-  const auto where = lateral_m < whole_m
-                         ? fmt::format(" on {:.2f} of {:.2f} km",
-                                       lateral_m / 1000, whole_m / 1000)
-                         : std::string{};
-  return {fmt::format(
-      "no vertical acceleration{}: estimated from the lateral one alone, which "
-      "is far less accurate",
-      where)};
+std::vector<std::string> spoken_lateral(const IriTrace& roughness, Channels channels) {
+    double whole_m = 0;
+    double lateral_m = 0;
+    for (const auto& run : roughness.runs) {
+        whole_m += length_m(run);
+        lateral_m += run.indicative ? length_m(run) : 0;
+    }
+    if (channels == Channels::lateral || lateral_m <= 0) {
+        return {};
+    }
+    const auto where =
+        lateral_m < whole_m
+            ? fmt::format(" on {:.2f} of {:.2f} km", lateral_m / 1000, whole_m / 1000)
+            : std::string{};
+    return {fmt::format("no vertical acceleration{}: estimated from the lateral one alone, which "
+                        "is far less accurate",
+                        where)};
 }
 
 /// The samples of a stretch in which the channel in use was not sampled.
-TripUse without_vibration(TripUse use, const StretchSpan &span) {
-  const auto first = use.acc.begin() + static_cast<std::ptrdiff_t>(span.first);
-  std::fill(first,
-            first + static_cast<std::ptrdiff_t>(span.last - span.first + 1),
-            static_cast<std::uint8_t>(RowReason::unused_channel));
-  return use;
+TripUse without_vibration(TripUse use, const StretchSpan& span) {
+    const auto first = use.acc.begin() + static_cast<std::ptrdiff_t>(span.first);
+    std::fill(first,
+              first + static_cast<std::ptrdiff_t>(span.last - span.first + 1),
+              static_cast<std::uint8_t>(RowReason::unused_channel));
+    return use;
 }
 
-std::vector<std::string> warnings_of(const TripLog &trip,
-                                     const Odometer &odometer,
-                                     const Mounting &mounting) {
-  std::vector<std::string> warnings;
-  if (const double hz = rate_hz(trip.acc); hz > 0 && hz < slow_sampling_hz) {
-    warnings.push_back(fmt::format("vibration was sampled at {:.0f} Hz; below "
-                                   "{:.0f} Hz short waves are missed",
-                                   hz, slow_sampling_hz));
-  }
-  if (mounting.moved) {
-    warnings.emplace_back("gravity changed: the sensor moved during the trip");
-  }
-  if (mounting.gravity_mps2 > 0 &&
-      std::abs(mounting.gravity_mps2 / standard_gravity_mps2 - 1) >
-          odd_gravity) {
-    warnings.push_back(fmt::format(
-        "gravity was felt as {:.2f} m/s2: the accelerometer's scale "
-        "is off, or the sensor was not at rest in the car",
-        mounting.gravity_mps2));
-  }
-  if (!trip.meta.gravity_included && trip.meta.frame == Frame::sensor &&
-      !trip.meta.mount_rpy_deg && !trip.meta.mount_quat) {
-    warnings.emplace_back(
-        "the log has no gravity: z is taken for the vertical");
-  }
-  if (mounting.tilt_deg > steep_tilt_deg) {
-    warnings.push_back(
-        fmt::format("the sensor stood {:.0f} degrees from level; corrected",
-                    mounting.tilt_deg));
-  }
-  if (std::abs(odometer.scale() - 1) > odd_scale) {
-    warnings.push_back(
-        fmt::format("wheel speed was off from GNSS by {:+.1f} %; corrected",
-                    100 * (1 / odometer.scale() - 1)));
-  }
-  if (mounting.gravity_missing) {
-    warnings.emplace_back("no gravity was felt, though the log says that it is "
-                          "included; the axes "
-                          "are taken as stated");
-  }
-  if (mounting.heading_unknown) {
-    warnings.emplace_back(
-        "the heading of the sensor could not be found: too little braking and "
-        "accelerating; lateral vibration is not to be trusted");
-  }
-  if (trip.meta.frame_stated && trip.meta.frame != Frame::sensor &&
-      (trip.meta.mount_rpy_deg || trip.meta.mount_quat)) {
-    warnings.emplace_back(
-        "the mounting angles were not applied: they lead from 'frame: sensor'");
-  }
-  for (const auto &column : trip.unknown_columns) {
-    warnings.push_back(
-        fmt::format("column '{}' is not known and was not read", column));
-  }
-  return warnings;
+std::vector<std::string>
+warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
+    std::vector<std::string> warnings;
+    if (const double hz = rate_hz(trip.acc); hz > 0 && hz < slow_sampling_hz) {
+        warnings.push_back(fmt::format("vibration was sampled at {:.0f} Hz; below "
+                                       "{:.0f} Hz short waves are missed",
+                                       hz,
+                                       slow_sampling_hz));
+    }
+    if (mounting.moved) {
+        warnings.emplace_back("gravity changed: the sensor moved during the trip");
+    }
+    if (mounting.gravity_mps2 > 0 &&
+        std::abs(mounting.gravity_mps2 / standard_gravity_mps2 - 1) > odd_gravity) {
+        warnings.push_back(fmt::format("gravity was felt as {:.2f} m/s2: the accelerometer's scale "
+                                       "is off, or the sensor was not at rest in the car",
+                                       mounting.gravity_mps2));
+    }
+    if (!trip.meta.gravity_included && trip.meta.frame == Frame::sensor &&
+        !trip.meta.mount_rpy_deg && !trip.meta.mount_quat) {
+        warnings.emplace_back("the log has no gravity: z is taken for the vertical");
+    }
+    if (mounting.tilt_deg > steep_tilt_deg) {
+        warnings.push_back(fmt::format("the sensor stood {:.0f} degrees from level; corrected",
+                                       mounting.tilt_deg));
+    }
+    if (std::abs(odometer.scale() - 1) > odd_scale) {
+        warnings.push_back(fmt::format("wheel speed was off from GNSS by {:+.1f} %; corrected",
+                                       100 * (1 / odometer.scale() - 1)));
+    }
+    if (mounting.gravity_missing) {
+        warnings.emplace_back("no gravity was felt, though the log says that it is "
+                              "included; the axes "
+                              "are taken as stated");
+    }
+    if (mounting.heading_unknown) {
+        warnings.emplace_back(
+            "the heading of the sensor could not be found: too little braking and "
+            "accelerating; lateral vibration is not to be trusted");
+    }
+    if (trip.meta.frame_stated && trip.meta.frame != Frame::sensor &&
+        (trip.meta.mount_rpy_deg || trip.meta.mount_quat)) {
+        warnings.emplace_back(
+            "the mounting angles were not applied: they lead from 'frame: sensor'");
+    }
+    for (const auto& column : trip.unknown_columns) {
+        warnings.push_back(fmt::format("column '{}' is not known and was not read", column));
+    }
+    return warnings;
 }
 
 /// How far the antenna sits ahead of the centre of gravity. The log counts from
 /// the front axle, which a car with one axle has under its centre of gravity.
-double antenna_ahead_m(const TripMeta &meta, const Vehicle &vehicle) {
-  const double front_m = vehicle.axles ? vehicle.axles->cg_to_front_m : 0;
-  return meta.gnss_antenna_pos_m ? front_m - meta.gnss_antenna_pos_m->front()
-                                 : 0;
+double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
+    const double front_m = vehicle.axles ? vehicle.axles->cg_to_front_m : 0;
+    return meta.gnss_antenna_pos_m ? front_m - meta.gnss_antenna_pos_m->front() : 0;
 }
 
 /// The matched way of the centre of gravity, which reaches a place so much
 /// travel after the antenna.
 MatchedTrace behind_antenna(MatchedTrace matched, double ahead_m) {
-  for (auto &piece : matched) {
-    piece.from_travel_m += ahead_m;
-    piece.to_travel_m += ahead_m;
-  }
-  return matched;
+    for (auto& piece : matched) {
+        piece.from_travel_m += ahead_m;
+        piece.to_travel_m += ahead_m;
+    }
+    return matched;
 }
 
-double length_on_roads_m(const MatchedTrace &matched) {
-  double length_m = 0;
-  for (const auto &piece : matched) {
-    length_m += piece.kind == PieceKind::road
-                    ? piece.to_travel_m - piece.from_travel_m
-                    : 0;
-  }
-  return length_m;
+double length_on_roads_m(const MatchedTrace& matched) {
+    double length_m = 0;
+    for (const auto& piece : matched) {
+        length_m += piece.kind == PieceKind::road ? piece.to_travel_m - piece.from_travel_m : 0;
+    }
+    return length_m;
 }
 
 /// The ends of a silence of the vibration and all that the other sensors said
 /// within it, in order.
-std::vector<double> times_within(const TripLog &trip, double from_s,
-                                 double to_s) {
-  std::vector<double> times_s{from_s, to_s};
-  const auto add = [&](double t_s) {
-    if (from_s < t_s && t_s < to_s) {
-      times_s.push_back(t_s);
-    }
-  };
-  std::ranges::for_each(trip.speed.t_s, add);
-  std::ranges::for_each(trip.fixes, add, &GnssFix::t_s);
-  std::ranges::sort(times_s);
-  return times_s;
+std::vector<double> times_within(const TripLog& trip, double from_s, double to_s) {
+    std::vector<double> times_s{from_s, to_s};
+    const auto add = [&](double t_s) {
+        if (from_s < t_s && t_s < to_s) {
+            times_s.push_back(t_s);
+        }
+    };
+    std::ranges::for_each(trip.speed.t_s, add);
+    std::ranges::for_each(trip.fixes, add, &GnssFix::t_s);
+    std::ranges::sort(times_s);
+    return times_s;
 }
 
 /// Told travel in times of which the log holds nothing at all, as while a
 /// phone's recording was paused: the ruler goes on there, straight from place
 /// to place, but no sensor felt the car drive.
-double unrecorded_m(const TripLog &trip, const Odometer &odometer,
-                    const TravelSpan &told, double longest_gap_s) {
-  const auto travel_m = [&](double t_s) {
-    return std::min(std::max(odometer.travel_m(t_s), told.from_m), told.to_m);
-  };
-  const auto &t_s = trip.acc.t_s;
-  double sum_m = 0;
-  for (std::size_t i = 1; i < t_s.size(); ++i) {
-    if (t_s[i] - t_s[i - 1] <= longest_gap_s) {
-      continue;
+double unrecorded_m(const TripLog& trip,
+                    const Odometer& odometer,
+                    const TravelSpan& told,
+                    double longest_gap_s) {
+    const auto travel_m = [&](double t_s) {
+        return std::min(std::max(odometer.travel_m(t_s), told.from_m), told.to_m);
+    };
+    const auto& t_s = trip.acc.t_s;
+    double sum_m = 0;
+    for (std::size_t i = 1; i < t_s.size(); ++i) {
+        if (t_s[i] - t_s[i - 1] <= longest_gap_s) {
+            continue;
+        }
+        const auto times_s = times_within(trip, t_s[i - 1], t_s[i]);
+        for (std::size_t k = 1; k < times_s.size(); ++k) {
+            if (times_s[k] - times_s[k - 1] > longest_gap_s) {
+                sum_m += travel_m(times_s[k]) - travel_m(times_s[k - 1]);
+            }
+        }
     }
-    const auto times_s = times_within(trip, t_s[i - 1], t_s[i]);
-    for (std::size_t k = 1; k < times_s.size(); ++k) {
-      if (times_s[k] - times_s[k - 1] > longest_gap_s) {
-        sum_m += travel_m(times_s[k]) - travel_m(times_s[k - 1]);
-      }
-    }
-  }
-  return sum_m;
+    return sum_m;
 }
 
 /// When what is told of a trip begins, since its t0: not where it departed if
 /// its ends are left out. Nothing if nothing is told.
-std::optional<std::int64_t> begin_of(const TravelSpan &told,
-                                     const Odometer &odometer) {
-  if (told.from_m <= 0) {
-    return 0;
-  }
-  return told.from_m < told.to_m
-             ? std::optional{std::llround(1000 * odometer.t_s(told.from_m))}
-             : std::nullopt;
+std::optional<std::int64_t> begin_of(const TravelSpan& told, const Odometer& odometer) {
+    if (told.from_m <= 0) {
+        return 0;
+    }
+    return told.from_m < told.to_m ? std::optional{std::llround(1000 * odometer.t_s(told.from_m))}
+                                   : std::nullopt;
 }
 
-std::vector<Pass> counting_from(std::int64_t begin_ms,
-                                std::vector<Pass> passes) {
-  for (auto &pass : passes) {
-    pass.t_ms -= begin_ms;
-  }
-  return passes;
+std::vector<Pass> counting_from(std::int64_t begin_ms, std::vector<Pass> passes) {
+    for (auto& pass : passes) {
+        pass.t_ms -= begin_ms;
+    }
+    return passes;
 }
 
 /// Why a trip gave no pass.
-std::string spoken_emptiness(const IriTrace &roughness,
-                             const MatchedTrace &matched) {
-  if (length_on_roads_m(matched) <= 0) {
-    return "no part of the trip lies on the network: no pass";
-  }
-  return roughness.runs.empty()
-             ? "no part of the trip was driven evenly enough: no pass"
-             : "no segment was driven whole enough: no pass";
+std::string spoken_emptiness(const IriTrace& roughness, const MatchedTrace& matched) {
+    if (length_on_roads_m(matched) <= 0) {
+        return "no part of the trip lies on the network: no pass";
+    }
+    return roughness.runs.empty() ? "no part of the trip was driven evenly enough: no pass"
+                                  : "no segment was driven whole enough: no pass";
 }
 
 } // namespace
 
-TripLog with_latency(TripLog trip, std::vector<std::string> &warnings) {
-  if (trip.meta.gnss_latency_stated || trip.fixes.empty()) {
-    return trip;
-  }
-  if (const auto latency_s = estimate_gnss_latency_s(trip)) {
-    trip.meta.gnss_latency_s = *latency_s;
-    warnings.push_back(fmt::format(
-        "gnss_latency_s is not stated; estimated as {:.2f} s", *latency_s));
-  } else {
-    warnings.emplace_back(
-        "gnss_latency_s is not stated and could not be found; places may lie "
-        "up to 2 s of driving ahead of the road");
-  }
-  return trip;
-}
-
-TripTrace trace_of(const TripLog &trip, const Vehicle &vehicle,
-                   const PipelineConfig &config) {
-  auto use = unused(trip);
-  auto odometer = make_odometer(trip, config.odometer, use);
-  const auto mounting = estimate_mounting(trip, odometer);
-  expect_channels(trip, mounting, config.estimator.channels);
-
-  IriTrace roughness{
-      .runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
-  for (const auto &span : find_stretches(trip, odometer, config.stretch, use,
-                                         mounting.otherwise)) {
-    const auto stretch =
-        make_stretch(trip, span, odometer, mounting, config.stretch);
-    auto run = estimate_iri(stretch, vehicle, config.estimator);
-    if (run.centre_mm_per_m.empty()) {
-      use = without_vibration(std::move(use), span);
-    } else {
-      roughness.runs.push_back(std::move(run));
+TripLog with_latency(TripLog trip, std::vector<std::string>& warnings) {
+    if (trip.meta.gnss_latency_stated || trip.fixes.empty()) {
+        return trip;
     }
-  }
-  auto warnings = spoken_lateral(roughness, config.estimator.channels);
-  std::ranges::move(warnings_of(trip, odometer, mounting),
-                    std::back_inserter(warnings));
-  return {std::move(odometer), std::move(roughness), std::move(use),
-          std::move(warnings)};
+    if (const auto latency_s = estimate_gnss_latency_s(trip)) {
+        trip.meta.gnss_latency_s = *latency_s;
+        warnings.push_back(
+            fmt::format("gnss_latency_s is not stated; estimated as {:.2f} s", *latency_s));
+    } else {
+        warnings.emplace_back("gnss_latency_s is not stated and could not be found; places may lie "
+                              "up to 2 s of driving ahead of the road");
+    }
+    return trip;
 }
 
-TripResult passes_of(TripLog trip, const Vehicle &vehicle,
-                     const RoadNetwork &roads, const PipelineConfig &config) {
-  std::vector<std::string> warnings;
-  trip = with_latency(std::move(trip), warnings);
-  auto trace = trace_of(trip, vehicle, config);
-  trace.use = without_vibration_outside(std::move(trace.use), trip,
-                                        trace.odometer, config.trim_m);
-  const auto told = told_part(trace.odometer, config.trim_m);
-  const double paused_m =
-      unrecorded_m(trip, trace.odometer, told, config.odometer.max_gap_s);
-  trip.acc = {};
-  const auto matched = behind_antenna(
-      map_match(trip, trace.odometer, roads, config.match, trace.use),
-      antenna_ahead_m(trip.meta, vehicle));
+TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config) {
+    auto use = unused(trip);
+    auto odometer = make_odometer(trip, config.odometer, use);
+    const auto mounting = estimate_mounting(trip, odometer);
+    expect_channels(trip, mounting, config.estimator.channels);
 
-  trace.use = without_places_outside(std::move(trace.use), trip, trace.odometer,
-                                     config.trim_m);
-  std::ranges::move(trace.warnings, std::back_inserter(warnings));
+    IriTrace roughness{.runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
+    for (const auto& span :
+         find_stretches(trip, odometer, config.stretch, use, mounting.otherwise)) {
+        const auto stretch = make_stretch(trip, span, odometer, mounting, config.stretch);
+        auto run = estimate_iri(stretch, vehicle, config.estimator);
+        if (run.centre_mm_per_m.empty()) {
+            use = without_vibration(std::move(use), span);
+        } else {
+            roughness.runs.push_back(std::move(run));
+        }
+    }
+    auto warnings = spoken_lateral(roughness, config.estimator.channels);
+    std::ranges::move(warnings_of(trip, odometer, mounting), std::back_inserter(warnings));
+    return {std::move(odometer), std::move(roughness), std::move(use), std::move(warnings)};
+}
 
-  const auto kept = config.trim_m > 0 ? trimmed(matched, told, roads) : matched;
-  const auto begin_ms = begin_of(told, trace.odometer);
-  auto passes = cut_passes(trace.roughness, kept, roads, vehicle, config.pass);
-  if (config.trim_m > 0) {
-    warnings.push_back(spoken_trim(told, config.trim_m));
-  }
-  if (passes.empty() && begin_ms) {
-    warnings.push_back(spoken_emptiness(trace.roughness, matched));
-  }
-  return {.passes = counting_from(begin_ms.value_or(0), std::move(passes)),
-          .rows = account(trip, trace.use),
-          .begin_ms = begin_ms,
-          .distance_m = std::max(0.0, told.to_m - told.from_m - paused_m),
-          .matched_m = length_on_roads_m(kept),
-          .warnings = std::move(warnings)};
+TripResult passes_of(TripLog trip,
+                     const Vehicle& vehicle,
+                     const RoadNetwork& roads,
+                     const PipelineConfig& config) {
+    std::vector<std::string> warnings;
+    trip = with_latency(std::move(trip), warnings);
+    auto trace = trace_of(trip, vehicle, config);
+    trace.use =
+        without_vibration_outside(std::move(trace.use), trip, trace.odometer, config.trim_m);
+    const auto told = told_part(trace.odometer, config.trim_m);
+    const double paused_m = unrecorded_m(trip, trace.odometer, told, config.odometer.max_gap_s);
+    trip.acc = {};
+    const auto matched =
+        behind_antenna(map_match(trip, trace.odometer, roads, config.match, trace.use),
+                       antenna_ahead_m(trip.meta, vehicle));
+
+    trace.use = without_places_outside(std::move(trace.use), trip, trace.odometer, config.trim_m);
+    std::ranges::move(trace.warnings, std::back_inserter(warnings));
+
+    const auto kept = config.trim_m > 0 ? trimmed(matched, told, roads) : matched;
+    const auto begin_ms = begin_of(told, trace.odometer);
+    auto passes = cut_passes(trace.roughness, kept, roads, vehicle, config.pass);
+    if (config.trim_m > 0) {
+        warnings.push_back(spoken_trim(told, config.trim_m));
+    }
+    if (passes.empty() && begin_ms) {
+        warnings.push_back(spoken_emptiness(trace.roughness, matched));
+    }
+    return {.passes = counting_from(begin_ms.value_or(0), std::move(passes)),
+            .rows = account(trip, trace.use),
+            .begin_ms = begin_ms,
+            .distance_m = std::max(0.0, told.to_m - told.from_m - paused_m),
+            .matched_m = length_on_roads_m(kept),
+            .warnings = std::move(warnings)};
 }
 
 } // namespace macadam
