@@ -96,10 +96,10 @@ std::vector<std::string>
 warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
     std::vector<std::string> warnings;
     if (const double hz = rate_hz(trip.acc); hz > 0 && hz < slow_sampling_hz) {
-        warnings.push_back(fmt::format("vibration was sampled at {:.0f} Hz; below "
-                                       "{:.0f} Hz short waves are missed",
-                                       hz,
-                                       slow_sampling_hz));
+        warnings.push_back(fmt::format(
+            "vibration was sampled at {:.0f} Hz; below {:.0f} Hz short waves are missed",
+            hz,
+            slow_sampling_hz));
     }
     if (mounting.moved) {
         warnings.emplace_back("gravity changed: the sensor moved during the trip");
@@ -123,9 +123,9 @@ warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mount
                                        100 * (1 / odometer.scale() - 1)));
     }
     if (mounting.gravity_missing) {
-        warnings.emplace_back("no gravity was felt, though the log says that it is "
-                              "included; the axes "
-                              "are taken as stated");
+        warnings.emplace_back(
+            "no gravity was felt, though the log says that it is included; the axes "
+            "are taken as stated");
     }
     if (mounting.heading_unknown) {
         warnings.emplace_back(
@@ -143,15 +143,15 @@ warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mount
     return warnings;
 }
 
-/// How far the antenna sits ahead of the centre of gravity. The log counts from
-/// the front axle, which a car with one axle has under its centre of gravity.
+/// How far the antenna sits ahead of the centre of gravity. The log counts from the front axle,
+/// which a car with one axle has under its centre of gravity.
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
     const double front_m = vehicle.axles ? vehicle.axles->cg_to_front_m : 0;
     return meta.gnss_antenna_pos_m ? front_m - meta.gnss_antenna_pos_m->front() : 0;
 }
 
-/// The matched way of the centre of gravity, which reaches a place so much
-/// travel after the antenna.
+/// The matched way of the centre of gravity, which reaches a place so much travel after the
+/// antenna.
 MatchedTrace behind_antenna(MatchedTrace matched, double ahead_m) {
     for (auto& piece : matched) {
         piece.from_travel_m += ahead_m;
@@ -168,8 +168,7 @@ double length_on_roads_m(const MatchedTrace& matched) {
     return length_m;
 }
 
-/// The ends of a silence of the vibration and all that the other sensors said
-/// within it, in order.
+/// The ends of a silence of the vibration and all that the other sensors said within it, in order.
 std::vector<double> times_within(const TripLog& trip, double from_s, double to_s) {
     std::vector<double> times_s{from_s, to_s};
     const auto add = [&](double t_s) {
@@ -183,9 +182,8 @@ std::vector<double> times_within(const TripLog& trip, double from_s, double to_s
     return times_s;
 }
 
-/// Told travel in times of which the log holds nothing at all, as while a
-/// phone's recording was paused: the ruler goes on there, straight from place
-/// to place, but no sensor felt the car drive.
+/// Told travel in times of which the log holds nothing at all, as while a phone's recording was
+/// paused: the ruler goes on there, straight from place to place, but no sensor felt the car drive.
 double unrecorded_m(const TripLog& trip,
                     const Odometer& odometer,
                     const TravelSpan& told,
@@ -209,8 +207,8 @@ double unrecorded_m(const TripLog& trip,
     return sum_m;
 }
 
-/// When what is told of a trip begins, since its t0: not where it departed if
-/// its ends are left out. Nothing if nothing is told.
+/// When what is told of a trip begins, since its t0: not where it departed if its ends are left
+/// out. Nothing if nothing is told.
 std::optional<std::int64_t> begin_of(const TravelSpan& told, const Odometer& odometer) {
     if (told.from_m <= 0) {
         return 0;
