@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t tuning_samples = 3000;
 constexpr std::size_t least_tuning_samples = 1200;
 
+constexpr double untuned_sd = 0.1; // relative, of a car of which too little was seen to tune it
+
 // Of the channels' zeros, variance a second: gravity's share on hills and in bends, what the yaw
 // rate does not explain of a bend's pull, drift of the gyroscope.
 constexpr std::array<double, channel_count> zero_drift{1e-4, 1e-2, 1e-6, 1e-6};
@@ -171,10 +173,8 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     auto passage = passage_of(stretch, vehicle, config);
     if (passage.travel_m.size() < least_tuning_samples || !is_felt(passage)) {
         return {.vehicle = vehicle,
-                .friction_n = 0,
-                .friction_sd_n = 0,
-                .uncertainty = vehicle.uncertainty,
-                .iri_sd = 0.1};
+                .friction_n = vehicle.half_car.friction_n.value_or(0),
+                .iri_sd = untuned_sd};
     }
     const std::size_t count = std::min(passage.travel_m.size(), tuning_samples);
     const std::size_t from = (passage.travel_m.size() - count) / 2;
