@@ -51,7 +51,7 @@ SimulatedRide drive(const Vehicle& vehicle,
     const double height_m = vehicle.imu.height_above_roll_axis_m;
     const double arm_m = height_m > 0 ? height_m : 1;
     const double h = 1 / rate_hz / substeps;
-    SimulatedRide ride{1 / rate_hz, {}, {}, {}, {}};
+    SimulatedRide ride{1 / rate_hz, {}, {}, {}, {}, {}};
     State x{};
     const double datum_m = (left_m(0) + right_m(0)) / 2;
     double travel_m = 0;
@@ -66,6 +66,7 @@ SimulatedRide drive(const Vehicle& vehicle,
             ride.speed_mps.push_back(v);
             ride.vertical_mps2.push_back(vehicle.gain * k1.rate[0]);
             ride.lateral_mps2.push_back(vehicle.gain * arm_m * k1.rate[1]);
+            ride.roll_radps.push_back(-k1.at[1]);
         }
         const auto k2 = slope(plus(x, k1, h / 2), travel_m + v * h / 2);
         const auto k3 = slope(plus(x, k2, h / 2), travel_m + v * h / 2);
@@ -99,6 +100,9 @@ Stretch stretch_of(const SimulatedRide& ride, bool vertical, bool lateral) {
             .step_s = ride.step_s,
             .vertical_mps2 = floats(ride.vertical_mps2, vertical),
             .lateral_mps2 = floats(ride.lateral_mps2, lateral),
+            .roll_radps = {},
+            .pitch_radps = {},
+            .yaw_radps = {},
             .speed_mps = floats(ride.speed_mps, true),
             .travel_m = ride.travel_m};
 }

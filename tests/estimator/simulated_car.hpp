@@ -18,6 +18,7 @@ struct SimulatedRide {
     std::vector<double> speed_mps;
     std::vector<double> vertical_mps2;
     std::vector<double> lateral_mps2; ///< height * theta'' (theta'' if the height is not known)
+    std::vector<double> roll_radps{}; ///< positive as the left side rises
 };
 
 /// Drives `length_m` at `speed_mps(travel)`; `substeps` Runge-Kutta steps make one sample.

@@ -1,0 +1,67 @@
+// A car of one axle, which nothing hides from its sensors: Runge-Kutta over its forces.
+
+#include "estimator/simulated_car.hpp"
+#include "estimator/smoother/worlds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace macadam::testing {
+namespace {
+
+constexpr double segment_m = 40;
+
+std::vector<float> with_noise(const std::vector<double>& signal, double sd, unsigned seed) {
+    std::mt19937 random{seed};
+    std::normal_distribution<double> noise{0, sd};
+    std::vector<float> noisy;
+    for (const double value : signal) {
+        noisy.push_back(static_cast<float>(value + noise(random)));
+    }
+    return noisy;
+}
+
+/// Vertical acceleration and roll rate of the one-axle car on the world's road.
+std::vector<Held> one_axle_drive(const World& world, double speed_kmh) {
+    Vehicle car = two_axle_car(world.axles, 0);
+    car.axles.reset();
+    const double length_m = drive_length_m();
+    const auto paths = wheel_paths(make_surface(world.road, length_m, 11));
+    const auto ride = drive(
+        car,
+        along(paths.left_m, paths.step_m),
+        along(paths.right_m, paths.step_m),
+        length_m - 10,
+        [=](double) { return speed_kmh / 3.6; },
+        50,
+        10);
+    auto stretch = stretch_of(ride, false, false);
+    stretch.vertical_mps2 = with_noise(ride.vertical_mps2, 0.05, 1);
+    stretch.roll_radps = with_noise(ride.roll_radps, 0.002, 2);
+    return held_beside(smoothed(stretch, car), true_stroke(paths), Index::mri, segment_m, car);
+}
+
+TEST(OneAxleCar, IsWithinThreeAndAHalfPercentAtEverySpeed) {
+    double least_bias = 1;
+    double most_bias = -1;
+    for (const double speed_kmh : {50.0, 80.0, 110.0}) {
+        std::vector<Held> mri;
+        for (const auto& world : worlds()) {
+            const auto pieces = one_axle_drive(world, speed_kmh);
+            print(world.name, speed_kmh, pieces);
+            append(mri, pieces);
+        }
+        print("one axle, vertical and roll rate", speed_kmh, mri);
+        const auto errors = errors_of(mri);
+        EXPECT_LE(errors.rmse, 0.035) << speed_kmh;
+        EXPECT_LE(std::abs(errors.bias), 0.015) << speed_kmh;
+        least_bias = std::min(least_bias, errors.bias);
+        most_bias = std::max(most_bias, errors.bias);
+    }
+    EXPECT_LE(most_bias - least_bias, 0.015); // no trend with speed
+}
+
+} // namespace
+} // namespace macadam::testing

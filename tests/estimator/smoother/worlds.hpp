@@ -1,0 +1,40 @@
+#pragma once
+
+#include "estimator/smoother/driven_road.hpp"
+
+#include <span>
+
+namespace macadam::testing {
+
+/// A road and a car that drives it; docs/method.md lists them.
+struct World {
+    const char* name;
+    RoadRecipe road;
+    Axles axles;
+    double imu_ahead_m;
+};
+
+/// Roads of MRI 1 to 6 of several wavinesses, and with joints, patches and potholes; cars of 2.4 to
+/// 3.3 m wheelbase. The whole list, with MACADAM_TEST_ALL set; otherwise every other of them.
+std::vector<World> worlds();
+
+/// Metres to drive in each: 2,400, ten kilometres with MACADAM_TEST_ALL set.
+double drive_length_m();
+
+/// The drive of the world's car, known but for nothing.
+DriveRecipe drive_in(const World& world, double speed_kmh);
+
+/// What users get: a car tuned by the stretch, then the smoother.
+IriRun
+smoothed(const Stretch& stretch, const Vehicle& vehicle, Channels channels = Channels::automatic);
+
+/// The published filter on the vertical or the lateral channel.
+IriRun filtered(const Stretch& stretch, const Vehicle& vehicle, Channels channels);
+
+/// Adds pieces of one drive, relative to its mean MRI, to those of others.
+void append(std::vector<Held>& set, const std::vector<Held>& pieces);
+
+/// One line of the suite's report.
+void print(const char* what, double speed_kmh, const std::vector<Held>& pieces);
+
+} // namespace macadam::testing
