@@ -189,7 +189,7 @@ std::string meaning_of(double gain, const Vehicle& vehicle) {
         "and a sensor between them feels the mean of both: waves of 2, 2/3, 2/5, ... wheelbases\n"
         "cancel, long ones do not. The rms of that comb is 0.71, whatever the wheelbase. So this "
         "gain\n"
-        "speaks of the wheelbase, not of a soft suspension; it takes the bias off a one-axle "
+        "speaks of the wheelbase, not of a modern suspension; it takes the bias off a one-axle "
         "method,\n"
         "not the scatter{}.",
         gain,

@@ -9,7 +9,8 @@ namespace macadam {
 namespace {
 
 constexpr double difference = 1e-5;
-constexpr int most_iterations = 200;
+constexpr int most_iterations = 100;
+constexpr double enough = 1e-9;      // two steps that lower the function by less are the last
 constexpr int remembered_steps = 12; // several times the variables: as good as the whole matrix
 
 Eigen::VectorXd gradient(const std::function<double(const Eigen::VectorXd&)>& function,
@@ -31,7 +32,7 @@ LBFGSpp::LBFGSParam<double> settings() {
     settings.epsilon = 1e-8;
     settings.epsilon_rel = 0;
     settings.past = 2;
-    settings.delta = 1e-12;
+    settings.delta = enough;
     settings.max_iterations = most_iterations;
     settings.linesearch = LBFGSpp::LBFGS_LINESEARCH_BACKTRACKING_STRONG_WOLFE;
     settings.max_linesearch = 15;

@@ -15,8 +15,9 @@ struct Minimum {
 /// its curvature kept by the last steps) with central differences for the gradient. It may be a
 /// local one.
 ///
-/// \param function  its variables should be about as sensitive as each other and of order 1: steps
-///                  of the differences are 1e-5.
+/// \param function  its variables should be about as sensitive as each other and of order 1, and
+///                  so its value: differences are taken over 1e-5, and two steps that lower it by
+///                  less than 1e-9 are the last.
 ///
 /// Source: J. Nocedal, S. J. Wright, "Numerical Optimization", 2nd ed. (2006), chapters 3, 7 and 8.
 Minimum minimum_near(const Eigen::VectorXd& start,

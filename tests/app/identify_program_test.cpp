@@ -90,7 +90,7 @@ TEST_F(Identify, SaysWhatItFoundAndWhatTheGainMeans) {
     EXPECT_THAT(run.out, HasSubstr("ks_n_per_m         15825"));
     EXPECT_THAT(run.out,
                 HasSubstr("The rms of that comb is 0.71, whatever the wheelbase. So this "
-                          "gain\nspeaks of the wheelbase, not of a soft suspension"));
+                          "gain\nspeaks of the wheelbase, not of a modern suspension"));
     EXPECT_EQ(run.err, "");
 }
 
