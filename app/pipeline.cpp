@@ -5,6 +5,7 @@
 #include "estimator/common/error.hpp"
 #include "estimator/common/gravity.hpp"
 #include "estimator/latency.hpp"
+#include "estimator/smoothed_iri.hpp"
 
 #include <fmt/format.h>
 
@@ -81,6 +82,10 @@ std::vector<std::string> spoken_lateral(const IriTrace& roughness, Channels chan
     return {fmt::format("no vertical acceleration{}: estimated from the lateral one alone, which "
                         "is far less accurate",
                         where)};
+}
+
+std::size_t samples_in(const StretchSpan& span) {
+    return span.last - span.first;
 }
 
 /// The samples of a stretch in which the channel in use was not sampled.
@@ -257,10 +262,19 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
     expect_channels(trip, mounting, config.estimator.channels);
 
     IriTrace roughness{.runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
-    for (const auto& span :
-         find_stretches(trip, odometer, config.stretch, use, mounting.otherwise)) {
-        const auto stretch = make_stretch(trip, span, odometer, mounting, config.stretch);
-        auto run = estimate_iri(stretch, vehicle, config.estimator);
+    const auto spans = find_stretches(trip, odometer, config.stretch, use, mounting.otherwise);
+    const auto stretch_of = [&](const StretchSpan& span) {
+        return make_stretch(trip, span, odometer, mounting, config.stretch);
+    };
+    std::optional<TunedCar> car;
+    if (config.estimator.method == Method::smoother && !spans.empty()) {
+        car =
+            car_in(stretch_of(std::ranges::max(spans, {}, samples_in)), vehicle, config.estimator);
+    }
+    for (const auto& span : spans) {
+        const auto stretch = stretch_of(span);
+        auto run = car ? smoothed_iri(stretch, *car, config.estimator)
+                       : estimate_iri(stretch, vehicle, config.estimator);
         if (run.centre_mm_per_m.empty()) {
             use = without_vibration(std::move(use), span);
         } else {

@@ -26,9 +26,11 @@ constexpr double usual_height_m =
 constexpr double model_part = 0.02;
 constexpr double model_window_s = 4;
 
-// Of every IRI alike, what simulated cars of known parameters leave (docs/method.md).
-constexpr double common_part = 0.02;
-constexpr double random_part = 0.10; // of 1 m, independent from metre to metre
+// Of every IRI alike, what simulated cars leave: of a car that is known, and of one whose friction
+// had to be found, among dampers, bars and bushes that no vehicle file tells (docs/method.md).
+constexpr double known_car_part = 0.02;
+constexpr double found_car_part = 0.05;
+constexpr double random_part = 0.07; // of 1 m, independent from metre to metre
 constexpr double indicative_common = 0.20;
 
 bool wants(const EstimatorConfig& config, Channels channel) {
@@ -208,7 +210,10 @@ IriRun smoothed_iri(const Stretch& stretch,
     passage.cars = cars_with_friction(with_height(car.vehicle), stretch.step_s);
     const auto felt = felt_by({&passage, 1});
     run.indicative = !felt.mean;
-    run.common_sd = std::hypot(common_part, car.iri_sd, run.indicative ? indicative_common : 0);
+    const bool known = car.friction_sd_n == 0 && car.iri_sd == 0;
+    run.common_sd = std::hypot(known ? known_car_part : found_car_part,
+                               car.iri_sd,
+                               run.indicative ? indicative_common : 0);
     run.random_sd = random_part;
 
     const double first_m = passage.travel_m.front() + passage.cars.front().car.front_m;
