@@ -25,8 +25,9 @@ borders_of(const Course& course, std::optional<double> length_m, const std::stri
         throw InputError{fmt::format(
             "{}: has a point every {:.3f} m, --length {} is shorter", file, step_m, *length_m)};
     }
+    // A piece that the points cover is whole, though the envelope eats their last 250 mm.
     std::vector<double> borders_m{course.from_m};
-    while (borders_m.back() + *length_m <= course.to_m + rounding_m) {
+    while (borders_m.back() + *length_m <= course.covered_to_m + rounding_m) {
         borders_m.push_back(course.from_m + static_cast<double>(borders_m.size()) * *length_m);
     }
     borders_m.back() = std::min(borders_m.back(), course.to_m);

@@ -166,7 +166,8 @@ Course course_of(const IriQuestion& question) {
                   .method = {},
                   .start_m = 0,
                   .from_m = 0,
-                  .to_m = 0};
+                  .to_m = 0,
+                  .covered_to_m = 0};
     const auto& extent = course.extent;
     check_step(extent, file);
     course.method.even_step_m = extent.even_step_m;
@@ -178,6 +179,7 @@ Course course_of(const IriQuestion& question) {
     const double end_m = end_of(extent, course.method);
     course.from_m = question.from_m.value_or(course.start_m);
     course.to_m = std::min(question.to_m.value_or(end_m), end_m);
+    course.covered_to_m = std::min(question.to_m.value_or(extent.last_m), extent.last_m);
     if (!(course.from_m >= course.start_m && course.from_m < course.to_m)) {
         throw InputError{fmt::format(
             "{}: --from {:g} --to {:g} holds nothing of the profile, expected {:g} to {:g} m",

@@ -42,6 +42,7 @@ struct Course {
     double start_m; ///< of the car
     double from_m;  ///< of the report
     double to_m;
+    double covered_to_m; ///< by points: up to 250 mm farther
 
     bool sampled() const { return extent.even_step_m.has_value(); }
 

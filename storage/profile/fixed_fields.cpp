@@ -13,7 +13,8 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t most_fields = 10'000; // of a line; a format of a few letters can ask for more
-constexpr int deepest = 20;                 // brackets in brackets
+constexpr std::size_t longest_line = 100'000;
+constexpr int deepest = 20; // brackets in brackets
 
 /// Reads a format from left to right. After anything that it does not know, failed() is true.
 class FormatReader {
@@ -62,7 +63,8 @@ private:
             rest_ = inner;
             const auto before = column_;
             items(depth + 1);
-            failed_ = failed_ || !rest_.starts_with(')') || column_ == before;
+            failed_ =
+                failed_ || !rest_.starts_with(')') || column_ == before || column_ > longest_line;
         }
         rest_.remove_prefix(std::min<std::size_t>(1, rest_.size()));
     }

@@ -84,6 +84,14 @@ TEST(Fuzz, ProfileTxtSurvivesEverySeedAndFinding) {
     survives(profile_txt, "profile_txt");
 }
 
+TEST(Fuzz, ProfileErdSurvivesEverySeedAndFinding) {
+    survives(profile_erd, "profile_erd");
+}
+
+TEST(Fuzz, ProfileProSurvivesEverySeedAndFinding) {
+    survives(profile_pro, "profile_pro");
+}
+
 TEST(Fuzz, TruthCsvSurvivesEverySeedAndFinding) {
     survives(truth_csv, "truth_csv");
 }

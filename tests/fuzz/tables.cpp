@@ -9,6 +9,8 @@
 #include "storage/vehicle_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <functional>
 #include <optional>
 
@@ -26,8 +28,7 @@ void expect_sound(const MeasuredProfile& profile) {
     }
 }
 
-void read_as(const char* name, std::string_view input) {
-    const auto file = input_file(name, input);
+void read_profile_file(const std::filesystem::path& file) {
     for (const auto step_m : {std::optional<double>{}, std::optional{0.25}}) {
         may_refuse([&] {
             const auto profile = read_profile(file, step_m);
@@ -39,6 +40,10 @@ void read_as(const char* name, std::string_view input) {
     }
 }
 
+void read_as(const char* name, std::string_view input) {
+    read_profile_file(input_file(name, input));
+}
+
 } // namespace
 
 void profile_csv(std::string_view input) {
@@ -47,6 +52,18 @@ void profile_csv(std::string_view input) {
 
 void profile_txt(std::string_view input) {
     read_as("a.txt", input);
+}
+
+void profile_erd(std::string_view input) {
+    constexpr std::array<std::string_view, 2> names{"a.erd", "a.bin"};
+    const auto folder = input_folder(names, input);
+    if (std::filesystem::exists(folder / names[0])) {
+        read_profile_file(folder / names[0]);
+    }
+}
+
+void profile_pro(std::string_view input) {
+    read_as("a.pro", input);
 }
 
 void truth_csv(std::string_view input) {

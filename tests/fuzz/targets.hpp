@@ -21,6 +21,8 @@ void vehicle_toml(std::string_view input);
 void recipe_toml(std::string_view input); ///< of a simulated fleet
 void profile_csv(std::string_view input);
 void profile_txt(std::string_view input);
+void profile_erd(std::string_view input); ///< the header, and perhaps its numbers in a .bin
+void profile_pro(std::string_view input);
 void truth_csv(std::string_view input);
 void osm_xml(std::string_view input);
 void osm_pbf(std::string_view input);

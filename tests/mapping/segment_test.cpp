@@ -102,6 +102,11 @@ TEST(IriClass, OfFhwaPutsBothBordersIntoFair) {
     EXPECT_EQ(class_at(170), "fair");
     EXPECT_EQ(class_at(170.001), "poor");
     EXPECT_EQ(class_at(1e6), "poor");
+    // The same borders in mm/m, rounded: 1.499369 and 2.683081.
+    EXPECT_EQ(class_at(1.4993 * in_per_mi_of_mm_per_m), "good");
+    EXPECT_EQ(class_at(1.4994 * in_per_mi_of_mm_per_m), "fair");
+    EXPECT_EQ(class_at(2.6830 * in_per_mi_of_mm_per_m), "fair");
+    EXPECT_EQ(class_at(2.6831 * in_per_mi_of_mm_per_m), "poor");
 }
 
 TEST(IriClass, TablesRiseAndEndWithoutLimit) {
