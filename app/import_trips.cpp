@@ -22,7 +22,10 @@ std::int64_t thousandths(double value) {
     return std::llround(value * 1000);
 }
 
-TripRecord record_of(const TripSource& source, const TripMeta& meta, const TripOutcome& outcome) {
+TripRecord record_of(const TripSource& source,
+                     const TripMeta& meta,
+                     const TripOutcome& outcome,
+                     Method method) {
     TripRecord record;
     record.sha256 = outcome.sha256;
     record.trip_id = meta.trip_id;
@@ -33,7 +36,7 @@ TripRecord record_of(const TripSource& source, const TripMeta& meta, const TripO
     }
     // The name of a car's own file is its vehicle_id, which the store does not keep.
     record.vehicle_model = outcome.built_in_vehicle ? outcome.vehicle : std::string{own_file_model};
-    record.method = "kf";
+    record.method = method == Method::kf ? "kf" : "smoother";
     record.distance_mm = thousandths(outcome.trip.distance_m);
     record.matched_mm = thousandths(outcome.trip.matched_m);
     record.rows_read = outcome.trip.rows.read;
@@ -73,7 +76,7 @@ TripOutcome worked_out(const TripSource& source,
         outcome.trip = naming(outcome.file, [&] {
             return passes_of(std::move(trip), chosen.vehicle, roads, config);
         });
-        outcome.record = record_of(source, meta, outcome);
+        outcome.record = record_of(source, meta, outcome, config.estimator.method);
         outcome.result = TripOutcome::Result::imported;
         if (!chosen.warning.empty()) {
             outcome.trip.warnings.push_back(chosen.warning);

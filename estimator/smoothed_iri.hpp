@@ -16,7 +16,7 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
 struct PieceConfig {
     double core_m = 1500;            ///< of a piece, ...
     std::size_t core_samples = 9000; ///< ... or so many, if the car is slow: some 25 MB
-    double margin_m = 150;           ///< on both sides, where start-up and windows reach
+    double margin_m = 225;           ///< on both sides, where start-up and windows reach
 };
 
 /// Both tracks of the road under one stretch by the joint smoother, in pieces of a kilometre or two

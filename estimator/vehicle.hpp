@@ -10,15 +10,17 @@ namespace macadam {
 
 /// The paper's lateral half-car: one axle, two wheels. The quarter car is a quarter of it.
 struct HalfCar {
-    double ms_kg;                     ///< whole sprung mass of the car
-    double mu_kg;                     ///< unsprung mass, per wheel
-    double ks_n_per_m;                ///< suspension stiffness, per wheel
-    double cs_ns_per_m;               ///< suspension damping, per wheel
-    double kt_n_per_m;                ///< tyre stiffness, per wheel
-    double is_kgm2;                   ///< roll inertia of half the body (the paper's I_s)
-    double l_m;                       ///< half the track width
-    double antiroll_n_per_m = 0;      ///< of a bar, at each wheel as the body rolls
-    std::optional<double> friction_n; ///< dry, of each suspension; nothing: not known
+    double ms_kg;                ///< whole sprung mass of the car
+    double mu_kg;                ///< unsprung mass, per wheel
+    double ks_n_per_m;           ///< suspension stiffness, per wheel
+    double cs_ns_per_m;          ///< suspension damping, per wheel
+    double kt_n_per_m;           ///< tyre stiffness, per wheel
+    double is_kgm2;              ///< roll inertia of half the body (the paper's I_s)
+    double l_m;                  ///< half the track width
+    double antiroll_n_per_m = 0; ///< of a bar, at each wheel as the body rolls
+
+    /// Dry, of each suspension. Nothing: not known.
+    std::optional<double> friction_n = std::nullopt;
 };
 
 struct Axles {

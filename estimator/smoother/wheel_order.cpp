@@ -1,5 +1,7 @@
 #include "estimator/smoother/wheel_order.hpp"
 
+#include "estimator/smoother/road_level.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -59,6 +61,33 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
+/// What all channels have at `count` frequencies from lowest * step on, over what is usual. Each
+/// piece counts alike, however rough.
+std::vector<double> power_at(const Passage& passage,
+                             const std::vector<std::pair<std::size_t, std::size_t>>& pieces,
+                             std::size_t lowest,
+                             std::size_t count,
+                             double step) {
+    std::vector<double> power(count);
+    for (const auto& felt : passage.felt) {
+        if (felt.empty()) {
+            continue;
+        }
+        for (const auto& [from, to] : pieces) {
+            std::vector<double> own(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                own[i] = std::norm(
+                    line_at(passage, felt, from, to, static_cast<double>(lowest + i) * step));
+            }
+            const double usual = median(own);
+            for (std::size_t i = 0; i < count; ++i) {
+                power[i] += usual > 0 ? own[i] / usual : 0;
+            }
+        }
+    }
+    return power;
+}
+
 /// The slowly changing part of `felt` that turns with the frequency: amplitude and phase over
 /// memory_m to either side.
 std::vector<double>
@@ -97,6 +126,15 @@ line_of(const Passage& passage, const std::vector<double>& felt, double turns_pe
     return line;
 }
 
+/// Over a road without a line, power that is the mean of so many looks is that of its neighbours
+/// times a gamma variate, whose quantile this is; the largest of some hundred frequencies stays
+/// below it but for once in a thousand. (E. B. Wilson, M. M. Hilferty, "The distribution of
+/// chi-square", PNAS 17 (1931), pp. 684-688.)
+double surely_a_line(double looks) {
+    constexpr double deviations = 5; // 4.3 of one in 100,000; the neighbours scatter, too
+    return std::pow(1 - 1 / (9 * looks) + deviations / (3 * std::sqrt(looks)), 3);
+}
+
 } // namespace
 
 std::optional<double> wheel_turn_m(const Passage& passage) {
@@ -108,25 +146,7 @@ std::optional<double> wheel_turn_m(const Passage& passage) {
     const auto first = static_cast<std::size_t>(1 / most_turn_m / step);
     const auto last = static_cast<std::size_t>(1 / least_turn_m / step);
     const std::size_t lowest = first - neighbours;
-    std::vector<double> power(last + neighbours + 1 - lowest);
-    double channels = 0;
-    for (const auto& felt : passage.felt) {
-        if (felt.empty()) {
-            continue;
-        }
-        ++channels;
-        std::vector<double> own(power.size());
-        for (std::size_t i = 0; i < own.size(); ++i) {
-            for (const auto& [from, to] : pieces) {
-                own[i] += std::norm(
-                    line_at(passage, felt, from, to, static_cast<double>(lowest + i) * step));
-            }
-        }
-        const double usual = median(own);
-        for (std::size_t i = 0; i < own.size(); ++i) {
-            power[i] += usual > 0 ? own[i] / usual : 0;
-        }
-    }
+    const auto power = power_at(passage, pieces, lowest, last + neighbours + 1 - lowest, step);
     double best = 0;
     std::size_t at = 0;
     for (std::size_t i = neighbours; i + neighbours < power.size(); ++i) {
@@ -141,10 +161,10 @@ std::optional<double> wheel_turn_m(const Passage& passage) {
             at = i;
         }
     }
-    // Over `looks` independent looks the power of a road without a line scatters by 1 /
-    // sqrt(looks); the largest of some hundred frequencies stays below five of those.
-    const double looks = static_cast<double>(pieces.size()) * channels;
-    if (!(best > 1 + 5 / std::sqrt(looks))) {
+    // Channels that feel the same side of the road rise and fall as one.
+    const auto [mean, half] = felt_by({&passage, 1});
+    const double sides = (mean ? 1 : 0) + (half ? 1 : 0);
+    if (!(best > surely_a_line(static_cast<double>(pieces.size()) * sides))) {
         return std::nullopt;
     }
     return 1 / (static_cast<double>(lowest + at) * step);
