@@ -1,13 +1,16 @@
 // What estimation costs: the product's Kalman filter beside the same equations written down as they
-// stand in the paper, on one trip of doubling length.
+// stand in the paper, on one trip of doubling length; and the smoother, on simulated drives.
 
 #include "estimator/iri_trace.hpp"
 #include "estimator/kalman_profile.hpp"
 #include "estimator/quarter_car.hpp"
+#include "estimator/smoothed_iri.hpp"
+#include "estimator/smoother/driven_road.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Dense>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <random>
@@ -26,6 +29,9 @@ Stretch shaken(std::size_t samples) {
                     .step_s = 1 / rate_hz,
                     .vertical_mps2 = std::vector<float>(samples),
                     .lateral_mps2 = {},
+                    .roll_radps = {},
+                    .pitch_radps = {},
+                    .yaw_radps = {},
                     .speed_mps = std::vector<float>(samples, speed_mps),
                     .travel_m = std::vector<double>(samples)};
     for (std::size_t i = 0; i < samples; ++i) {
@@ -104,6 +110,62 @@ void vibration_to_iri(benchmark::State& state) {
     tell(state, stretch.travel_m.size());
 }
 
+/// A drive at 50 Hz and 80 km/h, both tracks felt by every sensor.
+testing::DriveRecipe felt_drive(double length_m) {
+    const auto car = testing::two_axle_car({.wheelbase_m = 2.8, .cg_to_front_m = 1.3}, 0.3);
+    return {.road = {.iri_mm_per_m = 2}, .car = testing::linear_car_of(car), .length_m = length_m};
+}
+
+void tell_of_smoother(benchmark::State& state, const Stretch& stretch) {
+    const auto samples = static_cast<double>(stretch.travel_m.size());
+    const double done = samples * static_cast<double>(state.iterations());
+    state.counters["x_real_time"] =
+        benchmark::Counter(done * stretch.step_s, benchmark::Counter::kIsRate);
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    state.counters["peak_MB"] = static_cast<double>(used.ru_maxrss) / 1024;
+    state.SetComplexityN(static_cast<std::int64_t>(samples));
+}
+
+/// Twelve rounds of adaptation of the road's level, the car known.
+void smoother_of_two_axles(benchmark::State& state) {
+    const auto drive = felt_drive(static_cast<double>(state.range(0)));
+    const auto stretch = driven_road(drive).stretch;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(
+            smoothed_iri(stretch, TunedCar{.vehicle = drive.car.vehicle}, EstimatorConfig{}));
+    }
+    tell_of_smoother(state, stretch);
+}
+
+/// What a one-axle vehicle file costs; that the car had two does not matter here.
+void smoother_of_one_axle(benchmark::State& state) {
+    const auto drive = felt_drive(static_cast<double>(state.range(0)));
+    const auto stretch = driven_road(drive).stretch;
+    Vehicle car = drive.car.vehicle;
+    car.axles.reset();
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(
+            smoothed_iri(stretch, TunedCar{.vehicle = car}, EstimatorConfig{}));
+    }
+    tell_of_smoother(state, stretch);
+}
+
+/// Once a trip: friction, and six parameters that are uncertain by 5 %.
+void tuning_of_a_car(benchmark::State& state) {
+    const auto drive = felt_drive(static_cast<double>(state.range(0)));
+    const auto stretch = driven_road(drive).stretch;
+    Vehicle car = drive.car.vehicle;
+    for (const char* name :
+         {"ms_kg", "mu_kg", "ks_n_per_m", "cs_ns_per_m", "kt_n_per_m", "is_kgm2"}) {
+        car.uncertainty[name] = 0.05;
+    }
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(car_in(stretch, car, EstimatorConfig{}));
+    }
+    tell_of_smoother(state, stretch);
+}
+
 constexpr std::int64_t quarter_of_an_hour = 90'000;
 
 BENCHMARK(filter_as_in_the_paper)->Arg(quarter_of_an_hour)->Unit(benchmark::kMillisecond);
@@ -111,6 +173,13 @@ BENCHMARK(filter_of_macadam)->Arg(quarter_of_an_hour)->Unit(benchmark::kMillisec
 BENCHMARK(vibration_to_iri)
     ->RangeMultiplier(2)
     ->Range(quarter_of_an_hour, 8 * quarter_of_an_hour)
+    ->Complexity(benchmark::oN)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(smoother_of_one_axle)->Arg(2000)->Unit(benchmark::kMillisecond);
+BENCHMARK(tuning_of_a_car)->Arg(4000)->Unit(benchmark::kMillisecond);
+BENCHMARK(smoother_of_two_axles)
+    ->RangeMultiplier(2)
+    ->Range(2000, 16000)
     ->Complexity(benchmark::oN)
     ->Unit(benchmark::kMillisecond);
 

@@ -20,7 +20,7 @@ constexpr std::array shown{Shown{methods.size() - 1, ChartLine::Look::solid},
 
 /// Share of the errors in each of even bins, drawn as steps.
 ChartLine steps_of(const std::string& name, const std::vector<double>& errors, double reach) {
-    constexpr std::size_t bins = 60;
+    constexpr std::size_t bins = 40;
     std::array<double, bins> share{};
     for (const double error : errors) {
         const double bin = (error + reach) / (2 * reach) * bins;

@@ -15,13 +15,13 @@ struct World {
 };
 
 /// Roads of MRI 1 to 6 of several wavinesses, and with joints, patches and potholes; cars of 2.4 to
-/// 3.3 m wheelbase. The whole list, with MACADAM_TEST_ALL set; otherwise every other of them.
-std::vector<World> worlds();
+/// 3.3 m wheelbase.
+std::span<const World> worlds();
 
-/// Metres to drive in each: 2,400, ten kilometres with MACADAM_TEST_ALL set.
+/// Metres to drive in each: 1,200, or ten kilometres with MACADAM_TEST_ALL set.
 double drive_length_m();
 
-/// The drive of the world's car, known but for nothing.
+/// The drive of the world's car, which is what its vehicle says.
 DriveRecipe drive_in(const World& world, double speed_kmh);
 
 /// What users get: a car tuned by the stretch, then the smoother.
