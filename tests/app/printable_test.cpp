@@ -20,7 +20,9 @@ TEST(Printable, SpellsOutWhatSteersATerminal) {
 }
 
 TEST(Printable, SpellsOutWhatTurnsTheDirectionOfWriting) {
-    EXPECT_EQ(printable("a\xe2\x80\xaeb"), "a\\u202eb");
+    EXPECT_EQ(printable("a\xe2\x80\xae"
+                        "b"),
+              "a\\u202eb");
     EXPECT_EQ(printable("a\xe2\x81\xa6"), "a\\u2066");
 }
 
