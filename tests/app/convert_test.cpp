@@ -37,8 +37,8 @@ TEST(Convert, MakesALogOfARawlogOfALog) {
     ASSERT_EQ(run.exit_status, 0) << run.err;
     EXPECT_THAT(run.out, IsEmpty());
 
-    const auto before = run_macadam({"trace", rav4});
-    const auto after = run_macadam({"trace", log});
+    const auto before = run_macadam({"trace", rav4, "--method", "kf"});
+    const auto after = run_macadam({"trace", log, "--method", "kf"});
     EXPECT_EQ(before.exit_status, 0) << before.err;
     EXPECT_EQ(before.out, after.out);
 }
@@ -211,7 +211,7 @@ TEST(Convert, LetsARawlogBeMatchedAndTraced) {
     ASSERT_EQ(run_macadam({"init", store, "--trace", rawlog}).exit_status, 0);
     EXPECT_EQ(run_macadam({"match", rawlog, "--network", store}).out,
               run_macadam({"match", rav4, "--network", store}).out);
-    const auto run = run_macadam({"import", store, rawlog, "--json"});
+    const auto run = run_macadam({"import", store, rawlog, "--json", "--method", "kf"});
     EXPECT_EQ(run.exit_status, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr(R"("result":"imported")"));
 }

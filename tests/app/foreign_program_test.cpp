@@ -44,9 +44,10 @@ TEST(ForeignLogs, GoThroughEveryCommandThatTakesTrips) {
     const auto phone = phyphox_export(folder / "phone").string();
     const auto store = (folder / "roads.gpkg").string();
     EXPECT_EQ(run_macadam({"init", store, "--trace", phone}).exit_status, 0);
-    EXPECT_THAT(run_macadam({"trace", phone, "--vehicle", "golden-car"}).out, HasSubstr(",HRI,ok"));
+    EXPECT_THAT(run_macadam({"trace", phone, "--vehicle", "golden-car", "--method", "kf"}).out,
+                HasSubstr(",HRI,ok"));
     EXPECT_THAT(run_macadam({"match", phone, "--network", store}).out, HasSubstr(",road,"));
-    const auto import = run_macadam({"import", store, phone, "--json"});
+    const auto import = run_macadam({"import", store, phone, "--json", "--method", "kf"});
     EXPECT_EQ(import.exit_status, 0) << import.err;
     EXPECT_THAT(import.out, HasSubstr("\"trip_id\":\"phone\""));
     EXPECT_THAT(import.out, HasSubstr("\"rows_read\":5052,")); // 5,001 of 100 Hz, 51 of 1 Hz
@@ -57,7 +58,7 @@ TEST(ForeignLogs, LoseTheirEndsByTrimAndSaySo) {
     const auto phone = phyphox_export(folder / "phone").string();
     const auto store = (folder / "roads.gpkg").string();
     run_macadam({"init", store, "--trace", phone});
-    const auto import = run_macadam({"import", store, phone, "--trim", "300"});
+    const auto import = run_macadam({"import", store, phone, "--trim", "300", "--method", "kf"});
     EXPECT_THAT(import.out, HasSubstr(" trimmed"));
     EXPECT_THAT(import.out, HasSubstr("note: the first and the last 300 m were left out"));
 }
@@ -67,11 +68,12 @@ TEST(ForeignLogs, ThatAreKnownKeepTheirEndsInSpiteOfTrimWhichIsSaid) {
     const auto phone = phyphox_export(folder / "phone").string();
     const auto store = (folder / "roads.gpkg").string();
     run_macadam({"init", store, "--trace", phone});
-    run_macadam({"import", store, phone});
-    const auto again = run_macadam({"import", store, phone, "--trim", "300"});
+    run_macadam({"import", store, phone, "--method", "kf"});
+    const auto again = run_macadam({"import", store, phone, "--trim", "300", "--method", "kf"});
     EXPECT_THAT(again.out, HasSubstr("known "));
     EXPECT_THAT(again.out, HasSubstr("note: stays as it was imported"));
-    EXPECT_THAT(run_macadam({"import", store, phone}).out, Not(HasSubstr("note:")));
+    EXPECT_THAT(run_macadam({"import", store, phone, "--method", "kf"}).out,
+                Not(HasSubstr("note:")));
 }
 
 TEST(ForeignLogs, AreReadByAMapping) {

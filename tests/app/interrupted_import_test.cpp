@@ -52,13 +52,15 @@ std::string whole_digest(const World& made) {
     const auto store = made.store.parent_path() / "whole.gpkg";
     const auto first = (made.trips / "trip-0.trip.csv").string();
     run_macadam({"init", store.string(), "--trace", first});
-    run_macadam({"import", store.string(), made.trips.string()});
+    run_macadam({"import", store.string(), made.trips.string(), "--method", "kf"});
     return digest_of(store);
 }
 
 Run import_until(const World& made, int signal) {
     return run_macadam_signalled(
-        {"import", made.store.string(), made.trips.string()}, "trip-0.trip.csv", signal);
+        {"import", made.store.string(), made.trips.string(), "--method", "kf"},
+        "trip-0.trip.csv",
+        signal);
 }
 
 TEST(InterruptedImport, EndsInOrderWhenAskedToStop) {
@@ -75,13 +77,15 @@ TEST(InterruptedImport, EndsInOrderWhenAskedToStop) {
 TEST(InterruptedImport, GoesOnWithTheRestAndSaysSo) {
     const auto made = world();
     import_until(made, SIGTERM);
-    const auto resumed = run_macadam({"import", made.store.string(), made.trips.string()});
+    const auto resumed =
+        run_macadam({"import", made.store.string(), made.trips.string(), "--method", "kf"});
     EXPECT_EQ(resumed.exit_status, 0);
     EXPECT_THAT(resumed.err, HasSubstr("an earlier import of these paths (6 trips) did not end"));
     EXPECT_THAT(resumed.out, HasSubstr("known     "));
     EXPECT_EQ(digest_of(made.store), whole_digest(made));
 
-    const auto again = run_macadam({"import", made.store.string(), made.trips.string()});
+    const auto again =
+        run_macadam({"import", made.store.string(), made.trips.string(), "--method", "kf"});
     EXPECT_THAT(again.err, Not(HasSubstr("did not end")));
     EXPECT_THAT(again.err, HasSubstr("0 trips imported, 6 known"));
 }
@@ -90,7 +94,8 @@ TEST(InterruptedImport, LosesNothingThatItReportedWhenKilled) {
     const auto made = world();
     const auto killed = import_until(made, SIGKILL);
     EXPECT_EQ(killed.exit_status, 128 + SIGKILL);
-    const auto resumed = run_macadam({"import", made.store.string(), made.trips.string()});
+    const auto resumed =
+        run_macadam({"import", made.store.string(), made.trips.string(), "--method", "kf"});
     EXPECT_EQ(resumed.exit_status, 0);
     EXPECT_THAT(resumed.err, HasSubstr("did not end"));
     EXPECT_THAT(resumed.out, HasSubstr("known     " + (made.trips / "trip-0.trip.csv").string()));

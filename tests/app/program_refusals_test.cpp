@@ -27,7 +27,7 @@ protected:
         good_ = file("good.trip.csv", good_text_);
         store_ = (folder_ / "roads.gpkg").string();
         ASSERT_EQ(run_macadam({"init", store_, "--trace", good_}).exit_status, 0);
-        ASSERT_EQ(run_macadam({"import", store_, good_}).exit_status, 0);
+        ASSERT_EQ(run_macadam({"import", store_, good_, "--method", "kf"}).exit_status, 0);
         digest_ = run_macadam({"info", store_, "--digest"}).out;
     }
 
@@ -196,11 +196,11 @@ TEST_F(Refusals, OfAServersAddressAreMisuse) {
 TEST_F(Refusals, OfAFullDiskLeaveTheStoreAsItWas) {
     const auto room = fs::file_size(store_) / 2; // what lies behind cannot be written
     const auto trip = other_trip();
-    const auto run = run_macadam({"import", store_, trip}, room);
+    const auto run = run_macadam({"import", store_, trip, "--method", "kf"}, room);
     EXPECT_EQ(run.exit_status, 1) << run.out << run.err;
     EXPECT_THAT(run.err, HasSubstr("roads.gpkg: "));
     expect_store_unchanged();
-    EXPECT_EQ(run_macadam({"import", store_, trip}).exit_status, 0);
+    EXPECT_EQ(run_macadam({"import", store_, trip, "--method", "kf"}).exit_status, 0);
 }
 
 TEST_F(Refusals, OfAFullDiskLeaveNoHalfExport) {
@@ -214,7 +214,7 @@ TEST_F(Refusals, OfAFullDiskLeaveNoHalfExport) {
 }
 
 TEST_F(Refusals, OfAFullStandardOutputAreAFailure) {
-    const auto run = run_macadam_into("/dev/full", {"trace", good_});
+    const auto run = run_macadam_into("/dev/full", {"trace", good_, "--method", "kf"});
     EXPECT_EQ(run.exit_status, 1);
     EXPECT_THAT(run.err, HasSubstr("standard output: "));
 }

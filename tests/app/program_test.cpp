@@ -41,7 +41,7 @@ std::size_t lines_in(const std::string& text) {
 fs::path store_of_rav4(const fs::path& folder) {
     const auto store = folder / "roads.gpkg";
     expect_done({"init", store.string(), "--trace", rav4});
-    expect_done({"import", store.string(), rav4});
+    expect_done({"import", store.string(), rav4, "--method", "kf"});
     return store;
 }
 
@@ -91,7 +91,8 @@ TEST(Program, AccountsForEveryRowOfTheRealTrips) {
     const auto folder = fresh_folder();
     const auto store = folder / "roads.gpkg";
     expect_done({"init", store.string(), "--trace", rav4, gyor});
-    const auto lines = expect_done({"import", store.string(), rav4, gyor, "--json"}).out;
+    const auto lines =
+        expect_done({"import", store.string(), rav4, gyor, "--json", "--method", "kf"}).out;
     EXPECT_THAT(lines, HasSubstr("\"rows_read\":11808"));
     EXPECT_THAT(lines, HasSubstr("\"rows_read\":25770"));
     EXPECT_EQ(lines_in(lines), 2U);
@@ -100,7 +101,7 @@ TEST(Program, AccountsForEveryRowOfTheRealTrips) {
 TEST(Program, LetsAKnownTripChangeNothing) {
     const auto store = store_of_rav4(fresh_folder());
     const auto before = digest_of(store);
-    const auto again = expect_done({"import", store.string(), rav4, "--json"});
+    const auto again = expect_done({"import", store.string(), rav4, "--json", "--method", "kf"});
     EXPECT_THAT(again.out, HasSubstr("\"result\":\"known\""));
     EXPECT_EQ(digest_of(store), before);
 }
@@ -111,8 +112,8 @@ TEST(Program, GivesOneDigestWhateverTheOrderAndTheJobs) {
     const auto second = folder / "b.gpkg";
     expect_done({"init", first.string(), "--trace", rav4, gyor});
     expect_done({"init", second.string(), "--trace", rav4, gyor});
-    expect_done({"import", first.string(), rav4, gyor});
-    expect_done({"import", second.string(), gyor, rav4, "--jobs", "2"});
+    expect_done({"import", first.string(), rav4, gyor, "--method", "kf"});
+    expect_done({"import", second.string(), gyor, rav4, "--jobs", "2", "--method", "kf"});
     EXPECT_EQ(digest_of(first), digest_of(second));
     EXPECT_THAT(digest_of(first), MatchesRegex("[0-9a-f]{64}\n"));
 }
@@ -131,7 +132,8 @@ TEST(Program, ImportsAFolderOfSimulatedCarsAndFindsTheRoughPatch) {
 
     const auto store = (folder / "roads.gpkg").string();
     expect_done({"init", store, "--trace", (folder / "trips").string()});
-    const auto import = expect_done({"import", store, (folder / "trips").string()});
+    const auto import =
+        expect_done({"import", store, (folder / "trips").string(), "--method", "kf"});
     EXPECT_THAT(import.err, HasSubstr("2 trips imported"));
 
     const auto worst =
@@ -160,7 +162,7 @@ TEST(Program, TakesATownOfOpenStreetMapAsItsNetworkAndNamesWhoseItIs) {
 }
 
 TEST(Program, TracesATripWithoutAMap) {
-    const auto csv = expect_done({"trace", rav4, "--vehicle", "generic"}).out;
+    const auto csv = expect_done({"trace", rav4, "--vehicle", "generic", "--method", "kf"}).out;
     EXPECT_THAT(csv,
                 StartsWith("from_m,to_m,t_s,lat_deg,lon_deg,speed_mps,iri,iri_sd,iri_low,iri_high,"
                            "iri_left,iri_right,mri,hri,index,validity\n0.000,20.000,"));
@@ -168,8 +170,21 @@ TEST(Program, TracesATripWithoutAMap) {
         static_cast<double>(lines_in(csv)), 50, 3); // 1.00 km in pieces of 20 m, and the header
 }
 
+/// 220 m of a simulated car, so that sanitizers see it in seconds.
+TEST(Program, TracesByTheSmootherUnlessToldOtherwise) {
+    const auto folder = fresh_folder();
+    const Drive drive{.length_m = 220};
+    const auto road = patched_road([](double) { return true; }, 1);
+    const auto trip = (folder / "short.trip.csv").string();
+    write_file(trip, text_of(drive_over(road, drive, *built_in_vehicle("golden-car")), drive));
+    const auto plain = expect_done({"trace", trip}).out;
+    EXPECT_EQ(plain, expect_done({"trace", trip, "--method", "smoother"}).out);
+    EXPECT_NE(plain, expect_done({"trace", trip, "--method", "kf"}).out);
+    EXPECT_THAT(plain, HasSubstr(",HRI,ok\n"));
+}
+
 TEST(Program, WarnsThatItDoesNotKnowTheCar) {
-    const auto run = expect_done({"trace", rav4});
+    const auto run = expect_done({"trace", rav4, "--method", "kf"});
     EXPECT_THAT(run.err, HasSubstr("warning: no vehicle file for 'b0c9d2329ad1606b'"));
 }
 
@@ -184,7 +199,7 @@ TEST(Program, FindsTheVehicleFileOfATripInTheFolderBeside) {
     write_file(folder / "vehicles/taxi.toml",
                "name = \"taxi-9\"\n[half_car]\nms_kg = 1000\nmu_kg = 37.5\nks_n_per_m = 15825\n"
                "cs_ns_per_m = 1500\nkt_n_per_m = 163250\nis_kgm2 = 400\nl_m = 0.75\n");
-    EXPECT_THAT(expect_done({"trace", trip.string()}).err, IsEmpty());
+    EXPECT_THAT(expect_done({"trace", trip.string(), "--method", "kf"}).err, IsEmpty());
 }
 
 TEST(Program, KeepsNoVehicleIdInTheStore) {
@@ -200,7 +215,7 @@ TEST(Program, KeepsNoVehicleIdInTheStore) {
         "cs_ns_per_m = 1500\nkt_n_per_m = 163250\nis_kgm2 = 400\nl_m = 0.75\n");
     const auto store = folder / "roads.gpkg";
     expect_done({"init", store.string(), "--trace", trip});
-    EXPECT_THAT(expect_done({"import", store.string(), trip}).out,
+    EXPECT_THAT(expect_done({"import", store.string(), trip, "--method", "kf"}).out,
                 HasSubstr("car 'plate-AB-1234'"));
     EXPECT_THAT(read_file(store), Not(HasSubstr("plate-AB-1234")));
 }

@@ -40,7 +40,8 @@ protected:
         ASSERT_EQ(run_macadam({"init", store_, "--trace", trips[0]}).exit_status, 0);
         empty_ = (folder_ / "empty.gpkg").string();
         fs::copy(store_, empty_);
-        ASSERT_EQ(run_macadam({"import", store_, trips[0], trips[1]}).exit_status, 0);
+        ASSERT_EQ(run_macadam({"import", store_, trips[0], trips[1], "--method", "kf"}).exit_status,
+                  0);
     }
 
     std::string out(const std::string& name) const { return (folder_ / name).string(); }

@@ -119,7 +119,8 @@ TEST_F(Simulate, IsFoundAgainByAnImport) {
     const auto store = at("roads.gpkg");
     ASSERT_EQ(run_macadam({"init", store, "--network", at("fleet/network.osm.pbf")}).exit_status,
               0);
-    const auto import = run_macadam({"import", store, at("fleet/trips"), "--channels", "vertical"});
+    const auto import = run_macadam(
+        {"import", store, at("fleet/trips"), "--channels", "vertical", "--method", "kf"});
     ASSERT_EQ(import.exit_status, 0) << import.err;
     const auto info = run_macadam({"info", store, "--truth", at("fleet/truth.csv")});
     EXPECT_EQ(info.exit_status, 0) << info.err;
@@ -282,7 +283,7 @@ TEST_F(Simulate, TruthOfOtherRoadsIsRefused) {
     ASSERT_EQ(simulate("fleet", {"--trips", "1"}).exit_status, 0);
     const auto store = at("roads.gpkg");
     ASSERT_EQ(run_macadam({"init", store, "--network", at("town.osm")}).exit_status, 0);
-    ASSERT_EQ(run_macadam({"import", store, at("fleet/trips")}).exit_status, 0);
+    ASSERT_EQ(run_macadam({"import", store, at("fleet/trips"), "--method", "kf"}).exit_status, 0);
     write_file(folder_ / "truth.csv",
                "segment,way_id,direction,from_m,to_m,iri_left,iri_right,mri,hri\n"
                "99+0000,99,forward,0,20,1,1,1,1\n");
