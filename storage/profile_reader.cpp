@@ -57,7 +57,15 @@ template <typename Take>
 ProfileExtent read_through(const std::filesystem::path& file, ProfileRows& rows, Take take) {
     Passed passed;
     for (auto row = rows.next(); !row.empty(); row = rows.next()) {
-        passed.add(row.front());
+        const double station_m = row.front();
+        if (!std::isfinite(station_m) || (passed.points > 0 && station_m <= passed.last_m)) {
+            throw InputError{fmt::format("{}: point {} is at {} m, expected more than {}",
+                                         file.string(),
+                                         passed.points + 1,
+                                         station_m,
+                                         passed.last_m)};
+        }
+        passed.add(station_m);
         take(row);
     }
     if (passed.points < 2) {

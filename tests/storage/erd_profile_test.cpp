@@ -228,6 +228,12 @@ TEST(ErdProfile, SaysWhichLineOfNumbersIsWrong) {
                 EndsWith("a.erd:7: ends within a sample: 1 of 2 numbers"));
 }
 
+TEST(ErdProfile, RefusesAStepTooSmallForItsStations) {
+    EXPECT_THAT(
+        refusal_of_text(erd("1,2,-1,1,5,1e-9", "UNITSNAMm\nXUNITS  m\nXSTART  1e9\n", "1\n2\n")),
+        EndsWith("a.erd: point 2 is at 1000000000 m, expected more than 1000000000"));
+}
+
 TEST(ErdProfile, SaysThatTheNumbersBesideItAreNotThere) {
     const auto file =
         written(test_folder(), "a.erd", erd("1,2,1,8,1,.1", "UNITSNAMm\nXUNITS  m\n", ""));
