@@ -388,28 +388,4 @@ TEST(GridUnder, ReachesUnderEveryWheelAndBeginsAtAWholeMetre) {
     EXPECT_GE(last_m, passage.travel_m.back() + 1.25);
 }
 
-TEST(NormalDraw, IsStandardNormalAndItsNeighboursAreStrangers) {
-    constexpr int count = 40000;
-    double mean = 0;
-    double square = 0;
-    double fourth = 0;
-    std::array<double, 3> beside{};
-    for (std::uint64_t where = 0; where < count; ++where) {
-        const double z = normal_draw(1, 2, where, 0);
-        mean += z;
-        square += z * z;
-        fourth += z * z * z * z;
-        beside[0] += z * normal_draw(1, 2, where + 1, 0);
-        beside[1] += z * normal_draw(1, 2, where, 1);
-        beside[2] += z * normal_draw(2, 2, where, 0);
-    }
-    const double sd = 1 / std::sqrt(count);
-    EXPECT_NEAR(mean / count, 0, 4 * sd);
-    EXPECT_NEAR(square / count, 1, 4 * std::sqrt(2) * sd);
-    EXPECT_NEAR(fourth / count, 3, 4 * std::sqrt(96) * sd);
-    for (const double product : beside) {
-        EXPECT_NEAR(product / count, 0, 4 * sd);
-    }
-}
-
 } // namespace macadam::testing
