@@ -97,6 +97,15 @@ TripUse without_vibration(TripUse use, const StretchSpan& span) {
     return use;
 }
 
+/// The rates of turn that were sampled in a stretch, used.
+TripUse with_rates(TripUse use, const TripLog& trip, const StretchSpan& span) {
+    const auto& t_s = trip.gyro.t_s;
+    const auto from = std::ranges::lower_bound(t_s, trip.acc.t_s[span.first]) - t_s.begin();
+    const auto to = std::ranges::upper_bound(t_s, trip.acc.t_s[span.last]) - t_s.begin();
+    std::fill(use.gyro.begin() + from, use.gyro.begin() + to, std::uint8_t{0});
+    return use;
+}
+
 std::vector<std::string>
 warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
     std::vector<std::string> warnings;
@@ -187,17 +196,11 @@ std::vector<double> times_within(const TripLog& trip, double from_s, double to_s
     return times_s;
 }
 
-/// Told travel in times of which the log holds nothing at all, as while a phone's recording was
-/// paused: the ruler goes on there, straight from place to place, but no sensor felt the car drive.
-double unrecorded_m(const TripLog& trip,
-                    const Odometer& odometer,
-                    const TravelSpan& told,
-                    double longest_gap_s) {
-    const auto travel_m = [&](double t_s) {
-        return std::min(std::max(odometer.travel_m(t_s), told.from_m), told.to_m);
-    };
+/// Travel in times of which the log holds nothing at all, though its clock went on.
+std::vector<TravelSpan>
+silent_parts(const TripLog& trip, const Odometer& odometer, double longest_gap_s) {
     const auto& t_s = trip.acc.t_s;
-    double sum_m = 0;
+    std::vector<TravelSpan> parts;
     for (std::size_t i = 1; i < t_s.size(); ++i) {
         if (t_s[i] - t_s[i - 1] <= longest_gap_s) {
             continue;
@@ -205,9 +208,30 @@ double unrecorded_m(const TripLog& trip,
         const auto times_s = times_within(trip, t_s[i - 1], t_s[i]);
         for (std::size_t k = 1; k < times_s.size(); ++k) {
             if (times_s[k] - times_s[k - 1] > longest_gap_s) {
-                sum_m += travel_m(times_s[k]) - travel_m(times_s[k - 1]);
+                parts.push_back({odometer.travel_m(times_s[k - 1]), odometer.travel_m(times_s[k])});
             }
         }
+    }
+    return parts;
+}
+
+/// Told travel that nobody recorded, as while a phone was told to pause: the ruler goes on there,
+/// straight from place to place, but no sensor felt the car drive.
+double unrecorded_m(const TripLog& trip,
+                    const Odometer& odometer,
+                    const TravelSpan& told,
+                    double longest_gap_s) {
+    auto parts = silent_parts(trip, odometer, longest_gap_s);
+    for (const auto& pause : odometer.pauses()) {
+        parts.push_back({pause.from_m, pause.to_m});
+    }
+    std::ranges::sort(parts, {}, &TravelSpan::from_m);
+    double sum_m = 0;
+    double counted_to_m = told.from_m;
+    for (const auto& part : parts) {
+        const double to_m = std::min(part.to_m, told.to_m);
+        sum_m += std::max(0.0, to_m - std::max(part.from_m, counted_to_m));
+        counted_to_m = std::max(counted_to_m, to_m);
     }
     return sum_m;
 }
@@ -279,6 +303,8 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
             use = without_vibration(std::move(use), span);
         } else {
             roughness.runs.push_back(std::move(run));
+            use = car && !stretch.roll_radps.empty() ? with_rates(std::move(use), trip, span)
+                                                     : std::move(use);
         }
     }
     auto warnings = spoken_lateral(roughness, config.estimator.channels);
@@ -298,6 +324,7 @@ TripResult passes_of(TripLog trip,
     const auto told = told_part(trace.odometer, config.trim_m);
     const double paused_m = unrecorded_m(trip, trace.odometer, told, config.odometer.max_gap_s);
     trip.acc = {};
+    trip.gyro.x = trip.gyro.y = trip.gyro.z = {};
     const auto matched =
         behind_antenna(map_match(trip, trace.odometer, roads, config.match, trace.use),
                        antenna_ahead_m(trip.meta, vehicle));

@@ -68,7 +68,8 @@ Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const Estimat
     passage.first_sample = std::llround(stretch.start_s / stretch.step_s);
     passage.travel_m = stretch.travel_m;
     passage.drift = zero_drift;
-    const bool rates = config.channels == Channels::automatic;
+    // Pitch of a car whose axles are not stated cannot be told from what shakes the sensor.
+    const bool rates = config.channels == Channels::automatic && vehicle.axles;
     auto& [vertical, lateral, roll, pitch] = passage.felt;
     if (wants(config, Channels::vertical)) {
         vertical = doubles(stretch.vertical_mps2, vehicle.gain);
@@ -88,8 +89,8 @@ Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const Estimat
     }
     const double noise[] = {vehicle.imu.noise_mps2 / vehicle.gain,
                             vehicle.imu.noise_mps2 / vehicle.gain,
-                            vehicle.imu.noise_radps,
-                            vehicle.imu.noise_radps};
+                            std::max(vehicle.imu.noise_radps, stretch.roll_noise_radps),
+                            std::max(vehicle.imu.noise_radps, stretch.pitch_noise_radps)};
     if (const auto turn_m = wheel_turn_m(passage)) {
         passage = without_wheel_order(std::move(passage), *turn_m);
     }
@@ -186,7 +187,9 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     }
     auto piece = piece_of(passage, from, from + count);
     piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
-    return tuned_car(piece, tunable, {});
+    auto tuned = tuned_car(piece, tunable, {});
+    tuned.vehicle.imu.height_above_roll_axis_m = vehicle.imu.height_above_roll_axis_m;
+    return tuned;
 }
 
 IriRun smoothed_iri(const Stretch& stretch,

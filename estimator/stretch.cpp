@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -183,13 +184,36 @@ std::vector<float> channel(const TripLog& trip,
     return out;
 }
 
+struct Rate {
+    std::vector<float> values;
+    double noise = 0; ///< standard deviation of one of them that lies beyond what a car does
+};
+
+/// White noise with the power that a trace has near half its sampling rate, by its fourth
+/// differences: standard deviation of a sample. The middle one counts, so that bumps do not.
+double noise_floor(const std::vector<double>& values) {
+    constexpr double sum_of_squares = 70;  // of the weights 1, -4, 6, -4, 1
+    constexpr double sd_over_mad = 1.4826; // normal distribution
+    std::vector<double> differences;
+    for (std::size_t i = 2; i + 2 < values.size(); ++i) {
+        differences.push_back(std::abs(values[i - 2] - 4 * values[i - 1] + 6 * values[i] -
+                                       4 * values[i + 1] + values[i + 2]));
+    }
+    if (differences.empty()) {
+        return 0;
+    }
+    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+    std::ranges::nth_element(differences, middle);
+    return sd_over_mad * *middle / std::sqrt(sum_of_squares);
+}
+
 /// One axis of the gyroscope on the grid; empty if it was not sampled throughout, as often as the
 /// accelerometer may be at least.
-std::vector<float> rate_channel(const TripLog& trip,
-                                const Mounting& mounting,
-                                Axis axis,
-                                const Grid& grid,
-                                const StretchConfig& config) {
+Rate rate_channel(const TripLog& trip,
+                  const Mounting& mounting,
+                  Axis axis,
+                  const Grid& grid,
+                  const StretchConfig& config) {
     const auto& t_s = trip.gyro.t_s;
     const double end_s = grid.start_s + grid.step_s * static_cast<double>(grid.count - 1);
     const auto after = std::ranges::upper_bound(t_s, grid.start_s);
@@ -214,8 +238,10 @@ std::vector<float> rate_channel(const TripLog& trip,
     if (own_hz < config.least_rate_hz * 0.99) {
         return {};
     }
+    const double kept = std::sqrt(std::min(1.0, 1 / (grid.step_s * own_hz)));
+    const double noise = kept * noise_floor(trace.value);
     const auto even = evened(std::move(trace), grid, own_hz);
-    return {even.begin(), even.end()};
+    return {{even.begin(), even.end()}, noise};
 }
 
 /// The rate of the grid of a stretch.
@@ -318,13 +344,17 @@ Stretch make_stretch(const TripLog& trip,
                               trip.acc.t_s[span.last],
                               grid_rate_hz(trip, span, odometer, config));
 
+    auto roll = rate_channel(trip, mounting, Axis::x, grid, config);
+    auto pitch = rate_channel(trip, mounting, Axis::y, grid, config);
     Stretch stretch{.start_s = grid.start_s,
                     .step_s = grid.step_s,
                     .vertical_mps2 = channel(trip, span, mounting, Axis::z, grid),
                     .lateral_mps2 = channel(trip, span, mounting, Axis::y, grid),
-                    .roll_radps = rate_channel(trip, mounting, Axis::x, grid, config),
-                    .pitch_radps = rate_channel(trip, mounting, Axis::y, grid, config),
-                    .yaw_radps = rate_channel(trip, mounting, Axis::z, grid, config),
+                    .roll_radps = std::move(roll.values),
+                    .pitch_radps = std::move(pitch.values),
+                    .yaw_radps = rate_channel(trip, mounting, Axis::z, grid, config).values,
+                    .roll_noise_radps = roll.noise,
+                    .pitch_noise_radps = pitch.noise,
                     .speed_mps = std::vector<float>(grid.count),
                     .travel_m = std::vector<double>(grid.count)};
     for (std::size_t i = 0; i < grid.count; ++i) {

@@ -74,6 +74,11 @@ struct Stretch {
     std::vector<float> roll_radps;    ///< about the vehicle's x; empty if not sampled throughout
     std::vector<float> pitch_radps;   ///< about y
     std::vector<float> yaw_radps;     ///< about z
+
+    /// Standard deviation of a sample of roll and pitch that no car can have caused: what the gyro
+    /// has at its highest frequencies, sensor noise and the shaking of its mount. 0: not known.
+    double roll_noise_radps = 0;
+    double pitch_noise_radps = 0;
     std::vector<float> speed_mps;
     std::vector<double> travel_m; ///< of the centre of gravity
 };

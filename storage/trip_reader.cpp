@@ -184,6 +184,7 @@ TripNeeds needs_of_match() {
 
 TripNeeds needs_of_trace() {
     return {.acc = true,
+            .gyro = true,
             .speed = true,
             .fixes = true,
             .columns = {{"t_s"},
