@@ -310,6 +310,24 @@ std::vector<double> pause_ends(const FixTrack& track) {
     return ends_s;
 }
 
+/// The travel of the pieces that end in, or span, the end of a pause.
+std::vector<Odometer::Pause> pauses_in(const Odometer::Knots& knots,
+                                       const std::vector<double>& ends_s) {
+    std::vector<Odometer::Pause> pauses;
+    for (const double end_s : ends_s) {
+        const auto next = std::ranges::lower_bound(knots.t_s, end_s);
+        if (next == knots.t_s.begin() || next == knots.t_s.end()) {
+            continue;
+        }
+        const auto i = static_cast<std::size_t>(next - knots.t_s.begin());
+        const bool is_new = pauses.empty() || pauses.back().to_m <= knots.travel_m[i - 1];
+        if (std::isnan(knots.speed_mps[i - 1]) && is_new) {
+            pauses.push_back({knots.travel_m[i - 1], knots.travel_m[i]});
+        }
+    }
+    return pauses;
+}
+
 /// A fix was used if its place or its speed was.
 void mark_fixes(const FixTrack& track, const GnssReadings& gnss, bool speeds_used, TripUse& use) {
     use.fixes = track.use;
@@ -347,8 +365,10 @@ Odometer make_odometer(const TripLog& trip, const OdometerConfig& config, TripUs
 
     readings = without_pauses(std::move(readings), track);
     if (readings.size() >= 2) {
-        return Odometer{knots_of(readings, places, pause_ends(track), config.max_gap_s),
-                        by_wheels ? scale : 1};
+        const auto ends_s = pause_ends(track);
+        auto knots = knots_of(readings, places, ends_s, config.max_gap_s);
+        auto pauses = pauses_in(knots, ends_s);
+        return Odometer{std::move(knots), by_wheels ? scale : 1, std::move(pauses)};
     }
     if (!places) {
         throw InputError{fmt::format(
@@ -356,7 +376,7 @@ Odometer make_odometer(const TripLog& trip, const OdometerConfig& config, TripUs
             readings.size(),
             track.places.size())};
     }
-    return *places;
+    return Odometer{places->knots(), 1, pauses_in(places->knots(), pause_ends(track))};
 }
 
 } // namespace macadam

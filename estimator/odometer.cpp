@@ -52,7 +52,8 @@ double time_part(const Piece& piece, double distance) {
 
 } // namespace
 
-Odometer::Odometer(Knots knots, double scale) : knots_{std::move(knots)}, scale_{scale} {
+Odometer::Odometer(Knots knots, double scale, std::vector<Pause> pauses)
+    : knots_{std::move(knots)}, scale_{scale}, pauses_{std::move(pauses)} {
     assert(!knots_.t_s.empty() && knots_.t_s.size() == knots_.travel_m.size() &&
            knots_.t_s.size() == knots_.speed_mps.size() &&
            knots_.t_s.size() == knots_.reversing.size());

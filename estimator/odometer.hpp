@@ -29,7 +29,13 @@ public:
         std::vector<std::uint8_t> reversing; ///< 1: the wheels turned backward
     };
 
-    explicit Odometer(Knots knots, double scale = 1);
+    /// Travel while the recording was paused and its clock stood: the places jumped.
+    struct Pause {
+        double from_m;
+        double to_m;
+    };
+
+    explicit Odometer(Knots knots, double scale = 1, std::vector<Pause> pauses = {});
 
     /// Never falls; held still before the first and after the last knot.
     double travel_m(double t_s) const;
@@ -50,6 +56,9 @@ public:
     /// By how much wheel speed was multiplied; 1 where it was not compared.
     double scale() const { return scale_; }
 
+    /// In order, not overlapping; the travel over them is straight from place to place.
+    const std::vector<Pause>& pauses() const { return pauses_; }
+
     const Knots& knots() const { return knots_; }
 
 private:
@@ -57,6 +66,7 @@ private:
 
     Knots knots_;
     double scale_;
+    std::vector<Pause> pauses_;
 };
 
 /// The odometer of a trip; marks in `use` the speeds and the fixes (for their speed or place) that

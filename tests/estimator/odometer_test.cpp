@@ -209,6 +209,10 @@ TEST(Odometer, FindsAHiddenPauseByTheJumpOfThePositions) {
     EXPECT_NEAR(odometer.speed_mps(29.5), 10, 1e-6);
     EXPECT_NEAR(odometer.speed_mps(31.5), 10, 1e-6);
     EXPECT_NEAR(odometer.whole_m(), 1400, 2);
+    ASSERT_EQ(odometer.pauses().size(), 1U);
+    const auto& pause = odometer.pauses().front();
+    EXPECT_NEAR(pause.to_m - pause.from_m, 800, 12); // and up to a second of driving
+    EXPECT_NEAR(pause.from_m, 300, 12);
 }
 
 TEST(Odometer, ReversesWithoutTurningBackItsTravel) {
