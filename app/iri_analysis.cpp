@@ -78,6 +78,7 @@ Pieces
 pieces_of(const IriQuestion& question, const Course& course, const std::vector<double>& borders_m) {
     Pieces pieces{course.extent.tracks.size() + (course.pair() ? 1 : 0)};
     std::vector<std::size_t> ends;
+    ends.reserve(borders_m.size());
     for (const double border_m : borders_m) {
         ends.push_back(course.sampled() ? course.index_at(border_m) : ends.size());
     }
@@ -99,6 +100,7 @@ pieces_of(const IriQuestion& question, const Course& course, const std::vector<d
 IriReport::Channel
 mean_of(std::string name, const IriReport::Channel& a, const IriReport::Channel& b) {
     IriReport::Channel mean{std::move(name), std::midpoint(a.whole, b.whole), {}};
+    mean.pieces.reserve(a.pieces.size());
     for (std::size_t i = 0; i < a.pieces.size(); ++i) {
         mean.pieces.push_back(std::midpoint(a.pieces[i], b.pieces[i]));
     }

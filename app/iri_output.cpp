@@ -111,7 +111,7 @@ class Rows {
 public:
     explicit Rows(const IriWords& words) : words_{words} {}
 
-    void begin(const std::string& csv_header, const std::string& json_begin) {
+    void begin(const std::string& csv_header, const std::string& json_begin) const {
         print(words_.json ? json_begin : csv_header);
     }
     void row(const std::string& csv_or_json) {

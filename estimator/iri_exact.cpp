@@ -202,8 +202,7 @@ std::vector<double> breaks_between(std::span<const double> station_m,
         breaks_m.push_back(*edge);
     }
     std::ranges::sort(breaks_m);
-    const auto repeated = std::ranges::unique(breaks_m);
-    breaks_m.erase(repeated.begin(), repeated.end());
+    breaks_m.erase(std::unique(breaks_m.begin(), breaks_m.end()), breaks_m.end());
     return breaks_m;
 }
 

@@ -69,6 +69,7 @@ bool alone_with(const std::vector<std::string>& names, std::size_t index, char l
 std::vector<std::string> track_names(const ErdHeader& header,
                                      const std::vector<Elevation>& elevations) {
     std::vector<std::string> names;
+    names.reserve(elevations.size());
     for (const auto& elevation : elevations) {
         names.push_back(header.channels[elevation.channel].name);
     }
