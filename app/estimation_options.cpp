@@ -31,6 +31,8 @@ PipelineConfig pipeline_config_of(const Arguments& arguments) {
     PipelineConfig config;
     const bool smoother = arguments.choice("--method", methods) != "kf";
     config.estimator.method = smoother ? Method::smoother : Method::kf;
+    // Rates of turn say more of braking and of shaking mounts than of the road (docs/smoother.md).
+    config.estimator.tracks = config.estimator.tracks && !smoother;
     config.stretch.samples_a_metre = smoother ? smoother_samples_a_metre : 0;
     config.estimator.channels = channels_named(arguments.choice("--channels", channels));
     config.estimator.filters = !arguments.flag("--no-filters");

@@ -69,7 +69,8 @@ Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const Estimat
     passage.travel_m = stretch.travel_m;
     passage.drift = zero_drift;
     // Pitch of a car whose axles are not stated cannot be told from what shakes the sensor.
-    const bool rates = config.channels == Channels::automatic && vehicle.axles;
+    const bool rates =
+        config.channels == Channels::automatic && config.tracks && vehicle.axles.has_value();
     auto& [vertical, lateral, roll, pitch] = passage.felt;
     if (wants(config, Channels::vertical)) {
         vertical = doubles(stretch.vertical_mps2, vehicle.gain);
