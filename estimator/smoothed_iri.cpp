@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t tuning_samples = 3000;
 constexpr std::size_t least_tuning_samples = 1200;
 
+constexpr double iri_per_parameter = 0.6; // relative, of a parameter off by so much: 0.45 to 0.75
 constexpr double untuned_sd = 0.1; // relative, of a car of which too little was seen to tune it
 
 // Of the channels' zeros, variance a second: gravity's share on hills and in bends, what the yaw
@@ -190,6 +191,11 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
     auto tuned = tuned_car(piece, tunable, {});
     tuned.vehicle.imu.height_above_roll_axis_m = vehicle.imu.height_above_roll_axis_m;
+    if (tunable.uncertainty.empty()) {
+        for (const auto& [parameter, sd] : vehicle.uncertainty) {
+            tuned.iri_sd = std::hypot(tuned.iri_sd, iri_per_parameter * sd);
+        }
+    }
     return tuned;
 }
 
