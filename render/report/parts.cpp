@@ -1,5 +1,6 @@
 #include "render/report/parts.hpp"
 
+#include "estimator/common/utf8.hpp"
 #include "render/report/html.hpp"
 #include "render/report/numbers.hpp"
 
@@ -24,6 +25,25 @@ std::string count_text(std::size_t count, std::string_view one, std::string_view
 
 std::string unbroken(const std::string& html) {
     return "<span class=\"nw\">" + html + "</span>";
+}
+
+std::string breakable(std::string_view text) {
+    constexpr std::size_t longest_word = 24; // letters
+    std::string html;
+    std::string piece;
+    std::size_t letters = 0;
+    while (!text.empty()) {
+        const auto length = std::max<std::size_t>(1, utf8_length(text));
+        letters = text.front() == ' ' ? 0 : letters + 1;
+        if (letters > longest_word) {
+            html += escaped(piece) + "<wbr>";
+            piece.clear();
+            letters = 1;
+        }
+        piece += text.substr(0, length);
+        text.remove_prefix(length);
+    }
+    return html + escaped(piece);
 }
 
 std::string picture_html(const ReportPicture& picture, const std::string& alt) {

@@ -19,6 +19,9 @@ std::string count_text(std::size_t count, std::string_view one, std::string_view
 /// HTML that stays on one line.
 std::string unbroken(const std::string& html);
 
+/// Text in which words that are longer than a column may break, and no others.
+std::string breakable(std::string_view text);
+
 /// The picture for the page's look. \param alt  HTML.
 std::string picture_html(const ReportPicture& picture, const std::string& alt);
 

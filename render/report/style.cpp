@@ -46,8 +46,7 @@ th,td{padding:.38rem .7rem;text-align:left;vertical-align:top;border-bottom:1px 
 th:first-child{padding-left:0}
 thead th{vertical-align:bottom;font-size:.8125rem;font-weight:600;color:var(--quiet);border-bottom-color:var(--edge)}
 tbody th{font-weight:500}
-tbody td,tbody th{overflow-wrap:anywhere;min-width:3.5rem}
-.n,tbody .n{text-align:right;white-space:nowrap;min-width:0}
+.n{text-align:right;white-space:nowrap}
 thead .n{white-space:normal}
 .nw,.key .nw{display:inline;white-space:nowrap}
 .all th,.all td{font-weight:650}

@@ -8,9 +8,10 @@
 namespace macadam {
 namespace {
 
+/// Text.
 std::string name_of(const RoadStretch& stretch) {
     if (!stretch.name.empty()) {
-        return escaped(stretch.name);
+        return stretch.name;
     }
     return stretch.highway.empty()
                ? std::string{"Road without a name"}
@@ -38,7 +39,7 @@ HtmlTable table_of(const Report& report) {
     for (const auto& [stretch, heading, reference, seen, map] : report.worst) {
         const auto rank = table.rows.size() + 1;
         table.rows.push_back({fmt::format("<a href=\"#stretch-{0}\">{0}</a>", rank),
-                              name_of(stretch),
+                              breakable(name_of(stretch)),
                               escaped(heading),
                               fmt::format("{:.0f}", stretch.length_m),
                               iri_text(stretch.mean.iri),
@@ -52,7 +53,7 @@ HtmlTable table_of(const Report& report) {
 
 std::string card_of(const ReportStretch& of, std::size_t rank) {
     const auto& stretch = of.stretch;
-    const auto name = name_of(stretch);
+    const auto name = escaped(name_of(stretch));
     const auto alt = fmt::format("Map of stretch {}: {}", rank, name);
     return fmt::format("<figure id=\"stretch-{}\">{}<figcaption><h3>{} · {}, towards {}</h3>"
                        "<b>IRI {}</b> ({}) over {:.0f} m<br>Way {}<br>Middle {:.5f}, {:.5f}<br>{}"

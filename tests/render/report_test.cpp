@@ -27,7 +27,7 @@ const ClassTable& fhwa = *class_table("fhwa");
 /// Whether every element that is opened is closed in order; what is wrong first, or nothing. Knows
 /// the elements without content that a report uses.
 std::string flaw_in(const std::string& html) {
-    constexpr std::array<std::string_view, 4> empty{"meta", "img", "br", "!DOCTYPE"};
+    constexpr std::array<std::string_view, 5> empty{"meta", "img", "br", "wbr", "!DOCTYPE"};
     std::vector<std::string> open;
     for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
         const auto end = html.find('>', at);
@@ -222,6 +222,16 @@ TEST(Report, OfNothingMeasuredSaysSo) {
     EXPECT_THAT(html, HasSubstr("0 % of the network of 20.0 km"));
     EXPECT_THAT(html, Not(HasSubstr("Mean IRI")));
     EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(Report, BreaksNoNameButOneThatIsLongerThanAColumn) {
+    auto report = town();
+    report.worst = {stretch_named(std::string(50, 'X')), stretch_named("Rue de la République")};
+    const auto html = report_html(report);
+    const std::string part(24, 'X');
+    EXPECT_THAT(html, HasSubstr("<td>" + part + "<wbr>" + part + "<wbr>XX</td>"));
+    EXPECT_THAT(html, HasSubstr("<td>Rue de la République</td>"));
+    EXPECT_EQ(flaw_in(html), "");
 }
 
 TEST(Report, HasAScaleThatGrowsWithItsMap) {
