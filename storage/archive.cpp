@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string_view>
 
 namespace macadam {
@@ -35,6 +36,9 @@ Reader open(const std::filesystem::path& file) {
     archive_read_support_filter_gzip(reader.get());
     archive_read_support_filter_zstd(reader.get());
     if (archive_read_open_filename(reader.get(), file.c_str(), input_block) != ARCHIVE_OK) {
+        if (std::ifstream{file}) { // it is there, but no archive
+            fail(reader.get(), file.string());
+        }
         const char* const cause = archive_error_string(reader.get());
         throw InputError{fmt::format("{}: cannot be read{}{}",
                                      file.string(),

@@ -314,8 +314,9 @@ void expect_files_of_export(const TripSource& source, const TripNeeds& needs) {
         });
     };
     if ((needed("lat_deg") || needed("gnss_speed_mps")) && found(source, location_files).empty()) {
-        throw InputError{fmt::format("{}: holds no Location.csv, from which places and speeds come",
-                                     source.name())};
+        throw InputError{
+            fmt::format("{}: holds no Location.csv, expected one: places and speeds come from it",
+                        source.name())};
     }
 }
 

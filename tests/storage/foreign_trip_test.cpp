@@ -235,8 +235,9 @@ TEST(Mapping, SaysWhichColumnTheHeaderLacks) {
 TEST(PhoneExport, WithoutPlacesIsToldWhichFileItLacks) {
     const auto folder = test_folder() / "phone";
     written(folder, "Accelerometer.csv", acc_csv);
-    EXPECT_THAT(refusal_of([&] { read_trip(find_trips(folder).trips.at(0), needs_of_trace()); }),
-                EndsWith("phone: holds no Location.csv, from which places and speeds come"));
+    EXPECT_THAT(
+        refusal_of([&] { read_trip(find_trips(folder).trips.at(0), needs_of_trace()); }),
+        EndsWith("phone: holds no Location.csv, expected one: places and speeds come from it"));
 }
 
 TEST(PhoneExport, IsAskedForAsAFolderWhereOneOfItsFilesIsGiven) {

@@ -118,7 +118,7 @@ TEST(TripSearch, RefusesAnArchiveThatIsCutOff) {
                         read_trip(trip, {});
                     }
                 }),
-                HasSubstr("cannot be read"));
+                HasSubstr("the archive is cut off or damaged"));
 }
 
 TEST(TripSearch, RefusesWhatIsNotThere) {
