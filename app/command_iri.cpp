@@ -94,7 +94,7 @@ void run_iri(const Arguments& arguments, const Console&) {
 
 constexpr std::array operands{
     Operand{"PROFILE",
-            "Elevations of one or more wheel tracks: .csv with a header, .txt without one, .erd "
+            "Elevations of wheel tracks: .csv with a header, .txt without one, .erd "
             "(UMTRI ERD 2.00), or .pro (TxDOT)."}};
 
 constexpr std::array options{

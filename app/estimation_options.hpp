@@ -8,8 +8,8 @@ namespace macadam {
 // The options that steer the estimation, for the tables of trace and import.
 inline constexpr Option method_option{"--method",
                                       "NAME",
-                                      "How the road is estimated: smoother (two axles, both "
-                                      "tracks) or kf, the published Kalman filter.",
+                                      "Estimator: smoother (two axles, both tracks) or kf, "
+                                      "the published Kalman filter.",
                                       "smoother"};
 inline constexpr Option channels_option{
     "--channels",

@@ -44,7 +44,7 @@ struct RoadStretch {
     double worst_iri;                 ///< of one segment, mm/m
     std::int32_t least_passes;
     double median_passes;
-    std::int32_t vehicles;      ///< the most that one segment has seen
+    std::int32_t vehicles; ///< the most that one segment has seen
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;
     GeoPoint middle;

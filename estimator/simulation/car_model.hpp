@@ -7,7 +7,6 @@
 
 namespace macadam {
 
-
 using PerWheel = std::array<double, 4>; ///< front left, front right, rear left, rear right
 
 /// A car's numbers as the equations of motion want them.

@@ -21,7 +21,7 @@ constexpr double end_s = 59;
 TripLog recorded_drive() {
     const auto source =
         std::filesystem::path{MACADAM_SOURCE_DIR} / "sample_data/comma2k19/comma2k19_rav4.trip.csv";
-    return read_trip(TripSource{source}, needs_of_trace(), {});
+    return read_trip(TripSource{source, {}}, needs_of_trace(), {});
 }
 
 /// What was recorded from one time to another. Fixes count by when they were true.

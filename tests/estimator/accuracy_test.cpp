@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -183,33 +182,6 @@ TEST(Accuracy, OfATwoAxleCarIsWhatTheStandardDeviationSays) {
                     said);
         EXPECT_LT(errors.rmse_mm_per_m, 1.5 * said);
         EXPECT_GT(errors.rmse_mm_per_m, 0.5 * said);
-    }
-}
-
-TEST(Speed, OfAnHourAtAHundredHertzIsSecondsAtMost) {
-    std::mt19937 random{1};
-    std::normal_distribution<float> noise{0, 1};
-    const std::size_t count = 360000;
-    Stretch stretch{0,
-                    0.01,
-                    std::vector<float>(count),
-                    std::vector<float>(count),
-                    std::vector<float>(count, 25),
-                    std::vector<double>(count)};
-    for (std::size_t i = 0; i < count; ++i) {
-        stretch.vertical_mps2[i] = noise(random);
-        stretch.lateral_mps2[i] = noise(random);
-        stretch.travel_m[i] = 0.25 * static_cast<double>(i);
-    }
-    for (const auto channels : {Channels::vertical, Channels::both}) {
-        const auto begin = std::chrono::steady_clock::now();
-        estimate_iri(stretch, audi(), EstimatorConfig{.channels = channels});
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-        std::printf("one hour at 100 Hz, %s: %.3f s\n",
-                    channels == Channels::both ? "both" : "vertical",
-                    taken.count());
-        EXPECT_LT(taken.count(),
-                  20); // far above any machine's figure: it catches a lost fast path only
     }
 }
 

@@ -138,7 +138,8 @@ IriRun run_of(double start_m,
             std::move(centre),
             std::vector<float>(count, 10),
             0,
-            false};
+            false,
+            {}};
 }
 
 TEST(MeanOver, WeighsCellsByWhatOfThemIsAsked) {
