@@ -37,6 +37,7 @@ struct EstimatorConfig {
     double lateral_regression = 1.39; ///< reference = 1.39 * estimate, paper section VI-B
     double cell_m = 0.25;             ///< of the trace
     double lead_in_m = 60; ///< after a start: 0.1 % of the golden car's transient is left
+    bool profile = false;  ///< fill IriRun::profile
 };
 
 /// Why a value is not what it could be; flags that add up.
@@ -55,6 +56,15 @@ inline constexpr std::uint8_t lateral_alone = 16;
 /// "ok", or the names of the flags joined by '|', in the order above.
 std::string name_of_validity(std::uint8_t flags);
 
+/// Elevation under one run at even stations, from an arbitrary zero. Long waves are not observed:
+/// there it says what the method's prior says (docs/smoother.md).
+struct EstimatedProfile {
+    double start_travel_m = 0;
+    double step_m = 0;
+    std::vector<float> left_m{}, right_m{}; ///< empty: not observed
+    std::vector<float> centre_m{}; ///< the mean of both; empty: not observed or not asked for
+};
+
 /// The rectified suspension stroke of the golden car over one stretch, in cells of even length.
 /// IRI of any piece is the mean of its cells, so segments can be cut wherever the road has them.
 struct IriRun {
@@ -72,6 +82,8 @@ struct IriRun {
     std::vector<std::vector<float>> scatter_mm_per_m;
     double common_sd = 0; ///< relative, alike along the whole run: the car is not known exactly
     double random_sd = 0; ///< relative, of one metre, independent of the next: what models leave
+
+    EstimatedProfile profile{}; ///< filled if EstimatorConfig::profile asks for it
 };
 
 /// In the order of travel, not overlapping; between two runs nothing is known.

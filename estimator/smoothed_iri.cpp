@@ -172,6 +172,33 @@ void append(const std::vector<std::vector<float>>& metres,
     }
 }
 
+/// Stations [from, to) of an estimate behind what is there. Each piece has its own zero, so it is
+/// set down where the one before it ended.
+void append(const RoadEstimate& estimate,
+            std::ptrdiff_t from,
+            std::ptrdiff_t to,
+            EstimatedProfile& onto) {
+    const auto put = [&](double left, std::vector<float>& track_m) {
+        const auto height_m = [&](std::ptrdiff_t cell) {
+            const std::ptrdiff_t at = std::max<std::ptrdiff_t>(0, cell - estimate.grid.first_cell);
+            const auto& [mean, half] = estimate.profile_m[static_cast<std::size_t>(at)];
+            return mean + left * half;
+        };
+        const double raise_m =
+            track_m.empty() ? 0 : static_cast<double>(track_m.back()) - height_m(from - 1);
+        for (std::ptrdiff_t cell = from; cell < to; ++cell) {
+            track_m.push_back(static_cast<float>(height_m(cell) + raise_m));
+        }
+    };
+    if (estimate.felt.mean) {
+        put(0, onto.centre_m);
+    }
+    if (estimate.felt.mean && estimate.felt.half) {
+        put(+1, onto.left_m);
+        put(-1, onto.right_m);
+    }
+}
+
 } // namespace
 
 TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
@@ -232,6 +259,7 @@ IriRun smoothed_iri(const Stretch& stretch,
     auto cell = static_cast<std::ptrdiff_t>(std::ceil(first_m)) * cells_a_metre;
     const auto end = static_cast<std::ptrdiff_t>(std::floor(last_m)) * cells_a_metre;
     run.start_travel_m = static_cast<double>(cell) * smoother.cell_m;
+    run.profile = {.start_travel_m = run.start_travel_m, .step_m = smoother.cell_m};
     while (cell < end) {
         const double from_m = static_cast<double>(cell) * smoother.cell_m;
         const std::size_t first = sample_at(passage, from_m - pieces.margin_m);
@@ -256,6 +284,9 @@ IriRun smoothed_iri(const Stretch& stretch,
             append(estimate.centre_scatter, estimate.grid, cell, to, run.scatter_mm_per_m);
         }
         append(estimate.centre_mm_per_m, estimate.grid, cell, to, run.centre_mm_per_m);
+        if (config.profile) {
+            append(estimate, cell, to, run.profile);
+        }
         cell = to;
     }
     for (std::size_t i = 0; i < run.centre_mm_per_m.size(); ++i) {
