@@ -2,23 +2,21 @@
 #include "app/estimation_options.hpp"
 #include "app/mapping_option.hpp"
 #include "app/pipeline.hpp"
+#include "app/trace_rows.hpp"
 #include "app/trip_place.hpp"
 #include "app/vehicle_choice.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/json.hpp"
 #include "storage/trip_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
 namespace macadam {
 namespace {
 
 constexpr double default_length_m = 20;
-constexpr double z_of_90_percent = 1.645;
 
 struct TraceOptions {
     std::filesystem::path trip;
@@ -36,97 +34,6 @@ TraceOptions parse_trace(const Arguments& arguments) {
         throw UsageError{fmt::format("--length is {}, expected 1 to 100000 m", options.length_m)};
     }
     return options;
-}
-
-/// One row of the result; nothing: not known.
-struct Row {
-    double from_m;
-    double to_m;
-    double t_s;
-    std::optional<GeoPoint> at;
-    IriMean mean;
-    std::optional<double> iri; ///< the headline: MRI where both tracks were observed, else HRI
-};
-
-Row row_of(double from_m,
-           double length_m,
-           const TripTrace& trace,
-           const TripPlace& place,
-           const Vehicle& vehicle) {
-    const double middle_m = from_m + length_m / 2;
-    Row row{.from_m = from_m,
-            .to_m = from_m + length_m,
-            .t_s = trace.odometer.t_s(middle_m),
-            .at = {},
-            .mean = mean_over(trace.roughness, from_m, from_m + length_m, vehicle),
-            .iri = {}};
-    row.at = place(row.t_s);
-    row.iri = row.mean.mri_mm_per_m ? row.mean.mri_mm_per_m : row.mean.hri_mm_per_m;
-    if (!row.iri) {
-        row.mean.speed_mps = trace.odometer.speed_mps(row.t_s);
-    }
-    return row;
-}
-
-/// The columns, their values as JSON writes numbers, and their decimals.
-std::vector<std::pair<std::string_view, JsonValue>> cells_of(const Row& row) {
-    const auto& mean = row.mean;
-    const auto known = [&](double value) { return row.iri ? std::optional{value} : std::nullopt; };
-    const double iri = row.iri.value_or(0);
-    return {
-        {"from_m", JsonNumber{row.from_m, 3}},
-        {"to_m", JsonNumber{row.to_m, 3}},
-        {"t_s", json_number(row.t_s, 3)},
-        {"lat_deg", json_number(row.at ? std::optional{row.at->lat_deg} : std::nullopt, 7)},
-        {"lon_deg", json_number(row.at ? std::optional{row.at->lon_deg} : std::nullopt, 7)},
-        {"speed_mps", json_number(mean.speed_mps, 3)},
-        {"iri", json_number(row.iri, 3)},
-        {"iri_sd", json_number(known(mean.sd_mm_per_m), 3)},
-        {"iri_low", json_number(known(std::max(0.0, iri - z_of_90_percent * mean.sd_mm_per_m)), 3)},
-        {"iri_high", json_number(known(iri + z_of_90_percent * mean.sd_mm_per_m), 3)},
-        {"iri_left", json_number(mean.left_mm_per_m, 3)},
-        {"iri_right", json_number(mean.right_mm_per_m, 3)},
-        {"mri", json_number(mean.mri_mm_per_m, 3)},
-        {"hri", json_number(mean.hri_mm_per_m, 3)},
-        {"index",
-         row.iri ? JsonValue{std::string{mean.mri_mm_per_m ? "MRI" : "HRI"}} : JsonValue{nullptr}},
-        {"validity", name_of_validity(mean.validity)}};
-}
-
-std::string cell_text(const JsonValue& value) {
-    if (const auto* const number = std::get_if<JsonNumber>(&value)) {
-        return fmt::format("{:.{}f}", number->value, number->decimals);
-    }
-    const auto* const words = std::get_if<std::string>(&value);
-    return words ? *words : std::string{};
-}
-
-std::string csv_of(const std::vector<Row>& rows) {
-    std::string csv =
-        "from_m,to_m,t_s,lat_deg,lon_deg,speed_mps,iri,iri_sd,iri_low,iri_high,iri_left,"
-        "iri_right,mri,hri,index,validity\n";
-    for (const auto& row : rows) {
-        std::string_view before;
-        for (const auto& [name, value] : cells_of(row)) {
-            csv += before;
-            csv += cell_text(value);
-            before = ",";
-        }
-        csv += '\n';
-    }
-    return csv;
-}
-
-std::string json_of(const std::vector<Row>& rows) {
-    std::vector<std::string> objects;
-    for (const auto& row : rows) {
-        JsonObject object;
-        for (auto& [name, value] : cells_of(row)) {
-            object.add(name, value);
-        }
-        objects.push_back(object.text());
-    }
-    return json_array(objects) + "\n";
 }
 
 void run_trace(const Arguments& arguments, const Console& console) {
@@ -148,14 +55,14 @@ void run_trace(const Arguments& arguments, const Console& console) {
         console.warn(warning);
     }
     const TripPlace place{trip};
-    std::vector<Row> rows;
+    std::vector<TraceRow> rows;
     const double whole_m = trace.odometer.whole_m();
     for (std::size_t i = 0; static_cast<double>(i + 1) * options.length_m <= whole_m; ++i) {
-        rows.push_back(row_of(static_cast<double>(i) * options.length_m,
-                              options.length_m,
-                              trace,
-                              place,
-                              chosen.vehicle));
+        rows.push_back(trace_row(static_cast<double>(i) * options.length_m,
+                                 options.length_m,
+                                 trace,
+                                 place,
+                                 chosen.vehicle));
     }
     if (rows.empty()) {
         throw InputError{fmt::format("{}: goes {:.1f} m, expected at least --length {} m",
@@ -163,7 +70,7 @@ void run_trace(const Arguments& arguments, const Console& console) {
                                      whole_m,
                                      options.length_m)};
     }
-    print(options.json ? json_of(rows) : csv_of(rows));
+    print(options.json ? trace_json(rows) : trace_csv(rows));
 }
 
 constexpr std::array operands{

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace macadam {
 
@@ -15,8 +16,7 @@ namespace {
 
 class FileBytes final : public ByteStream {
 public:
-    explicit FileBytes(const std::filesystem::path& file)
-        : name_{file.string()}, file_{::open(file.c_str(), O_RDONLY | O_CLOEXEC)} {
+    FileBytes(std::string name, int file) : name_{std::move(name)}, file_{file} {
         if (file_ < 0) {
             fail();
         }
@@ -48,7 +48,11 @@ private:
 } // namespace
 
 std::unique_ptr<ByteStream> file_bytes(const std::filesystem::path& file) {
-    return std::make_unique<FileBytes>(file);
+    return std::make_unique<FileBytes>(file.string(), ::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+}
+
+std::unique_ptr<ByteStream> standard_input_bytes() {
+    return std::make_unique<FileBytes>("standard input", ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
 }
 
 } // namespace macadam

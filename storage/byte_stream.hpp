@@ -30,6 +30,9 @@ public:
 /// The bytes of a file.
 std::unique_ptr<ByteStream> file_bytes(const std::filesystem::path& file);
 
+/// What is piped into the program.
+std::unique_ptr<ByteStream> standard_input_bytes();
+
 /// The bytes of one member of a .zip or .tar archive, itself perhaps compressed. Nothing is written
 /// to disk, so a member's name can be anything.
 std::unique_ptr<ByteStream> member_bytes(const std::filesystem::path& archive,

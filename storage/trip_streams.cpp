@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace macadam {
 
@@ -135,6 +136,10 @@ TripLog TripStreams::take() {
     return std::move(trip_);
 }
 
+TripLog TripStreams::take_rows() {
+    return std::exchange(trip_, TripLog{});
+}
+
 void TripStreams::add(const TripRow& row) {
     trip_.rows.push_back(row.fault ? code(*row.fault) : gifts_of(row));
 }
@@ -243,13 +248,13 @@ TripStreams::Gift TripStreams::add_fix(const TripRow& row) {
     if (lost || (!has_place(fix) && std::isnan(fix.speed_mps))) {
         return code(RowReason::out_of_range);
     }
-    auto& to = trip_.fixes;
     const double utc_s = row[TripColumn::gnss_utc];
-    if (!to.empty() && fix.t_s > to.back().t_s && says_the_same(fix, to.back()) &&
+    if (last_fix_ && fix.t_s > last_fix_->t_s && says_the_same(fix, *last_fix_) &&
         same(utc_s, last_fix_utc_s_)) {
         return code(RowReason::repeated_fix);
     }
-    to.push_back(fix);
+    trip_.fixes.push_back(fix);
+    last_fix_ = fix;
     last_fix_utc_s_ = utc_s;
     return row_content::fix;
 }

@@ -4,6 +4,8 @@
 #include "storage/trip_reader.hpp"
 #include "storage/trip_row.hpp"
 
+#include <optional>
+
 namespace macadam {
 
 /// Puts the rows of a log one after the other into the streams of a trip.
@@ -18,6 +20,10 @@ public:
     /// The trip, without what its head says. Where the times of a sensor do not rise, as many of
     /// its samples are kept as can be: a single wild stamp costs itself only.
     TripLog take();
+
+    /// The samples of the rows since the last call, in the order in which they came, and goes on.
+    /// Nothing is put in order: what is still to come decides that.
+    TripLog take_rows();
 
 private:
     /// What a row gave to one stream: a flag of row_content, a RowReason, or 0 for an empty place.
@@ -34,6 +40,7 @@ private:
     TripNeeds needs_;
     bool wheels_stand_for_speed_;
     TripLog trip_;
+    std::optional<GnssFix> last_fix_;
     double last_fix_utc_s_;
 };
 

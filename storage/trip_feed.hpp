@@ -1,0 +1,45 @@
+#pragma once
+
+#include "storage/trip_rows.hpp"
+#include "storage/trip_streams.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace macadam {
+
+/// A "macadam-trip 1" log while it is being written: its samples row by row, as soon as each line
+/// is whole. Nothing is kept of what was handed on.
+class TripFeed {
+public:
+    /// Reads the head, and waits for it.
+    ///
+    /// \param file  plain, .gz or .zst; "-": standard input.
+    ///
+    /// \throws InputError  "file:line: ..." if it is no such log or lacks a needed column.
+    TripFeed(const std::filesystem::path& file, const TripNeeds& needs);
+
+    const TripMeta& meta() const { return rows_.meta(); }
+    const std::vector<std::string>& unknown_columns() const { return rows_.header().unknown; }
+
+    /// What the next row gave; `rows` has one entry, which says why if it gave nothing. Nothing at
+    /// the end.
+    ///
+    /// \throws InputError  if "# end rows: N" comes with a wrong N.
+    std::optional<TripLog> next();
+
+    /// Whether "# end rows: N" has come, by which a log says that it is whole.
+    bool closed() const { return rows_.closed(); }
+    std::size_t count() const { return rows_.count(); }
+
+    /// The row that came last, for messages: "file:line: 'text'".
+    std::string spoken_row() const;
+
+private:
+    TripRows rows_;
+    TripStreams streams_;
+};
+
+} // namespace macadam
