@@ -52,6 +52,10 @@ void distribute(std::span<const Operand> operands,
                 const std::vector<std::string>& given,
                 std::map<std::string, std::vector<std::string>, std::less<>>& words) {
     for (std::size_t i = 0; i < operands.size(); ++i) {
+        if (i >= given.size() && !operands[i].fallback.empty()) {
+            words[std::string{operands[i].name}] = {std::string{operands[i].fallback}};
+            continue;
+        }
         if (i >= given.size()) {
             throw UsageError{fmt::format("{} is missing", operands[i].name)};
         }

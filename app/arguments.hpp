@@ -29,7 +29,8 @@ struct Option {
 struct Operand {
     std::string_view name; ///< "STORE"
     std::string_view help;
-    bool many = false; ///< one or more; only the last operand may be
+    bool many = false;           ///< one or more; only the last operand may be
+    std::string_view fallback{}; ///< the word where it may be left out, as the last operand may
 };
 
 /// The words after the command's name, sorted by a command's table. Values are text until a command

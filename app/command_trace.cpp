@@ -2,6 +2,7 @@
 #include "app/estimation_options.hpp"
 #include "app/mapping_option.hpp"
 #include "app/pipeline.hpp"
+#include "app/trace_live.hpp"
 #include "app/trace_rows.hpp"
 #include "app/trip_place.hpp"
 #include "app/vehicle_choice.hpp"
@@ -17,6 +18,7 @@ namespace macadam {
 namespace {
 
 constexpr double default_length_m = 20;
+constexpr const char* from_standard_input = "-";
 
 struct TraceOptions {
     std::filesystem::path trip;
@@ -36,8 +38,26 @@ TraceOptions parse_trace(const Arguments& arguments) {
     return options;
 }
 
+/// What needs the whole of a trip, or another reader.
+void expect_live(const Arguments& arguments) {
+    for (const auto* const option : {"--mapping"}) {
+        if (arguments.value(option)) {
+            throw UsageError{fmt::format("--live and {} exclude one another", option)};
+        }
+    }
+}
+
 void run_trace(const Arguments& arguments, const Console& console) {
     const auto options = parse_trace(arguments);
+    if (arguments.flag("--live")) {
+        expect_live(arguments);
+        trace_live(
+            options.trip, options.pipeline, options.length_m, options.json, arguments, console);
+        return;
+    }
+    if (options.trip == from_standard_input) {
+        throw UsageError{"TRIP is missing; only --live reads standard input"};
+    }
     VehicleChoice vehicles{arguments};
     std::vector<std::string> warnings;
     const auto source = one_trip(options.trip, mapping_of(arguments));
@@ -74,7 +94,9 @@ void run_trace(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{
-    Operand{"TRIP", "One trip log (.trip.csv, .gz, .zst), or a phone's export (folder or .zip)."}};
+    Operand{.name = "TRIP",
+            .help = "One trip log (.trip.csv, .gz, .zst), or a phone's export (folder or .zip).",
+            .fallback = from_standard_input}};
 constexpr std::array options{
     vehicle_option,
     vehicles_option,
@@ -84,6 +106,10 @@ constexpr std::array options{
     channels_option,
     no_filters_option,
     rate_option,
+    Option{"--live",
+           "",
+           "Write each row within 2 s of driving while the log is still coming in, from TRIP or "
+           "standard input."},
     Option{"--json", "", "An array of objects instead of CSV, with the same names."}};
 
 } // namespace
@@ -100,7 +126,8 @@ const Command trace_command{
         "too_slow,\n"
         "start_up (the first 60 m of a stretch), gap. indicative: from lateral vibration alone.",
     .example = "  macadam trace drive.trip.csv.gz --vehicle my_car.toml > iri.csv\n"
-               "  macadam trace drive.trip.csv --length 100 --json",
+               "  macadam trace drive.trip.csv --length 100 --json\n"
+               "  sensor-program | macadam trace --live -",
     .operands = operands,
     .options = options,
     .run = run_trace};

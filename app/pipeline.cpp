@@ -45,21 +45,6 @@ bool was_sampled(const TripLog& trip, const Mounting& mounting, Axis axis) {
     return std::ranges::any_of(*readings[nearest], [](float value) { return !std::isnan(value); });
 }
 
-/// \throws InputError  if the log lacks the vibration that is asked for.
-void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels) {
-    const bool vertical = was_sampled(trip, mounting, Axis::vertical);
-    const bool lateral = was_sampled(trip, mounting, Axis::lateral);
-    if (!vertical && (channels == Channels::vertical || channels == Channels::both)) {
-        throw InputError{"holds no vertical acceleration, expected acc_z_mps2"};
-    }
-    if (!lateral && channels == Channels::lateral) {
-        throw InputError{"holds no lateral acceleration, expected acc_y_mps2"};
-    }
-    if (!vertical && !lateral) {
-        throw InputError{"holds neither vertical nor lateral acceleration, expected acc_z_mps2"};
-    }
-}
-
 double length_m(const IriRun& run) {
     return run.cell_m * static_cast<double>(run.centre_mm_per_m.size());
 }
@@ -104,57 +89,6 @@ TripUse with_rates(TripUse use, const TripLog& trip, const StretchSpan& span) {
     const auto to = std::ranges::upper_bound(t_s, trip.acc.t_s[span.last]) - t_s.begin();
     std::fill(use.gyro.begin() + from, use.gyro.begin() + to, std::uint8_t{0});
     return use;
-}
-
-std::vector<std::string>
-warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
-    std::vector<std::string> warnings;
-    if (const double hz = rate_hz(trip.acc); hz > 0 && hz < slow_sampling_hz) {
-        warnings.push_back(fmt::format(
-            "vibration was sampled at {:.0f} Hz; below {:.0f} Hz short waves are missed",
-            hz,
-            slow_sampling_hz));
-    }
-    if (mounting.moved) {
-        warnings.emplace_back("gravity changed: the sensor moved during the trip");
-    }
-    if (mounting.gravity_mps2 > 0 &&
-        std::abs(mounting.gravity_mps2 / standard_gravity_mps2 - 1) > odd_gravity) {
-        warnings.push_back(fmt::format("gravity was felt as {:.2f} m/s2: the accelerometer's scale "
-                                       "is off, or the sensor was not at rest in the car",
-                                       mounting.gravity_mps2));
-    }
-    if (!trip.meta.gravity_included && trip.meta.frame == Frame::sensor &&
-        !trip.meta.mount_rpy_deg && !trip.meta.mount_quat) {
-        warnings.emplace_back("the log has no gravity: z is taken for the vertical");
-    }
-    if (mounting.tilt_deg > steep_tilt_deg) {
-        warnings.push_back(fmt::format("the sensor stood {:.0f} degrees from level; corrected",
-                                       mounting.tilt_deg));
-    }
-    if (std::abs(odometer.scale() - 1) > odd_scale) {
-        warnings.push_back(fmt::format("wheel speed was off from GNSS by {:+.1f} %; corrected",
-                                       100 * (1 / odometer.scale() - 1)));
-    }
-    if (mounting.gravity_missing) {
-        warnings.emplace_back(
-            "no gravity was felt, though the log says that it is included; the axes "
-            "are taken as stated");
-    }
-    if (mounting.heading_unknown) {
-        warnings.emplace_back(
-            "the heading of the sensor could not be found: too little braking and "
-            "accelerating; lateral vibration is not to be trusted");
-    }
-    if (trip.meta.frame_stated && trip.meta.frame != Frame::sensor &&
-        (trip.meta.mount_rpy_deg || trip.meta.mount_quat)) {
-        warnings.emplace_back(
-            "the mounting angles were not applied: they lead from 'frame: sensor'");
-    }
-    for (const auto& column : trip.unknown_columns) {
-        warnings.push_back(fmt::format("column '{}' is not known and was not read", column));
-    }
-    return warnings;
 }
 
 /// How far the antenna sits ahead of the centre of gravity. The log counts from the front axle,
@@ -263,6 +197,71 @@ std::string spoken_emptiness(const IriTrace& roughness, const MatchedTrace& matc
 }
 
 } // namespace
+
+void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels) {
+    const bool vertical = was_sampled(trip, mounting, Axis::vertical);
+    const bool lateral = was_sampled(trip, mounting, Axis::lateral);
+    if (!vertical && (channels == Channels::vertical || channels == Channels::both)) {
+        throw InputError{"holds no vertical acceleration, expected acc_z_mps2"};
+    }
+    if (!lateral && channels == Channels::lateral) {
+        throw InputError{"holds no lateral acceleration, expected acc_y_mps2"};
+    }
+    if (!vertical && !lateral) {
+        throw InputError{"holds neither vertical nor lateral acceleration, expected acc_z_mps2"};
+    }
+}
+
+std::vector<std::string>
+warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
+    std::vector<std::string> warnings;
+    if (const double hz = rate_hz(trip.acc); hz > 0 && hz < slow_sampling_hz) {
+        warnings.push_back(fmt::format(
+            "vibration was sampled at {:.0f} Hz; below {:.0f} Hz short waves are missed",
+            hz,
+            slow_sampling_hz));
+    }
+    if (mounting.moved) {
+        warnings.emplace_back("gravity changed: the sensor moved during the trip");
+    }
+    if (mounting.gravity_mps2 > 0 &&
+        std::abs(mounting.gravity_mps2 / standard_gravity_mps2 - 1) > odd_gravity) {
+        warnings.push_back(fmt::format("gravity was felt as {:.2f} m/s2: the accelerometer's scale "
+                                       "is off, or the sensor was not at rest in the car",
+                                       mounting.gravity_mps2));
+    }
+    if (!trip.meta.gravity_included && trip.meta.frame == Frame::sensor &&
+        !trip.meta.mount_rpy_deg && !trip.meta.mount_quat) {
+        warnings.emplace_back("the log has no gravity: z is taken for the vertical");
+    }
+    if (mounting.tilt_deg > steep_tilt_deg) {
+        warnings.push_back(fmt::format("the sensor stood {:.0f} degrees from level; corrected",
+                                       mounting.tilt_deg));
+    }
+    if (std::abs(odometer.scale() - 1) > odd_scale) {
+        warnings.push_back(fmt::format("wheel speed was off from GNSS by {:+.1f} %; corrected",
+                                       100 * (1 / odometer.scale() - 1)));
+    }
+    if (mounting.gravity_missing) {
+        warnings.emplace_back(
+            "no gravity was felt, though the log says that it is included; the axes "
+            "are taken as stated");
+    }
+    if (mounting.heading_unknown) {
+        warnings.emplace_back(
+            "the heading of the sensor could not be found: too little braking and "
+            "accelerating; lateral vibration is not to be trusted");
+    }
+    if (trip.meta.frame_stated && trip.meta.frame != Frame::sensor &&
+        (trip.meta.mount_rpy_deg || trip.meta.mount_quat)) {
+        warnings.emplace_back(
+            "the mounting angles were not applied: they lead from 'frame: sensor'");
+    }
+    for (const auto& column : trip.unknown_columns) {
+        warnings.push_back(fmt::format("column '{}' is not known and was not read", column));
+    }
+    return warnings;
+}
 
 TripLog with_latency(TripLog trip, std::vector<std::string>& warnings) {
     if (trip.meta.gnss_latency_stated || trip.fixes.empty()) {

@@ -33,6 +33,13 @@ struct TripTrace {
 /// tell. Adds to `warnings` what was found, or that it could not be.
 TripLog with_latency(TripLog trip, std::vector<std::string>& warnings);
 
+/// \throws InputError  if the log lacks the vibration that is asked for.
+void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels);
+
+/// What to say of a log's rate, mounting, wheels and columns.
+std::vector<std::string>
+warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting);
+
 /// The engine alone: what one trip says of the road along its own travel. No map.
 TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config);
 

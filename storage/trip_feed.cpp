@@ -18,7 +18,8 @@ TripSource source_of(const std::filesystem::path& file) {
 } // namespace
 
 TripFeed::TripFeed(const std::filesystem::path& file, const TripNeeds& needs)
-    : rows_{open(file, source_of(file).name()), source_of(file), needs}, streams_{needs,
+    : name_{source_of(file).name()},
+      rows_{open(file, source_of(file).name()), source_of(file), needs}, streams_{needs,
                                                                                   rows_.header()} {}
 
 std::optional<TripLog> TripFeed::next() {

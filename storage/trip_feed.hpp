@@ -4,9 +4,9 @@
 #include "storage/trip_streams.hpp"
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -34,10 +34,12 @@ public:
     bool closed() const { return rows_.closed(); }
     std::size_t count() const { return rows_.count(); }
 
-    /// The row that came last, for messages: "file:line: 'text'".
-    std::string spoken_row() const;
+    const std::string& name() const { return name_; }   ///< of the file, for messages
+    std::string where() const { return rows_.where(); } ///< "file:line" of the row that came last
+    std::string spoken_row() const;                     ///< "file:line: 'text'" of it
 
 private:
+    std::string name_;
     TripRows rows_;
     TripStreams streams_;
 };

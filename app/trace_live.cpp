@@ -1,0 +1,163 @@
+#include "app/trace_live.hpp"
+
+#include "app/trace_rows.hpp"
+#include "app/trip_place.hpp"
+#include "app/vehicle_choice.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/live/live_trace.hpp"
+#include "storage/trip_feed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+namespace macadam {
+namespace {
+
+constexpr double known_after_s = 60; // then mounting and channels are judged for the first time
+
+TraceRow row_of(const LiveRow& row) {
+    return {.from_m = row.from_m,
+            .to_m = row.to_m,
+            .t_s = row.t_s,
+            .at = row.at,
+            .speed_mps = row.speed_mps,
+            .mean = row.mean};
+}
+
+/// How many rows were written.
+std::size_t tell(const std::vector<LiveRow>& rows, bool json) {
+    for (const auto& row : rows) {
+        print(json ? json_line_of(row_of(row)) : csv_line_of(row_of(row)));
+    }
+    if (!rows.empty()) {
+        flush_results();
+    }
+    return rows.size();
+}
+
+/// Says what is wrong with rows: the first of each kind with its line, all of them at the end.
+class LeftOut {
+public:
+    void look_at(const TripLog& row, const TripFeed& feed, const Console& console) {
+        const auto reason = static_cast<RowReason>(row.rows.front());
+        constexpr std::array faults{RowReason::wrong_cell_count,
+                                    RowReason::bad_number,
+                                    RowReason::out_of_range,
+                                    RowReason::no_time};
+        if (std::ranges::find(faults, reason) != faults.end() && ++counts_[name_of(reason)] == 1) {
+            console.warn(fmt::format("{}: left out: {}", feed.spoken_row(), name_of(reason)));
+        }
+    }
+
+    void summarise(const TripFeed& feed, std::size_t out_of_order, const Console& console) {
+        if (out_of_order > 0) {
+            counts_[name_of(RowReason::time_not_increasing)] += out_of_order;
+        }
+        std::string reasons;
+        for (const auto& [name, count] : counts_) {
+            reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", name, count);
+        }
+        if (!reasons.empty()) {
+            console.warn(fmt::format("left out of {}: {}", counted(feed.count(), "row"), reasons));
+        }
+    }
+
+private:
+    std::map<std::string, std::size_t> counts_;
+};
+
+/// What there is to say of a trip so far, each thing once.
+class SaidOnce {
+public:
+    void look_at(const LiveTrace& live, Channels channels, const Console& console) {
+        if (!live.ruler().odometer) {
+            return;
+        }
+        if (!felt_) {
+            expect_channels(live.recent(), live.mounting(), channels);
+            felt_ = true; // a pause of a channel later on is not its absence
+        }
+        for (const auto& warning :
+             warnings_of(live.recent(), *live.ruler().odometer, live.mounting())) {
+            if (said_.insert(warning.substr(0, warning.find_first_of("0123456789"))).second) {
+                console.warn(warning);
+            }
+        }
+        if (const auto latency_s = live.found_latency_s(); latency_s && !latency_said_) {
+            console.warn(
+                fmt::format("gnss_latency_s is not stated; estimated as {:.2f} s", *latency_s));
+            latency_said_ = true;
+        }
+    }
+
+private:
+    std::set<std::string> said_; ///< up to the first number, which may waver
+    bool latency_said_ = false;
+    bool felt_ = false;
+};
+
+} // namespace
+
+void trace_live(const std::filesystem::path& trip,
+                const PipelineConfig& config,
+                double length_m,
+                bool json,
+                const Arguments& arguments,
+                const Console& console) {
+    VehicleChoice vehicles{arguments};
+    TripFeed feed{trip, needs_of_trace()};
+    const auto chosen = vehicles(trip, feed.meta().vehicle_id);
+    if (!chosen.warning.empty()) {
+        console.warn(chosen.warning);
+    }
+    for (const auto& column : feed.unknown_columns()) {
+        console.warn(fmt::format("column '{}' is not known and was not read", column));
+    }
+    LiveTrace live{feed.meta(),
+                   chosen.vehicle,
+                   {.odometer = config.odometer,
+                    .stretch = config.stretch,
+                    .estimator = config.estimator,
+                    .window = {},
+                    .length_m = length_m}};
+    if (!json) {
+        print(trace_csv_header());
+        flush_results();
+    }
+    LeftOut left_out;
+    SaidOnce said;
+    std::size_t told = 0;
+    std::optional<double> judge_s;
+    naming(feed.name(), [&] {
+        while (const auto samples = feed.next()) {
+            left_out.look_at(*samples, feed, console);
+            told += tell(live.add(*samples), json);
+            judge_s = judge_s || !live.ruler().odometer ? judge_s : live.now_s() + known_after_s;
+            if (judge_s && live.now_s() >= *judge_s) {
+                said.look_at(live, config.estimator.channels, console);
+                judge_s = live.now_s() + known_after_s;
+            }
+        }
+        said.look_at(live, config.estimator.channels, console);
+    });
+    told += tell(live.finish(), json);
+    left_out.summarise(feed, live.dropped(), console);
+    if (!feed.closed()) {
+        console.warn(fmt::format("{}: the log ends here after {}, without '# end rows: N'",
+                                 feed.where(),
+                                 counted(feed.count(), "row")));
+    }
+    if (told == 0) {
+        throw InputError{fmt::format("{}: goes {:.1f} m, expected at least --length {} m",
+                                     feed.name(),
+                                     live.travelled_m(),
+                                     length_m)};
+    }
+}
+
+} // namespace macadam
