@@ -1,8 +1,10 @@
 #include "app/commands.hpp"
 #include "app/estimation_options.hpp"
 #include "app/mapping_option.hpp"
+#include "app/output_guard.hpp"
 #include "app/pipeline.hpp"
 #include "app/trace_live.hpp"
+#include "app/trace_profile.hpp"
 #include "app/trace_rows.hpp"
 #include "app/trip_place.hpp"
 #include "app/vehicle_choice.hpp"
@@ -24,23 +26,50 @@ struct TraceOptions {
     std::filesystem::path trip;
     double length_m;
     bool json;
+    std::optional<std::filesystem::path> profile; ///< to write
     PipelineConfig pipeline;
 };
+
+std::optional<std::filesystem::path> profile_file(const Arguments& arguments) {
+    const auto file = arguments.value("--profile");
+    if (file && std::filesystem::path{*file}.extension() != ".erd") {
+        throw UsageError{
+            fmt::format("--profile is '{}', expected a name that ends in .erd", *file)};
+    }
+    return file;
+}
 
 TraceOptions parse_trace(const Arguments& arguments) {
     TraceOptions options{.trip = arguments.operand("TRIP"),
                          .length_m = arguments.number("--length", default_length_m),
                          .json = arguments.flag("--json"),
+                         .profile = profile_file(arguments),
                          .pipeline = pipeline_config_of(arguments)};
+    options.pipeline.estimator.profile = options.profile.has_value();
     if (!(options.length_m >= 1 && options.length_m <= 100000)) {
         throw UsageError{fmt::format("--length is {}, expected 1 to 100000 m", options.length_m)};
     }
     return options;
 }
 
+void write_profile_of(const TripTrace& trace,
+                      const Vehicle& vehicle,
+                      const TraceOptions& options,
+                      const Console& console) {
+    const auto method = options.pipeline.estimator.method;
+    for (const auto& [file, from_m, to_m, tracks] :
+         write_profiles(*options.profile, trace, vehicle, method)) {
+        console.say(fmt::format("{}: {} from {:.2f} to {:.2f} m of travel",
+                                file.string(),
+                                tracks ? "left and right track" : "mean of both tracks",
+                                from_m,
+                                to_m));
+    }
+}
+
 /// What needs the whole of a trip, or another reader.
 void expect_live(const Arguments& arguments) {
-    for (const auto* const option : {"--mapping"}) {
+    for (const auto* const option : {"--mapping", "--profile"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("--live and {} exclude one another", option)};
         }
@@ -51,14 +80,21 @@ void run_trace(const Arguments& arguments, const Console& console) {
     const auto options = parse_trace(arguments);
     if (arguments.flag("--live")) {
         expect_live(arguments);
-        trace_live(
-            options.trip, options.pipeline, options.length_m, options.json, arguments, console);
+        trace_live(options.trip,
+                   options.pipeline,
+                   options.length_m,
+                   options.json,
+                   arguments,
+                   console);
         return;
     }
     if (options.trip == from_standard_input) {
         throw UsageError{"TRIP is missing; only --live reads standard input"};
     }
     VehicleChoice vehicles{arguments};
+    if (options.profile) {
+        refuse_to_replace(*options.profile, {options.trip});
+    }
     std::vector<std::string> warnings;
     const auto source = one_trip(options.trip, mapping_of(arguments));
     const auto trip =
@@ -90,6 +126,10 @@ void run_trace(const Arguments& arguments, const Console& console) {
                                      whole_m,
                                      options.length_m)};
     }
+    if (options.profile) {
+        naming(source.name(),
+               [&] { return write_profile_of(trace, chosen.vehicle, options, console); });
+    }
     print(options.json ? trace_json(rows) : trace_csv(rows));
 }
 
@@ -110,6 +150,7 @@ constexpr std::array options{
            "",
            "Write each row within 2 s of driving while the log is still coming in, from TRIP or "
            "standard input."},
+    Option{"--profile", "FILE.erd", "Also write the estimated elevation of the road, for ProVAL."},
     Option{"--json", "", "An array of objects instead of CSV, with the same names."}};
 
 } // namespace

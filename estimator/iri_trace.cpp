@@ -206,6 +206,17 @@ cell_means(const std::vector<float>& values, std::size_t per_cell, double factor
     return means;
 }
 
+/// Tracks as left, right and their mean, or the mean alone.
+EstimatedProfile profile_of(std::vector<std::vector<float>> tracks_m, double start_travel_m) {
+    EstimatedProfile profile{.start_travel_m = start_travel_m, .step_m = grid_m};
+    profile.centre_m = std::move(tracks_m.back());
+    if (tracks_m.size() == 3) {
+        profile.left_m = std::move(tracks_m[0]);
+        profile.right_m = std::move(tracks_m[1]);
+    }
+    return profile;
+}
+
 /// How far ahead of the centre of gravity the one axle of the models stands.
 double axle_ahead_m(const Vehicle& vehicle) {
     return vehicle.axles ? vehicle.axles->cg_to_front_m - vehicle.axles->wheelbase_m / 2 : 0;
@@ -257,8 +268,12 @@ IriRun estimate_iri(const Stretch& stretch, const Vehicle& vehicle, const Estima
     run.start_travel_m = first_m + axle_ahead_m(vehicle);
     const double factor = run.indicative ? config.lateral_regression : 1;
     std::vector<std::vector<float>> cells;
+    std::vector<std::vector<float>> kept_m;
     for (const auto& track_m : profiles.tracks_m) {
         const auto even_m = resampled(profiles.travel_m, track_m, first_m, grid_m, count);
+        if (config.profile && !run.indicative) {
+            kept_m.emplace_back(even_m.begin(), even_m.end());
+        }
         cells.push_back(cell_means(rectified_stroke_mm_per_m(even_m, grid_m), per_cell, factor));
     }
     const auto speeds = resampled(stretch.travel_m,
@@ -272,6 +287,9 @@ IriRun estimate_iri(const Stretch& stretch, const Vehicle& vehicle, const Estima
         run.right_mm_per_m = std::move(cells[1]);
     }
     run.centre_mm_per_m = std::move(cells.back());
+    if (!kept_m.empty()) {
+        run.profile = profile_of(std::move(kept_m), run.start_travel_m);
+    }
     return run;
 }
 

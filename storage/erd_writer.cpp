@@ -52,6 +52,9 @@ std::string header_of(const ErdProfile& profile) {
     if (!profile.title.empty()) {
         text += fmt::format("TITLE   {}\n", one_line(profile.title));
     }
+    for (const auto& remark : profile.remarks) {
+        text += fmt::format("HISTORY {}\n", one_line(remark));
+    }
     text += fmt::format("SHORTNAM{}\nUNITSNAM{}\n", names, units);
     text += "XLABEL  Distance\nXUNITS  m\n";
     if (profile.start_m != 0) {

@@ -15,7 +15,8 @@ struct ErdProfile {
         std::string name; ///< "left" and "right" become "LElev." and "RElev."; others are cut to 8
         std::vector<double> elevation_m; ///< finite
     };
-    std::vector<Channel> channels; ///< at least one, all of one length, at least 2
+    std::vector<Channel> channels;      ///< at least one, all of one length, at least 2
+    std::vector<std::string> remarks{}; ///< a line each; programs show or skip them
 };
 
 /// Writes text of ERD 2.00 that ProVAL and RoadRuf read: one point a line, millimetres with four
