@@ -14,6 +14,8 @@ constexpr double margin_px = 30;      // between the data and the map's edge
 constexpr double card_margin_px = 18; // between the legend and the map's edge
 constexpr double label_px = 14;
 
+constexpr double least_scale = 0.9; // of a small map, over what it has without a legend
+
 /// Whether the line from `a` to `b` passes through the box: Liang and Barsky's clipping.
 bool passes_through(const PixelBox& box, const PixelPoint& a, const PixelPoint& b) {
     double from = 0;
@@ -99,6 +101,28 @@ Placement beside_or_below(const MapScene& scene,
     return {upper_frame, row, corners_of(layout.map, row)[1]};
 }
 
+/// In a corner without roads, or where the data makes room for it.
+Placement placement_beside_roads(const MapScene& scene,
+                                 const Legend& legend,
+                                 const MapFrame& frame,
+                                 const Layout& layout,
+                                 TypeSetter& setter) {
+    const auto card = legend_card(legend, 1, layout.unit, setter);
+    const auto corners = corners_of(layout.map, card);
+    const auto hidden = hidden_by(scene, frame, card, corners);
+    const auto empty = std::ranges::find(hidden, 0U);
+    if (empty != hidden.end()) {
+        return {frame, card, corners[std::size_t(empty - hidden.begin())]};
+    }
+    return beside_or_below(scene, legend, layout, setter);
+}
+
+/// Whether the sheet is so small that its letters take more of it than on larger ones.
+bool has_large_letters(const Layout& layout) {
+    const double side_px = std::min(layout.map.width(), layout.scale_room.bottom);
+    return layout.unit * 1000 > side_px * 1.001;
+}
+
 void draw_north(Canvas& canvas,
                 TypeSetter& setter,
                 const PixelPoint& foot,
@@ -177,14 +201,20 @@ Placement placement_of(const MapScene& scene,
     if (legend.entries.empty()) {
         return {frame, {}, {}};
     }
-    const auto card = legend_card(legend, 1, layout.unit, setter);
-    const auto corners = corners_of(layout.map, card);
-    const auto hidden = hidden_by(scene, frame, card, corners);
-    const auto empty = std::ranges::find(hidden, 0U);
-    if (empty != hidden.end()) {
-        return {frame, card, corners[std::size_t(empty - hidden.begin())]};
+    auto best = placement_beside_roads(scene, legend, frame, layout, setter);
+    if (!has_large_letters(layout)) {
+        return best;
     }
-    return beside_or_below(scene, legend, layout, setter);
+    for (const auto& form : forms_of(legend)) {
+        if (best.frame.px_per_rad >= least_scale * frame.px_per_rad) {
+            break;
+        }
+        const auto placement = placement_beside_roads(scene, form, frame, layout, setter);
+        if (placement.frame.px_per_rad > best.frame.px_per_rad) {
+            best = placement;
+        }
+    }
+    return best;
 }
 
 Image furnished(Image roads,

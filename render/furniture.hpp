@@ -13,7 +13,9 @@ struct Placement {
 };
 
 /// The legend goes into a corner without roads. If there is none, the data makes room for it, at
-/// the side or below, whichever leaves the larger map.
+/// the side or below, whichever leaves the larger map. Small pictures, in which letters take more
+/// room, have a shorter legend where a tenth of the map's scale or more would be lost to the full
+/// one.
 Placement
 placement_of(const MapScene& scene, const Legend& legend, const Layout& layout, TypeSetter& setter);
 

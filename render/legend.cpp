@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -124,6 +125,20 @@ Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable&
                                   .length = {}});
     }
     return legend;
+}
+
+std::vector<Legend> forms_of(const Legend& legend) {
+    auto without_lengths = legend;
+    for (auto& entry : without_lengths.entries) {
+        entry.length.clear();
+    }
+    auto values = without_lengths;
+    for (auto& entry : values.entries) {
+        if (!entry.range.empty()) {
+            entry.name = std::exchange(entry.range, {});
+        }
+    }
+    return {legend, without_lengths, values};
 }
 
 LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSetter& setter) {

@@ -26,6 +26,10 @@ struct Legend {
 /// no legend.
 Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable& classes);
 
+/// The legend in three forms, the fullest first: as it is, without lengths, and with the values of
+/// classes for their names.
+std::vector<Legend> forms_of(const Legend& legend);
+
 /// The legend as a table on a card, `columns` entries beside each other.
 struct LegendCard {
     Legend legend;

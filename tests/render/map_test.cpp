@@ -161,7 +161,8 @@ TEST(Map, PutsTheLegendWhereNoRoadIs) {
 TEST(Map, MakesRoomForTheLegendWhereRoadsAreEverywhere) {
     TypeSetter setter;
     const auto city = grid(12, 800);
-    for (const auto& [width_px, height_px] : {std::pair{512, 512}, {1200, 600}, {600, 1200}}) {
+    for (const auto& [width_px, height_px] :
+         {std::pair{512, 512}, {1200, 600}, {600, 1200}, {256, 256}}) {
         const auto layout = layout_of(city, width_px, height_px, setter);
         const auto legend = legend_of(city, {}, *class_table("fhwa"));
         const auto placement = placement_of(city, legend, layout, setter);
@@ -172,6 +173,40 @@ TEST(Map, MakesRoomForTheLegendWhereRoadsAreEverywhere) {
         EXPECT_GE(placement.corner.x, 0);
         EXPECT_LE(placement.corner.x + placement.card.width_px, width_px);
     }
+}
+
+TEST(Map, ShortensTheLegendOfASmallPictureRatherThanItsRoads) {
+    TypeSetter setter;
+    auto city = grid(12, 800);
+    city.class_km = {1.2, 3.4, 5.6};
+    const auto legend = legend_of(city, {}, *class_table("fhwa"));
+    const auto lengths = [&](int side_px) {
+        const auto layout = layout_of(city, side_px, side_px, setter);
+        return placement_of(city, legend, layout, setter).card.length_px;
+    };
+    EXPECT_EQ(lengths(512), 0);
+    EXPECT_GT(lengths(1024), 0);
+}
+
+TEST(Map, LeavesTheRoadsOfASmallPictureTheirPlace) {
+    TypeSetter setter;
+    auto city = grid(12, 800);
+    city.class_km = {1.2, 3.4, 5.6};
+    const auto legend = legend_of(city, {}, *class_table("fhwa"));
+    for (const int side_px : {320, 400, 512, 640}) {
+        const auto layout = layout_of(city, side_px, side_px, setter);
+        const auto without = placement_of(city, {}, layout, setter).frame;
+        const auto with = placement_of(city, legend, layout, setter).frame;
+        EXPECT_GT(with.px_per_rad, 0.6 * without.px_per_rad) << side_px; // more road than legend
+    }
+}
+
+TEST(Map, KeepsTheValuesInAShortLegend) {
+    const auto legend = legend_of(scene({}, 400), {}, *class_table("fhwa"));
+    const auto shortest = forms_of(legend).back();
+    EXPECT_EQ(shortest.title, legend.title);
+    EXPECT_EQ(shortest.entries[1].name, "1.50 – 2.68");
+    EXPECT_EQ(shortest.entries[1].rgb, legend.entries[1].rgb);
 }
 
 TEST(Map, KeepsLongTitlesOnTheSheet) {
