@@ -6,6 +6,9 @@
 #include "estimator/common/error.hpp"
 #include "storage/utc.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -161,6 +164,18 @@ std::vector<ReportVehicle> vehicles_of(const RoadStore& store) {
     return vehicles;
 }
 
+/// "123456 from 100 to 240 m": as driven, so metres fall where the way is driven against.
+std::string spoken_reference(const RoadStretch& stretch) {
+    std::vector<std::string> parts;
+    for (const auto& [way_id, forward, from_m, to_m] : stretch.parts) {
+        parts.push_back(fmt::format("{} from {:.0f} to {:.0f} m",
+                                    way_id,
+                                    forward ? from_m : to_m,
+                                    forward ? to_m : from_m));
+    }
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 void stop_if_wanted(const Progress& progress) {
     if (progress.stop.stop_requested()) {
         throw InputError{"stopped before the report was whole"};
@@ -214,7 +229,7 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
         report.worst.push_back(
             {.stretch = stretch,
              .heading = std::string{heading_of(stretch)},
-             .reference = linear_reference(stretch),
+             .reference = spoken_reference(stretch),
              .seen = period_of(stretch.first_seen_ms, stretch.last_seen_ms),
              .map = picture_of(scene, config.style, stretch_width_px, stretch_height_px)});
     }

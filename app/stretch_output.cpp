@@ -28,6 +28,16 @@ std::string list_of(const RoadStretch& stretch,
 
 // --------------------------------------------------------------------------------------- table
 
+/// "123456+ 100.0-240.0": + along the way's own direction, - against it.
+std::string linear_reference(const RoadStretch& stretch) {
+    std::vector<std::string> parts;
+    for (const auto& part : stretch.parts) {
+        parts.push_back(fmt::format(
+            "{}{} {:.1f}-{:.1f}", part.way_id, part.forward ? '+' : '-', part.from_m, part.to_m));
+    }
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 std::string table_of(std::span<const RoadStretch> stretches) {
     auto table = fmt::format("{:>4}  {:<26} {:>7} {:>6} {:>13} {:>6} {:>6} {:>4}  {:<20} {}\n",
                              "rank",
@@ -195,15 +205,6 @@ std::string stretches_text(std::span<const RoadStretch> stretches, std::string_v
         return csv_of(stretches);
     }
     return format == "geojson" ? geojson_of(stretches) : table_of(stretches);
-}
-
-std::string linear_reference(const RoadStretch& stretch) {
-    std::vector<std::string> parts;
-    for (const auto& part : stretch.parts) {
-        parts.push_back(fmt::format(
-            "{}{} {:.1f}-{:.1f}", part.way_id, part.forward ? '+' : '-', part.from_m, part.to_m));
-    }
-    return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string_view heading_of(const RoadStretch& stretch) {

@@ -12,9 +12,6 @@ namespace macadam {
 /// \param format  table, json, csv or geojson.
 std::string stretches_text(std::span<const RoadStretch> stretches, std::string_view format);
 
-/// "123456+ 100.0-240.0", several ways parted by "; ": metres along each way from its first node.
-std::string linear_reference(const RoadStretch& stretch);
-
 /// "N", "NE", ...: from the first place of a stretch to its last.
 std::string_view heading_of(const RoadStretch& stretch);
 

@@ -39,6 +39,7 @@ HtmlTable vehicle_table(const std::vector<ReportVehicle>& vehicles) {
                      {"Rows used", true},
                      {"Passes", true}},
                     {}};
+    table.stacks = true;
     const auto shown = std::min(vehicles.size(), most_vehicles);
     for (std::size_t i = 0; i < shown; ++i) {
         table.rows.push_back(row_of(vehicles[i], escaped(vehicles[i].name)));
@@ -50,6 +51,7 @@ HtmlTable vehicle_table(const std::vector<ReportVehicle>& vehicles) {
     }
     if (vehicles.size() > 1) {
         table.rows.push_back(row_of(total_of(vehicles), "All"));
+        table.sum = true;
     }
     return table;
 }
@@ -71,6 +73,7 @@ HtmlTable quality_table(const DataQuality& quality) {
     add("A part within the start-up of the method", quality.start_up);
     add("A part without data", quality.gap);
     add("All", quality.measured);
+    table.sum = true;
     return table;
 }
 
@@ -131,6 +134,7 @@ std::string reasons_html(const Report& report) {
         add(reason, rows);
     }
     add("All", rejected);
+    table.sum = true;
     return html_of(table);
 }
 

@@ -63,22 +63,33 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 
 std::string html_of(const HtmlTable& table) {
     const auto class_of = [&](std::size_t column) {
-        return table.columns[column].number ? " class=\"n\"" : "";
+        const auto& [title, number, elsewhere] = table.columns[column];
+        return number && elsewhere ? " class=\"n else\"" : number ? " class=\"n\"" : "";
+    };
+    const auto title_of = [&](std::size_t column) {
+        return table.stacks ? fmt::format(" data-t=\"{}\"", table.columns[column].title)
+                            : std::string{};
     };
     constexpr std::size_t rows_that_stay_together = 12; // on paper; more may go over a page
+    constexpr std::size_t most_on_a_phone = 8;          // columns, with room to spare for a tablet
     const auto* const kind = table.rows.size() > rows_that_stay_together ? "wide long" : "wide";
     auto html = fmt::format("<div class=\"{1}\" role=\"region\" aria-label=\"{0}\" "
-                            "tabindex=\"0\"><table>\n<caption>{0}</caption>\n<thead><tr>",
+                            "tabindex=\"0\"><table{2}>\n<caption>{0}</caption>\n<thead><tr>",
                             escaped(table.caption),
-                            kind);
+                            kind,
+                            !table.stacks                            ? ""
+                            : table.columns.size() > most_on_a_phone ? " class=\"stack many\""
+                                                                     : " class=\"stack\"");
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         html += fmt::format("<th scope=\"col\"{}>{}</th>", class_of(i), table.columns[i].title);
     }
     html += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows) {
-        html += fmt::format("<tr><th scope=\"row\"{}>{}</th>", class_of(0), row.front());
+        const bool sum = table.sum && &row == &table.rows.back();
+        html += sum ? "<tr class=\"all\">" : "<tr>";
+        html += fmt::format("<th scope=\"row\"{}>{}</th>", class_of(0), row.front());
         for (std::size_t i = 1; i < row.size(); ++i) {
-            html += fmt::format("<td{}>{}</td>", class_of(i), row[i]);
+            html += fmt::format("<td{}{}>{}</td>", class_of(i), title_of(i), row[i]);
         }
         html += "</tr>\n";
     }

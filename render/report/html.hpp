@@ -16,8 +16,9 @@ std::string escaped(std::string_view text);
 std::string base64(std::span<const std::uint8_t> bytes);
 
 struct HtmlColumn {
-    std::string title;   ///< HTML
-    bool number = false; ///< aligned to the right
+    std::string title;      ///< HTML
+    bool number = false;    ///< aligned to the right
+    bool elsewhere = false; ///< left out on phones: the page says it in another place, too
 };
 
 /// A table whose first column names its rows. Cells are HTML, as many in a row as columns.
@@ -25,6 +26,8 @@ struct HtmlTable {
     std::string caption; ///< text
     std::vector<HtmlColumn> columns;
     std::vector<std::vector<std::string>> rows;
+    bool sum = false;    ///< the last row is of all others together
+    bool stacks = false; ///< where columns have no room each row is a block of titles and values
 };
 
 /// With caption and scopes, in a box of its own that scrolls where the page is too narrow.

@@ -33,7 +33,7 @@ std::string report_html(const Report& report) {
     }
     html += coverage_section(report);
     html += data_section(report);
-    html += method_section();
+    html += method_section(report);
     return html + "</main>\n" + source_section(report) + "</body>\n</html>\n";
 }
 

@@ -91,7 +91,7 @@ std::string condition_section(const Report& report) {
     HtmlTable classes{"Length of road by class of roughness",
                       {{"Class"},
                        {"IRI, mm/m", true},
-                       {"in/mi", true},
+                       {"in/mi", true, true},
                        {"km", true},
                        {"Share", true},
                        {"90&nbsp;% range of km", true}},
@@ -134,6 +134,8 @@ std::string condition_section(const Report& report) {
         }
     }
     add(all, "All");
+    kinds.sum = true;
+    kinds.stacks = true;
     return "<section>\n<h2>Condition</h2>\n" + html_of(classes) +
            histogram_svg(report.histogram, all.mean, *report.classes, report.colours) +
            html_of(kinds) +
@@ -157,8 +159,8 @@ std::string map_section(const Report& report) {
                            km_text(all.classes[c].length_m, all.covered_m));
     }
     return fmt::format("<section>\n<h2>Map</h2>\n<ul class=\"legend\" aria-label=\"Legend: IRI in "
-                       "mm/m\">\n{}<li><span class=\"road\"></span>No measurement</li>\n"
-                       "<li class=\"quiet\">IRI in mm/m</li>\n</ul>\n"
+                       "mm/m\">\n<li class=\"quiet\">IRI in mm/m:</li>\n{}"
+                       "<li><span class=\"road\"></span>No measurement</li>\n</ul>\n"
                        "<figure class=\"map\" style=\"--shape:{:.3f}\">{}<figcaption>{}A thin line "
                        "has few passes or a wide "
                        "interval. {}</figcaption></figure>\n</section>\n",
@@ -191,6 +193,7 @@ std::string coverage_section(const Report& report) {
         add(roads, sentence_case(roads.kind));
     }
     add(all, "All");
+    table.sum = true;
     return fmt::format("<section>\n<h2>Coverage</h2>\n{}<p class=\"small quiet\">{} of {} "
                        "segments of about {:g} m have a pass. Slip roads count with their road. "
                        "What was driven is no random sample of the network.</p>\n</section>\n",

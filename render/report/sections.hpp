@@ -13,7 +13,7 @@ std::string map_section(const Report& report);
 std::string worst_section(const Report& report);
 std::string coverage_section(const Report& report);
 std::string data_section(const Report& report);
-std::string method_section();                     ///< how it was measured, how to read it, limits
+std::string method_section(const Report& report); ///< how it was measured, how to read it, limits
 std::string source_section(const Report& report); ///< whose map it is
 
 } // namespace macadam

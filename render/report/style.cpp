@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace macadam {
 namespace {
 
@@ -49,11 +51,11 @@ tbody th{font-weight:500}
 .n{text-align:right;white-space:nowrap}
 thead .n{white-space:normal}
 .nw,.key .nw{display:inline;white-space:nowrap}
-.all th,.all td{font-weight:650}
+.all th,.all td{font-weight:650;border-bottom:0}
 .swatch{width:.85em;height:.85em;margin-right:.5em;vertical-align:-.06em}
 .bar{stroke:var(--edge);stroke-width:.6}
 .share{display:block;width:9rem;height:.95rem;margin-top:.12rem;border:1px solid var(--edge)}
-.histogram{display:block;width:100%;max-width:36rem;height:auto;margin:1rem 0}
+.histogram{display:block;width:100%;max-width:30rem;height:auto;margin:1rem 0}
 .histogram text{fill:var(--quiet)}
 .grid{stroke:var(--rule)}
 .mean{stroke:var(--ink);stroke-width:1.2;stroke-dasharray:3 3}
@@ -74,6 +76,7 @@ a{color:inherit}
 )";
 
 constexpr const char* on_a_phone = R"(
+@media screen and (max-width:44rem){.else{display:none}}
 @media (max-width:34rem){table{font-size:.8125rem}th,td{padding:.35rem .4rem}.share{width:5rem}
 .key{grid-template-columns:1fr 1fr;gap:.5rem}.key div{padding:.55rem .65rem}.key b{font-size:1.25rem}}
 )";
@@ -90,6 +93,24 @@ tr,figure,.key div,.histogram{break-inside:avoid}thead{display:table-header-grou
 .map{max-width:calc(135mm*var(--shape))}a{text-decoration:none}}
 )";
 
+/// Rows as blocks of titles and values, where the screen is too narrow for columns.
+std::string stacked(std::string_view kind, int width_rem) {
+    std::string css = R"(
+@media screen and (max-width:WIDTHrem){KIND,KIND tbody,KIND caption{display:block}KIND thead,KIND td:empty{display:none}
+KIND tr{display:grid;grid-template-columns:repeat(auto-fill,minmax(5.5rem,1fr));gap:.3rem .8rem;padding:.55rem 0;border-bottom:1px solid var(--rule)}
+KIND th,KIND td{padding:0;border:0;text-align:left;white-space:nowrap}KIND th{grid-column:1/-1;font-weight:600}
+KIND td::before{content:attr(data-t);display:block;color:var(--quiet);font-size:.75rem;font-weight:400}}
+)";
+    const auto replace = [&css](std::string_view word, std::string_view by) {
+        for (auto at = css.find(word); at != std::string::npos; at = css.find(word, at)) {
+            css.replace(at, word.size(), by);
+        }
+    };
+    replace("KIND", kind);
+    replace("WIDTH", std::to_string(width_rem));
+    return css;
+}
+
 } // namespace
 
 std::string report_style() {
@@ -98,12 +119,14 @@ std::string report_style() {
                        "@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n"
                        "@media print{{:root{{color-scheme:light;{}}}}}\n"
                        "{}@media screen and (prefers-color-scheme:dark){{.light{{display:none}}"
-                       ".dark{{display:block}}}}{}{}",
+                       ".dark{{display:block}}}}{}{}{}{}",
                        colours_of(light),
                        colours_of(dark),
                        colours_of(print),
                        rules,
                        on_a_phone,
+                       stacked(".stack", 31),
+                       stacked(".many", 50),
                        on_paper);
 }
 

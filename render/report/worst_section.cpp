@@ -13,9 +13,10 @@ std::string name_of(const RoadStretch& stretch) {
     if (!stretch.name.empty()) {
         return stretch.name;
     }
-    return stretch.highway.empty()
-               ? std::string{"Road without a name"}
-               : fmt::format("{} without a name", sentence_case(road_kind(stretch.highway)));
+    const auto kind = stretch.highway.empty() ? "road" : road_kind(stretch.highway);
+    const bool is_noun =
+        kind == "motorway" || kind == "track" || kind.ends_with("street") || kind.ends_with("road");
+    return sentence_case(kind) + (is_noun ? "" : " road") + " without a name";
 }
 
 std::string passes_text(const RoadStretch& stretch) {
@@ -31,10 +32,10 @@ HtmlTable table_of(const Report& report) {
                      {"Towards"},
                      {"Length, m", true},
                      {"IRI", true},
-                     {"90&nbsp;% interval", true},
-                     {"Worst segment", true},
-                     {"Passes", true},
-                     {"Cars", true}},
+                     {"90&nbsp;% interval", true, true},
+                     {"Worst segment", true, true},
+                     {"Passes", true, true},
+                     {"Cars", true, true}},
                     {}};
     for (const auto& [stretch, heading, reference, seen, map] : report.worst) {
         const auto rank = table.rows.size() + 1;
@@ -56,8 +57,8 @@ std::string card_of(const ReportStretch& of, std::size_t rank) {
     const auto name = escaped(name_of(stretch));
     const auto alt = fmt::format("Map of stretch {}: {}", rank, name);
     return fmt::format("<figure id=\"stretch-{}\">{}<figcaption><h3>{} · {}, towards {}</h3>"
-                       "<b>IRI {}</b> ({}) over {:.0f} m<br>Way {}<br>Middle {:.5f}, {:.5f}<br>{}"
-                       "</figcaption></figure>\n",
+                       "<b>IRI {}</b> ({}) over {:.0f} m, at worst {}<br>{} {} by {}<br>"
+                       "Way {}<br>Middle {:.5f}, {:.5f}<br>{}</figcaption></figure>\n",
                        rank,
                        picture_html(of.map, alt),
                        rank,
@@ -66,6 +67,10 @@ std::string card_of(const ReportStretch& of, std::size_t rank) {
                        iri_text(stretch.mean.iri),
                        interval_text(stretch.mean),
                        stretch.length_m,
+                       iri_text(stretch.worst_iri),
+                       passes_text(stretch),
+                       stretch.median_passes == 1 ? "pass" : "passes",
+                       count_text(stretch.vehicles, "car", "cars"),
                        escaped(of.reference),
                        stretch.middle.lat_deg,
                        stretch.middle.lon_deg,
@@ -94,10 +99,10 @@ std::string worst_section(const Report& report) {
                                  : fmt::format("the worst {}", report.worst.size()),
         report.worst.size() == 1 ? "is" : "are");
     html += html_of(table_of(report));
-    html += "<p class=\"small quiet\">Passes: least – median of its segments. Cars: the most that "
-            "one segment has seen. The maps show the stretch in the colours of its segments, all "
-            "other roads in grey, north up. Way: the number on the map, + along the way's own "
-            "direction, - against it, and metres from its first node.</p>\n";
+    html += "<p class=\"small quiet\">Passes: the least that a segment has, and the median. "
+            "Cars: the most that one segment has seen. The maps show the stretch in the colours of "
+            "its segments, all other roads in grey, north up. Way: its number on the map, and "
+            "metres from its first node, in the direction of driving.</p>\n";
     html += "<div class=\"cards\">\n";
     for (std::size_t i = 0; i < report.worst.size(); ++i) {
         html += card_of(report.worst[i], i + 1);
