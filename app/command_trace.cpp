@@ -3,6 +3,7 @@
 #include "app/mapping_option.hpp"
 #include "app/output_guard.hpp"
 #include "app/pipeline.hpp"
+#include "app/trace_against.hpp"
 #include "app/trace_live.hpp"
 #include "app/trace_profile.hpp"
 #include "app/trace_rows.hpp"
@@ -10,6 +11,9 @@
 #include "app/vehicle_choice.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/iri_class.hpp"
+#include "storage/atomic_file.hpp"
+#include "storage/survey_reader.hpp"
 #include "storage/trip_reader.hpp"
 
 #include <fmt/format.h>
@@ -27,6 +31,10 @@ struct TraceOptions {
     double length_m;
     bool json;
     std::optional<std::filesystem::path> profile; ///< to write
+    std::optional<std::filesystem::path> survey;  ///< to hold the trip against
+    std::optional<std::filesystem::path> figure;  ///< of both, to write
+    double mm_per_m_of_one;                       ///< of the survey's IRI
+    SurveyMatchConfig match;
     PipelineConfig pipeline;
 };
 
@@ -39,17 +47,56 @@ std::optional<std::filesystem::path> profile_file(const Arguments& arguments) {
     return file;
 }
 
+double number_within(
+    const Arguments& arguments, std::string_view name, double fallback, double least, double most) {
+    const double value = arguments.number(name, fallback);
+    if (!(value >= least && value <= most)) {
+        throw UsageError{fmt::format("{} is {}, expected {} to {}", name, value, least, most)};
+    }
+    return value;
+}
+
+/// The options of --against, which mean nothing without it.
+TraceOptions with_survey(TraceOptions options, const Arguments& arguments) {
+    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
+    options.survey = arguments.value("--against");
+    for (const auto* const option : {"--max-distance", "--max-angle", "--unit", "--output"}) {
+        if (!options.survey && arguments.value(option)) {
+            throw UsageError{fmt::format("{} goes with --against SURVEY.csv alone", option)};
+        }
+    }
+    if (options.survey && arguments.value("--length")) {
+        throw UsageError{"--length and --against exclude one another: pieces are the survey's"};
+    }
+    options.figure = arguments.value("--output");
+    if (options.figure && options.figure->extension() != ".svg") {
+        throw UsageError{
+            fmt::format("-o is '{}', expected a name that ends in .svg", options.figure->string())};
+    }
+    auto& match = options.match;
+    match.max_distance_m =
+        number_within(arguments, "--max-distance", match.max_distance_m, 0.5, 100);
+    match.max_angle_deg = number_within(arguments, "--max-angle", match.max_angle_deg, 1, 180);
+    options.mm_per_m_of_one =
+        arguments.choice("--unit", units) == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1;
+    return options;
+}
+
 TraceOptions parse_trace(const Arguments& arguments) {
     TraceOptions options{.trip = arguments.operand("TRIP"),
                          .length_m = arguments.number("--length", default_length_m),
                          .json = arguments.flag("--json"),
                          .profile = profile_file(arguments),
+                         .survey = {},
+                         .figure = {},
+                         .mm_per_m_of_one = 1,
+                         .match = {},
                          .pipeline = pipeline_config_of(arguments)};
     options.pipeline.estimator.profile = options.profile.has_value();
     if (!(options.length_m >= 1 && options.length_m <= 100000)) {
         throw UsageError{fmt::format("--length is {}, expected 1 to 100000 m", options.length_m)};
     }
-    return options;
+    return with_survey(std::move(options), arguments);
 }
 
 void write_profile_of(const TripTrace& trace,
@@ -67,9 +114,29 @@ void write_profile_of(const TripTrace& trace,
     }
 }
 
+void print_against(const std::vector<SurveyRow>& survey,
+                   const TripLog& trip,
+                   const TripTrace& trace,
+                   const Vehicle& vehicle,
+                   const TraceOptions& options,
+                   const Console& console) {
+    const auto against = naming(options.trip.string(), [&] {
+        return against_survey(survey, trip, trace, vehicle, options.match);
+    });
+    if (options.figure) {
+        AtomicFile out{*options.figure};
+        out.write(against_svg(against));
+        out.commit();
+    }
+    auto summary = against_summary(against);
+    summary.pop_back();
+    console.say(summary);
+    print(options.json ? against_json(against) : against_csv(against));
+}
+
 /// What needs the whole of a trip, or another reader.
 void expect_live(const Arguments& arguments) {
-    for (const auto* const option : {"--mapping", "--profile"}) {
+    for (const auto* const option : {"--mapping", "--profile", "--against"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("--live and {} exclude one another", option)};
         }
@@ -80,21 +147,21 @@ void run_trace(const Arguments& arguments, const Console& console) {
     const auto options = parse_trace(arguments);
     if (arguments.flag("--live")) {
         expect_live(arguments);
-        trace_live(options.trip,
-                   options.pipeline,
-                   options.length_m,
-                   options.json,
-                   arguments,
-                   console);
+        trace_live(
+            options.trip, options.pipeline, options.length_m, options.json, arguments, console);
         return;
     }
     if (options.trip == from_standard_input) {
         throw UsageError{"TRIP is missing; only --live reads standard input"};
     }
     VehicleChoice vehicles{arguments};
-    if (options.profile) {
-        refuse_to_replace(*options.profile, {options.trip});
+    for (const auto& output : {options.profile, options.figure}) {
+        if (output) {
+            refuse_to_replace(*output, {options.trip, options.survey.value_or(options.trip)});
+        }
     }
+    const auto survey = options.survey ? read_survey(*options.survey, options.mm_per_m_of_one)
+                                       : std::vector<SurveyRow>{};
     std::vector<std::string> warnings;
     const auto source = one_trip(options.trip, mapping_of(arguments));
     const auto trip =
@@ -109,6 +176,14 @@ void run_trace(const Arguments& arguments, const Console& console) {
     warnings.insert(warnings.end(), trace.warnings.begin(), trace.warnings.end());
     for (const auto& warning : warnings) {
         console.warn(warning);
+    }
+    if (options.profile) {
+        naming(source.name(),
+               [&] { return write_profile_of(trace, chosen.vehicle, options, console); });
+    }
+    if (options.survey) {
+        print_against(survey, trip, trace, chosen.vehicle, options, console);
+        return;
     }
     const TripPlace place{trip};
     std::vector<TraceRow> rows;
@@ -125,10 +200,6 @@ void run_trace(const Arguments& arguments, const Console& console) {
                                      options.trip.string(),
                                      whole_m,
                                      options.length_m)};
-    }
-    if (options.profile) {
-        naming(source.name(),
-               [&] { return write_profile_of(trace, chosen.vehicle, options, console); });
     }
     print(options.json ? trace_json(rows) : trace_csv(rows));
 }
@@ -151,6 +222,13 @@ constexpr std::array options{
            "Write each row within 2 s of driving while the log is still coming in, from TRIP or "
            "standard input."},
     Option{"--profile", "FILE.erd", "Also write the estimated elevation of the road, for ProVAL."},
+    Option{"--against",
+           "SURVEY.csv",
+           "Hold the trip beside a survey: pieces are the survey's rows that it drove over."},
+    Option{"--max-distance", "METRES", "Of the trip from the survey's line.", "8"},
+    Option{"--max-angle", "DEGREES", "Between both directions of driving.", "30"},
+    Option{"--unit", "UNIT", "Of the survey's IRI: mm/m or in/mi.", "mm/m"},
+    Option{"-o,--output", "FILE.svg", "Survey and trip as a figure."},
     Option{"--json", "", "An array of objects instead of CSV, with the same names."}};
 
 } // namespace

@@ -91,13 +91,6 @@ TripUse with_rates(TripUse use, const TripLog& trip, const StretchSpan& span) {
     return use;
 }
 
-/// How far the antenna sits ahead of the centre of gravity. The log counts from the front axle,
-/// which a car with one axle has under its centre of gravity.
-double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
-    const double front_m = vehicle.axles ? vehicle.axles->cg_to_front_m : 0;
-    return meta.gnss_antenna_pos_m ? front_m - meta.gnss_antenna_pos_m->front() : 0;
-}
-
 /// The matched way of the centre of gravity, which reaches a place so much travel after the
 /// antenna.
 MatchedTrace behind_antenna(MatchedTrace matched, double ahead_m) {
@@ -197,6 +190,11 @@ std::string spoken_emptiness(const IriTrace& roughness, const MatchedTrace& matc
 }
 
 } // namespace
+
+double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
+    const double front_m = vehicle.axles ? vehicle.axles->cg_to_front_m : 0;
+    return meta.gnss_antenna_pos_m ? front_m - meta.gnss_antenna_pos_m->front() : 0;
+}
 
 void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels) {
     const bool vertical = was_sampled(trip, mounting, Axis::vertical);

@@ -40,6 +40,10 @@ void expect_channels(const TripLog& trip, const Mounting& mounting, Channels cha
 std::vector<std::string>
 warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting);
 
+/// How far the antenna sits ahead of the centre of gravity. The log counts from the front axle,
+/// which a car with one axle has under its centre of gravity.
+double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle);
+
 /// The engine alone: what one trip says of the road along its own travel. No map.
 TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config);
 

@@ -109,13 +109,29 @@ std::string stroke_of(ChartLine::Look look, const Palette& colours) {
     case ChartLine::Look::faint:
         return fmt::format("stroke=\"#{:06x}\" stroke-width=\"1.2\" stroke-dasharray=\"2 3\"",
                            colours.quiet_ink);
+    case ChartLine::Look::dots:
+        return "stroke=\"#0a5fb4\" stroke-width=\"4\" stroke-opacity=\"0.5\" "
+               "stroke-linecap=\"round\" stroke-dasharray=\"0 40\"";
     case ChartLine::Look::solid:
         break;
     }
     return fmt::format("stroke=\"#{:06x}\" stroke-width=\"1.6\"", colours.ink);
 }
 
+std::string dots_svg(const ChartLine& line, const Axes& axes) {
+    std::string svg = "<g fill=\"#0a5fb4\" fill-opacity=\"0.5\">\n";
+    for (std::size_t i = 0; i < line.x.size(); ++i) {
+        svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"/>\n",
+                           axes.x(line.x[i]),
+                           axes.y(line.y[i]));
+    }
+    return svg + "</g>\n";
+}
+
 std::string line_svg(const ChartLine& line, const Axes& axes, const Palette& colours) {
+    if (line.look == ChartLine::Look::dots) {
+        return dots_svg(line, axes);
+    }
     std::string points;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
         points += fmt::format("{:.1f},{:.1f} ", axes.x(line.x[i]), axes.y(line.y[i]));
@@ -131,6 +147,9 @@ std::string legend_svg(const ChartPanel& panel, double down, const Palette& colo
     double x = left;
     std::string svg;
     for (const auto& line : panel.lines) {
+        if (line.name.empty()) {
+            continue;
+        }
         svg += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n",
                            x,
                            y,

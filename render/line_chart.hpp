@@ -8,9 +8,9 @@ namespace macadam {
 
 /// One line of a chart: points (x, y) in the order of drawing, as many of both.
 struct ChartLine {
-    enum class Look : unsigned char { solid, dashed, faint };
+    enum class Look : unsigned char { solid, dashed, faint, dots };
 
-    std::string name; ///< in the legend
+    std::string name; ///< in the legend; empty: not there
     std::vector<double> x;
     std::vector<double> y;
     Look look = Look::solid; ///< told apart without colour

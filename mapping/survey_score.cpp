@@ -1,0 +1,77 @@
+#include "mapping/survey_score.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace macadam {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_end = std::numeric_limits<double>::infinity();
+constexpr std::array band_edges{0.0, 2.0, 4.0, 6.0, 12.0, no_end};
+
+/// Sums of squares about the means.
+struct Spread {
+    double survey = 0;
+    double trip = 0;
+    double both = 0;
+};
+
+Spread spread_of(std::span<const SurveyPair> pairs, const SurveyScore& score) {
+    Spread spread;
+    for (const auto& pair : pairs) {
+        const double survey = pair.survey - score.mean_survey;
+        const double trip = pair.trip - score.mean_trip;
+        spread.survey += survey * survey;
+        spread.trip += trip * trip;
+        spread.both += survey * trip;
+    }
+    return spread;
+}
+
+} // namespace
+
+SurveyScore score_of(std::span<const SurveyPair> pairs) {
+    SurveyScore score{.pieces = pairs.size()};
+    double squares = 0;
+    double held = 0;
+    for (const auto& pair : pairs) {
+        score.mean_survey += pair.survey;
+        score.mean_trip += pair.trip;
+        squares += (pair.trip - pair.survey) * (pair.trip - pair.survey);
+        held += pair.low <= pair.survey && pair.survey <= pair.high ? 1 : 0;
+    }
+    const auto count = static_cast<double>(pairs.size());
+    score.mean_survey = count > 0 ? score.mean_survey / count : none;
+    score.mean_trip = count > 0 ? score.mean_trip / count : none;
+    score.bias = score.mean_trip - score.mean_survey;
+    score.rmse = count > 0 ? std::sqrt(squares / count) : none;
+    score.coverage = count > 0 ? held / count : none;
+    const auto spread = spread_of(pairs, score);
+    const double of_error = spread.survey + spread.trip - 2 * spread.both;
+    score.sd = count > 1 ? std::sqrt(std::max(0.0, of_error) / (count - 1)) : none;
+    score.correlation = spread.survey > 0 && spread.trip > 0
+                            ? spread.both / std::sqrt(spread.survey * spread.trip)
+                            : none;
+    return score;
+}
+
+std::vector<SurveyScore> scores_by_band(std::span<const SurveyPair> pairs) {
+    std::vector<SurveyScore> scores;
+    for (std::size_t band = 0; band + 1 < band_edges.size(); ++band) {
+        std::vector<SurveyPair> part;
+        std::ranges::copy_if(pairs, std::back_inserter(part), [&](const SurveyPair& pair) {
+            return band_edges[band] <= pair.survey && pair.survey < band_edges[band + 1];
+        });
+        if (!part.empty()) {
+            scores.push_back(score_of(part));
+            scores.back().from_mm_per_m = band_edges[band];
+            scores.back().to_mm_per_m = band_edges[band + 1];
+        }
+    }
+    return scores;
+}
+
+} // namespace macadam
