@@ -255,10 +255,13 @@ void run_convert(const Arguments& arguments, const Console& console) {
         refuse_to_replace(task.output, inputs);
     }
     if (const auto failed = convert_all(all, options, console); failed > 0) {
-        throw InputError{fmt::format("{} of {} could not be converted; the others are in {}",
-                                     failed,
-                                     counted(all.tasks.size() + all.refused.size(), "trip"),
-                                     options.output.string())};
+        const auto trips = all.tasks.size() + all.refused.size();
+        throw InputError{fmt::format(
+            "{} of {} could not be converted{}",
+            failed,
+            counted(trips, "trip"),
+            failed == trips ? std::string{}
+                            : fmt::format("; the others are in {}", options.output.string()))};
     }
 }
 

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -198,7 +199,18 @@ std::string geojson_of(const MatchedTrace& trace, const RoadNetwork& roads) {
     return collection.text() + "\n";
 }
 
-std::string spoken(const MatchedTrace& trace) {
+/// How much of a piece nobody drove, because the recording was paused and the places jumped.
+double paused_within_m(const MatchedPiece& piece, const Odometer& odometer) {
+    double paused_m = 0;
+    for (const auto& pause : odometer.pauses()) {
+        paused_m += std::max(0.0,
+                             std::min(pause.to_m, piece.to_travel_m) -
+                                 std::max(pause.from_m, piece.from_travel_m));
+    }
+    return paused_m;
+}
+
+std::string spoken(const MatchedTrace& trace, const Odometer& odometer) {
     double on_m = 0;
     double off_m = 0;
     double gap_m = 0;
@@ -206,7 +218,7 @@ std::string spoken(const MatchedTrace& trace) {
         auto& sum_m = piece.kind == PieceKind::road  ? on_m
                       : piece.kind == PieceKind::gap ? gap_m
                                                      : off_m;
-        sum_m += piece.to_travel_m - piece.from_travel_m;
+        sum_m += piece.to_travel_m - piece.from_travel_m - paused_within_m(piece, odometer);
     }
     return fmt::format("{:.2f} km on roads, {:.2f} km off the network, {:.2f} km in gaps",
                        on_m / 1000,
@@ -234,15 +246,17 @@ void run_match(const Arguments& arguments, const Console& console) {
     const auto trip =
         with_latency(read_trip(source, needs_of_match(), console.progress("reading")), warnings);
 
-    const auto trace = naming(source.name(), [&] {
+    const auto [trace, summary] = naming(source.name(), [&] {
         auto use = unused(trip);
         const auto odometer = make_odometer(trip, {}, use);
-        return map_match(trip, odometer, roads, {}, use);
+        auto matched = map_match(trip, odometer, roads, {}, use);
+        auto words = spoken(matched, odometer);
+        return std::pair{std::move(matched), std::move(words)};
     });
     for (const auto& warning : warnings) {
         console.say(warning);
     }
-    console.say(spoken(trace));
+    console.say(summary);
 
     const bool geojson = options.output && options.output->extension() == ".geojson";
     const auto text = options.arcs ? arcs_csv(trace, roads)

@@ -88,6 +88,16 @@ TEST(Convert, GoesOnAfterATripThatCannotBeRead) {
     EXPECT_FALSE(std::filesystem::exists(output / "bad.trip.csv.gz"));
 }
 
+TEST(Convert, SpeaksOfNoOthersWhereNoneCouldBeConverted) {
+    const auto folder = fresh_folder();
+    write_file(folder / "bad.trip.csv", "bumps\n");
+    write_file(folder / "worse.trip.csv", "dents\n");
+    const auto run =
+        run_macadam({"convert", folder.string(), "-o", (folder / "out").string() + "/"});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("2 of 2 trips could not be converted\n"));
+}
+
 TEST(Convert, RefusesToWriteOverWhatItReads) {
     const auto folder = fresh_folder();
     const auto log = (folder / "tiny.trip.csv").string();

@@ -13,6 +13,7 @@ namespace macadam::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
@@ -260,6 +261,28 @@ TEST(Program, MatchesARealTripToARoadOfItsOwn) {
     expect_done({"export", store.string(), "-o", roads, "--all"});
     const auto pieces = expect_done({"match", rav4, "--network", roads});
     EXPECT_THAT(pieces.out, HasSubstr(",road,"));
+}
+
+/// At 10 m/s for a minute, with a pause that only shows as a jump of 800 m in its middle.
+std::string log_with_a_hidden_pause() {
+    constexpr double deg_per_m = 1 / 111320.0; // of longitude, near the equator
+    std::string log = "# macadam-trip 1\nt_s,speed_mps,lat_deg,lon_deg\n";
+    for (int i = 0; i <= 600; ++i) {
+        const double east_m = i + (i > 300 ? 800 : 0);
+        log += i % 10 == 0 ? fmt::format("{:.1f},10,0.5,{:.8f}\n", i / 10.0, 6 + east_m * deg_per_m)
+                           : fmt::format("{:.1f},10,,\n", i / 10.0);
+    }
+    return log + "# end rows: 601\n";
+}
+
+TEST(Program, MatchesNoWayToAPauseOfTheRecording) {
+    const auto folder = fresh_folder();
+    const auto store = store_of_rav4(folder).string(); // in California, far off
+    write_file(folder / "paused.trip.csv", log_with_a_hidden_pause());
+    const auto run =
+        expect_done({"match", (folder / "paused.trip.csv").string(), "--network", store});
+    // 600 m were driven, and it is known to a second or so when the pause was.
+    EXPECT_THAT(run.err, ContainsRegex("0\\.(59|60|61) km off the network"));
 }
 
 TEST(Program, MatchesATripToTheRoadsOfAStoreButMakesNoStoreOfOne) {
