@@ -18,7 +18,7 @@
 namespace macadam {
 namespace {
 
-constexpr double known_after_s = 60; // then mounting and channels are judged for the first time
+constexpr double judged_every_s = 60; // mounting, wheels and channels, when there is enough to say
 
 TraceRow row_of(const LiveRow& row) {
     return {.from_m = row.from_m,
@@ -95,6 +95,16 @@ public:
         }
     }
 
+    void look_at(const std::vector<LiveRow>& rows, Channels channels, const Console& console) {
+        const bool lateral = std::ranges::any_of(rows, [](const LiveRow& row) {
+            return (row.mean.validity & validity::indicative) != 0;
+        });
+        if (lateral && channels != Channels::lateral && said_.insert("lateral").second) {
+            console.warn("no vertical acceleration: estimated from the lateral one alone, which is "
+                         "far less accurate");
+        }
+    }
+
 private:
     std::set<std::string> said_; ///< up to the first number, which may waver
     bool latency_said_ = false;
@@ -132,20 +142,26 @@ void trace_live(const std::filesystem::path& trip,
     LeftOut left_out;
     SaidOnce said;
     std::size_t told = 0;
+    const auto say = [&](const std::vector<LiveRow>& rows) {
+        told += tell(rows, json);
+        said.look_at(rows, config.estimator.channels, console);
+    };
     std::optional<double> judge_s;
-    naming(feed.name(), [&] {
-        while (const auto samples = feed.next()) {
-            left_out.look_at(*samples, feed, console);
-            told += tell(live.add(*samples), json);
-            judge_s = judge_s || !live.ruler().odometer ? judge_s : live.now_s() + known_after_s;
+    while (const auto samples = feed.next()) {
+        left_out.look_at(*samples, feed, console);
+        naming(feed.name(), [&] {
+            say(live.add(*samples));
+            judge_s = judge_s || !live.ruler().odometer ? judge_s : live.now_s() + judged_every_s;
             if (judge_s && live.now_s() >= *judge_s) {
                 said.look_at(live, config.estimator.channels, console);
-                judge_s = live.now_s() + known_after_s;
+                judge_s = live.now_s() + judged_every_s;
             }
-        }
+        });
+    }
+    naming(feed.name(), [&] {
         said.look_at(live, config.estimator.channels, console);
+        say(live.finish());
     });
-    told += tell(live.finish(), json);
     left_out.summarise(feed, live.dropped(), console);
     if (!feed.closed()) {
         console.warn(fmt::format("{}: the log ends here after {}, without '# end rows: N'",

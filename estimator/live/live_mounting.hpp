@@ -8,8 +8,8 @@
 namespace macadam {
 
 /// How the sensor hangs, by what it felt so far: means of quarters of a second over the last hour.
-/// Level is good to about a degree after half a minute of driving; the heading, where it is to be
-/// found at all, takes eight times braking or driving off.
+/// Level is good to about two degrees after half a minute of driving; the heading, where it is to
+/// be found at all, takes eight times braking or driving off.
 class LiveMounting {
 public:
     explicit LiveMounting(TripMeta meta);

@@ -210,10 +210,12 @@ void LiveRoughness::extend(const TripLog& recent,
 
 /// Whole metres of `found` as far as it is final.
 void LiveRoughness::keep(const IriRun& found, double to_m) {
-    if (!alike(trace_.runs.back(), found)) {
-        const double start_m = end_m(trace_.runs.back());
-        trace_.runs.push_back(
-            empty_like(found, start_m, std::max(0.0, lead_in_until_m_ - start_m)));
+    const double end = end_m(trace_.runs.back());
+    if (found.start_travel_m > end + 1) { // a channel was silent for longer than a window
+        lead_in_until_m_ = found.start_travel_m + found.lead_in_m;
+        trace_.runs.push_back(empty_like(found, found.start_travel_m, found.lead_in_m));
+    } else if (!alike(trace_.runs.back(), found)) {
+        trace_.runs.push_back(empty_like(found, end, std::max(0.0, lead_in_until_m_ - end)));
     }
     auto& run = trace_.runs.back();
     run.common_sd = found.common_sd;

@@ -11,9 +11,9 @@ namespace macadam {
 
 /// How much of the road behind is smoothed again to say something of a few metres.
 struct LiveWindow {
-    double length_m = 250;
+    double length_m = 400;
     double least_s = 8;
-    double longest_s = 25; ///< of slow driving, where 250 m are many samples
+    double longest_s = 25; ///< of slow driving, where 400 m are many samples
 };
 
 /// Roughness by a window that follows the car: each time the method is run over the last

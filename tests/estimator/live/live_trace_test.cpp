@@ -89,7 +89,7 @@ TEST(LiveTrace, TellsShortRowsInTime) {
 }
 
 TEST(LiveTrace, TellsLongRowsInTime) {
-    const auto lags_s = lags_of(humming_trip(120, steady), filter_config(500));
+    const auto lags_s = lags_of(humming_trip(60, steady), filter_config(250));
     EXPECT_THAT(lags_s, SizeIs(4));
     EXPECT_THAT(lags_s, Each(Le(most_lag_s)));
 }
@@ -174,7 +174,7 @@ TEST(LiveTrace, TellsOfAGapInTimeWhileSpeedsGoOn) {
 
 TEST(LiveTrace, KeepsSamplesOfAFewMinutesOnly) {
     std::size_t most = 0;
-    told_live(humming_trip(600, [](double) { return 4.0; }),
+    told_live(humming_trip(240, [](double) { return 4.0; }),
               car(),
               filter_config(),
               [&](const LiveTrace& live, const std::vector<LiveRow>&) {
