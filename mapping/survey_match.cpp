@@ -95,6 +95,12 @@ bool goes_on(const Met& before, double travel_m, const PlaceOnLeg& place, double
            std::abs(apart_m) <= 2 * max_distance_m + (travel_m - before.travel_m) / 4;
 }
 
+/// Before a line and behind it its end is the nearest place of it, but not where the trip was.
+bool is_end(const PlaceOnLeg& place, const SurveyLine& line) {
+    return place.station_m <= line.pieces.front().from_m ||
+           place.station_m >= line.pieces.back().to_m;
+}
+
 /// The nearest place within the limits; where two are about as near, the one that goes on.
 std::optional<PlaceOnLeg> place_of(const Sample& sample,
                                    const std::optional<Met>& before,
@@ -105,7 +111,7 @@ std::optional<PlaceOnLeg> place_of(const Sample& sample,
     double least = 0;
     for (const std::size_t leg : index.near(sample.at)) {
         const auto place = nearest_on(lines.legs[leg], sample.at);
-        if (place.distance_m > config.max_distance_m ||
+        if (place.distance_m > config.max_distance_m || is_end(place, lines.lines[place.line]) ||
             !runs_alike(lines.legs[leg].course, sample.course, config.max_angle_deg)) {
             continue;
         }

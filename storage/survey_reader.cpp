@@ -18,8 +18,9 @@
 namespace macadam {
 namespace {
 
-constexpr double longest_piece_m = 2000; // of a row; surveys have 10 to 100 m
-constexpr double most_mm_per_m = 1000;   // no road that a car can drive
+constexpr double shortest_piece_m = 0.1; // of a row; surveys have 10 to 100 m
+constexpr double longest_piece_m = 2000;
+constexpr double most_mm_per_m = 1000; // no road that a car can drive
 
 enum Column : std::uint8_t { lat, lon, from, to, iri, left, right, mri, hri, column_count };
 
@@ -107,8 +108,8 @@ std::optional<double> length_of(const Cells& cells) {
         return std::nullopt;
     }
     const double length_m = std::abs(*to_m - *from_m); // driven against its stations, they fall
-    if (!(length_m > 0 && length_m <= longest_piece_m)) {
-        throw cells.refusal(to, "another station than from_m, at most 2000 m from it");
+    if (!(length_m >= shortest_piece_m && length_m <= longest_piece_m)) {
+        throw cells.refusal(to, "a station 0.1 to 2000 m from from_m");
     }
     return length_m;
 }

@@ -5,6 +5,7 @@
 namespace macadam::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -43,6 +44,30 @@ TEST(LineChart, StacksItsPanels) {
     const auto svg = line_charts_svg(panels);
     EXPECT_THAT(svg, HasSubstr("viewBox=\"0 0 720 680\""));
     EXPECT_THAT(svg, HasSubstr("704.0,400.0 ")); // 340 below the first's
+}
+
+TEST(LineChart, SetsDotsWhereTheAxesSay) {
+    auto panel = panel_of({0, 50, 100});
+    panel.lines.front().look = ChartLine::Look::dots;
+    const std::vector panels{panel};
+    EXPECT_THAT(line_charts_svg(panels),
+                AllOf(HasSubstr("<circle cx=\"385.0\" cy=\"173.0\""), Not(HasSubstr("points="))));
+}
+
+TEST(LineChart, LeavesLinesWithoutANameOutOfTheLegend) {
+    auto panel = panel_of({0, 50, 100});
+    const std::vector named{panel};
+    panel.lines.push_back({"", {0, 10}, {1, 2}, ChartLine::Look::solid});
+    const std::vector both{panel};
+    const auto lines_of = [](const std::string& svg) {
+        std::size_t count = 0;
+        for (auto at = svg.find("<line "); at != std::string::npos;
+             at = svg.find("<line ", at + 1)) {
+            ++count;
+        }
+        return count;
+    };
+    EXPECT_EQ(lines_of(line_charts_svg(both)), lines_of(line_charts_svg(named)));
 }
 
 TEST(LineChart, OfZerosIsALineOnTheAxis) {

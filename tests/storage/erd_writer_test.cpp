@@ -14,6 +14,7 @@
 using namespace macadam;
 using namespace macadam::testing;
 using ::testing::EndsWith;
+using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 namespace {
@@ -91,6 +92,15 @@ TEST(ErdWriter, WritesTheHeadOfTheSpecification) {
               "END\n"
               "         1.0000         0.0000\n"
               "        -2.0000      1000.0000\n");
+}
+
+TEST(ErdWriter, WritesRemarksThatReadersPassOver) {
+    const auto file = test_folder() / "a.erd";
+    auto profile = two_tracks(20);
+    profile.remarks = {"one\nline", "END of no header"};
+    write_erd(file, profile);
+    EXPECT_THAT(text_of(file), HasSubstr("HISTORY one line\nHISTORY END of no header\n"));
+    EXPECT_EQ(read_profile(file, {}).tracks[0].elevation_m.size(), 20U);
 }
 
 TEST(ErdWriter, LeavesNoFileOfElevationsThatAreNone) {
