@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace macadam::testing {
 
@@ -162,6 +163,33 @@ Response measured_response(const ImuReadings& readings, double hz, double from_s
         s *= 2.0 / count;
     }
     return sum;
+}
+
+RoadUnderWheels level_road(double left_m, double right_m) {
+    RoadUnderWheels road;
+    road.left_m.assign(2000, static_cast<float>(left_m));
+    road.right_m.assign(2000, static_cast<float>(right_m));
+    return road;
+}
+
+double acc(const ImuReadings& readings, std::size_t i, std::size_t axis) {
+    return static_cast<double>(readings.acc_mps2[i][axis]);
+}
+
+double gyro(const ImuReadings& readings, std::size_t i, std::size_t axis) {
+    return static_cast<double>(readings.gyro_radps[i][axis]);
+}
+
+Motion even_motion(double speed_mps, double acc_mps2, double yaw_rate_radps, double duration_s) {
+    Motion motion = steady_motion(speed_mps, duration_s);
+    motion.acc_mps2.assign(motion.acc_mps2.size(), acc_mps2);
+    motion.yaw_rate_radps.assign(motion.acc_mps2.size(), yaw_rate_radps);
+    return motion;
+}
+
+double rms(const std::vector<double>& values) {
+    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                     static_cast<double>(values.size()));
 }
 
 } // namespace macadam::testing

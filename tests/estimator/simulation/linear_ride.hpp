@@ -4,6 +4,7 @@
 
 #include <array>
 #include <complex>
+#include <vector>
 
 namespace macadam::testing {
 
@@ -16,8 +17,21 @@ ImuRecipe perfect_imu(double rate_hz = 100);
 /// Constant speed, straight on.
 Motion steady_motion(double speed_mps, double duration_s);
 
+/// The same with one acceleration and one rate of turn, as they are where a tenth of a second has
+/// one value.
+Motion even_motion(double speed_mps, double acc_mps2, double yaw_rate_radps, double duration_s);
+
 /// A road of sines of one height, the right track's `right_phase` radians ahead of the left's.
 RoadUnderWheels sine_road(double length_m, double wave_m, double height_m, double right_phase);
+
+/// 100 m without a wave, each track at its own height.
+RoadUnderWheels level_road(double left_m = 0, double right_m = 0);
+
+/// One reading of one axis: m/s2 of acceleration, rad/s of turn.
+double acc(const ImuReadings& readings, std::size_t i, std::size_t axis);
+double gyro(const ImuReadings& readings, std::size_t i, std::size_t axis);
+
+double rms(const std::vector<double>& values);
 
 /// Complex amplitudes of what a sensor feels: acceleration x, y, z, then rates of turn x, y, z.
 using Response = std::array<std::complex<double>, 6>;
