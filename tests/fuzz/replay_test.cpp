@@ -96,6 +96,10 @@ TEST(Fuzz, TruthCsvSurvivesEverySeedAndFinding) {
     survives(truth_csv, "truth_csv");
 }
 
+TEST(Fuzz, SurveyCsvSurvivesEverySeedAndFinding) {
+    survives(survey_csv, "survey_csv");
+}
+
 TEST(Fuzz, OsmXmlSurvivesEverySeedAndFinding) {
     survives(osm_xml, "osm_xml");
 }

@@ -3,8 +3,10 @@
 #include "fuzz/targets.hpp"
 
 #include "estimator/iri.hpp"
+#include "mapping/survey_match.hpp"
 #include "storage/profile_reader.hpp"
 #include "storage/recipe_file.hpp"
+#include "storage/survey_reader.hpp"
 #include "storage/truth_file.hpp"
 #include "storage/vehicle_file.hpp"
 
@@ -72,6 +74,21 @@ void truth_csv(std::string_view input) {
         expect(std::ranges::adjacent_find(truth, std::greater_equal{}, &SegmentTruth::key) ==
                    truth.end(),
                "segments rise");
+    });
+}
+
+void survey_csv(std::string_view input) {
+    may_refuse([&] {
+        const auto survey = read_survey(input_file("survey.csv", input));
+        expect(survey.size() >= 2, "a survey has two rows");
+        std::vector<TripPlaceAt> trip;
+        for (const auto& row : survey) {
+            trip.push_back({row.at, 20 * static_cast<double>(trip.size())});
+        }
+        for (const auto& pass : match_survey(survey, trip, {})) {
+            expect(pass.row < survey.size(), "a pass is of a row");
+            expect(pass.from_m < pass.to_m, "a piece has a length");
+        }
     });
 }
 

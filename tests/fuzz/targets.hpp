@@ -24,6 +24,7 @@ void profile_txt(std::string_view input);
 void profile_erd(std::string_view input); ///< the header, and perhaps its numbers in a .bin
 void profile_pro(std::string_view input);
 void truth_csv(std::string_view input);
+void survey_csv(std::string_view input); ///< and a trip along it
 void osm_xml(std::string_view input);
 void osm_pbf(std::string_view input);
 void line_layer(std::string_view input); ///< GeoJSON, by GDAL
