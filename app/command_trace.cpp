@@ -246,6 +246,7 @@ const Command trace_command{
         "start_up (the first 60 m of a stretch), gap. indicative: from lateral vibration alone.",
     .example = "  macadam trace drive.trip.csv.gz --vehicle my_car.toml > iri.csv\n"
                "  macadam trace drive.trip.csv --length 100 --json\n"
+               "  macadam trace drive.trip.csv --against laser.csv -o both.svg\n"
                "  sensor-program | macadam trace --live -",
     .operands = operands,
     .options = options,
