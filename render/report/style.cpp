@@ -66,7 +66,7 @@ figure{margin:1rem 0}
 img{display:block;width:100%;height:auto;border:1px solid var(--rule);border-radius:.4rem}
 .scale{display:flex;align-items:center;gap:.5rem;margin-bottom:.3rem;color:var(--ink)}
 .scale span{height:.45rem;border:1px solid var(--ink);border-top:0}
-.dark{display:none}
+.dark,.phone{display:none}
 .cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,18rem),1fr));gap:1.25rem;margin:1.2rem 0}
 .cards figure{margin:0}
 figcaption{font-size:.875rem;line-height:1.4;font-variant-numeric:tabular-nums;margin-top:.45rem;overflow-wrap:anywhere}
@@ -76,7 +76,7 @@ a{color:inherit}
 )";
 
 constexpr const char* on_a_phone = R"(
-@media screen and (max-width:44rem){.else{display:none}}
+@media screen and (max-width:44rem){.else{display:none}.phone{display:inline}}
 @media (max-width:34rem){table{font-size:.8125rem}th,td{padding:.35rem .4rem}.share{width:5rem}
 .key{grid-template-columns:1fr 1fr;gap:.5rem}.key div{padding:.55rem .65rem}.key b{font-size:1.25rem}}
 )";

@@ -57,7 +57,8 @@ std::string card_of(const ReportStretch& of, std::size_t rank) {
     const auto name = escaped(name_of(stretch));
     const auto alt = fmt::format("Map of stretch {}: {}", rank, name);
     return fmt::format("<figure id=\"stretch-{}\">{}<figcaption><h3>{} · {}, towards {}</h3>"
-                       "<b>IRI {}</b> ({}) over {:.0f} m, at worst {}<br>{} {} by {}<br>"
+                       "<b>IRI {}</b> ({}) over {:.0f} m<span class=\"phone\">, at worst "
+                       "{}<br>{} {} by {}</span><br>"
                        "Way {}<br>Middle {:.5f}, {:.5f}<br>{}</figcaption></figure>\n",
                        rank,
                        picture_html(of.map, alt),

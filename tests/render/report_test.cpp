@@ -255,7 +255,8 @@ TEST(Report, SaysOnTheMapsOfStretchesWhatItsTableLeavesOutOnPhones) {
     EXPECT_THAT(between(html, "<th scope=\"col\" class=\"n else\">", "</th>"),
                 ElementsAre("in/mi", "90&nbsp;% interval", "Worst segment", "Passes", "Cars"));
     EXPECT_THAT(html,
-                HasSubstr("(3.74 – 5.38) over 140 m, at worst 7.89<br>2 – 5 passes by 3 cars<br>"));
+                HasSubstr("(3.74 – 5.38) over 140 m<span class=\"phone\">, at worst 7.89<br>2 – 5 "
+                          "passes by 3 cars</span>"));
 }
 
 TEST(Report, NamesEachValueOfACarWherePhonesHaveNoRoomForItsTitles) {
