@@ -9,6 +9,7 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -129,6 +130,70 @@ TEST_F(Simulate, IsFoundAgainByAnImport) {
     const auto json = run_macadam({"info", store, "--json", "--truth", at("fleet/truth.csv")});
     EXPECT_THAT(json.out, HasSubstr("\"truth\":{\"all\":{\"segments\":"));
     EXPECT_THAT(json.out, HasSubstr("\"rmse_100m\":"));
+}
+
+/// Cells of a table, but for its header.
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines{csv};
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream cells{line};
+        rows.emplace_back();
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            rows.back().push_back(cell);
+        }
+    }
+    rows.erase(rows.begin());
+    return rows;
+}
+
+/// The number behind the first "NAME": of a JSON text.
+double number_in(const std::string& json, const std::string& name) {
+    return std::stod(json.substr(json.find("\"" + name + "\":") + name.size() + 3));
+}
+
+/// The driven segments as a survey: their middles and true MRI, each way in driving order.
+std::string survey_text(const std::string& exported, const std::string& truth) {
+    std::map<std::string, std::string> mri;
+    for (const auto& row : rows_of(truth)) {
+        mri[row[0]] = row[7];
+    }
+    std::string rows;
+    std::string backward; // their segments count against the drive
+    for (const auto& row : rows_of(exported)) {
+        const bool forward = row[4] == "forward";
+        const auto line =
+            row[21] + "," + row[22] + "," + row[5] + "," + row[6] + "," + mri.at(row[0]) + "\n";
+        rows += forward ? line : "";
+        backward = forward ? backward : line + backward;
+    }
+    return "lat_deg,lon_deg,from_m,to_m,mri\n" + rows + backward;
+}
+
+/// By two roads: map matching and the store's segments, and the survey's line. Every trip's passes
+/// count here and their mean there, and borders differ by the receiver's error.
+TEST_F(Simulate, IsAsNearToItsTruthHeldBesideASurveyAsInAStore) {
+    write_file(folder_ / "recipe.toml",
+               "[trips]\ncount = 1\nlength_km = [2.4, 2.6]\nstop_share = 0\n[[car]]\nid = "
+               "\"one\"\n");
+    ASSERT_EQ(simulate("fleet").exit_status, 0);
+    const auto store = at("roads.gpkg");
+    const auto trip = at("fleet/trips/one-0001.trip.csv.gz");
+    const auto truth = at("fleet/truth.csv");
+    ASSERT_EQ(run_macadam({"init", store, "--network", at("fleet/network.osm.pbf")}).exit_status,
+              0);
+    ASSERT_EQ(run_macadam({"import", store, trip, "--method", "kf"}).exit_status, 0);
+    ASSERT_EQ(run_macadam({"export", store, "-o", at("segments.csv")}).exit_status, 0);
+    const auto info = run_macadam({"info", store, "--json", "--truth", truth}).out;
+    write_file(folder_ / "survey.csv",
+               survey_text(read_file(folder_ / "segments.csv"), read_file(truth)));
+    const auto held =
+        run_macadam({"trace", trip, "--method", "kf", "--against", at("survey.csv"), "--json"});
+    ASSERT_EQ(held.exit_status, 0) << held.err;
+    EXPECT_GT(number_in(held.out, "met"), 0.9 * number_in(held.out, "survey_rows"));
+    const auto in_store = info.substr(info.find("\"truth\""));
+    EXPECT_NEAR(number_in(held.out, "bias"), number_in(in_store, "bias"), 0.15);
+    EXPECT_NEAR(number_in(held.out, "rmse"), number_in(in_store, "rmse_20m"), 0.15);
 }
 
 TEST_F(Simulate, TakesANetworkThatIsNotOsm) {
