@@ -79,6 +79,7 @@ constexpr const char* on_a_phone = R"(
 @media screen and (max-width:44rem){.else{display:none}.phone{display:inline}}
 @media (max-width:34rem){table{font-size:.8125rem}th,td{padding:.35rem .4rem}.share{width:5rem}
 .key{grid-template-columns:1fr 1fr;gap:.5rem}.key div{padding:.55rem .65rem}.key b{font-size:1.25rem}}
+@media screen and (max-width:24rem){th,td{padding:.35rem .2rem}}
 )";
 
 constexpr const char* on_paper = R"(
