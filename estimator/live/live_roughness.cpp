@@ -58,7 +58,7 @@ IriRun empty_like(const IriRun& run, double start_m, double lead_in_m) {
 /// The value that holds at a place, of values that stand evenly from a run's start on.
 void push_at(const std::vector<float>& from, double index, std::vector<float>& to) {
     if (!from.empty()) {
-        const double last = static_cast<double>(from.size() - 1);
+        const auto last = static_cast<double>(from.size() - 1);
         to.push_back(from[static_cast<std::size_t>(std::clamp(index, 0.0, last))]);
     }
 }

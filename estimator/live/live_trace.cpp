@@ -58,7 +58,7 @@ std::optional<GeoPoint> place_at(const TripLog& trip, double t_s) {
 
 } // namespace
 
-LiveTrace::LiveTrace(TripMeta meta, Vehicle vehicle, LiveConfig config)
+LiveTrace::LiveTrace(const TripMeta& meta, Vehicle vehicle, const LiveConfig& config)
     : config_{config}, recent_{meta, vibration_s, motion_s}, mounting_{meta},
       roughness_{std::move(vehicle), config.stretch, config.estimator, config.window},
       looked_s_{-infinity}, looked_back_s_{-infinity}, scale_is_free_{!meta.speed_scale} {}

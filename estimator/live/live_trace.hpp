@@ -42,7 +42,7 @@ struct LiveRow {
 /// rate and by length_m, not by the trip.
 class LiveTrace {
 public:
-    LiveTrace(TripMeta meta, Vehicle vehicle, LiveConfig config);
+    LiveTrace(const TripMeta& meta, Vehicle vehicle, const LiveConfig& config);
 
     /// Takes samples in the order in which they come, and tells the rows that they complete.
     ///
