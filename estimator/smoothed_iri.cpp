@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace macadam {
@@ -26,6 +27,8 @@ constexpr double usual_height_m =
 // What linear cars leave of the readings beside sensor noise, over their rms within some seconds.
 constexpr double model_part = 0.02;
 constexpr double model_window_s = 4;
+
+constexpr double slope_window_s = 0.4; // of the speed: brakes bite within that
 
 // Of every IRI alike, what simulated cars leave: of a car that is known, and of one whose friction
 // had to be found, among dampers, bars and bushes that no vehicle file tells (docs/method.md).
@@ -63,6 +66,33 @@ std::vector<double> variance_of(const std::vector<double>& felt, double noise, d
     return variance;
 }
 
+/// Acceleration along the road, by the slope of the speed over a part of a second.
+std::vector<double> acceleration_mps2(const Stretch& stretch) {
+    const std::size_t n = stretch.speed_mps.size();
+    const auto reach = static_cast<std::size_t>(slope_window_s / 2 / stretch.step_s);
+    std::vector<double> slope(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t from = k - std::min(k, reach);
+        const std::size_t to = std::min(n - 1, k + reach);
+        slope[k] = static_cast<double>(stretch.speed_mps[to] - stretch.speed_mps[from]) /
+                   (stretch.step_s * static_cast<double>(std::max<std::size_t>(to - from, 1)));
+    }
+    return slope;
+}
+
+/// What leans on the car: braking where pitch was felt, bends where anything rolls.
+void add_pulls(Passage& passage, const Stretch& stretch) {
+    if (!passage.felt[3].empty()) {
+        passage.pull[0] = acceleration_mps2(stretch);
+        std::ranges::for_each(passage.pull[0], [](double& a) { a = -a; });
+    }
+    if (!stretch.yaw_radps.empty() && !(passage.felt[1].empty() && passage.felt[2].empty())) {
+        passage.pull[1].resize(stretch.yaw_radps.size());
+        std::ranges::transform(
+            stretch.yaw_radps, stretch.speed_mps, passage.pull[1].begin(), std::multiplies{});
+    }
+}
+
 /// The whole stretch as a passage, without cars.
 Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
     Passage passage;
@@ -89,6 +119,7 @@ Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const Estimat
         }
         passage.drift[1] = stretch.yaw_radps.empty() ? lateral_drift_without_yaw : zero_drift[1];
     }
+    add_pulls(passage, stretch);
     const double noise[] = {vehicle.imu.noise_mps2 / vehicle.gain,
                             vehicle.imu.noise_mps2 / vehicle.gain,
                             std::max(vehicle.imu.noise_radps, stretch.roll_noise_radps),
@@ -124,10 +155,14 @@ Passage piece_of(const Passage& whole, std::size_t from, std::size_t to) {
                   .travel_m = cut(whole.travel_m),
                   .felt = {},
                   .variance = {},
-                  .drift = whole.drift};
+                  .drift = whole.drift,
+                  .pull = {}};
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
         piece.felt[channel] = cut(whole.felt[channel]);
         piece.variance[channel] = cut(whole.variance[channel]);
+    }
+    for (std::size_t pull = 0; pull < pull_count; ++pull) {
+        piece.pull[pull] = cut(whole.pull[pull]);
     }
     return piece;
 }
@@ -230,7 +265,8 @@ IriRun smoothed_iri(const Stretch& stretch,
                     const TunedCar& car,
                     const EstimatorConfig& config,
                     const PieceConfig& pieces) {
-    const SmootherConfig smoother;
+    SmootherConfig smoother;
+    smoother.colour = car.colour;
     IriRun run{.start_travel_m = stretch.travel_m.empty() ? 0 : stretch.travel_m.front(),
                .cell_m = smoother.cell_m,
                .left_mm_per_m = {},

@@ -10,26 +10,34 @@ namespace macadam {
 CarSteps car_steps(const LinearCar& car, double step_s) {
     constexpr int n = LinearCar::states;
     constexpr int m = LinearCar::inputs;
+    constexpr int pulls = pull_count;
     const double part_s = step_s / CarSteps::parts;
-    // The inputs and their slopes join the states: C. F. Van Loan, "Computing integrals involving
-    // the matrix exponential", IEEE Transactions on Automatic Control 23 (1978), pp. 395-404.
-    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + 2 * m, n + 2 * m);
+    // The inputs, their slopes and the pulls join the states: C. F. Van Loan, "Computing integrals
+    // involving the matrix exponential", IEEE Transactions on Automatic Control 23 (1978), pp.
+    // 395-404.
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + 2 * m + pulls, n + 2 * m + pulls);
     whole.topLeftCorner(n, n) = car.a * part_s;
     whole.block(0, n, n, m) = car.b * part_s;
     whole.block(n, n + m, m, m).setIdentity();
+    whole.block(0, n + 2 * m, n, pulls) = car.lean * part_s;
     const Eigen::MatrixXd moved = exponential(whole);
     const Eigen::MatrixXd phi = moved.topLeftCorner(n, n);
     const Eigen::MatrixXd at_end = moved.block(0, n + m, n, m);
     const Eigen::MatrixXd at_begin = moved.block(0, n, n, m) - at_end;
+    const Eigen::MatrixXd lean = moved.block(0, n + 2 * m, n, pulls);
 
-    CarSteps steps{
-        .car = car, .step_s = step_s, .phi = decltype(CarSteps::phi)::Identity(), .node = {}};
+    CarSteps steps{.car = car,
+                   .step_s = step_s,
+                   .phi = decltype(CarSteps::phi)::Identity(),
+                   .node = {},
+                   .lean = decltype(CarSteps::lean)::Zero()};
     for (auto& columns : steps.node) {
         columns.setZero();
     }
     for (std::size_t part = CarSteps::parts; part-- > 0;) {
         steps.node[part + 1] += steps.phi * at_end;
         steps.node[part] += steps.phi * at_begin;
+        steps.lean += steps.phi * lean;
         steps.phi = steps.phi * phi;
     }
     return steps;

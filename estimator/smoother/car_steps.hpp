@@ -18,9 +18,11 @@ struct CarSteps {
     Eigen::Matrix<double, LinearCar::states, LinearCar::states> phi; ///< x[k+1] = phi x[k] + ...
     /// ... + sum of node[part] * inputs at the part's borders
     std::array<Eigen::Matrix<double, LinearCar::states, LinearCar::inputs>, parts + 1> node;
+    Eigen::Matrix<double, LinearCar::states, pull_count> lean; ///< ... + lean * arm * pull
 };
 
-/// Exact while the inputs are lines between the borders of the parts (first-order hold).
+/// Exact while the inputs are lines between the borders of the parts (first-order hold), and pulls
+/// are even over the step.
 CarSteps car_steps(const LinearCar& car, double step_s);
 
 /// What the elevations on a few stations of the road do to the car over one step: for each station

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -17,61 +18,75 @@ constexpr double most_friction_n = 120; // beyond, a suspension is stuck
 constexpr double friction_offset_n = 5; // found on simulated cars that have none (docs/method.md)
 constexpr double boldest = 2.5;         // of a step, in prior standard deviations
 constexpr int steps = 2;
+
+// Of the road's colour: waviness 1.6 to 2.6 asks for -0.3 to 0.6 (docs/smoother.md).
+constexpr double colour_sd = 0.4;
+constexpr double colour_step = 0.1;
+constexpr double least_colour = -0.3;
+constexpr double most_colour = 0.8;
 constexpr int first_rounds = 8; // from an even road
 constexpr int more_rounds = 3;  // from the level that was found
 
-/// A number of the vehicle that may be moved, as its logarithm.
-struct Parameter {
-    const char* name;
-    double& (*of)(Vehicle&);
+/// What is tuned: a car, and the colour of the road under it.
+struct Point {
+    Vehicle vehicle;
+    double friction_n = 0;
+    double colour = 0;
 };
 
-constexpr Parameter parameters[] = {
-    {"cs_ns_per_m", [](Vehicle& v) -> double& { return v.half_car.cs_ns_per_m; }},
-    {"ks_n_per_m", [](Vehicle& v) -> double& { return v.half_car.ks_n_per_m; }},
-    {"kt_n_per_m", [](Vehicle& v) -> double& { return v.half_car.kt_n_per_m; }},
-    {"ms_kg", [](Vehicle& v) -> double& { return v.half_car.ms_kg; }},
+/// A number that may be moved from 0, where it is what is stated or usual.
+struct Unknown {
+    void (*move)(Point&, double by);
+    double prior_sd;
+    double step; ///< of a finite difference
 };
+using Unknowns = std::vector<Unknown>;
 
-/// What is moved: the parameters that are uncertain.
-struct Unknowns {
-    std::vector<const Parameter*> moved;
-    Eigen::VectorXd prior_sd; ///< of their logarithms, about what is stated
-};
+template <double HalfCar::*parameter>
+void times_exp(Point& point, double by) {
+    point.vehicle.half_car.*parameter *= std::exp(by);
+}
 
-Unknowns unknowns_of(const Vehicle& vehicle) {
+void colour_by(Point& point, double by) {
+    point.colour = std::clamp(point.colour + by, least_colour, most_colour);
+}
+
+/// Car parameters that the vehicle calls uncertain.
+Unknowns of_car(const Vehicle& vehicle) {
+    constexpr std::pair<const char*, void (*)(Point&, double)> parameters[] = {
+        {"cs_ns_per_m", times_exp<&HalfCar::cs_ns_per_m>},
+        {"ks_n_per_m", times_exp<&HalfCar::ks_n_per_m>},
+        {"kt_n_per_m", times_exp<&HalfCar::kt_n_per_m>},
+        {"ms_kg", times_exp<&HalfCar::ms_kg>},
+    };
     Unknowns unknowns;
-    std::vector<double> sd;
-    for (const auto& parameter : parameters) {
-        const auto found = vehicle.uncertainty.find(parameter.name);
+    for (const auto& [name, move] : parameters) {
+        const auto found = vehicle.uncertainty.find(name);
         if (found != vehicle.uncertainty.end() && found->second > 0) {
-            unknowns.moved.push_back(&parameter);
-            sd.push_back(found->second);
+            unknowns.push_back({move, found->second, relative_step});
         }
     }
-    unknowns.prior_sd =
-        Eigen::Map<const Eigen::VectorXd>{sd.data(), static_cast<Eigen::Index>(sd.size())};
     return unknowns;
 }
 
-Vehicle moved(Vehicle vehicle, const Unknowns& unknowns, const Eigen::VectorXd& at) {
-    for (std::size_t i = 0; i < unknowns.moved.size(); ++i) {
-        unknowns.moved[i]->of(vehicle) *= std::exp(at[static_cast<Eigen::Index>(i)]);
+Point moved(Point point, const Unknowns& unknowns, const Eigen::VectorXd& by) {
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+        unknowns[i].move(point, by[static_cast<Eigen::Index>(i)]);
     }
-    return vehicle;
+    return point;
 }
 
 RoadEstimate run(const Passage& passage,
-                 const Vehicle& vehicle,
-                 double friction_n,
+                 const Point& point,
                  const SmootherConfig& config,
                  int rounds,
                  const RoadEstimate* begin) {
-    CarPassage car{passage, vehicle, friction_n};
-    car.passage.cars = cars_with_friction(vehicle, passage.cars.front().step_s);
+    CarPassage car{passage, point.vehicle, point.friction_n};
+    car.passage.cars = cars_with_friction(point.vehicle, passage.cars.front().step_s);
     auto once = config;
     once.rounds = rounds;
     once.settling = rounds - 1;
+    once.colour = point.colour;
     return smooth_passages({std::move(car)}, once, begin);
 }
 
@@ -91,7 +106,9 @@ struct Slope {
     Eigen::VectorXd iri;
 };
 
-Slope slope_at(const RoadEstimate& here, const std::vector<RoadEstimate>& beside) {
+Slope slope_at(const RoadEstimate& here,
+               const std::vector<RoadEstimate>& beside,
+               const Unknowns& unknowns) {
     const auto n = static_cast<Eigen::Index>(beside.size());
     const auto samples = static_cast<Eigen::Index>(here.innovation.size());
     Eigen::MatrixXd by_mean(samples, n);
@@ -101,14 +118,15 @@ Slope slope_at(const RoadEstimate& here, const std::vector<RoadEstimate>& beside
     const Eigen::Map<const Eigen::VectorXd> v{here.log_variance.data(), samples};
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto& other = beside[static_cast<std::size_t>(i)];
+        const double step = unknowns[static_cast<std::size_t>(i)].step;
         const Eigen::Map<const Eigen::VectorXd> e2{other.innovation.data(), samples};
         const Eigen::Map<const Eigen::VectorXd> v2{other.log_variance.data(), samples};
         // Innovations are over their own sd: what moves them is taken at the sd of here.
-        by_mean.col(i) = (e2.array() * ((v2 - v).array() / 2).exp() - e.array()) / relative_step;
-        by_spread.col(i) = (v2 - v) / relative_step;
+        by_mean.col(i) = (e2.array() * ((v2 - v).array() / 2).exp() - e.array()) / step;
+        by_spread.col(i) = (v2 - v) / step;
         slope.gradient[i] = -(e.array() * by_mean.col(i).array()).sum() -
                             (by_spread.col(i).array() * (1 - e.array().square())).sum() / 2;
-        slope.iri[i] = (mean_stroke(other) / mean_stroke(here) - 1) / relative_step;
+        slope.iri[i] = (mean_stroke(other) / mean_stroke(here) - 1) / step;
     }
     slope.information = by_mean.transpose() * by_mean + by_spread.transpose() * by_spread / 2;
     return slope;
@@ -121,15 +139,15 @@ struct Friction {
     double iri_per_n; ///< relative
 };
 
-Friction friction_of(const Passage& passage, const Vehicle& vehicle, const SmootherConfig& config) {
-    const double size = vehicle.half_car.ms_kg / usual_mass_kg;
+Friction friction_of(const Passage& passage, Point point, const SmootherConfig& config) {
+    const double size = point.vehicle.half_car.ms_kg / usual_mass_kg;
     const double step_n = friction_step_n * size;
     std::vector<RoadEstimate> at; // each from an even road, so that none is favoured
     const auto likelihood = [&](std::size_t i) { return at[i].log_likelihood; };
     while (at.size() < 3 || (likelihood(at.size() - 1) > likelihood(at.size() - 2) &&
                              static_cast<double>(at.size()) * step_n < most_friction_n * size)) {
-        const double force_n = static_cast<double>(at.size()) * step_n;
-        at.push_back(run(passage, vehicle, force_n, config, first_rounds, nullptr));
+        point.friction_n = static_cast<double>(at.size()) * step_n;
+        at.push_back(run(passage, point, config, first_rounds, nullptr));
     }
     const std::size_t last = at.size() - 1;
     const double rise = likelihood(last) - likelihood(last - 2);
@@ -142,59 +160,74 @@ Friction friction_of(const Passage& passage, const Vehicle& vehicle, const Smoot
             .iri_per_n = (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n)};
 }
 
-/// How a parameter's neighbourhood looks: the same road with one after the other moved.
+/// The likelihood about a point: the same road with one unknown after the other moved.
 Slope slope_about(const Passage& passage,
-                  const Vehicle& vehicle,
+                  const Point& at,
                   const Unknowns& unknowns,
-                  const Eigen::VectorXd& at,
-                  double friction_n,
                   const SmootherConfig& config,
                   RoadEstimate& here) {
     std::vector<RoadEstimate> beside;
-    for (Eigen::Index i = 0; i < at.size(); ++i) {
-        Eigen::VectorXd there = at;
-        there[i] += relative_step;
-        beside.push_back(
-            run(passage, moved(vehicle, unknowns, there), friction_n, config, more_rounds, &here));
+    for (const auto& unknown : unknowns) {
+        Point there = at;
+        unknown.move(there, unknown.step);
+        beside.push_back(run(passage, there, config, more_rounds, &here));
     }
-    // The point itself after as many rounds, so that only the parameters differ.
-    here = run(passage, moved(vehicle, unknowns, at), friction_n, config, more_rounds, &here);
-    return slope_at(here, beside);
+    // The point itself after as many rounds, so that only the unknowns differ.
+    here = run(passage, at, config, more_rounds, &here);
+    return slope_at(here, beside, unknowns);
+}
+
+/// Where the likelihood is highest, by Gauss-Newton from where nothing is moved.
+struct Peak {
+    Eigen::VectorXd by;
+    double iri_sd; ///< relative, of what stays unknown
+};
+
+Peak peak_about(const Passage& passage,
+                const Point& start,
+                const Unknowns& unknowns,
+                const SmootherConfig& config) {
+    const auto n = static_cast<Eigen::Index>(unknowns.size());
+    Eigen::VectorXd prior_sd(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        prior_sd[i] = unknowns[static_cast<std::size_t>(i)].prior_sd;
+    }
+    const Eigen::MatrixXd prior = prior_sd.array().square().inverse().matrix().asDiagonal();
+    Peak peak{Eigen::VectorXd::Zero(n), 0};
+    auto here = run(passage, start, config, first_rounds, nullptr);
+    for (int step = 0; step < steps && n > 0; ++step) {
+        const auto slope =
+            slope_about(passage, moved(start, unknowns, peak.by), unknowns, config, here);
+        const Eigen::MatrixXd left = (slope.information + prior).inverse();
+        const Eigen::VectorXd by = left * (slope.gradient - prior * peak.by);
+        const double bold = (by.array() / prior_sd.array()).abs().maxCoeff();
+        peak.by += by * std::min(1.0, boldest / std::max(bold, 1e-9));
+        peak.iri_sd = std::sqrt(slope.iri.dot(left * slope.iri));
+    }
+    return peak;
 }
 
 } // namespace
 
 TunedCar tuned_car(const Passage& passage, const Vehicle& vehicle, const SmootherConfig& config) {
+    Point point{.vehicle = vehicle, .friction_n = vehicle.half_car.friction_n.value_or(0)};
     TunedCar tuned{.vehicle = vehicle};
-    double variance = 0; // relative, of the IRI
-    if (vehicle.half_car.friction_n) {
-        tuned.friction_n = *vehicle.half_car.friction_n;
-    } else {
-        const auto friction = friction_of(passage, vehicle, config);
-        tuned.friction_n = friction.force_n;
+    const Unknowns road{{colour_by, colour_sd, colour_step}};
+    point = moved(point, road, peak_about(passage, point, road, config).by);
+    if (!vehicle.half_car.friction_n) {
+        const auto friction = friction_of(passage, point, config);
+        point.friction_n = friction.force_n;
         tuned.friction_sd_n = friction.sd_n;
-        variance += std::pow(friction.iri_per_n * friction.sd_n, 2);
+        tuned.iri_sd = std::abs(friction.iri_per_n * friction.sd_n);
     }
-    const auto unknowns = unknowns_of(vehicle);
-    if (!unknowns.moved.empty()) {
-        const Eigen::MatrixXd prior =
-            unknowns.prior_sd.array().square().inverse().matrix().asDiagonal();
-        Eigen::VectorXd at = Eigen::VectorXd::Zero(unknowns.prior_sd.size());
-        auto here = run(passage, vehicle, tuned.friction_n, config, first_rounds, nullptr);
-        for (int step = 0; step < steps; ++step) {
-            const auto slope =
-                slope_about(passage, vehicle, unknowns, at, tuned.friction_n, config, here);
-            const Eigen::MatrixXd left = (slope.information + prior).inverse();
-            const Eigen::VectorXd by = left * (slope.gradient - prior * at);
-            const double bold = (by.array() / unknowns.prior_sd.array()).abs().maxCoeff();
-            at += by * std::min(1.0, boldest / std::max(bold, 1e-9));
-            if (step + 1 == steps) {
-                variance += slope.iri.dot(left * slope.iri);
-            }
-        }
-        tuned.vehicle = moved(vehicle, unknowns, at);
-    }
-    tuned.iri_sd = std::sqrt(variance);
+    auto unknowns = of_car(vehicle);
+    unknowns.insert(unknowns.end(), road.begin(), road.end());
+    const auto peak = peak_about(passage, point, unknowns, config);
+    point = moved(point, unknowns, peak.by);
+    tuned.vehicle = point.vehicle;
+    tuned.friction_n = point.friction_n;
+    tuned.colour = point.colour;
+    tuned.iri_sd = std::hypot(tuned.iri_sd, peak.iri_sd);
     return tuned;
 }
 

@@ -9,6 +9,7 @@ struct TunedCar {
     Vehicle vehicle;       ///< its stated parameters moved by what was found
     double friction_n = 0; ///< of each suspension
     double friction_sd_n = 0;
+    double colour = 0; ///< of the road on which it was tuned: RoadPrior's
     double iri_sd = 0; ///< relative, of every IRI of the car alike: what is left of it, together
 };
 

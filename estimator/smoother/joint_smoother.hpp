@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/smoother/noise_level.hpp"
 #include "estimator/smoother/road_level.hpp"
 #include "estimator/vehicle.hpp"
 
@@ -10,6 +11,7 @@ struct SmootherConfig {
     int rounds = 12;  ///< of adaptation of the road's level
     int settling = 5; ///< of these before the draws count
     std::uint64_t seed = 1;
+    double colour = 0; ///< of the road: RoadPrior's
 };
 
 /// A passage and whose it is.
@@ -32,6 +34,7 @@ struct RoadEstimate {
     std::vector<std::vector<float>> tracks_scatter, centre_scatter;
     RoadLevel level;
     std::vector<std::vector<std::uint8_t>> which; ///< of the passages' cars, after the last round
+    std::vector<NoiseFactors> noise;              ///< of the passages, after the last round
     double log_likelihood = 0;                    ///< of the last round
     std::vector<double> innovation, log_variance; ///< as SmoothedRoad's, of the last round
 };
@@ -39,7 +42,8 @@ struct RoadEstimate {
 /// One car's passage, or several passages of different cars over the same stations: each sees what
 /// falls into the nulls of the others' wheelbase.
 ///
-/// \param begin  an earlier estimate of the same stretch, whose level and damping are started from
+/// \param begin  an earlier estimate of the same stretch, whose level, damping and noise are
+/// started from
 RoadEstimate smooth_passages(std::vector<CarPassage> passages,
                              const SmootherConfig& config,
                              const RoadEstimate* begin = nullptr);

@@ -60,6 +60,7 @@ LinearCar linear_car(const Vehicle& vehicle) {
     LinearCar car{.a = decltype(LinearCar::a)::Zero(),
                   .b = decltype(LinearCar::b)::Zero(),
                   .felt = {},
+                  .lean = decltype(LinearCar::lean)::Zero(),
                   .front_m = ahead_m,
                   .rear_m = -behind_m};
     for (int i = 0; i < LinearCar::states; i += 2) {
@@ -70,12 +71,16 @@ LinearCar linear_car(const Vehicle& vehicle) {
         car.a.row(state + 1) = -force / half.mu_kg - tyre * unit(state);
         car.b(state + 1, input) = tyre;
     };
-    car.a.row(heave + 1) = 2 * (front_force + rear_force) / half.ms_kg;
+    car.a.row(heave + 1) =
+        2 * (one_axle ? Row{2 * front_force} : Row{front_force + rear_force}) / half.ms_kg;
     if (!one_axle) {
         const double pitch_kgm2 = axles.dynamic_index * half.ms_kg * ahead_m * behind_m;
         car.a.row(pitch + 1) = 2 * (behind_m * rear_force - ahead_m * front_force) / pitch_kgm2;
+        car.lean(pitch + 1, 0) = half.ms_kg / pitch_kgm2;
     }
-    car.a.row(roll + 1) = half.l_m * (front_pair + rear_pair) / half.is_kgm2;
+    car.a.row(roll + 1) =
+        half.l_m * (one_axle ? Row{2 * front_pair} : Row{front_pair + rear_pair}) / half.is_kgm2;
+    car.lean(roll + 1, 1) = half.ms_kg / (2 * half.is_kgm2);
     wheel(front_mean, front_force, 0);
     wheel(rear_mean, rear_force, 1);
     wheel(front_half, front_pair, 2);

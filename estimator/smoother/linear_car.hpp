@@ -18,6 +18,13 @@ enum class Channel : std::uint8_t {
 };
 inline constexpr std::size_t channel_count = 4;
 
+/// What leans on a car's body beside the road, known but for its lever arm.
+enum class Pull : std::uint8_t {
+    braking,   ///< deceleration: dips the nose
+    cornering, ///< acceleration to the left: raises the left side
+};
+inline constexpr std::size_t pull_count = 2;
+
 /// A car as linear equations of motion: heave, pitch and roll of the body and four wheels, in
 /// coordinates in which left-right symmetry makes two blocks.
 ///
@@ -35,13 +42,14 @@ struct LinearCar {
     Eigen::Matrix<double, states, states> a; ///< x' = a x + b u
     Eigen::Matrix<double, states, inputs> b;
     std::array<Row, channel_count> felt; ///< rows of the channels, before the vehicle's gain
-    double front_m;                      ///< of the axles ahead of the centre of gravity, ...
-    double rear_m;                       ///< ... negative: behind it
+    Eigen::Matrix<double, states, pull_count> lean; ///< x' = ... + lean * arm * pull, m and m/s^2
+    double front_m; ///< of the axles ahead of the centre of gravity, ...
+    double rear_m;  ///< ... negative: behind it
 };
 
 /// A vehicle without axles has one, under its centre of gravity, on which body and wheels move as
-/// the paper's quarter car and half-car do. Springs and dampers are those of the file, front and
-/// rear about their mean.
+/// the paper's quarter car and half-car do: the states of its rear wheels follow the road and move
+/// nothing. Springs and dampers are those of the file, front and rear about their mean.
 LinearCar linear_car(const Vehicle& vehicle);
 
 } // namespace macadam

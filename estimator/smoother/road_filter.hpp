@@ -1,40 +1,8 @@
 #pragma once
 
-#include "estimator/smoother/car_steps.hpp"
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
+#include "estimator/smoother/passage.hpp"
 
 namespace macadam {
-
-/// What one car felt on its way over the road, on an even grid of time. Every series that is there
-/// has as many values as travel_m.
-struct Passage {
-    std::vector<CarSteps> cars;      ///< one, or as many as its damping takes values; same step_s
-    std::vector<std::uint8_t> which; ///< of them holds up to each sample; empty: the first
-    std::int64_t first_sample = 0;   ///< on the trip's own count, so that pieces of it draw alike
-    std::vector<double> travel_m;    ///< of the centre of gravity, rising
-    std::array<std::vector<double>, channel_count> felt; ///< m/s^2, rad/s; empty: not sampled
-    /// Of what the linear car does not explain: sensor noise, and what the model leaves out.
-    std::array<std::vector<double>, channel_count> variance;
-    std::array<double, channel_count> drift{}; ///< of a channel's zero: its variance per second
-};
-
-/// The car up to a sample.
-const CarSteps& car_at(const Passage& passage, std::size_t sample);
-
-/// Stations i * cell_m, i = first_cell and on; the road is a line between two of them.
-struct RoadGrid {
-    double cell_m = 0.25;
-    std::ptrdiff_t first_cell = 0;
-    std::size_t cells = 0;
-};
-
-/// The stations that the passages' wheels come over, from a whole metre on.
-RoadGrid grid_under(std::span<const Passage> passages, double cell_m);
 
 /// How much the road changes from a station to the next, m^2: variance of the mean of both tracks,
 /// of half their difference (left minus right), and the covariance of the two.
@@ -46,33 +14,52 @@ struct Increment {
 /// station, and each forgets where it was over a length.
 struct RoadPrior {
     std::vector<Increment> increments; ///< as many as the grid has stations
-    double mean_length_m = 30;         ///< a corner at 190 m, where the golden car feels nothing
-    double half_length_m = 4;          ///< long waves are common to both tracks
+    /// How much of a station's change goes on to the next, in (-1, 1): above 0 the spectrum of
+    /// elevation falls faster than that of a random walk (waviness above 2), below 0 slower. Of the
+    /// mean; half the difference keeps to a random walk.
+    double colour = 0;
+    double mean_length_m = 30; ///< a corner at 190 m, where the golden car feels nothing
+    double half_length_m = 4;  ///< long waves are common to both tracks
 };
 
-/// A number for the mean of the tracks and one for half the difference, left minus right.
-struct Pair {
-    double mean = 0;
-    double half = 0;
+/// What is left of a channel's readings, over their variance, per sample: squares of the most
+/// probable noise, and of one draw about it.
+struct Residual {
+    std::vector<float> seen, open;
 };
 
 struct SmoothedRoad {
     std::vector<Pair> profile_m;      ///< the mean of all roads that could have been, per station
     std::vector<Pair> perturbation_m; ///< added to it, or taken off: one of those roads
-    std::vector<Pair> increment_m;    ///< of the profile, from the station before
+    std::vector<Pair> increment_m;    ///< of the profile: what the prior's `increments` are of
     std::vector<Pair> perturbed_m;    ///< of the perturbation
     double log_likelihood = 0;        ///< of what was felt, but for a constant
     std::vector<double> innovation;   ///< over its sd, in the order in which it came
     std::vector<double> log_variance; ///< of the innovation
+    std::vector<std::array<Residual, channel_count>> residual; ///< of each passage
+};
+
+/// A channel's reading taken in, as the way back needs it.
+struct Update {
+    double innovation; ///< of the estimate over its variance, ...
+    double error;      ///< ... and of the drawn error
+    double noise;      ///< that was drawn
+};
+
+/// Memory of a smoother, for the next round to use again.
+struct SmootherMemory {
+    std::vector<Update> updates;
+    std::vector<double> gains; ///< of the updates, a whole state each
 };
 
 /// The road under linear cars: posterior mean, and a draw about it.
 ///
-/// A Kalman filter over the cars' states, the zeros of their channels and the stations between the
-/// axles, sample by sample in the order in which the front axles come along; then the disturbance
-/// smoother. Rear axles meet the stations that front axles have left, so nothing is delayed and
-/// nothing is approximated but the line between stations. Cost grows with the samples, and with the
-/// square of the wheelbase in stations.
+/// A Kalman filter over the cars' states, the zeros of their channels, the arms of their pulls and
+/// the stations between the axles (StateLayout), sample by sample in the order in which the front
+/// axles come along; then the disturbance smoother. Rear axles meet the stations that front axles
+/// have left, so nothing is delayed and nothing is approximated but the line between stations. Cost
+/// grows with the samples, and with the square of the wheelbase in stations. Of a side of the road
+/// that nothing felt depends on, the profile is 0 and the perturbation a draw of the prior.
 ///
 /// \param passages  at least one, each of two samples or more
 /// \param seed      of the draw; the same for the same stations and samples, however they are cut
@@ -83,12 +70,7 @@ struct SmoothedRoad {
 SmoothedRoad smooth_road(std::span<const Passage> passages,
                          const RoadGrid& grid,
                          const RoadPrior& prior,
-                         std::uint64_t seed);
-
-using CarState = Eigen::Matrix<double, LinearCar::states, 1>;
-
-/// How the passage's car moves over a road on the grid, at every sample; it starts at rest.
-std::vector<CarState>
-ride_over(const Passage& passage, const RoadGrid& grid, std::span<const Pair> road_m);
+                         std::uint64_t seed,
+                         SmootherMemory& memory);
 
 } // namespace macadam

@@ -1,5 +1,7 @@
 #include "estimator/smoother/road_level.hpp"
 
+#include "estimator/smoother/windowed.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,23 +26,6 @@ constexpr double least_variance_m2 = 1e-12; // a micrometre from station to stat
 // Half difference over mean, variances of increments, where only one of them is felt: it makes HRI
 // 0.9 of MRI. On measured profiles that is 0.86 to 0.96.
 constexpr double half_of_mean = 0.3;
-
-/// Mean over a window, nearly a Gaussian's: three boxes in turn.
-Vector windowed(Vector values, double window_m, double cell_m) {
-    const auto reach = static_cast<std::size_t>(std::max(1.0, window_m / 4 / cell_m));
-    Vector sums(values.size() + 1);
-    for (int pass = 0; pass < 3; ++pass) {
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            sums[i + 1] = sums[i] + values[i];
-        }
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const std::size_t from = i - std::min(i, reach);
-            const std::size_t to = std::min(values.size(), i + reach + 1);
-            values[i] = (sums[to] - sums[from]) / static_cast<double>(to - from);
-        }
-    }
-    return values;
-}
 
 double square(double x) {
     return x * x;
@@ -92,10 +77,10 @@ Moments moments_of(const RoadLevel& level, const SmoothedRoad& road, double cell
         m.half_share[i] = 1 - square(e.half) / q.half;
     }
     for (auto* values : {&m.mean, &m.half, &m.cross}) {
-        *values = windowed(std::move(*values), level_window_m, cell_m);
+        *values = windowed(std::move(*values), level_window_m / cell_m);
     }
     for (auto* values : {&m.mean_share, &m.half_share}) {
-        *values = windowed(std::move(*values), share_window_m, cell_m);
+        *values = windowed(std::move(*values), share_window_m / cell_m);
     }
     return m;
 }
@@ -133,7 +118,7 @@ Felt felt_by(std::span<const Passage> passages) {
             is_felt(Channel::lateral) || is_felt(Channel::roll_rate)};
 }
 
-RoadLevel even_level(const RoadGrid& grid, Felt felt, double slope_m) {
+RoadLevel even_level(const RoadGrid& grid, Felt felt, double slope_m, double colour) {
     const double mean = slope_m * grid.cell_m;
     const Increment even{mean, half_of_mean * mean, 0};
     RoadLevel level{.felt = felt,
@@ -141,6 +126,7 @@ RoadLevel even_level(const RoadGrid& grid, Felt felt, double slope_m) {
                     .level = std::vector<Increment>(grid.cells, even),
                     .tail = std::vector<Pair>(grid.cells, Pair{1, 1})};
     level.prior.increments = level.level;
+    level.prior.colour = colour;
     return level;
 }
 

@@ -25,7 +25,8 @@ struct RoadLevel {
 /// An even road to begin with.
 ///
 /// \param slope_m  variance of the mean's increments per metre
-RoadLevel even_level(const RoadGrid& grid, Felt felt, double slope_m);
+/// \param colour   RoadPrior's
+RoadLevel even_level(const RoadGrid& grid, Felt felt, double slope_m, double colour = 0);
 
 /// The level after what was smoothed under it: one round of a fixed point at which the increments
 /// that were seen are as large as the level says (D. J. C. MacKay, "Bayesian interpolation", Neural

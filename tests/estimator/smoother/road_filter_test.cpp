@@ -19,7 +19,10 @@ using Vector = Eigen::VectorXd;
 constexpr double cell_m = 0.25;
 constexpr double step_s = 0.02;
 constexpr int zeros = channel_count;
-constexpr int own = LinearCar::states + zeros; // of a car: its start, and its channels' zeros
+constexpr int arms = pull_count;
+
+// Of a car: its start, its channels' zeros and the arms of its pulls, as they begin.
+constexpr int own = LinearCar::states + zeros + arms;
 
 Vehicle short_car(double wheelbase_m) {
     auto vehicle = lopsided_car();
@@ -49,12 +52,26 @@ Passage made_passage(const Vehicle& vehicle, double from_m, std::size_t samples,
         }
     }
     passage.drift = {1e-3, 1e-2, 1e-5, 1e-5};
+    for (std::size_t k = 0; k < samples; ++k) {
+        passage.pull[0].push_back(2 * std::sin(0.7 * static_cast<double>(k)));
+        passage.pull[1].push_back(1 + std::cos(0.4 * static_cast<double>(k)));
+    }
     return passage;
+}
+
+/// Smoothed from nothing.
+SmoothedRoad road_of(const std::vector<Passage>& passages,
+                     const RoadGrid& grid,
+                     const RoadPrior& prior,
+                     std::uint64_t seed) {
+    SmootherMemory memory;
+    return smooth_road(passages, grid, prior, seed, memory);
 }
 
 /// A prior that differs from station to station, with covariance between its two sides.
 RoadPrior uneven_prior(const RoadGrid& grid) {
     RoadPrior prior;
+    prior.colour = 0.3;
     for (std::size_t i = 0; i < grid.cells; ++i) {
         const double q = 1e-6 * (1 + static_cast<double>(i % 5));
         prior.increments.push_back({q, 0.4 * q, (i % 2 == 0 ? 0.5 : -0.3) * std::sqrt(0.4) * q});
@@ -72,15 +89,23 @@ struct Dense {
     Matrix profile; ///< by unknowns; mean and half by turns
 };
 
-/// States at every sample from a start and a road, by matrices as they stand.
-std::vector<States>
-driven(const Passage& passage, const RoadGrid& grid, States x, const std::vector<Pair>& road_m) {
+/// States at every sample from a start and a road, by matrices as they stand; one pull, if any,
+/// at an arm of a metre after a sample.
+std::vector<States> driven(const Passage& passage,
+                           const RoadGrid& grid,
+                           States x,
+                           const std::vector<Pair>& road_m,
+                           int pull = -1,
+                           int after = 0) {
     std::vector<States> all{x};
     for (std::size_t k = 1; k < passage.travel_m.size(); ++k) {
         const auto& steps = car_at(passage, k);
         const double from_m = passage.travel_m[k - 1];
         const auto push = road_push(steps, from_m, passage.travel_m[k] - from_m, grid.cell_m);
         x = steps.phi * x;
+        if (pull >= 0 && static_cast<int>(k) > after) {
+            x += steps.lean.col(pull) * passage.pull[static_cast<std::size_t>(pull)][k];
+        }
         for (const auto& axle : push.axles) {
             for (std::size_t i = 0; i < axle.cells; ++i) {
                 const auto& pair = road_m[static_cast<std::size_t>(
@@ -109,7 +134,7 @@ Dense dense_of(const std::vector<Passage>& passages, const RoadGrid& grid, const
     int readings = 0;
     for (const auto& passage : passages) {
         const auto n = static_cast<int>(passage.travel_m.size());
-        unknowns += own + zeros * (n - 1);
+        unknowns += own + (zeros + arms) * (n - 1);
         readings += zeros * n;
     }
     Dense dense{Matrix::Zero(readings, unknowns),
@@ -125,10 +150,16 @@ Dense dense_of(const std::vector<Passage>& passages, const RoadGrid& grid, const
             q = {q.mean / (1 - keep[0] * keep[0]), q.half / (1 - keep[1] * keep[1]), 0};
         }
         dense.variance.block<2, 2>(2 * cell, 2 * cell) << q.mean, q.cross, q.cross, q.half;
-        for (int later = cell; later < cells; ++later) {
-            for (int side = 0; side < 2; ++side) {
-                dense.profile(2 * later + side, 2 * cell + side) =
-                    std::pow(keep[side], later - cell);
+        for (int side = 0; side < 2; ++side) {
+            double before = 0;
+            double at = 1; // of a road that changed here and nowhere else
+            for (int later = cell; later < cells; ++later) {
+                dense.profile(2 * later + side, 2 * cell + side) = at;
+                // The change of the first two stations is not known to go on.
+                const double colour = side == 0 && later >= 1 ? prior.colour : 0;
+                const double next = (keep[side] + colour) * at - keep[side] * colour * before;
+                before = at;
+                at = next;
             }
         }
     }
@@ -168,6 +199,13 @@ Dense dense_of(const std::vector<Passage>& passages, const RoadGrid& grid, const
                 for (int later = k; later < n; ++later) {
                     dense.map(reading + zeros * later + c, unknown) = 1;
                 }
+                ++unknown;
+            }
+        }
+        for (int pull = 0; pull < arms; ++pull) {
+            for (int k = 0; k < n; ++k) {
+                put(unknown, driven(passage, grid, States::Zero(), level_m, pull, k));
+                dense.variance(unknown, unknown) = k == 0 ? 0.25 : 0.01 * step_s; // m^2
                 ++unknown;
             }
         }
@@ -230,11 +268,36 @@ void expect_the_posterior(const std::vector<Passage>& passages) {
     const auto grid = grid_under(passages, cell_m);
     const auto prior = uneven_prior(grid);
     const auto expected = posterior_of(dense_of(passages, grid, prior));
-    const auto road = smooth_road(passages, grid, prior, 1);
+    const auto road = road_of(passages, grid, prior, 1);
     const Vector ours = flat(road.profile_m);
     // Covariances of six decades are taken off each other some hundred times.
     EXPECT_LT((ours - expected.profile_m).norm(), 1e-6 * expected.profile_m.norm());
     EXPECT_NEAR(road.log_likelihood, expected.log_likelihood, 1e-4);
+}
+
+Passage with_channels(Passage passage, std::initializer_list<std::size_t> channels) {
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        if (std::ranges::find(channels, channel) == channels.end()) {
+            passage.felt[channel].clear();
+            passage.variance[channel].clear();
+        }
+    }
+    return passage;
+}
+
+/// The same as of the whole passage with channels that say nothing.
+void expect_the_mean_of_the_rest(const std::vector<Passage>& deaf, Passage whole) {
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        if (deaf[0].felt[channel].empty()) {
+            std::ranges::fill(whole.variance[channel], 1e12);
+        }
+    }
+    const std::vector<Passage> passages{std::move(whole)};
+    const auto grid = grid_under(passages, cell_m);
+    const auto prior = uneven_prior(grid);
+    const Vector expected = posterior_of(dense_of(passages, grid, prior)).profile_m;
+    const Vector ours = flat(road_of(deaf, grid, prior, 1).profile_m);
+    EXPECT_LT((ours - expected).norm(), 1e-6 * expected.norm());
 }
 
 /// The draws' own covariance over many seeds, in units of the posterior's deviations.
@@ -245,7 +308,7 @@ Matrix drawn_covariance(const std::vector<Passage>& passages,
                         int seeds) {
     Matrix sum = Matrix::Zero(unit.rows(), unit.rows());
     for (int seed = 1; seed <= seeds; ++seed) {
-        const auto road = smooth_road(passages, grid, prior, static_cast<std::uint64_t>(seed));
+        const auto road = road_of(passages, grid, prior, static_cast<std::uint64_t>(seed));
         const Vector z = unit * flat(road.perturbation_m).head(unit.cols());
         sum += z * z.transpose();
     }
@@ -263,18 +326,23 @@ TEST(RoadFilter, FindsTheMeanOfTheDensePosteriorOfTwoPassages) {
 }
 
 TEST(RoadFilter, WithoutSomeChannelsFindsTheMeanOfWhatIsLeft) {
-    auto passages = one_passage();
-    auto deaf = passages;
-    for (const std::size_t channel : {1U, 3U}) {
-        deaf[0].felt[channel].clear();
-        deaf[0].variance[channel].clear();
-        std::ranges::fill(passages[0].variance[channel], 1e12); // says nothing
-    }
-    const auto grid = grid_under(passages, cell_m);
-    const auto prior = uneven_prior(grid);
-    const Vector expected = posterior_of(dense_of(passages, grid, prior)).profile_m;
-    const Vector ours = flat(smooth_road(deaf, grid, prior, 1).profile_m);
-    EXPECT_LT((ours - expected).norm(), 1e-6 * expected.norm());
+    const auto whole = one_passage();
+    expect_the_mean_of_the_rest({with_channels(whole[0], {0, 2})}, whole[0]);
+}
+
+/// What nothing felt depends on is left out of the filter, and nothing is lost by it.
+TEST(RoadFilter, OfTheVerticalAloneFindsTheMeanThatTheWholeCarWould) {
+    auto straight = short_car(1.3);
+    straight.imu.y_m = 0;
+    const std::vector<Passage> deaf{with_channels(made_passage(straight, 3, 20, 1), {0})};
+    expect_the_mean_of_the_rest(deaf, made_passage(straight, 3, 20, 1));
+}
+
+TEST(RoadFilter, OfOneAxleFindsTheMeanThatTheWholeCarWould) {
+    auto short_one = short_car(1.3);
+    short_one.axles.reset();
+    const std::vector<Passage> deaf{with_channels(made_passage(short_one, 3, 20, 1), {0, 2})};
+    expect_the_mean_of_the_rest(deaf, made_passage(short_one, 3, 20, 1));
 }
 
 /// Drawn roads, whitened by the dense posterior, are white. 600 seeds know a variance to 6 % and
@@ -301,9 +369,9 @@ TEST(RoadFilter, DrawsOtherRoadsOfOtherSeeds) {
     const auto passages = one_passage();
     const auto grid = grid_under(passages, cell_m);
     const auto prior = uneven_prior(grid);
-    const auto one = flat(smooth_road(passages, grid, prior, 1).perturbation_m);
-    const auto again = flat(smooth_road(passages, grid, prior, 1).perturbation_m);
-    const auto two = flat(smooth_road(passages, grid, prior, 2).perturbation_m);
+    const auto one = flat(road_of(passages, grid, prior, 1).perturbation_m);
+    const auto again = flat(road_of(passages, grid, prior, 1).perturbation_m);
+    const auto two = flat(road_of(passages, grid, prior, 2).perturbation_m);
     EXPECT_EQ(one, again);
     EXPECT_GT((one - two).norm(), 0.5 * one.norm());
 }
@@ -332,7 +400,7 @@ TEST(RoadFilter, IsSurprisedAsMuchAsItExpects) {
                 .felt[static_cast<std::size_t>(i % zeros)][static_cast<std::size_t>(i / zeros)] =
                 felt[i];
         }
-        for (const double e : smooth_road(drawn, grid, prior, 1).innovation) {
+        for (const double e : road_of(drawn, grid, prior, 1).innovation) {
             squares += e * e;
             ++count;
         }
@@ -354,16 +422,19 @@ TEST(RoadFilter, DrawsTheSameRoadHoweverTheTripIsCut) {
         cut(piece.felt[channel]);
         cut(piece.variance[channel]);
     }
+    for (auto& pull : piece.pull) {
+        cut(pull);
+    }
     piece.first_sample = from;
-    const auto road_of = [](const Passage& passage, const RoadGrid& grid) {
+    const auto even_road_of = [](const Passage& passage, const RoadGrid& grid) {
         RoadPrior prior;
         prior.increments.assign(grid.cells, {2e-6, 8e-7, 0});
-        return smooth_road({&passage, 1}, grid, prior, 5);
+        return road_of({passage}, grid, prior, 5);
     };
     const auto grid = grid_under({&whole, 1}, cell_m);
     const auto grid_cut = grid_under({&piece, 1}, cell_m);
-    const auto all = road_of(whole, grid);
-    const auto some = road_of(piece, grid_cut);
+    const auto all = even_road_of(whole, grid);
+    const auto some = even_road_of(piece, grid_cut);
     double apart = 0;
     double power = 0;
     const auto first = static_cast<std::ptrdiff_t>((piece.travel_m.front() + 50) / cell_m);

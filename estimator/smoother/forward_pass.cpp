@@ -1,0 +1,433 @@
+#include "estimator/smoother/normal_draw.hpp"
+#include "estimator/smoother/road_passes.hpp"
+#include "estimator/smoother/wide.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+using Vector = std::vector<double>;
+
+constexpr auto states = static_cast<std::size_t>(LinearCar::states);
+constexpr auto heaves = static_cast<std::size_t>(LinearCar::heave_states);
+constexpr std::size_t most_terms = states + 2 * RoadPush::most_cells + 1;
+
+// What is known of a car before anything is felt; start-up forgets it.
+constexpr double start_m = 0.05;
+constexpr double start_mps = 0.3;
+constexpr double start_rad = 0.03;
+constexpr double start_radps = 0.2;
+constexpr std::array<double, channel_count> start_zero{1, 1, 0.1, 0.1}; // m/s^2, rad/s
+
+// Lever arms of cars: their height above the ground or the roll axis, less what the suspension's
+// links take. They differ between braking and driving off, and while the brakes' force shifts.
+constexpr double start_arm_m = 0.5;
+constexpr double arm_drift_m2ps = 0.01;
+
+// What a number is drawn for.
+constexpr std::uint64_t for_start = 1;
+constexpr std::uint64_t for_road = 2;
+constexpr std::uint64_t for_zero = 3;
+constexpr std::uint64_t for_noise = 4;
+constexpr std::uint64_t for_arm = 5;
+
+std::uint64_t of_car(std::uint64_t what, std::size_t car) {
+    return what + 8 * car;
+}
+
+double start_sd(std::size_t state) {
+    const bool angle = state == 2 || state == 3 || state == 8 || state == 9;
+    return state % 2 == 0 ? (angle ? start_rad : start_m) : (angle ? start_radps : start_mps);
+}
+
+std::vector<Event> events_of(std::span<const Passage> passages, double cell_m) {
+    std::vector<Event> events;
+    for (std::size_t car = 0; car < passages.size(); ++car) {
+        const auto& passage = passages[car];
+        for (std::size_t k = 0; k < passage.travel_m.size(); ++k) {
+            const double front_m = passage.travel_m[k] + passage.cars.front().car.front_m;
+            events.push_back(
+                {car, k, front_m, static_cast<std::ptrdiff_t>(std::floor(front_m / cell_m)) + 1});
+        }
+    }
+    std::ranges::stable_sort(events, {}, &Event::front_m);
+    return events;
+}
+
+std::size_t readings_of(std::span<const Passage> passages) {
+    std::size_t count = 0;
+    for (const auto& passage : passages) {
+        for (const auto& felt : passage.felt) {
+            count += felt.size();
+        }
+    }
+    return count;
+}
+
+/// Numbers of the state as sums of the same others: those that one side of the road moves.
+struct Sums {
+    std::size_t terms = 0;
+    std::array<std::size_t, most_terms> place;
+    std::array<std::array<double, most_terms>, states> weight; ///< by rank among the car's states
+};
+
+/// The estimate, its covariance, and the error of a road and readings that are drawn.
+class Filter {
+public:
+    Filter(std::span<const Passage> passages,
+           const RoadGrid& grid,
+           const RoadPrior& prior,
+           std::uint64_t seed,
+           SmootherMemory memory)
+        : passages_{passages}, grid_{grid}, prior_{prior}, seed_{seed},
+          pass_{.layout = layout_of(passages, grid),
+                .wander = wander_of(prior, grid),
+                .events = events_of(passages, grid.cell_m)},
+          size_{pass_.layout.size}, p_(size_ * size_), moved_(states * size_), gain_(size_),
+          estimate_(size_), error_(size_) {
+        pass_.drawn.resize(grid.cells);
+        pass_.memory = std::move(memory);
+        pass_.memory.updates.clear();
+        pass_.memory.gains.clear();
+        pass_.memory.gains.reserve(readings_of(passages) * size_);
+    }
+
+    ForwardPass run();
+
+private:
+    double* row(std::size_t i) { return &p_[i * size_]; }
+    std::size_t index(std::ptrdiff_t cell) const {
+        return static_cast<std::size_t>(cell - grid_.first_cell);
+    }
+    double draw(std::uint64_t what, const Event& event, std::size_t which) const {
+        return normal_draw(seed_,
+                           of_car(what, event.car),
+                           static_cast<std::uint64_t>(passages_[event.car].first_sample) +
+                               event.sample,
+                           which);
+    }
+
+    void know(std::size_t place, double sd, std::size_t car, std::size_t number);
+    void start();
+    Pair draw_increment(std::ptrdiff_t cell, const Increment& q);
+    void append(std::ptrdiff_t cell);
+    Sums sums_of(std::size_t side, const Event& event, const RoadPush& push) const;
+    void move_side(const Sums& sums, std::size_t from, std::size_t to, std::size_t at);
+    void predict(const Event& event, const RoadPush& push);
+    void wander(std::size_t place, double q, double drawn);
+    void update(const Event& event);
+    void take_in(const Event& event, std::size_t channel);
+
+    std::span<const Passage> passages_;
+    const RoadGrid& grid_;
+    const RoadPrior& prior_;
+    std::uint64_t seed_;
+    ForwardPass pass_;
+    std::size_t size_;
+    Vector p_;     ///< covariance, size * size
+    Vector moved_; ///< states * size: rows of it after a step
+    Vector gain_;
+    Vector estimate_, error_;
+};
+
+void Filter::know(std::size_t place, double sd, std::size_t car, std::size_t number) {
+    row(place)[place] = sd * sd;
+    error_[place] = sd * normal_draw(seed_, of_car(for_start, car), number, 0);
+}
+
+void Filter::start() {
+    for (std::size_t car = 0; car < passages_.size(); ++car) {
+        const auto& places = pass_.layout.cars[car];
+        for (std::size_t i = 0; i < places.states.size(); ++i) {
+            know(places.first + i, start_sd(places.states[i]), car, places.states[i]);
+        }
+        for (std::size_t channel = 0; channel < channel_count; ++channel) {
+            if (places.zero[channel] != StateLayout::nowhere) {
+                know(places.zero[channel], start_zero[channel], car, states + channel);
+            }
+        }
+        for (std::size_t pull = 0; pull < pull_count; ++pull) {
+            if (places.arm[pull] != StateLayout::nowhere) {
+                know(places.arm[pull], start_arm_m, car, states + channel_count + pull);
+            }
+        }
+    }
+    const Increment q = first_increment(prior_, grid_);
+    const Pair w = draw_increment(grid_.first_cell, q);
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (pass_.layout.side[side]) {
+            const std::size_t at = pass_.layout.place(grid_.first_cell, side);
+            row(at)[at] = side == 0 ? q.mean : q.half;
+            error_[at] = side == 0 ? w.mean : w.half;
+        }
+    }
+}
+
+Pair Filter::draw_increment(std::ptrdiff_t cell, const Increment& q) {
+    const auto key = static_cast<std::uint64_t>(cell);
+    return pass_.drawn[index(cell)] = drawn_increment(
+               q, normal_draw(seed_, for_road, key, 0), normal_draw(seed_, for_road, key, 1));
+}
+
+/// A station comes into the window, in the place of the one that leaves it.
+void Filter::append(std::ptrdiff_t cell) {
+    const auto& layout = pass_.layout;
+    const Increment& q = prior_.increments[index(cell)];
+    const Pair w = draw_increment(cell, q);
+    const auto& by = pass_.wander[index(cell)];
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (!layout.side[side]) {
+            continue;
+        }
+        const std::size_t at = layout.place(cell, side);
+        const std::size_t one = layout.place(cell - 1, side);
+        const std::size_t two = layout.place(index(cell) < 2 ? cell - 1 : cell - 2, side);
+        wide::copy_times(row(at), by[side].one, row(one), size_);
+        wide::add(row(at), by[side].two, row(two), size_);
+        estimate_[at] = by[side].one * estimate_[one] + by[side].two * estimate_[two];
+        error_[at] =
+            by[side].one * error_[one] + by[side].two * error_[two] + (side == 0 ? w.mean : w.half);
+    }
+    // Each new number with the other and with itself, by the rows that were just made: what stands
+    // in their own columns is still of the station that left.
+    double among[2][2] = {};
+    for (std::size_t a = 0; a < 2; ++a) {
+        for (std::size_t b = 0; b < 2; ++b) {
+            if (layout.side[a] && layout.side[b]) {
+                const double* made = row(layout.place(cell, a));
+                const std::size_t two = layout.place(index(cell) < 2 ? cell - 1 : cell - 2, b);
+                among[a][b] = by[b].one * made[layout.place(cell - 1, b)] + by[b].two * made[two];
+            }
+        }
+    }
+    const double more[2][2] = {{q.mean, q.cross}, {q.cross, q.half}};
+    for (std::size_t a = 0; a < 2; ++a) {
+        for (std::size_t b = 0; b < 2 && layout.side[a]; ++b) {
+            if (layout.side[b]) {
+                row(layout.place(cell, a))[layout.place(cell, b)] = among[a][b] + more[a][b];
+            }
+        }
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t at = layout.side[side] ? layout.place(cell, side) : 0;
+        for (std::size_t j = 0; j < size_ && layout.side[side]; ++j) {
+            p_[j * size_ + at] = p_[at * size_ + j];
+        }
+    }
+}
+
+/// The states of one side after the step, from states, stations and arms before it.
+Sums Filter::sums_of(std::size_t side, const Event& event, const RoadPush& push) const {
+    const CarSteps& steps = car_at(passages_[event.car], event.sample);
+    const auto& places = pass_.layout.cars[event.car];
+    const auto [from, to] = places.of_side(side);
+    Sums sums;
+    const auto add = [&](std::size_t place, auto weight) {
+        sums.place[sums.terms] = place;
+        for (std::size_t r = from; r < to; ++r) {
+            sums.weight[r][sums.terms] = weight(places.states[r]);
+        }
+        ++sums.terms;
+    };
+    for (std::size_t c = from; c < to; ++c) {
+        const auto column = static_cast<int>(places.states[c]);
+        add(places.first + c,
+            [&](std::size_t r) { return steps.phi(static_cast<int>(r), column); });
+    }
+    for (const auto& axle : push.axles) {
+        for (std::size_t i = 0; i < axle.cells && from < to; ++i) {
+            if (!places.has_rear && &axle == &push.axles[1]) {
+                continue;
+            }
+            add(pass_.layout.place(axle.first + static_cast<std::ptrdiff_t>(i), side),
+                [&](std::size_t r) {
+                    return side == 0 ? axle.heave[i][r] : axle.roll[i][r - heaves];
+                });
+        }
+    }
+    const std::size_t pull = side; // braking dips, cornering rolls
+    if (from < to && places.arm[pull] != StateLayout::nowhere) {
+        const double pulled = passages_[event.car].pull[pull][event.sample];
+        add(places.arm[pull], [&](std::size_t r) {
+            return steps.lean(static_cast<int>(r), static_cast<int>(pull)) * pulled;
+        });
+    }
+    return sums;
+}
+
+/// Rows [from, to) of the car's states after the step, into moved_; estimate and drawn error.
+void Filter::move_side(const Sums& sums, std::size_t from, std::size_t to, std::size_t at) {
+    const double* rows[most_terms];
+    double before[2][most_terms];
+    for (std::size_t k = 0; k < sums.terms; ++k) {
+        rows[k] = row(sums.place[k]);
+        before[0][k] = estimate_[sums.place[k]];
+        before[1][k] = error_[sums.place[k]];
+    }
+    for (std::size_t r = from; r < to; ++r) {
+        const auto& weight = sums.weight[r];
+        double next[2] = {};
+        for (std::size_t k = 0; k < sums.terms; ++k) {
+            next[0] += weight[k] * before[0][k];
+            next[1] += weight[k] * before[1][k];
+        }
+        estimate_[at + r] = next[0];
+        error_[at + r] = next[1];
+        wide::combine(&moved_[r * size_], rows, weight.data(), sums.terms, size_);
+    }
+}
+
+/// What wanders by itself.
+void Filter::wander(std::size_t place, double q, double drawn) {
+    if (place != StateLayout::nowhere) {
+        row(place)[place] += q;
+        error_[place] += std::sqrt(q) * drawn;
+    }
+}
+
+void Filter::predict(const Event& event, const RoadPush& push) {
+    const auto& places = pass_.layout.cars[event.car];
+    const std::size_t n = places.states.size();
+    const std::size_t at = places.first;
+    double among[states][states];
+    const std::array sides{sums_of(0, event, push), sums_of(1, event, push)};
+    for (std::size_t side = 0; side < 2; ++side) {
+        const auto [from, to] = places.of_side(side);
+        move_side(sides[side], from, to, at);
+    }
+    for (std::size_t r = 0; r < n; ++r) {
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Sums& sums = sides[side];
+            const auto [from, to] = places.of_side(side);
+            double moved[most_terms];
+            for (std::size_t k = 0; k < sums.terms; ++k) {
+                moved[k] = moved_[r * size_ + sums.place[k]];
+            }
+            for (std::size_t c = std::max(from, r); c < to; ++c) {
+                double total = 0;
+                for (std::size_t k = 0; k < sums.terms; ++k) {
+                    total += sums.weight[c][k] * moved[k];
+                }
+                among[r][c] = among[c][r] = total;
+            }
+        }
+    }
+    for (std::size_t r = 0; r < n; ++r) {
+        std::copy_n(&moved_[r * size_], size_, row(at + r));
+    }
+    for (std::size_t j = 0; j < size_; ++j) {
+        for (std::size_t r = 0; r < n; ++r) {
+            p_[j * size_ + at + r] = moved_[r * size_ + j];
+        }
+    }
+    for (std::size_t r = 0; r < n; ++r) {
+        std::copy_n(among[r], n, row(at + r) + at);
+    }
+    const Passage& passage = passages_[event.car];
+    const double step_s = passage.cars.front().step_s;
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        if (places.zero[channel] != StateLayout::nowhere) {
+            wander(places.zero[channel],
+                   passage.drift[channel] * step_s,
+                   draw(for_zero, event, channel));
+        }
+    }
+    for (std::size_t pull = 0; pull < pull_count; ++pull) {
+        if (places.arm[pull] != StateLayout::nowhere) {
+            wander(places.arm[pull], arm_drift_m2ps * step_s, draw(for_arm, event, pull));
+        }
+    }
+}
+
+/// One channel's reading.
+void Filter::take_in(const Event& event, std::size_t channel) {
+    const Passage& passage = passages_[event.car];
+    const auto& felt = car_at(passage, event.sample).car.felt[channel];
+    const auto& places = pass_.layout.cars[event.car];
+    const std::size_t zero = places.zero[channel];
+    const double r = passage.variance[channel][event.sample];
+    std::copy_n(row(zero), size_, gain_.data());
+    double seen[] = {estimate_[zero], error_[zero]};
+    for (std::size_t i = 0; i < places.states.size(); ++i) {
+        const double h = felt[static_cast<int>(places.states[i])];
+        if (h != 0) {
+            const std::size_t at = places.first + i;
+            wide::add(gain_.data(), h, row(at), size_);
+            seen[0] += h * estimate_[at];
+            seen[1] += h * error_[at];
+        }
+    }
+    double s = r + gain_[zero];
+    for (std::size_t i = 0; i < places.states.size(); ++i) {
+        s += felt[static_cast<int>(places.states[i])] * gain_[places.first + i];
+    }
+    const double share = 1 / s;
+    const double off = passage.felt[channel][event.sample] - seen[0];
+    const double noise = std::sqrt(r) * draw(for_noise, event, channel);
+    const Update update{off * share, (seen[1] + noise) * share, noise};
+    pass_.memory.updates.push_back(update);
+    pass_.innovation.push_back(off * std::sqrt(share));
+    pass_.log_variance.push_back(std::log(s));
+    pass_.log_likelihood -= (std::log(s) + off * off * share) / 2;
+
+    wide::add(estimate_.data(), update.innovation, gain_.data(), size_);
+    wide::add(error_.data(), -update.error, gain_.data(), size_);
+    auto& gains = pass_.memory.gains;
+    const std::size_t kept = gains.size();
+    gains.resize(kept + size_);
+    wide::copy_times(&gains[kept], share, gain_.data(), size_);
+    wide::copy_times(gain_.data(), std::sqrt(share), gain_.data(), size_);
+    wide::downdate(p_.data(), gain_.data(), size_);
+}
+
+void Filter::update(const Event& event) {
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        if (!passages_[event.car].felt[channel].empty()) {
+            take_in(event, channel);
+        }
+    }
+}
+
+ForwardPass Filter::run() {
+    start();
+    pass_.last_cell = grid_.first_cell;
+    pass_.last_before.resize(pass_.events.size());
+    for (std::size_t e = 0; e < pass_.events.size(); ++e) {
+        const Event& event = pass_.events[e];
+        pass_.last_before[e] = pass_.last_cell;
+        while (pass_.last_cell < event.last_cell) {
+            append(++pass_.last_cell);
+        }
+        if (event.sample > 0) {
+            predict(event, push_of(passages_, grid_, event));
+        }
+        update(event);
+    }
+    return std::move(pass_);
+}
+
+} // namespace
+
+RoadPush push_of(std::span<const Passage> passages, const RoadGrid& grid, const Event& event) {
+    if (event.sample == 0) {
+        return {};
+    }
+    const auto& travel_m = passages[event.car].travel_m;
+    const double from_m = travel_m[event.sample - 1];
+    return road_push(car_at(passages[event.car], event.sample),
+                     from_m,
+                     travel_m[event.sample] - from_m,
+                     grid.cell_m);
+}
+
+ForwardPass filter_forward(std::span<const Passage> passages,
+                           const RoadGrid& grid,
+                           const RoadPrior& prior,
+                           std::uint64_t seed,
+                           SmootherMemory memory) {
+    return Filter{passages, grid, prior, seed, std::move(memory)}.run();
+}
+
+} // namespace macadam
