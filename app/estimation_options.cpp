@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -12,29 +14,62 @@ constexpr double most_rate_hz = 2000;
 
 constexpr double smoother_samples_a_metre = 2.6; // waves of 1 m, of which IRI has little left
 
-Channels channels_named(const std::string& name) {
-    if (name == "vertical") {
-        return Channels::vertical;
+constexpr std::pair<std::string_view, bool SensorSet::*> sensor_names[] = {
+    {"vertical", &SensorSet::vertical},
+    {"lateral", &SensorSet::lateral},
+    {"roll", &SensorSet::roll},
+    {"pitch", &SensorSet::pitch},
+    {"yaw", &SensorSet::yaw},
+};
+
+/// The sensors of a list such as "vertical,pitch".
+SensorSet sensors_named(const std::string& list) {
+    SensorSet sensors;
+    std::size_t begin = 0;
+    while (begin <= list.size()) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const auto word = std::string_view{list}.substr(begin, end - begin);
+        const auto* const known = std::ranges::find(
+            sensor_names, word, &std::pair<std::string_view, bool SensorSet::*>::first);
+        if (known == std::end(sensor_names)) {
+            throw UsageError{fmt::format("--channels names '{}', expected automatic, both, or some "
+                                         "of vertical,lateral,roll,pitch,yaw",
+                                         word)};
+        }
+        sensors.*(known->second) = true;
+        begin = end + 1;
     }
-    if (name == "lateral") {
-        return Channels::lateral;
+    return sensors;
+}
+
+void choose_channels(EstimatorConfig& estimator, const std::string& list) {
+    if (list == "automatic") {
+        return;
     }
-    return name == "both" ? Channels::both : Channels::automatic;
+    const auto sensors =
+        list == "both" ? SensorSet{.vertical = true, .lateral = true} : sensors_named(list);
+    if (!sensors.roll && !sensors.pitch && !sensors.yaw) {
+        estimator.channels = !sensors.lateral    ? Channels::vertical
+                             : !sensors.vertical ? Channels::lateral
+                                                 : Channels::both;
+    } else if (estimator.method == Method::kf) {
+        throw UsageError{fmt::format(
+            "--channels is '{}', but --method kf knows vertical and lateral alone", list)};
+    } else {
+        estimator.sensors = sensors;
+    }
 }
 
 } // namespace
 
 PipelineConfig pipeline_config_of(const Arguments& arguments) {
     constexpr std::array<std::string_view, 2> methods{"smoother", "kf"};
-    constexpr std::array<std::string_view, 4> channels{"automatic", "vertical", "lateral", "both"};
 
     PipelineConfig config;
     const bool smoother = arguments.choice("--method", methods) != "kf";
     config.estimator.method = smoother ? Method::smoother : Method::kf;
-    // Rates of turn say more of braking and of shaking mounts than of the road (docs/smoother.md).
-    config.estimator.tracks = config.estimator.tracks && !smoother;
     config.stretch.samples_a_metre = smoother ? smoother_samples_a_metre : 0;
-    config.estimator.channels = channels_named(arguments.choice("--channels", channels));
+    choose_channels(config.estimator, arguments.value("--channels").value_or("automatic"));
     config.estimator.filters = !arguments.flag("--no-filters");
     if (const auto rate_hz = arguments.number("--rate")) {
         if (!(*rate_hz >= least_rate_hz && *rate_hz <= most_rate_hz)) {

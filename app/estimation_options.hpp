@@ -13,8 +13,9 @@ inline constexpr Option method_option{"--method",
                                       "smoother"};
 inline constexpr Option channels_option{
     "--channels",
-    "NAME",
-    "Vibration to use: vertical, lateral, both (gives both wheel tracks) or automatic.",
+    "LIST",
+    "Sensors to use: some of vertical,lateral (acceleration), roll,pitch,yaw (rates); both; or "
+    "automatic.",
     "automatic"};
 inline constexpr Option no_filters_option{
     "--no-filters", "", "Leave out the method's own filters, for noise-free simulated logs."};

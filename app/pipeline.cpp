@@ -189,6 +189,13 @@ std::string spoken_emptiness(const IriTrace& roughness, const MatchedTrace& matc
                                   : "no segment was driven whole enough: no pass";
 }
 
+void expect_sensors(const TripLog& trip, const std::optional<SensorSet>& sensors) {
+    if (sensors && (sensors->roll || sensors->pitch || sensors->yaw) && trip.gyro.t_s.empty()) {
+        throw InputError{
+            "holds no rates of turn, expected gyro_x_radps, gyro_y_radps and gyro_z_radps"};
+    }
+}
+
 } // namespace
 
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
@@ -281,6 +288,7 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
     auto odometer = make_odometer(trip, config.odometer, use);
     const auto mounting = estimate_mounting(trip, odometer);
     expect_channels(trip, mounting, config.estimator.channels);
+    expect_sensors(trip, config.estimator.sensors);
 
     IriTrace roughness{.runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
     const auto spans = find_stretches(trip, odometer, config.stretch, use, mounting.otherwise);

@@ -24,13 +24,23 @@ enum class Channels : std::uint8_t {
     both,
 };
 
+/// Some of an inertial sensor's channels: accelerations, and rates about x, y, z.
+struct SensorSet {
+    bool vertical = false, lateral = false, roll = false, pitch = false, yaw = false;
+};
+
 struct EstimatorConfig {
     Method method = Method::kf;
     Channels channels = Channels::automatic;
 
-    /// What `automatic` makes of a lateral acceleration beside a vertical one. True: both tracks
-    /// are estimated from the two where the vehicle's IMU height is known and the road is straight.
-    /// False: the lateral one is left out, which costs the tracks and gives the better headline.
+    /// What the smoother is to use with `automatic`, where it was sampled; nothing: what serves it
+    /// best (smoothed_iri.hpp).
+    std::optional<SensorSet> sensors{};
+
+    /// What `automatic` makes of what feels the difference of the tracks. True: both tracks are
+    /// estimated; by the filter from a lateral acceleration beside a vertical one, where the
+    /// vehicle's IMU height is known and the road is straight; by the smoother from roll rate, too.
+    /// False: these are left out, which costs the tracks and gives the better headline.
     bool tracks = true;
     bool filters = true; ///< the paper's 13, 11 and 0.5 Hz filters
     double q_over_r = 1e9;

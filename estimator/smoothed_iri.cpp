@@ -2,6 +2,7 @@
 
 #include "estimator/smoother/friction.hpp"
 #include "estimator/smoother/wheel_order.hpp"
+#include "estimator/smoother/windowed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,19 +29,17 @@ constexpr double usual_height_m =
 constexpr double model_part = 0.02;
 constexpr double model_window_s = 4;
 
+constexpr double bend_part = 0.3; // of a bend's pull: where the sensor sits, and how it hangs
+constexpr double bend_window_s = 4;
+
 constexpr double slope_window_s = 0.4; // of the speed: brakes bite within that
 
 // Of every IRI alike, what simulated cars leave: of a car that is known, and of one whose friction
 // had to be found, among dampers, bars and bushes that no vehicle file tells (docs/method.md).
 constexpr double known_car_part = 0.02;
-constexpr double found_car_part = 0.05;
+constexpr double found_car_part = 0.04;
 constexpr double random_part = 0.07; // of 1 m, independent from metre to metre
 constexpr double indicative_common = 0.20;
-
-bool wants(const EstimatorConfig& config, Channels channel) {
-    return config.channels == Channels::automatic || config.channels == Channels::both ||
-           config.channels == channel;
-}
 
 std::vector<double> doubles(const std::vector<float>& values, double over) {
     std::vector<double> out(values.size());
@@ -81,16 +80,56 @@ std::vector<double> acceleration_mps2(const Stretch& stretch) {
 }
 
 /// What leans on the car: braking where pitch was felt, bends where anything rolls.
-void add_pulls(Passage& passage, const Stretch& stretch) {
+void add_pulls(Passage& passage, const Stretch& stretch, bool yaw) {
     if (!passage.felt[3].empty()) {
         passage.pull[0] = acceleration_mps2(stretch);
         std::ranges::for_each(passage.pull[0], [](double& a) { a = -a; });
     }
-    if (!stretch.yaw_radps.empty() && !(passage.felt[1].empty() && passage.felt[2].empty())) {
+    if (yaw && !(passage.felt[1].empty() && passage.felt[2].empty())) {
         passage.pull[1].resize(stretch.yaw_radps.size());
         std::ranges::transform(
             stretch.yaw_radps, stretch.speed_mps, passage.pull[1].begin(), std::multiplies{});
     }
+}
+
+/// What is left of a bend's pull in the lateral channel, to be counted as noise there.
+void add_bends(std::vector<double>& variance, const Stretch& stretch) {
+    std::vector<double> pull2(variance.size());
+    for (std::size_t k = 0; k < pull2.size(); ++k) {
+        pull2[k] = std::pow(
+            bend_part * static_cast<double>(stretch.yaw_radps[k] * stretch.speed_mps[k]), 2);
+    }
+    pull2 = windowed(std::move(pull2), bend_window_s / stretch.step_s);
+    for (std::size_t k = 0; k < pull2.size(); ++k) {
+        variance[k] += pull2[k];
+    }
+}
+
+/// What of the stretch serves the estimate. Pitch and roll of a car whose axles are not stated
+/// cannot be told from what shakes the sensor, and a lateral acceleration without a roll rate
+/// beside it says too little of short waves.
+SensorSet
+sensors_for(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
+    switch (config.channels) {
+    case Channels::vertical:
+        return {.vertical = true};
+    case Channels::lateral:
+        return {.lateral = true, .yaw = true};
+    case Channels::both:
+        return {.vertical = true, .lateral = true, .yaw = true};
+    case Channels::automatic:
+        break;
+    }
+    if (config.sensors) {
+        return *config.sensors;
+    }
+    const bool rolls = config.tracks && vehicle.axles && !stretch.roll_radps.empty();
+    const bool alone = stretch.vertical_mps2.empty() && !rolls;
+    return {.vertical = true,
+            .lateral = alone || (rolls && vehicle.imu.height_above_roll_axis_m > 0),
+            .roll = rolls,
+            .pitch = vehicle.axles.has_value(),
+            .yaw = true};
 }
 
 /// The whole stretch as a passage, without cars.
@@ -99,27 +138,27 @@ Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const Estimat
     passage.first_sample = std::llround(stretch.start_s / stretch.step_s);
     passage.travel_m = stretch.travel_m;
     passage.drift = zero_drift;
-    // Pitch of a car whose axles are not stated cannot be told from what shakes the sensor.
-    const bool rates =
-        config.channels == Channels::automatic && config.tracks && vehicle.axles.has_value();
+    const SensorSet sensors = sensors_for(stretch, vehicle, config);
+    const bool yaw = sensors.yaw && !stretch.yaw_radps.empty();
     auto& [vertical, lateral, roll, pitch] = passage.felt;
-    if (wants(config, Channels::vertical)) {
+    if (sensors.vertical) {
         vertical = doubles(stretch.vertical_mps2, vehicle.gain);
     }
-    if (rates) {
+    if (sensors.roll) {
         roll = doubles(stretch.roll_radps, 1);
+    }
+    if (sensors.pitch) {
         pitch = doubles(stretch.pitch_radps, 1);
     }
-    const bool height = vehicle.imu.height_above_roll_axis_m > 0;
-    if (wants(config, Channels::lateral) && (height || (vertical.empty() && roll.empty()))) {
+    if (sensors.lateral) {
         lateral = doubles(stretch.lateral_mps2, vehicle.gain);
-        for (std::size_t k = 0; k < lateral.size() && !stretch.yaw_radps.empty(); ++k) {
+        for (std::size_t k = 0; k < lateral.size() && yaw; ++k) {
             lateral[k] -=
                 static_cast<double>(stretch.yaw_radps[k] * stretch.speed_mps[k]) / vehicle.gain;
         }
-        passage.drift[1] = stretch.yaw_radps.empty() ? lateral_drift_without_yaw : zero_drift[1];
+        passage.drift[1] = yaw ? zero_drift[1] : lateral_drift_without_yaw;
     }
-    add_pulls(passage, stretch);
+    add_pulls(passage, stretch, yaw);
     const double noise[] = {vehicle.imu.noise_mps2 / vehicle.gain,
                             vehicle.imu.noise_mps2 / vehicle.gain,
                             std::max(vehicle.imu.noise_radps, stretch.roll_noise_radps),
@@ -130,6 +169,9 @@ Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const Estimat
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
         passage.variance[channel] =
             variance_of(passage.felt[channel], noise[channel], stretch.step_s);
+    }
+    if (!lateral.empty() && yaw) {
+        add_bends(passage.variance[1], stretch);
     }
     return passage;
 }

@@ -15,8 +15,9 @@ constexpr double relative_step = 0.03; // of a finite difference
 constexpr double usual_mass_kg = 1400;
 constexpr double friction_step_n = 20;  // of the search, for a car of usual_mass_kg
 constexpr double most_friction_n = 120; // beyond, a suspension is stuck
-constexpr double friction_offset_n = 5; // found on simulated cars that have none (docs/method.md)
-constexpr double boldest = 2.5;         // of a step, in prior standard deviations
+constexpr double least_friction_sd_n = 5;
+constexpr double furthest = 1.5; // from what is stated, in prior standard deviations
+constexpr double trust = 0.25;   // in the likelihood: what no linear car explains has its say
 constexpr int steps = 2;
 
 // Of the road's colour: waviness 1.6 to 2.6 asks for -0.3 to 0.6 (docs/smoother.md).
@@ -154,9 +155,9 @@ Friction friction_of(const Passage& passage, Point point, const SmootherConfig& 
     const double bend = 2 * likelihood(last - 1) - likelihood(last) - likelihood(last - 2);
     const double peak = bend > 0 ? std::clamp(rise / (2 * bend), -1.5, 1.5) : rise > 0 ? 1.0 : -1.0;
     const double found_n = (static_cast<double>(last - 1) + peak) * step_n;
-    const double offset_n = friction_offset_n * size;
-    return {.force_n = std::max(0.0, found_n - offset_n),
-            .sd_n = std::hypot(offset_n, bend > 0 ? step_n / std::sqrt(bend) : step_n),
+    return {.force_n = std::max(0.0, found_n),
+            .sd_n = std::hypot(least_friction_sd_n * size,
+                               bend > 0 ? step_n / std::sqrt(bend) : step_n),
             .iri_per_n = (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n)};
 }
 
@@ -198,10 +199,9 @@ Peak peak_about(const Passage& passage,
     for (int step = 0; step < steps && n > 0; ++step) {
         const auto slope =
             slope_about(passage, moved(start, unknowns, peak.by), unknowns, config, here);
-        const Eigen::MatrixXd left = (slope.information + prior).inverse();
-        const Eigen::VectorXd by = left * (slope.gradient - prior * peak.by);
-        const double bold = (by.array() / prior_sd.array()).abs().maxCoeff();
-        peak.by += by * std::min(1.0, boldest / std::max(bold, 1e-9));
+        const Eigen::MatrixXd left = (trust * slope.information + prior).inverse();
+        peak.by += left * (trust * slope.gradient - prior * peak.by);
+        peak.by = peak.by.cwiseMin(furthest * prior_sd).cwiseMax(-furthest * prior_sd);
         peak.iri_sd = std::sqrt(slope.iri.dot(left * slope.iri));
     }
     return peak;
