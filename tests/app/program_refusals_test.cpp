@@ -226,6 +226,38 @@ TEST_F(Refusals, OfABoxInDisorderAreMisuse) {
     EXPECT_THAT(run.err, HasSubstr("west < east"));
 }
 
+TEST_F(Refusals, OfSensorsThatNobodyKnowsNameThem) {
+    const std::pair<const char*, const char*> lists[] = {
+        {"nose", "nose"}, {"vertical,nose", "nose"}, {"vertical,", ""}, {"both,roll", "both"}};
+    for (const auto& [list, unknown] : lists) {
+        const auto run = run_macadam({"trace", good_, "--channels", list});
+        EXPECT_EQ(run.exit_status, 2) << list;
+        EXPECT_THAT(run.err,
+                    HasSubstr(fmt::format("--channels names '{}', expected automatic, both, or "
+                                          "some of vertical,lateral,roll,pitch,yaw",
+                                          unknown)));
+    }
+}
+
+TEST_F(Refusals, OfRatesOfTurnForTheFilterSayWhatItKnows) {
+    const auto run =
+        run_macadam({"import", store_, good_, "--method", "kf", "--channels", "vertical,roll"});
+    EXPECT_EQ(run.exit_status, 2);
+    EXPECT_THAT(run.err,
+                HasSubstr("--channels is 'vertical,roll', but --method kf knows vertical and "
+                          "lateral alone"));
+    expect_store_unchanged();
+}
+
+TEST_F(Refusals, OfALogWithoutTheRatesThatAreAskedForNameTheColumns) {
+    const auto run = run_macadam({"trace", good_, "--channels", "vertical,pitch"});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err,
+                HasSubstr("good.trip.csv: holds no rates of turn, expected gyro_x_radps, "
+                          "gyro_y_radps and gyro_z_radps"));
+    EXPECT_THAT(run.out, IsEmpty());
+}
+
 TEST_F(Refusals, OfASizeOutOfRangeAreMisuse) {
     for (const auto* size : {"0x0", "big", "20000x100", "512"}) {
         EXPECT_EQ(

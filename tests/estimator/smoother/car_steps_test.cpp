@@ -3,6 +3,7 @@
 #include "estimator/smoother/corners.hpp"
 #include "estimator/smoother/road_filter.hpp"
 
+#include <Eigen/LU>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -113,6 +114,18 @@ TEST(CarSteps, OfHalfTheTimeMakeTheSameWayInTwo) {
     const auto whole = car_steps(car, 0.02);
     const auto half = car_steps(car, 0.01);
     EXPECT_NEAR((half.phi * half.phi - whole.phi).norm(), 0, 1e-10);
+}
+
+/// An even pull for a step from rest: the integral of exp(a s) over it is a^-1 (phi - 1).
+TEST(CarSteps, LeanAsAnEvenPullOverTheStepAsks) {
+    for (const double step_s : {0.005, 0.02}) {
+        const auto steps = car_steps(linear_car(lopsided_car()), step_s);
+        const Eigen::MatrixXd a = steps.car.a;
+        const Eigen::MatrixXd moved =
+            (steps.phi - decltype(steps.phi)::Identity()) * steps.car.lean;
+        const Eigen::MatrixXd expected = a.lu().solve(moved);
+        EXPECT_NEAR((steps.lean - expected).norm() / expected.norm(), 0, 1e-9) << step_s;
+    }
 }
 
 TEST(RoadPush, OnARaisedRoadLeavesARaisedCarAtRest) {

@@ -244,4 +244,43 @@ TEST(LinearCar, WithASensorOnTheLeftFeelsTheLeftTrackMore) {
               1.5 * std::abs(response(car.a, car.b, right, car.felt[0], hz)));
 }
 
+TEST(LinearCar, DipsItsNoseUnderBrakingAndRaisesItsLeftSideInALeftBend) {
+    const auto car = linear_car(lopsided_car());
+    const States braked = States{car.lean.col(0)};
+    const States bent = States{car.lean.col(1)};
+    EXPECT_GT(car.felt[3] * exponential(car.a * 0.05) * braked, 0);
+    EXPECT_GT(car.felt[2] * exponential(car.a * 0.05) * bent, 0);
+    EXPECT_EQ((car.felt[2] * braked).value(), 0) << "neither does the other's";
+    EXPECT_EQ((car.felt[3] * bent).value(), 0);
+}
+
+/// The springs then hold mass * acceleration * arm, the tyres hold the springs.
+TEST(LinearCar, UnderALongPullRestsWhereItsSpringsHoldTheMoment) {
+    const auto vehicle = lopsided_car();
+    const auto car = linear_car(vehicle);
+    const Eigen::MatrixXd a = car.a;
+    constexpr double arm_m = 0.5;
+    constexpr double pull_mps2 = 3;
+    const auto& axles = *vehicle.axles;
+    const double inertia_kgm2[] = {axles.dynamic_index * vehicle.half_car.ms_kg *
+                                       axles.cg_to_front_m *
+                                       (axles.wheelbase_m - axles.cg_to_front_m),
+                                   2 * vehicle.half_car.is_kgm2};
+    for (int pull = 0; pull < 2; ++pull) {
+        const Eigen::VectorXd leant = car.lean.col(pull) * arm_m * pull_mps2;
+        const States rest = States{-a.lu().solve(leant)};
+        const auto of_springs = accelerations(vehicle, corners_of(rest), {});
+        const double moment_nm = vehicle.half_car.ms_kg * pull_mps2 * arm_m;
+        for (int i = 0; i < 7; ++i) {
+            const double held = i == pull + 1 ? -moment_nm / inertia_kgm2[pull] : 0;
+            EXPECT_NEAR(of_springs[static_cast<std::size_t>(i)], held, 1e-9) << pull << " " << i;
+        }
+    }
+}
+
+TEST(LinearCar, WithOneAxleDoesNotPitchUnderBraking) {
+    EXPECT_EQ(linear_car(one_axle_car()).lean.col(0).norm(), 0);
+    EXPECT_GT(linear_car(one_axle_car()).lean.col(1).norm(), 0);
+}
+
 } // namespace macadam::testing

@@ -40,6 +40,13 @@ EstimatorConfig smoother_config(Channels channels = Channels::automatic) {
     return config;
 }
 
+/// By some of its sensors, named.
+IriRun run_by(const Stretch& stretch, const SensorSet& sensors) {
+    auto config = smoother_config();
+    config.sensors = sensors;
+    return smoothed_iri(stretch, known_car(), config);
+}
+
 IriRun run_over(const Stretch& stretch, Channels channels = Channels::automatic) {
     return smoothed_iri(stretch, known_car(), smoother_config(channels));
 }
@@ -147,6 +154,50 @@ TEST(SmoothedIri, TakesTheChannelsThatItIsTold) {
     EXPECT_EQ(run_over(all, Channels::vertical).centre_mm_per_m, alone.centre_mm_per_m);
     const auto lateral = with_sensors(all, {false, true, false, false});
     EXPECT_EQ(run_over(all, Channels::lateral).centre_mm_per_m, run_over(lateral).centre_mm_per_m);
+}
+
+TEST(SmoothedIri, TakesTheSensorsThatItIsTold) {
+    const auto& all = short_stretch();
+    const auto run = run_by(all, {.vertical = true, .roll = true});
+    const auto alone = run_over(with_sensors(all, {true, false, true, false}));
+    EXPECT_EQ(run.left_mm_per_m,
+              run_by(with_sensors(all, {true, false, true, false}),
+                     {.vertical = true, .roll = true, .pitch = true})
+                  .left_mm_per_m);
+    EXPECT_NE(run.left_mm_per_m, run_over(all).left_mm_per_m);
+    EXPECT_THAT(alone.left_mm_per_m, SizeIs(run.left_mm_per_m.size()));
+}
+
+/// The headline of a map: what feels the difference of the tracks stays out of it.
+TEST(SmoothedIri, WithoutTracksLeavesRollAndLateralOut) {
+    auto config = smoother_config();
+    config.tracks = false;
+    const auto run = smoothed_iri(short_stretch(), known_car(), config);
+    const auto alone = run_by(short_stretch(), {.vertical = true, .pitch = true});
+    EXPECT_THAT(run.left_mm_per_m, IsEmpty());
+    EXPECT_EQ(run.centre_mm_per_m, alone.centre_mm_per_m);
+}
+
+TEST(SmoothedIri, WithTracksTakesLateralOnlyBesideRollAndAKnownHeight) {
+    const auto& all = short_stretch();
+    const SensorSet rates{.vertical = true, .roll = true, .pitch = true, .yaw = true};
+    auto unknown_height = known_car();
+    unknown_height.vehicle.imu.height_above_roll_axis_m = 0;
+    auto by_rates = smoother_config();
+    by_rates.sensors = rates;
+    EXPECT_EQ(smoothed_iri(all, unknown_height, smoother_config()).left_mm_per_m,
+              smoothed_iri(all, unknown_height, by_rates).left_mm_per_m);
+    EXPECT_NE(run_over(all).left_mm_per_m, run_by(all, rates).left_mm_per_m);
+    EXPECT_EQ(run_over(with_sensors(all, {true, true, false, true})).centre_mm_per_m,
+              run_by(all, {.vertical = true, .pitch = true}).centre_mm_per_m);
+}
+
+TEST(SmoothedIri, OfACarWithoutAxlesIsOfTheVerticalAlone) {
+    auto one_axle = known_car();
+    one_axle.vehicle.axles.reset();
+    const auto vertical = with_sensors(short_stretch(), {true, false, false, false});
+    EXPECT_EQ(smoothed_iri(short_stretch(), one_axle, smoother_config()).centre_mm_per_m,
+              smoothed_iri(vertical, one_axle, smoother_config()).centre_mm_per_m);
 }
 
 TEST(SmoothedIri, TakesTheGainOffAccelerationsAlone) {
