@@ -95,7 +95,7 @@ void run_iri(const Arguments& arguments, const Console&) {
 constexpr std::array operands{
     Operand{"PROFILE",
             "Elevations of wheel tracks: .csv with a header, .txt without one, .erd "
-            "(UMTRI ERD 2.00), or .pro (TxDOT)."}};
+            "(UMTRI ERD 2.00) or .pro (TxDOT)."}};
 
 constexpr std::array options{
     Option{"--step",

@@ -14,8 +14,7 @@ inline constexpr Option method_option{"--method",
 inline constexpr Option channels_option{
     "--channels",
     "LIST",
-    "Sensors to use: some of vertical,lateral (acceleration), roll,pitch,yaw (rates); both; or "
-    "automatic.",
+    "Some of vertical,lateral (acceleration),roll,pitch,yaw (rate); both; or automatic.",
     "automatic"};
 inline constexpr Option no_filters_option{
     "--no-filters", "", "Leave out the method's own filters, for noise-free simulated logs."};
