@@ -37,9 +37,10 @@ struct PassConfig {
 };
 
 /// MRI that the mean profile speaks for: real roads have HRI / MRI of 0.86 to 0.96
-/// (docs/method.md).
+/// (docs/method.md). It differs from road to road by 0.035, and within one from piece to piece: by
+/// 0.047 over the 100 m pieces of SH 130, Texas, by 0.022 over 20 m of a road with even tracks.
 inline constexpr double hri_over_mri = 0.91;
-inline constexpr double sd_hri_over_mri = 0.035;
+inline constexpr double sd_hri_over_mri = 0.055;
 
 /// Roughness and place meet again on the ruler of travel: the trace's mean over each segment that
 /// the trip drove. Ordered as driven.
