@@ -22,8 +22,7 @@ Said said_of(const IriTrace& trace, double from_m, const Vehicle& vehicle) {
     return {*mean.hri_mm_per_m / hri_over_mri, mean.sd_mm_per_m / hri_over_mri};
 }
 
-IriTrace trace_of(const MethodRow& row, const Stretch& whole, const Vehicle& vehicle) {
-    const auto stretch = with_sensors(whole, row.sensors);
+IriTrace trace_of(const MethodRow& row, const Stretch& stretch, const Vehicle& vehicle) {
     EstimatorConfig config;
     config.method = row.method;
     config.channels = row.channels;
@@ -31,6 +30,7 @@ IriTrace trace_of(const MethodRow& row, const Stretch& whole, const Vehicle& veh
         config.lateral_regression = 1; // fitted here, as in the paper
         return {{estimate_iri(stretch, vehicle, config)}, {}};
     }
+    config.sensors = row.sensors;
     return {{smoothed_iri(stretch, car_in(stretch, vehicle, config), config)}, {}};
 }
 

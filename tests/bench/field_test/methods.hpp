@@ -10,29 +10,35 @@ struct MethodRow {
     const char* name;
     Method method;
     Channels channels;
-    testing::Sensors sensors;
-    bool fitted; ///< one factor, from a tenth of the drive with the reference known
+    SensorSet sensors; ///< of the smoother
+    bool fitted;       ///< one factor, from a tenth of the drive with the reference known
 };
 
 inline constexpr std::array methods{
     MethodRow{"kf, vertical", Method::kf, Channels::vertical, {}, true},
     MethodRow{"kf, lateral", Method::kf, Channels::lateral, {}, true},
-    MethodRow{"smoother, vertical",
+    MethodRow{
+        "smoother, vertical", Method::smoother, Channels::automatic, {.vertical = true}, false},
+    MethodRow{"smoother, vertical + pitch rate (maps)",
               Method::smoother,
               Channels::automatic,
-              {.vertical = true, .lateral = false, .roll = false, .pitch = false},
+              {.vertical = true, .pitch = true},
               false},
-    MethodRow{"smoother, + lateral",
+    MethodRow{"smoother, vertical + lateral",
               Method::smoother,
               Channels::automatic,
-              {.vertical = true, .lateral = true, .roll = false, .pitch = false},
+              {.vertical = true, .lateral = true, .yaw = true},
               false},
-    MethodRow{"smoother, + roll rate",
+    MethodRow{"smoother, vertical + lateral + roll rate",
               Method::smoother,
               Channels::automatic,
-              {.vertical = true, .lateral = true, .roll = true, .pitch = false},
+              {.vertical = true, .lateral = true, .roll = true, .yaw = true},
               false},
-    MethodRow{"smoother, + pitch rate (all)", Method::smoother, Channels::automatic, {}, false}};
+    MethodRow{"smoother, all",
+              Method::smoother,
+              Channels::automatic,
+              {.vertical = true, .lateral = true, .roll = true, .pitch = true, .yaw = true},
+              false}};
 
 /// What every method says of one piece of the survey, mm/m.
 struct Reading {

@@ -78,6 +78,11 @@ Stretch stretch_of(const ImuReadings& readings, const Motion& motion, double rat
     return stretch;
 }
 
+Stretch stretch_over(const RoadUnderWheels& road, const DriveRecipe& recipe, const Motion& motion) {
+    const auto readings = simulate_imu(recipe.car, recipe.imu, road, motion, recipe.imu_seed);
+    return stretch_of(readings, motion, recipe.imu.rate_hz);
+}
+
 /// The stroke has mean zero, so its magnitude says it all.
 double kurtosis_of(const std::vector<float>& rectified) {
     double square = 0;
@@ -157,6 +162,10 @@ Vehicle two_axle_car(const Axles& axles, double imu_ahead_m) {
 }
 
 DrivenRoad driven_road(const DriveRecipe& recipe) {
+    return driven_road(recipe, motion_of(recipe));
+}
+
+DrivenRoad driven_road(const DriveRecipe& recipe, const Motion& motion) {
     auto paths = wheel_paths(make_surface(recipe.road, recipe.length_m, recipe.seed));
     const double left = 2 / (1 + recipe.right_over_left);
     for (std::size_t i = 0; i < paths.left_m.size(); ++i) {
@@ -166,13 +175,11 @@ DrivenRoad driven_road(const DriveRecipe& recipe) {
     const RoadUnderWheels road{.step_m = paths.step_m,
                                .left_m = {paths.left_m.begin(), paths.left_m.end()},
                                .right_m = {paths.right_m.begin(), paths.right_m.end()}};
-    return {stretch_over(road, recipe), true_stroke(paths)};
+    return {stretch_over(road, recipe, motion), true_stroke(paths)};
 }
 
 Stretch stretch_over(const RoadUnderWheels& road, const DriveRecipe& recipe) {
-    const auto motion = motion_of(recipe);
-    const auto readings = simulate_imu(recipe.car, recipe.imu, road, motion, recipe.imu_seed);
-    return stretch_of(readings, motion, recipe.imu.rate_hz);
+    return stretch_over(road, recipe, motion_of(recipe));
 }
 
 double true_over(const TrueStroke& truth, Index index, double from_m, double to_m) {

@@ -42,6 +42,9 @@ struct DrivenRoad {
 };
 DrivenRoad driven_road(const DriveRecipe& recipe);
 
+/// The same with a motion that is given; the recipe's speed is not used.
+DrivenRoad driven_road(const DriveRecipe& recipe, const Motion& motion);
+
 /// What the recipe's car feels of tracks that are given; the recipe's road is not used.
 Stretch stretch_over(const RoadUnderWheels& road, const DriveRecipe& recipe);
 

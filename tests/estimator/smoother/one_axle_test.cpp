@@ -44,7 +44,11 @@ std::vector<Held> one_axle_drive(const World& world, double speed_kmh) {
     auto stretch = stretch_of(ride, false, false);
     stretch.vertical_mps2 = with_noise(ride.vertical_mps2, 0.05, 1);
     stretch.roll_radps = with_noise(ride.roll_radps, 0.002, 2);
-    return held_beside(smoothed(stretch, car), true_stroke(paths), Index::mri, segment_m, car);
+    return held_beside(smoothed(stretch, car, {.vertical = true, .roll = true}),
+                       true_stroke(paths),
+                       Index::mri,
+                       segment_m,
+                       car);
 }
 
 TEST(OneAxleCar, IsReadAlikeAtEverySpeed) {

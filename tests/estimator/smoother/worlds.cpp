@@ -54,10 +54,10 @@ DriveRecipe drive_in(const World& world, double speed_kmh) {
             .seed = 11};
 }
 
-IriRun smoothed(const Stretch& stretch, const Vehicle& vehicle, Channels channels) {
+IriRun smoothed(const Stretch& stretch, const Vehicle& vehicle, const SensorSet& sensors) {
     EstimatorConfig config;
     config.method = Method::smoother;
-    config.channels = channels;
+    config.sensors = sensors;
     return smoothed_iri(stretch, car_in(stretch, vehicle, config), config);
 }
 

@@ -24,9 +24,14 @@ double drive_length_m();
 /// The drive of the world's car, which is what its vehicle says.
 DriveRecipe drive_in(const World& world, double speed_kmh);
 
-/// What users get: a car tuned by the stretch, then the smoother.
-IriRun
-smoothed(const Stretch& stretch, const Vehicle& vehicle, Channels channels = Channels::automatic);
+inline constexpr SensorSet every_sensor{
+    .vertical = true, .lateral = true, .roll = true, .pitch = true, .yaw = true};
+
+/// What maps are made of.
+inline constexpr SensorSet vertical_and_pitch{.vertical = true, .pitch = true};
+
+/// What users get of these sensors: a car tuned by the stretch, then the smoother.
+IriRun smoothed(const Stretch& stretch, const Vehicle& vehicle, const SensorSet& sensors);
 
 /// The published filter on the vertical or the lateral channel.
 IriRun filtered(const Stretch& stretch, const Vehicle& vehicle, Channels channels);
