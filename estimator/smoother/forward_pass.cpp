@@ -1,5 +1,6 @@
 #include "estimator/smoother/normal_draw.hpp"
 #include "estimator/smoother/road_passes.hpp"
+#include "estimator/smoother/step_sums.hpp"
 #include "estimator/smoother/wide.hpp"
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace {
 using Vector = std::vector<double>;
 
 constexpr auto states = static_cast<std::size_t>(LinearCar::states);
-constexpr auto heaves = static_cast<std::size_t>(LinearCar::heave_states);
-constexpr std::size_t most_terms = states + 2 * RoadPush::most_cells + 1;
 
 // What is known of a car before anything is felt; start-up forgets it.
 constexpr double start_m = 0.05;
@@ -42,20 +41,6 @@ double start_sd(std::size_t state) {
     return state % 2 == 0 ? (angle ? start_rad : start_m) : (angle ? start_radps : start_mps);
 }
 
-std::vector<Event> events_of(std::span<const Passage> passages, double cell_m) {
-    std::vector<Event> events;
-    for (std::size_t car = 0; car < passages.size(); ++car) {
-        const auto& passage = passages[car];
-        for (std::size_t k = 0; k < passage.travel_m.size(); ++k) {
-            const double front_m = passage.travel_m[k] + passage.cars.front().car.front_m;
-            events.push_back(
-                {car, k, front_m, static_cast<std::ptrdiff_t>(std::floor(front_m / cell_m)) + 1});
-        }
-    }
-    std::ranges::stable_sort(events, {}, &Event::front_m);
-    return events;
-}
-
 std::size_t readings_of(std::span<const Passage> passages) {
     std::size_t count = 0;
     for (const auto& passage : passages) {
@@ -65,13 +50,6 @@ std::size_t readings_of(std::span<const Passage> passages) {
     }
     return count;
 }
-
-/// Numbers of the state as sums of the same others: those that one side of the road moves.
-struct Sums {
-    std::size_t terms = 0;
-    std::array<std::size_t, most_terms> place;
-    std::array<std::array<double, most_terms>, states> weight; ///< by rank among the car's states
-};
 
 /// The estimate, its covariance, and the error of a road and readings that are drawn.
 class Filter {
@@ -101,6 +79,10 @@ private:
     std::size_t index(std::ptrdiff_t cell) const {
         return static_cast<std::size_t>(cell - grid_.first_cell);
     }
+    /// The station two before, or the first, where none is asked of it.
+    std::ptrdiff_t two_before(std::ptrdiff_t cell) const {
+        return index(cell) < 2 ? cell - 1 : cell - 2;
+    }
     double draw(std::uint64_t what, const Event& event, std::size_t which) const {
         return normal_draw(seed_,
                            of_car(what, event.car),
@@ -113,8 +95,11 @@ private:
     void start();
     Pair draw_increment(std::ptrdiff_t cell, const Increment& q);
     void append(std::ptrdiff_t cell);
-    Sums sums_of(std::size_t side, const Event& event, const RoadPush& push) const;
-    void move_side(const Sums& sums, std::size_t from, std::size_t to, std::size_t at);
+    void correlate(std::ptrdiff_t cell, const Increment& q);
+    void move_side(const StepSums& sums, std::size_t from, std::size_t to, std::size_t at);
+    using Among = std::array<std::array<double, states>, states>;
+    Among among_moved(const StateLayout::Car& places, const std::array<StepSums, 2>& sides) const;
+    void put_moved(const StateLayout::Car& places, const Among& among);
     void predict(const Event& event, const RoadPush& push);
     void wander(std::size_t place, double q, double drawn);
     void update(const Event& event);
@@ -183,29 +168,36 @@ void Filter::append(std::ptrdiff_t cell) {
         }
         const std::size_t at = layout.place(cell, side);
         const std::size_t one = layout.place(cell - 1, side);
-        const std::size_t two = layout.place(index(cell) < 2 ? cell - 1 : cell - 2, side);
+        const std::size_t two = layout.place(two_before(cell), side);
         wide::copy_times(row(at), by[side].one, row(one), size_);
         wide::add(row(at), by[side].two, row(two), size_);
         estimate_[at] = by[side].one * estimate_[one] + by[side].two * estimate_[two];
         error_[at] =
             by[side].one * error_[one] + by[side].two * error_[two] + (side == 0 ? w.mean : w.half);
     }
-    // Each new number with the other and with itself, by the rows that were just made: what stands
-    // in their own columns is still of the station that left.
+    correlate(cell, q);
+}
+
+/// Each new number with the other and with itself, by the rows that were just made: what stands in
+/// their own columns is still of the station that left.
+void Filter::correlate(std::ptrdiff_t cell, const Increment& q) {
+    const auto& layout = pass_.layout;
+    const auto& by = pass_.wander[index(cell)];
+    const double more[2][2] = {{q.mean, q.cross}, {q.cross, q.half}};
     double among[2][2] = {};
     for (std::size_t a = 0; a < 2; ++a) {
         for (std::size_t b = 0; b < 2; ++b) {
             if (layout.side[a] && layout.side[b]) {
                 const double* made = row(layout.place(cell, a));
-                const std::size_t two = layout.place(index(cell) < 2 ? cell - 1 : cell - 2, b);
-                among[a][b] = by[b].one * made[layout.place(cell - 1, b)] + by[b].two * made[two];
+                const double one = made[layout.place(cell - 1, b)];
+                const double two = made[layout.place(two_before(cell), b)];
+                among[a][b] = by[b].one * one + by[b].two * two;
             }
         }
     }
-    const double more[2][2] = {{q.mean, q.cross}, {q.cross, q.half}};
     for (std::size_t a = 0; a < 2; ++a) {
-        for (std::size_t b = 0; b < 2 && layout.side[a]; ++b) {
-            if (layout.side[b]) {
+        for (std::size_t b = 0; b < 2; ++b) {
+            if (layout.side[a] && layout.side[b]) {
                 row(layout.place(cell, a))[layout.place(cell, b)] = among[a][b] + more[a][b];
             }
         }
@@ -218,49 +210,10 @@ void Filter::append(std::ptrdiff_t cell) {
     }
 }
 
-/// The states of one side after the step, from states, stations and arms before it.
-Sums Filter::sums_of(std::size_t side, const Event& event, const RoadPush& push) const {
-    const CarSteps& steps = car_at(passages_[event.car], event.sample);
-    const auto& places = pass_.layout.cars[event.car];
-    const auto [from, to] = places.of_side(side);
-    Sums sums;
-    const auto add = [&](std::size_t place, auto weight) {
-        sums.place[sums.terms] = place;
-        for (std::size_t r = from; r < to; ++r) {
-            sums.weight[r][sums.terms] = weight(places.states[r]);
-        }
-        ++sums.terms;
-    };
-    for (std::size_t c = from; c < to; ++c) {
-        const auto column = static_cast<int>(places.states[c]);
-        add(places.first + c,
-            [&](std::size_t r) { return steps.phi(static_cast<int>(r), column); });
-    }
-    for (const auto& axle : push.axles) {
-        for (std::size_t i = 0; i < axle.cells && from < to; ++i) {
-            if (!places.has_rear && &axle == &push.axles[1]) {
-                continue;
-            }
-            add(pass_.layout.place(axle.first + static_cast<std::ptrdiff_t>(i), side),
-                [&](std::size_t r) {
-                    return side == 0 ? axle.heave[i][r] : axle.roll[i][r - heaves];
-                });
-        }
-    }
-    const std::size_t pull = side; // braking dips, cornering rolls
-    if (from < to && places.arm[pull] != StateLayout::nowhere) {
-        const double pulled = passages_[event.car].pull[pull][event.sample];
-        add(places.arm[pull], [&](std::size_t r) {
-            return steps.lean(static_cast<int>(r), static_cast<int>(pull)) * pulled;
-        });
-    }
-    return sums;
-}
-
 /// Rows [from, to) of the car's states after the step, into moved_; estimate and drawn error.
-void Filter::move_side(const Sums& sums, std::size_t from, std::size_t to, std::size_t at) {
-    const double* rows[most_terms];
-    double before[2][most_terms];
+void Filter::move_side(const StepSums& sums, std::size_t from, std::size_t to, std::size_t at) {
+    const double* rows[StepSums::most_terms];
+    double before[2][StepSums::most_terms];
     for (std::size_t k = 0; k < sums.terms; ++k) {
         rows[k] = row(sums.place[k]);
         before[0][k] = estimate_[sums.place[k]];
@@ -281,27 +234,20 @@ void Filter::move_side(const Sums& sums, std::size_t from, std::size_t to, std::
 
 /// What wanders by itself.
 void Filter::wander(std::size_t place, double q, double drawn) {
-    if (place != StateLayout::nowhere) {
-        row(place)[place] += q;
-        error_[place] += std::sqrt(q) * drawn;
-    }
+    row(place)[place] += q;
+    error_[place] += std::sqrt(q) * drawn;
 }
 
-void Filter::predict(const Event& event, const RoadPush& push) {
-    const auto& places = pass_.layout.cars[event.car];
+/// Covariances of the car's states after the step among themselves, from the moved rows.
+Filter::Among Filter::among_moved(const StateLayout::Car& places,
+                                  const std::array<StepSums, 2>& sides) const {
     const std::size_t n = places.states.size();
-    const std::size_t at = places.first;
-    double among[states][states];
-    const std::array sides{sums_of(0, event, push), sums_of(1, event, push)};
-    for (std::size_t side = 0; side < 2; ++side) {
-        const auto [from, to] = places.of_side(side);
-        move_side(sides[side], from, to, at);
-    }
+    Among among;
     for (std::size_t r = 0; r < n; ++r) {
         for (std::size_t side = 0; side < 2; ++side) {
-            const Sums& sums = sides[side];
+            const StepSums& sums = sides[side];
             const auto [from, to] = places.of_side(side);
-            double moved[most_terms];
+            double moved[StepSums::most_terms];
             for (std::size_t k = 0; k < sums.terms; ++k) {
                 moved[k] = moved_[r * size_ + sums.place[k]];
             }
@@ -314,6 +260,13 @@ void Filter::predict(const Event& event, const RoadPush& push) {
             }
         }
     }
+    return among;
+}
+
+/// The moved rows into the covariance, and into its columns.
+void Filter::put_moved(const StateLayout::Car& places, const Among& among) {
+    const std::size_t n = places.states.size();
+    const std::size_t at = places.first;
     for (std::size_t r = 0; r < n; ++r) {
         std::copy_n(&moved_[r * size_], size_, row(at + r));
     }
@@ -323,9 +276,20 @@ void Filter::predict(const Event& event, const RoadPush& push) {
         }
     }
     for (std::size_t r = 0; r < n; ++r) {
-        std::copy_n(among[r], n, row(at + r) + at);
+        std::copy_n(among[r].begin(), n, row(at + r) + at);
     }
+}
+
+void Filter::predict(const Event& event, const RoadPush& push) {
+    const auto& places = pass_.layout.cars[event.car];
     const Passage& passage = passages_[event.car];
+    const std::array sides{step_sums(0, passage, event, pass_.layout, push),
+                           step_sums(1, passage, event, pass_.layout, push)};
+    for (std::size_t side = 0; side < 2; ++side) {
+        const auto [from, to] = places.of_side(side);
+        move_side(sides[side], from, to, places.first);
+    }
+    put_moved(places, among_moved(places, sides));
     const double step_s = passage.cars.front().step_s;
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
         if (places.zero[channel] != StateLayout::nowhere) {
@@ -409,18 +373,6 @@ ForwardPass Filter::run() {
 }
 
 } // namespace
-
-RoadPush push_of(std::span<const Passage> passages, const RoadGrid& grid, const Event& event) {
-    if (event.sample == 0) {
-        return {};
-    }
-    const auto& travel_m = passages[event.car].travel_m;
-    const double from_m = travel_m[event.sample - 1];
-    return road_push(car_at(passages[event.car], event.sample),
-                     from_m,
-                     travel_m[event.sample] - from_m,
-                     grid.cell_m);
-}
 
 ForwardPass filter_forward(std::span<const Passage> passages,
                            const RoadGrid& grid,

@@ -1,19 +1,10 @@
 #pragma once
 
+#include "estimator/smoother/event.hpp"
 #include "estimator/smoother/road_wander.hpp"
 #include "estimator/smoother/state_layout.hpp"
 
 namespace macadam {
-
-/// A sample of a car, in the order in which front axles come along.
-struct Event {
-    std::size_t car, sample;
-    double front_m;           ///< where the front axle is
-    std::ptrdiff_t last_cell; ///< that must be there: the one ahead of it
-};
-
-/// What the stations do to the event's car on its way from the sample before; nothing on the first.
-RoadPush push_of(std::span<const Passage> passages, const RoadGrid& grid, const Event& event);
 
 /// The way forward, the Kalman filter, as the way back needs it.
 struct ForwardPass {

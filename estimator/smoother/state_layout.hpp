@@ -23,8 +23,9 @@ struct StateLayout {
         bool has_rear;      ///< wheels on the other axle count
 
         /// Ranks of the states that one side of the road moves.
-        std::pair<std::size_t, std::size_t> of_side(std::size_t side) const {
-            return side == 0 ? std::pair{std::size_t{0}, heaves} : std::pair{heaves, states.size()};
+        std::pair<std::size_t, std::size_t> of_side(std::size_t which) const {
+            return which == 0 ? std::pair{std::size_t{0}, heaves}
+                              : std::pair{heaves, states.size()};
         }
     };
     std::vector<Car> cars;
