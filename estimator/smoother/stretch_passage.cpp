@@ -106,7 +106,9 @@ sensors_for(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfi
         break;
     }
     if (config.sensors) {
-        return *config.sensors;
+        SensorSet named = *config.sensors;
+        named.pitch = named.pitch && vehicle.axles; // a car on one axle does not pitch
+        return named;
     }
     const bool rolls = config.tracks && vehicle.axles && !stretch.roll_radps.empty();
     const bool alone = stretch.vertical_mps2.empty() && !rolls;
