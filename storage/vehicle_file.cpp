@@ -38,6 +38,7 @@ constexpr Key number_keys[] = {
     {"half_car", "is_kgm2", positive_number, true, [](Vehicle& v) -> double& { return v.half_car.is_kgm2; }},
     {"half_car", "l_m", positive_number, true, [](Vehicle& v) -> double& { return v.half_car.l_m; }},
     {"half_car", "antiroll_n_per_m", not_negative_number, false, [](Vehicle& v) -> double& { return v.half_car.antiroll_n_per_m; }},
+    {"half_car", "friction_n", not_negative_number, false, [](Vehicle& v) -> double& { return v.half_car.friction_n.emplace(); }},
     {"axles", "wheelbase_m", positive_number, true, [](Vehicle& v) -> double& { return v.axles->wheelbase_m; }},
     {"axles", "cg_to_front_m", positive_number, true, [](Vehicle& v) -> double& { return v.axles->cg_to_front_m; }},
     {"axles", "dynamic_index", positive_number, false, [](Vehicle& v) -> double& { return v.axles->dynamic_index; }},

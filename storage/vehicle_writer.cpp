@@ -28,7 +28,8 @@ std::string half_car_text(const HalfCar& car) {
            line("ks_n_per_m", car.ks_n_per_m) + line("cs_ns_per_m", car.cs_ns_per_m) +
            line("kt_n_per_m", car.kt_n_per_m) + line("is_kgm2", car.is_kgm2) +
            line("l_m", car.l_m) +
-           (car.antiroll_n_per_m > 0 ? line("antiroll_n_per_m", car.antiroll_n_per_m) : "");
+           (car.antiroll_n_per_m > 0 ? line("antiroll_n_per_m", car.antiroll_n_per_m) : "") +
+           (car.friction_n ? line("friction_n", *car.friction_n) : "");
 }
 
 std::string axles_text(const Axles& axles) {

@@ -106,6 +106,7 @@ TEST(VehicleWriter, IsReadBackAsTheSameCar) {
     car.name = "suv-3";
     car.one_axle_gain = 0.72;
     car.half_car.antiroll_n_per_m = 8000;
+    car.half_car.friction_n = 0;
     car.axles =
         Axles{.wheelbase_m = 2.75, .cg_to_front_m = 1.3, .dynamic_index = 1.1, .rear_ratio = 0.9};
     car.imu = {.x_m = 0.1, .y_m = -0.2, .height_above_roll_axis_m = 0.5, .lowpass_hz = 40};
@@ -115,6 +116,7 @@ TEST(VehicleWriter, IsReadBackAsTheSameCar) {
     EXPECT_EQ(read.one_axle_gain, car.one_axle_gain);
     EXPECT_EQ(read.half_car.is_kgm2, car.half_car.is_kgm2);
     EXPECT_EQ(read.half_car.antiroll_n_per_m, 8000);
+    EXPECT_EQ(read.half_car.friction_n, 0) << "none, which is not the same as not known";
     EXPECT_EQ(read.axles->dynamic_index, 1.1);
     EXPECT_EQ(read.axles->rear_ratio, 0.9);
     EXPECT_EQ(read.imu.y_m, -0.2);

@@ -38,6 +38,7 @@ TEST(VehicleFile, NeedsANameAndAHalfCar) {
     EXPECT_EQ(car.half_car.is_kgm2, 500);
     EXPECT_EQ(car.half_car.l_m, 0.78);
     EXPECT_EQ(car.half_car.antiroll_n_per_m, 0);
+    EXPECT_FALSE(car.half_car.friction_n);
     EXPECT_FALSE(car.axles);
     EXPECT_TRUE(car.uncertainty.empty());
 }
@@ -45,7 +46,8 @@ TEST(VehicleFile, NeedsANameAndAHalfCar) {
 TEST(VehicleFile, ReadsWhatElseIsKnownOfACar) {
     const auto car =
         read_text("gain = 0.9\none_axle_gain = 0.72\n" + least +
-                  "antiroll_n_per_m = 8000\n[axles]\nwheelbase_m = 2.7\ncg_to_front_m = 1.3\n"
+                  "antiroll_n_per_m = 8000\nfriction_n = 30\n"
+                  "[axles]\nwheelbase_m = 2.7\ncg_to_front_m = 1.3\n"
                   "dynamic_index = 0.95\nrear_ratio = 1.1\n"
                   "[imu]\nx_m = -0.5\ny_m = 0.2\nheight_above_roll_axis_m = 0.3\n"
                   "lowpass_hz = 40\nlowpass_order = 4\nnoise_mps2 = 0.1\n"
@@ -53,6 +55,7 @@ TEST(VehicleFile, ReadsWhatElseIsKnownOfACar) {
     EXPECT_EQ(car.gain, 0.9);
     EXPECT_EQ(gain_for_one_axle(car), 0.72);
     EXPECT_EQ(car.half_car.antiroll_n_per_m, 8000);
+    EXPECT_EQ(car.half_car.friction_n, 30);
     ASSERT_TRUE(car.axles);
     EXPECT_EQ(car.axles->wheelbase_m, 2.7);
     EXPECT_EQ(car.axles->cg_to_front_m, 1.3);
