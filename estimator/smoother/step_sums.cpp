@@ -14,7 +14,8 @@ StepSums step_sums(std::size_t side,
                    const RoadPush& push) {
     const CarSteps& steps = car_at(passage, event.sample);
     const auto& places = layout.cars[event.car];
-    const auto [from, to] = places.of_side(side);
+    const std::size_t from = places.of_side(side).first;
+    const std::size_t to = places.of_side(side).second;
     StepSums sums;
     const auto add = [&](std::size_t place, auto weight) {
         sums.place[sums.terms] = place;

@@ -11,11 +11,9 @@
 namespace macadam::testing {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::DoubleNear;
 using ::testing::Each;
 using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 constexpr double step_s = 0.02;
 constexpr int rounds = 60; // until nothing moves
