@@ -1,5 +1,6 @@
 #include "estimator/smoother/stretch_passage.hpp"
 
+#include "estimator/smoother/lowpass_off.hpp"
 #include "estimator/smoother/wheel_order.hpp"
 #include "estimator/smoother/windowed.hpp"
 
@@ -164,6 +165,12 @@ Passage passage_of(const Stretch& stretch, const Vehicle& vehicle, const Estimat
     }
     if (sensors.pitch) {
         pitch = doubles(stretch.pitch_radps, 1);
+    }
+    if (vehicle.imu.lowpass_hz > 0) {
+        for (auto& felt : passage.felt) {
+            felt = without_lowpass(
+                felt, stretch.step_s, vehicle.imu.lowpass_hz, vehicle.imu.lowpass_order);
+        }
     }
     add_pulls(passage, stretch, yaw);
     if (const auto turn_m = wheel_turn_m(passage)) {
