@@ -8,9 +8,9 @@
 namespace macadam {
 namespace {
 
-constexpr double block_s = 0.25; // four to each second that the mounting looks at
+constexpr double block_s = 0.25;            // four to each second that the mounting looks at
 constexpr std::size_t most_blocks = 14'400; // an hour
-constexpr double early_s = 60; // so long it is found again more often
+constexpr double early_s = 60;              // so long it is found again more often
 constexpr double early_every_s = 5;
 constexpr double late_every_s = 30;
 constexpr double infinity = std::numeric_limits<double>::infinity();

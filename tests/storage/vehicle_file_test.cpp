@@ -44,14 +44,13 @@ TEST(VehicleFile, NeedsANameAndAHalfCar) {
 }
 
 TEST(VehicleFile, ReadsWhatElseIsKnownOfACar) {
-    const auto car =
-        read_text("gain = 0.9\none_axle_gain = 0.72\n" + least +
-                  "antiroll_n_per_m = 8000\nfriction_n = 30\n"
-                  "[axles]\nwheelbase_m = 2.7\ncg_to_front_m = 1.3\n"
-                  "dynamic_index = 0.95\nrear_ratio = 1.1\n"
-                  "[imu]\nx_m = -0.5\ny_m = 0.2\nheight_above_roll_axis_m = 0.3\n"
-                  "lowpass_hz = 40\nlowpass_order = 4\nnoise_mps2 = 0.1\n"
-                  "noise_radps = 0.01\n[uncertainty]\nms_kg = 0.1\ngain = 0.05\n");
+    const auto car = read_text("gain = 0.9\none_axle_gain = 0.72\n" + least +
+                               "antiroll_n_per_m = 8000\nfriction_n = 30\n"
+                               "[axles]\nwheelbase_m = 2.7\ncg_to_front_m = 1.3\n"
+                               "dynamic_index = 0.95\nrear_ratio = 1.1\n"
+                               "[imu]\nx_m = -0.5\ny_m = 0.2\nheight_above_roll_axis_m = 0.3\n"
+                               "lowpass_hz = 40\nlowpass_order = 4\nnoise_mps2 = 0.1\n"
+                               "noise_radps = 0.01\n[uncertainty]\nms_kg = 0.1\ngain = 0.05\n");
     EXPECT_EQ(car.gain, 0.9);
     EXPECT_EQ(gain_for_one_axle(car), 0.72);
     EXPECT_EQ(car.half_car.antiroll_n_per_m, 8000);
