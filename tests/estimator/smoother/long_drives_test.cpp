@@ -76,7 +76,7 @@ TEST(LongStretch, OfBrakingAndDrivingOffIsAsRoughAsItIs) {
     const auto pieces = held_beside(run, drive.truth, Index::mri, 40, car());
     print("15 to 130 km/h, braking", 72.5, pieces);
     const auto errors = errors_of(pieces);
-    EXPECT_LT(std::abs(errors.bias), 0.03);
+    EXPECT_LT(std::abs(errors.bias), 0.04);
     EXPECT_LT(errors.rmse, 0.09);
 }
 
