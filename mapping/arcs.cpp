@@ -25,17 +25,20 @@ double point_offset_m(const RoadNetwork& roads, EdgeId edge, std::uint32_t n) {
                             : link.to_m - along_m[link.last_point - n];
 }
 
-Arc arc_at(const RoadNetwork& roads, EdgeId edge, std::uint32_t n, double t_s) {
+Arc arc_at(const RoadNetwork& roads, const MatchedPiece& piece, std::uint32_t n, double t_s) {
+    const auto edge = piece.edge;
     const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
     const auto& way = roads.ways[link.way];
     return is_forward(edge) ? Arc{way.node_ids[link.first_point + n],
                                   way.node_ids[link.first_point + n + 1],
                                   way.id,
-                                  t_s}
+                                  t_s,
+                                  piece.confidence}
                             : Arc{way.node_ids[link.last_point - n],
                                   way.node_ids[link.last_point - n - 1],
                                   way.id,
-                                  t_s};
+                                  t_s,
+                                  piece.confidence};
 }
 
 double time_at(const MatchedPiece& piece, double offset_m) {
@@ -64,7 +67,7 @@ std::vector<Arc> arcs_of(const MatchedTrace& trace, const RoadNetwork& roads) {
                 (goes_on && n <= last->arc)) {
                 continue;
             }
-            arcs.push_back(arc_at(roads, piece.edge, n, time_at(piece, from_m)));
+            arcs.push_back(arc_at(roads, piece, n, time_at(piece, from_m)));
             last = {piece.edge, n, piece.to_offset_m};
         }
         if (last && last->edge == piece.edge) {

@@ -74,6 +74,7 @@ struct Arc {
     std::int64_t to_node;
     std::int64_t way_id;
     double t_enter_s;
+    double confidence; ///< of its piece
 };
 
 /// Every pair of consecutive points of the ways that the trace touched, in driving order, the first

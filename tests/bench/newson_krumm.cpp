@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <queue>
+#include <tuple>
 
 namespace macadam::bench {
 namespace {
@@ -75,38 +76,48 @@ candidates_near(const RoadNetwork& roads, const GeoPoint& fix, const NewsonKrumm
     return all;
 }
 
+struct WayTo {
+    double way_m;
+    EdgeId last; ///< of no meaning where the way begins
+};
+
 /// Ways from a node to all others within reach.
-std::map<NodeId, double> ways_from(const RoadNetwork& roads, NodeId from, double reach_m) {
-    using Entry = std::pair<double, NodeId>;
+std::map<NodeId, WayTo> ways_from(const RoadNetwork& roads, NodeId from, double reach_m) {
+    using Entry = std::tuple<double, NodeId, EdgeId>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    std::map<NodeId, double> found;
-    open.emplace(0.0, from);
+    std::map<NodeId, WayTo> found;
+    open.emplace(0.0, from, EdgeId{});
     while (!open.empty()) {
-        const auto [way_m, node] = open.top();
+        const auto [way_m, node, last] = open.top();
         open.pop();
-        if (!found.emplace(node, way_m).second) {
+        if (!found.emplace(node, WayTo{way_m, last}).second) {
             continue;
         }
         for (const auto edge : out_edges(roads, node)) {
             const double next_m = way_m + length_m(roads, edge);
             if (next_m <= reach_m) {
-                open.emplace(next_m, to_node(roads, edge));
+                open.emplace(next_m, to_node(roads, edge), edge);
             }
         }
     }
     return found;
 }
 
+double reach_m(double straight_m, const NewsonKrummConfig& config) {
+    return straight_m + config.longest_route_m;
+}
+
 double route_m(const RoadNetwork& roads,
                const Candidate& a,
                const Candidate& b,
-               const std::map<NodeId, double>& ways) {
+               const std::map<NodeId, WayTo>& ways) {
     if (a.edge == b.edge && b.offset_m >= a.offset_m) {
         return b.offset_m - a.offset_m;
     }
     const auto way = ways.find(from_node(roads, b.edge));
-    return way == ways.end() ? std::numeric_limits<double>::infinity()
-                             : length_m(roads, a.edge) - a.offset_m + way->second + b.offset_m;
+    return way == ways.end()
+               ? std::numeric_limits<double>::infinity()
+               : length_m(roads, a.edge) - a.offset_m + way->second.way_m + b.offset_m;
 }
 
 double emission_cost(const Candidate& candidate, double sd_m) {
@@ -126,7 +137,7 @@ bool step(const RoadNetwork& roads,
             continue;
         }
         const auto ways =
-            ways_from(roads, to_node(roads, last[i].edge), straight_m + config.longest_route_m);
+            ways_from(roads, to_node(roads, last[i].edge), reach_m(straight_m, config));
         for (auto& candidate : next) {
             const double way_m = route_m(roads, last[i], candidate, ways);
             const double cost = last[i].cost + std::abs(way_m - straight_m) / config.beta_m +
@@ -141,26 +152,66 @@ bool step(const RoadNetwork& roads,
     return reached;
 }
 
-void append_path(const std::vector<std::vector<Candidate>>& steps, std::vector<EdgeId>& path) {
+/// All candidates of one fix.
+struct Step {
+    std::vector<Candidate> candidates;
+    double straight_m; ///< from the fix before
+};
+
+/// The cheapest chain, one candidate for each step.
+std::vector<Candidate> chain_of(const std::vector<Step>& steps) {
+    std::vector<Candidate> chain;
+    const auto& last = steps.back().candidates;
+    auto at = std::ranges::min_element(last, {}, &Candidate::cost) - last.begin();
+    for (auto i = steps.size(); i-- > 0;) {
+        chain.push_back(steps[i].candidates[static_cast<std::size_t>(at)]);
+        at = chain.back().before;
+    }
+    std::ranges::reverse(chain);
+    return chain;
+}
+
+void append_way(std::vector<DrivenEdge>& path,
+                const RoadNetwork& roads,
+                const Candidate& a,
+                const Candidate& b,
+                double longest_m) {
+    if (a.edge == b.edge && b.offset_m >= a.offset_m) {
+        path.back().to_m = b.offset_m;
+        return;
+    }
+    const auto begin = to_node(roads, a.edge);
+    const auto ways = ways_from(roads, begin, longest_m);
+    std::vector<DrivenEdge> backward{{b.edge, 0, b.offset_m}};
+    for (auto node = from_node(roads, b.edge); node != begin;) {
+        const auto edge = ways.at(node).last;
+        backward.push_back({edge, 0, length_m(roads, edge)});
+        node = from_node(roads, edge);
+    }
+    path.back().to_m = length_m(roads, a.edge);
+    path.insert(path.end(), backward.rbegin(), backward.rend());
+}
+
+void append_path(const RoadNetwork& roads,
+                 const std::vector<Step>& steps,
+                 const NewsonKrummConfig& config,
+                 std::vector<DrivenEdge>& path) {
     if (steps.empty()) {
         return;
     }
-    std::vector<EdgeId> backward;
-    auto at = std::ranges::min_element(steps.back(), {}, &Candidate::cost) - steps.back().begin();
-    for (auto i = steps.size(); i-- > 0;) {
-        const auto& candidate = steps[i][static_cast<std::size_t>(at)];
-        backward.push_back(candidate.edge);
-        at = candidate.before;
+    const auto chain = chain_of(steps);
+    path.push_back({chain.front().edge, chain.front().offset_m, chain.front().offset_m});
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+        append_way(path, roads, chain[i - 1], chain[i], reach_m(steps[i].straight_m, config));
     }
-    path.insert(path.end(), backward.rbegin(), backward.rend());
 }
 
 } // namespace
 
-std::vector<EdgeId>
+std::vector<DrivenEdge>
 newson_krumm(const TripLog& trip, const RoadNetwork& roads, const NewsonKrummConfig& config) {
-    std::vector<EdgeId> path;
-    std::vector<std::vector<Candidate>> steps;
+    std::vector<DrivenEdge> path;
+    std::vector<Step> steps;
     const GeoPoint* last = nullptr;
     for (const auto& fix : trip.fixes) {
         double straight_m = 0;
@@ -173,8 +224,9 @@ newson_krumm(const TripLog& trip, const RoadNetwork& roads, const NewsonKrummCon
         }
         last = &fix.at;
         auto next = candidates_near(roads, fix.at, config);
-        if (next.empty() || steps.empty() || !step(roads, steps.back(), next, straight_m, config)) {
-            append_path(steps, path);
+        if (next.empty() || steps.empty() ||
+            !step(roads, steps.back().candidates, next, straight_m, config)) {
+            append_path(roads, steps, config, path);
             steps.clear();
             for (auto& candidate : next) {
                 candidate.cost = emission_cost(candidate, config.position_sd_m);
@@ -182,10 +234,10 @@ newson_krumm(const TripLog& trip, const RoadNetwork& roads, const NewsonKrummCon
             }
         }
         if (!next.empty()) {
-            steps.push_back(std::move(next));
+            steps.push_back({std::move(next), straight_m});
         }
     }
-    append_path(steps, path);
+    append_path(roads, steps, config, path);
     return path;
 }
 
