@@ -79,8 +79,15 @@ struct Task {
 };
 
 std::string without_suffix(const std::string& name) {
-    for (const std::string_view suffix :
-         {".trip.csv.gz", ".trip.csv.zst", ".trip.csv", ".rawlog", ".zip", ".csv"}) {
+    for (const std::string_view suffix : {".trip.csv.gz",
+                                          ".trip.csv.zst",
+                                          ".trip.csv",
+                                          ".rawlog",
+                                          ".gpx.gz",
+                                          ".gpx.zst",
+                                          ".gpx",
+                                          ".zip",
+                                          ".csv"}) {
         if (name.ends_with(suffix) && name.size() > suffix.size()) {
             return name.substr(0, name.size() - suffix.size());
         }
@@ -115,7 +122,7 @@ Found trips_of(const ConvertOptions& options) {
     Found all;
     for (const auto& path : options.trips) {
         try {
-            const auto trips = find_trips(path, options.mapping).trips;
+            const auto trips = find_tracks(path, options.mapping).trips;
             if (trips.empty()) {
                 throw InputError{fmt::format("{}: holds no trip", path.string())};
             }

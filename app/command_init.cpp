@@ -66,7 +66,7 @@ std::vector<Way> traced_ways(const std::vector<std::filesystem::path>& paths,
                              const Console& console) {
     std::vector<TripLog> trips;
     for (const auto& path : paths) {
-        for (const auto& source : find_trips(path).trips) {
+        for (const auto& source : find_tracks(path).trips) {
             trips.push_back(read_trip(source, needs_of_match(), console.progress("reading")));
         }
     }
@@ -120,7 +120,11 @@ constexpr std::array options{
            "FILE",
            "The roads: .osm.pbf, .osm, or any line layer that GDAL reads (.gpkg, .shp, .geojson, "
            "...)."},
-    Option{"--trace", "TRIP", "Where there is no map: draw the roads from these trips.", "", true},
+    Option{"--trace",
+           "TRIP",
+           "Where there is no map: draw the roads from these trips (logs, .gpx).",
+           "",
+           true},
     Option{"--segment-length", "METRES", "About how long a segment is, the unit of fusion.", "20"},
     Option{"--layer", "NAME", "Of a line layer file: which layer.", "the first with lines"},
     Option{"--id-column",

@@ -1,20 +1,21 @@
 #include "app/commands.hpp"
 #include "app/mapping_option.hpp"
+#include "app/match_output.hpp"
 #include "app/output_guard.hpp"
 #include "app/pipeline.hpp"
 #include "app/trip_place.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/edge_passages.hpp"
 #include "mapping/map_match.hpp"
 #include "storage/atomic_file.hpp"
-#include "storage/json.hpp"
+#include "storage/foreign/gpx_reader.hpp"
 #include "storage/network_reader.hpp"
 #include "storage/road_store.hpp"
 #include "storage/trip_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -54,178 +55,6 @@ MatchOptions parse_match(const Arguments& arguments) {
     return options;
 }
 
-std::string_view kind_name(PieceKind kind) {
-    switch (kind) {
-    case PieceKind::road:
-        return "road";
-    case PieceKind::off_network:
-        return "off_network";
-    case PieceKind::gap:
-        break;
-    }
-    return "gap";
-}
-
-std::int64_t end_node_id(const RoadNetwork& roads, EdgeId edge, bool at_start) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
-    const auto point = is_forward(edge) == at_start ? link.first_point : link.last_point;
-    return roads.ways[link.way].node_ids[point];
-}
-
-/// Where along the way, from its first node, an offset on one of its edges lies.
-double along_way_m(const RoadNetwork& roads, EdgeId edge, double offset_m) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
-    return is_forward(edge) ? link.from_m + offset_m : link.to_m - offset_m;
-}
-
-/// A matched piece in the words of the output. from_m < to_m along the way, whatever the direction.
-struct RoadCells {
-    std::int64_t way_id;
-    std::int64_t from_node;
-    std::int64_t to_node;
-    std::string_view direction;
-    double from_m;
-    double to_m;
-};
-
-RoadCells road_cells(const MatchedPiece& piece, const RoadNetwork& roads) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(piece.edge))];
-    const double a_m = along_way_m(roads, piece.edge, piece.from_offset_m);
-    const double b_m = along_way_m(roads, piece.edge, piece.to_offset_m);
-    return {.way_id = roads.ways[link.way].id,
-            .from_node = end_node_id(roads, piece.edge, true),
-            .to_node = end_node_id(roads, piece.edge, false),
-            .direction = is_forward(piece.edge) ? "forward" : "backward",
-            .from_m = std::min(a_m, b_m),
-            .to_m = std::max(a_m, b_m)};
-}
-
-std::string csv_of(const MatchedTrace& trace, const RoadNetwork& roads) {
-    std::string csv = "way_id,from_node,to_node,direction,from_m,to_m,t_enter_s,t_leave_s,"
-                      "confidence,kind,reason\n";
-    for (const auto& piece : trace) {
-        if (piece.kind == PieceKind::road) {
-            const auto cells = road_cells(piece, roads);
-            csv += fmt::format("{},{},{},{},{:.2f},{:.2f}",
-                               cells.way_id,
-                               cells.from_node,
-                               cells.to_node,
-                               cells.direction,
-                               cells.from_m,
-                               cells.to_m);
-        } else {
-            csv += ",,,,,";
-        }
-        csv += fmt::format(",{:.3f},{:.3f},{:.4f},{},{}\n",
-                           piece.t_enter_s,
-                           piece.t_leave_s,
-                           piece.confidence,
-                           kind_name(piece.kind),
-                           piece.reason);
-    }
-    return csv;
-}
-
-std::string arcs_csv(const MatchedTrace& trace, const RoadNetwork& roads) {
-    std::string csv = "from_node,to_node,way_id,t_enter_s\n";
-    for (const auto& arc : arcs_of(trace, roads)) {
-        csv +=
-            fmt::format("{},{},{},{:.3f}\n", arc.from_node, arc.to_node, arc.way_id, arc.t_enter_s);
-    }
-    return csv;
-}
-
-/// The part of an edge that a piece went along.
-std::vector<GeoPoint> line_of_piece(const MatchedPiece& piece, const RoadNetwork& roads) {
-    std::vector<GeoPoint> line{place_on(roads, piece.edge, piece.from_offset_m)};
-    double offset_m = 0;
-    const auto whole = line_of(roads, piece.edge);
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-        offset_m += i == 0 ? 0 : distance_m(whole[i - 1], whole[i]);
-        if (offset_m > piece.from_offset_m && offset_m < piece.to_offset_m) {
-            line.push_back(whole[i]);
-        }
-    }
-    line.push_back(place_on(roads, piece.edge, piece.to_offset_m));
-    return line;
-}
-
-std::string coordinates(const std::vector<GeoPoint>& line) {
-    std::vector<std::string> points;
-    points.reserve(line.size());
-    for (const auto& point : line) {
-        points.push_back(fmt::format("[{:.7f},{:.7f}]", point.lon_deg, point.lat_deg));
-    }
-    return json_array(points);
-}
-
-std::string geojson_feature(const MatchedPiece& piece, const RoadNetwork& roads) {
-    JsonObject properties;
-    JsonValue geometry = nullptr;
-    if (piece.kind == PieceKind::road) {
-        const auto cells = road_cells(piece, roads);
-        properties.add("way_id", cells.way_id)
-            .add("from_node", cells.from_node)
-            .add("to_node", cells.to_node)
-            .add("direction", std::string{cells.direction})
-            .add("from_m", JsonNumber{cells.from_m, 2})
-            .add("to_m", JsonNumber{cells.to_m, 2});
-        JsonObject line;
-        line.add("type", std::string{"LineString"})
-            .add("coordinates", JsonRaw{coordinates(line_of_piece(piece, roads))});
-        geometry = JsonRaw{line.text()};
-    }
-    properties.add("t_enter_s", JsonNumber{piece.t_enter_s, 3})
-        .add("t_leave_s", JsonNumber{piece.t_leave_s, 3})
-        .add("confidence", JsonNumber{piece.confidence, 4})
-        .add("kind", std::string{kind_name(piece.kind)})
-        .add("reason", piece.reason);
-    JsonObject feature;
-    feature.add("type", std::string{"Feature"})
-        .add("geometry", geometry)
-        .add("properties", JsonRaw{properties.text()});
-    return feature.text();
-}
-
-std::string geojson_of(const MatchedTrace& trace, const RoadNetwork& roads) {
-    std::vector<std::string> features;
-    features.reserve(trace.size());
-    for (const auto& piece : trace) {
-        features.push_back(geojson_feature(piece, roads));
-    }
-    JsonObject collection;
-    collection.add("type", std::string{"FeatureCollection"})
-        .add("features", JsonRaw{json_array(features)});
-    return collection.text() + "\n";
-}
-
-/// How much of a piece nobody drove, because the recording was paused and the places jumped.
-double paused_within_m(const MatchedPiece& piece, const Odometer& odometer) {
-    double paused_m = 0;
-    for (const auto& pause : odometer.pauses()) {
-        paused_m += std::max(0.0,
-                             std::min(pause.to_m, piece.to_travel_m) -
-                                 std::max(pause.from_m, piece.from_travel_m));
-    }
-    return paused_m;
-}
-
-std::string spoken(const MatchedTrace& trace, const Odometer& odometer) {
-    double on_m = 0;
-    double off_m = 0;
-    double gap_m = 0;
-    for (const auto& piece : trace) {
-        auto& sum_m = piece.kind == PieceKind::road  ? on_m
-                      : piece.kind == PieceKind::gap ? gap_m
-                                                     : off_m;
-        sum_m += piece.to_travel_m - piece.from_travel_m - paused_within_m(piece, odometer);
-    }
-    return fmt::format("{:.2f} km on roads, {:.2f} km off the network, {:.2f} km in gaps",
-                       on_m / 1000,
-                       off_m / 1000,
-                       gap_m / 1000);
-}
-
 /// Of a map, or of a store that was made from one.
 RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
     if (options.network.extension() == ".gpkg" && is_store(options.network)) {
@@ -233,6 +62,18 @@ RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
     }
     return build_network(
         read_network(options.network, options.columns, console.progress("reading roads")));
+}
+
+/// The trip with its receiver's latency; made-up times have none.
+TripLog timed(TripLog trip, std::vector<std::string>& warnings) {
+    const auto made_up = trip.meta.other.find(times_key);
+    if (made_up == trip.meta.other.end()) {
+        return with_latency(std::move(trip), warnings);
+    }
+    warnings.push_back(fmt::format("its points have no times that rise; {}, so t_enter_s and "
+                                   "t_leave_s tell the order only",
+                                   made_up->second));
+    return trip;
 }
 
 void run_match(const Arguments& arguments, const Console& console) {
@@ -244,13 +85,13 @@ void run_match(const Arguments& arguments, const Console& console) {
     const auto source = one_trip(options.trip, mapping_of(arguments));
     std::vector<std::string> warnings;
     const auto trip =
-        with_latency(read_trip(source, needs_of_match(), console.progress("reading")), warnings);
+        timed(read_trip(source, needs_of_match(), console.progress("reading")), warnings);
 
     const auto [trace, summary] = naming(source.name(), [&] {
         auto use = unused(trip);
         const auto odometer = make_odometer(trip, {}, use);
         auto matched = map_match(trip, odometer, roads, {}, use);
-        auto words = spoken(matched, odometer);
+        auto words = matched_words(matched, odometer);
         return std::pair{std::move(matched), std::move(words)};
     });
     for (const auto& warning : warnings) {
@@ -260,8 +101,8 @@ void run_match(const Arguments& arguments, const Console& console) {
 
     const bool geojson = options.output && options.output->extension() == ".geojson";
     const auto text = options.arcs ? arcs_csv(trace, roads)
-                      : geojson    ? geojson_of(trace, roads)
-                                   : csv_of(trace, roads);
+                      : geojson    ? passages_geojson(edge_passages(trace), roads)
+                                   : passages_csv(edge_passages(trace), roads);
     if (!options.output) {
         print(text);
         return;
@@ -272,7 +113,7 @@ void run_match(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{
-    Operand{"TRIP", "One trip log; its positions are enough, speed makes it better."}};
+    Operand{"TRIP", "One trip log or GPX track; positions are enough, speed makes it better."}};
 constexpr std::array options{
     Option{"--network",
            "FILE",
@@ -292,12 +133,17 @@ constexpr std::array options{
 const Command match_command{
     .name = "match",
     .summary = "Which roads a trip drove, and when",
-    .about = "One row for each piece of an edge, in driving order, with a confidence from 0 to 1; "
-             "parts off the\n"
-             "network and gaps in the positions are rows of their own that say why.",
+    .about =
+        "One row for each passage of an edge, in driving order: from_m and to_m along the way, "
+        "when, "
+        "and with\n"
+        "what confidence from 0 to 1. Parts off the network and gaps in the positions are rows "
+        "of their own\n"
+        "that say why. Kilometres and mean confidence go to standard error.",
     .example = "  macadam match drive.trip.csv --network town.osm.pbf\n"
                "  macadam match drive.trip.csv --network town.osm.pbf -o match.geojson\n"
-               "  macadam match drive.trip.csv --network town.osm.pbf --arcs > arcs.csv",
+               "  macadam match drive.trip.csv --network town.osm.pbf --arcs > arcs.csv\n"
+               "  macadam match tour.gpx --network roads.gpkg          a store",
     .operands = operands,
     .options = options,
     .run = run_match};

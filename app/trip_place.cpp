@@ -14,7 +14,7 @@ constexpr double longest_silence_s = 10;
 
 TripSource one_trip(const std::filesystem::path& path,
                     const std::shared_ptr<const TripMapping>& mapping) {
-    const auto found = find_trips(path, mapping).trips;
+    const auto found = find_tracks(path, mapping).trips;
     const bool is_export = found.size() == 1 && !found.front().files.empty();
     if (std::filesystem::is_directory(path) && !is_export) {
         throw InputError{fmt::format("{}: is a folder, expected one trip log", path.string())};

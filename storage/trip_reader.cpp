@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/byte_stream.hpp"
 #include "storage/foreign/foreign_trip.hpp"
+#include "storage/foreign/gpx_reader.hpp"
 #include "storage/foreign/phone_export.hpp"
 #include "storage/rawlog_reader.hpp"
 #include "storage/trip_rows.hpp"
@@ -112,6 +113,9 @@ TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progre
     }
     if (source.name().ends_with(rawlog_suffix)) {
         return read_rawlog({open(source), source.name(), bytes_on_disk(source)}, needs, progress);
+    }
+    if (is_gpx_name(source.name())) {
+        return read_gpx({open(source), source.name(), bytes_on_disk(source)}, needs, progress);
     }
     TripRows rows{open(source), source, needs};
     TripStreams streams{needs, rows.header()};

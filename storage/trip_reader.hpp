@@ -56,12 +56,17 @@ struct TripSearch {
 TripSearch find_trips(const std::filesystem::path& path,
                       const std::shared_ptr<const TripMapping>& mapping = nullptr);
 
+/// The same for what needs positions alone: every *.gpx[.gz|.zst] there is a trip, too.
+TripSearch find_tracks(const std::filesystem::path& path,
+                       const std::shared_ptr<const TripMapping>& mapping = nullptr);
+
 /// SHA-256 of the decompressed content of a trip, without reading it as one: to know quickly
 /// whether it is known.
 std::string content_sha256(const TripSource& source);
 
 /// Reads a "macadam-trip 1" log, plain, .gz or .zst, as a stream: its samples, and for every data
-/// row what it gave or why it gave nothing.
+/// row what it gave or why it gave nothing. By their names also rawlogs (storage/rawlog_reader.hpp)
+/// and GPX tracks (storage/foreign/gpx_reader.hpp).
 ///
 /// \throws InputError  "file:line: ..." if it is not such a log, lacks a needed column, or does
 ///                     not end with "# end rows: N" and the right N.

@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/byte_stream.hpp"
 #include "storage/foreign/cells.hpp"
+#include "storage/foreign/gpx_reader.hpp"
 #include "storage/foreign/phone_export.hpp"
 #include "storage/foreign/trip_mapping.hpp"
 #include "storage/rawlog_reader.hpp"
@@ -33,6 +34,13 @@ bool is_trip_name(std::string_view name) {
         ".trip.csv", ".trip.csv.gz", ".trip.csv.zst", rawlog_suffix};
     return ends_with_one(name, suffixes);
 }
+
+bool is_track_name(std::string_view name) {
+    return is_trip_name(name) || is_gpx_name(name);
+}
+
+/// Which names of files are those of trips.
+using NameTest = bool (*)(std::string_view);
 
 bool is_archive_name(std::string_view name) {
     static constexpr std::string_view suffixes[] = {".zip", ".tar", ".tar.gz", ".tgz", ".tar.zst"};
@@ -106,7 +114,7 @@ std::vector<std::string> files_under(const fs::path& folder) {
     return names;
 }
 
-TripSearch find_in_folder(const fs::path& folder) {
+TripSearch find_in_folder(const fs::path& folder, NameTest is_trip) {
     NamedTrips trips;
     const auto names = files_under(folder);
     auto other_files = names.size();
@@ -115,7 +123,7 @@ TripSearch find_in_folder(const fs::path& folder) {
         if (!fs::is_regular_file(folder / name) && !dangles) {
             continue;
         }
-        if (is_trip_name(name)) {
+        if (is_trip(name)) {
             trips.emplace_back(name, TripSource{.file = folder / name, .member = {}});
             --other_files;
         } else if (is_zip_name(name) && !dangles) {
@@ -132,12 +140,12 @@ TripSearch find_in_folder(const fs::path& folder) {
     return found(std::move(trips), other_files);
 }
 
-TripSearch find_in_archive(const fs::path& archive) {
+TripSearch find_in_archive(const fs::path& archive, NameTest is_trip) {
     NamedTrips trips;
     const auto names = members_of(archive);
     auto other_files = names.size();
     for (const auto& name : names) {
-        if (is_trip_name(name)) {
+        if (is_trip(name)) {
             trips.emplace_back(name, TripSource{.file = archive, .member = name});
             --other_files;
         }
@@ -200,9 +208,8 @@ fs::path named(const fs::path& path) {
     return path.has_filename() ? path : path.parent_path();
 }
 
-} // namespace
-
-TripSearch find_trips(const fs::path& path, const std::shared_ptr<const TripMapping>& mapping) {
+TripSearch
+search(const fs::path& path, const std::shared_ptr<const TripMapping>& mapping, NameTest is_trip) {
     try {
         const auto kind = fs::status(path);
         if (!fs::exists(kind)) {
@@ -212,16 +219,26 @@ TripSearch find_trips(const fs::path& path, const std::shared_ptr<const TripMapp
             return find_mapped(path, mapping);
         }
         if (fs::is_directory(kind)) {
-            return find_in_folder(named(path));
+            return find_in_folder(named(path), is_trip);
         }
     } catch (const fs::filesystem_error& error) {
         throw InputError{
             fmt::format("{}: cannot be read: {}", error.path1().string(), error.code().message())};
     }
     if (is_archive_name(path.filename().string())) {
-        return find_in_archive(path);
+        return find_in_archive(path, is_trip);
     }
     return {.trips = {TripSource{.file = path, .member = {}}}, .other_files = 0};
+}
+
+} // namespace
+
+TripSearch find_trips(const fs::path& path, const std::shared_ptr<const TripMapping>& mapping) {
+    return search(path, mapping, is_trip_name);
+}
+
+TripSearch find_tracks(const fs::path& path, const std::shared_ptr<const TripMapping>& mapping) {
+    return search(path, mapping, is_track_name);
 }
 
 } // namespace macadam

@@ -67,8 +67,8 @@ RoadArt road_art(std::string_view art, double cell_m, const std::vector<std::str
     for (const auto& road : roads) {
         Way way{static_cast<std::int64_t>(result.ways.size() + 1), road, "", Oneway::no, {}, {}};
         for (const char letter : road) {
-            if (letter == '>') {
-                way.oneway = Oneway::forward;
+            if (letter == '>' || letter == '<') {
+                way.oneway = letter == '>' ? Oneway::forward : Oneway::backward;
                 continue;
             }
             way.node_ids.push_back(letter);

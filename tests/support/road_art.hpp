@@ -20,7 +20,7 @@ struct RoadArt {
 
 /// Each letter is a point, `cell_m` apart per column and 2 * cell_m per row, north upwards, near
 /// Lyon. Each road is a word of letters and becomes a way, numbered from 1; a word that ends in '>'
-/// is oneway. The identity of a point is its letter's code.
+/// is oneway, one in '<' oneway against its letters. The identity of a point is its letter's code.
 ///
 ///     const auto art = road_art(R"(
 ///         A----B----C
