@@ -1,16 +1,19 @@
 #!/usr/bin/python3
 """Measures the program and its parts and writes what was found as Markdown.
 
-usage: measure.py BUILD_DIR WORK_DIR OUT.md [NAME...]
+usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [NAME...]
 
-BUILD_DIR  a release build with the target `benches`
-WORK_DIR   where the measured data is made and kept between runs
-NAME       start process estimation matching store render; all when none is named
+BUILD_DIR      a release build with the target `benches`
+WORK_DIR       where the measured data is made and kept between runs
+--keep DOC.md  also puts what was measured in the place of those sections of a document
+--kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
+NAME           start process estimation match store render; all when none is named
 
 Machines are shared and noisy. So what is to be compared runs turn by turn in one go, the figure is
 the median of the turns, and the ratio is what counts. CPU seconds are user and system together.
 """
 
+import argparse
 import datetime
 import json
 import multiprocessing
@@ -23,6 +26,8 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+
+from match_report import match_report
 
 SOURCE = Path(__file__).resolve().parents[2]
 FLEET = SOURCE / "sample_data" / "fleet"
@@ -78,7 +83,7 @@ def table(head, rows):
 
 def start(macadam, work):
     version, help_ = in_turns(9, (nothing, [macadam, "--version"]), (nothing, [macadam, "import", "--help"]))
-    return "## Start\n\n" + table(
+    return table(
         ["command", "wall ms", "peak MB"],
         [["--version", f"{version.wall_s * 1e3:.0f}", f"{version.peak_mb:.0f}"],
          ["import --help", f"{help_.wall_s * 1e3:.0f}", f"{help_.peak_mb:.0f}"]])
@@ -127,7 +132,7 @@ def process(macadam, work):
         [["simulate", str(TRIPS), f"{hours:.1f}", f"{mb:.0f}", f"{simulated['wall_s']:.0f}", f"{simulated['cpu_s']:.0f}",
           f"{hours * 3600 / simulated['cpu_s']:.0f}"]])
     text += "\n" + profile_table(macadam, work)
-    return "## Whole commands\n\n" + text
+    return text
 
 
 def write_profile(file):
@@ -216,7 +221,7 @@ def output_tables(macadam, work, store):
 
 
 # What something is measured beside: the same work by other means.
-PEERS = {"filter_of_macadam": "filter_as_in_the_paper", "match_longer_trips": "match_by_newson_krumm", "draw_in_macadam": "draw_in_cairo"}
+PEERS = {"filter_of_macadam": "filter_as_in_the_paper", "draw_in_macadam": "draw_in_cairo"}
 
 
 def peak_mb(program, name):
@@ -231,7 +236,7 @@ def ratio_to_peer(name, times):
     return f"{times[peer] / times[name]:.1f}" if peer in times else ""
 
 
-def part(build, name, title, note):
+def part(build, name, note):
     """One program of Google Benchmark as a table of CPU times, memory, ratios and counters."""
     say(f"{name}_bench")
     program = build / "tests" / "bench" / f"{name}_bench"
@@ -249,18 +254,27 @@ def part(build, name, title, note):
                              ("samples/s", "x_real_time", "fixes/s", "edges", "found", "segments", "passes/s", "lines") if key in one)
         rows.append([one["name"], f"{one['cpu_time']:.2f} {one['time_unit']}", f"{peak_mb(program, one['name']):.0f}",
                      ratio_to_peer(one["name"], times), counters])
-    return f"## {title}\n\n{note}\n\n" + table(["what", "CPU", "peak MB", "CPU of the peer, times ours", "of it"], rows)
+    return f"{note}\n\n" + table(["what", "CPU", "peak MB", "CPU of the peer, times ours", "of it"], rows)
 
 
 PARTS = {
-    "estimation": ("Estimation", "The filter as the paper writes it (matrices of any size, covariance at every sample) beside ours, "
-                                 "and the whole way from vibration to IRI, on 15 minutes to 2 hours at 100 Hz."),
-    "matching": ("Matching", "The plain hidden Markov matcher of Newson and Krumm beside ours on the same trips (positions alone, "
-                             "one a second), with trips and networks of growing size."),
-    "store": ("Store", "About 1,400 segments out of stores of growing size, and trips of 500 passes added and fused one by one."),
-    "render": ("Picture", "The streets of towns of growing size at 2048 x 2048, beside Cairo with casing and round joins. "
-                          "Ours begins by waking the software renderer, which costs the small towns most."),
+    "estimation": "The filter as the paper writes it (matrices of any size, covariance at every sample) beside ours, "
+                  "and the whole way from vibration to IRI, on 15 minutes to 2 hours at 100 Hz.",
+    "store": "About 1,400 segments out of stores of growing size, and trips of 500 passes added and fused one by one.",
+    "render": "The streets of towns of growing size at 2048 x 2048, beside Cairo with casing and round joins. "
+              "Ours begins by waking the software renderer, which costs the small towns most.",
 }
+TITLES = {"start": "Start", "process": "Whole commands", "estimation": "Estimation", "match": "Matching", "store": "Store",
+          "render": "Picture"}
+
+
+def kept(document, sections):
+    """The document with sections put in the place of those of the same titles, in the order of TITLES."""
+    head, _, measured = document.partition("<!-- measured -->\n")
+    old = {one.split("\n", 1)[0]: "## " + one for one in re.split(r"^## ", measured, flags=re.MULTILINE)[1:]}
+    new = {TITLES[name]: text for name, text in sections.items()}
+    both = [(new.get(title) or old.get(title, "")).rstrip("\n") for title in TITLES.values()]
+    return head + "<!-- measured -->\n" + "\n\n".join(one for one in both if one) + "\n"
 
 
 def machine():
@@ -268,25 +282,36 @@ def machine():
     return f"{model}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} when it began"
 
 
+def measured(name, arguments, macadam):
+    if name == "start":
+        return start(macadam, arguments.work)
+    if name == "process":
+        return process(macadam, arguments.work)
+    if name == "match":
+        return match_report(arguments.build, arguments.kubicka)
+    return part(arguments.build, name, PARTS[name])
+
+
 def main():
-    if len(sys.argv) < 4:
-        sys.exit(__doc__)
-    build, work, out = (Path(word).resolve() for word in sys.argv[1:4])
-    names = sys.argv[4:] or ["start", "process", *PARTS]
-    unknown = set(names) - {"start", "process", *PARTS}
-    if unknown:
-        sys.exit(f"measure.py: no bench '{unknown.pop()}'; there are start, process, {', '.join(PARTS)}")
-    work.mkdir(parents=True, exist_ok=True)
-    macadam = SOURCE / "build" / "macadam"
-    text = f"Measured on {datetime.date.today()}: {machine()}.\n\n"
-    if "start" in names:
-        text += start(macadam, work) + "\n"
-    if "process" in names:
-        text += process(macadam, work) + "\n"
-    for name in (name for name in PARTS if name in names):
-        text += part(build, name, *PARTS[name]) + "\n"
-    out.write_text(text)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in ("build", "work", "out"):
+        parser.add_argument(name, type=lambda word: Path(word).resolve())
+    parser.add_argument("--keep", type=Path)
+    parser.add_argument("--kubicka", type=Path)
+    parser.add_argument("names", nargs="*")
+    arguments = parser.parse_intermixed_args()
+    if unknown := set(arguments.names) - set(TITLES):
+        sys.exit(f"measure.py: no bench '{unknown.pop()}'; there are {', '.join(TITLES)}")
+    arguments.work.mkdir(parents=True, exist_ok=True)
+    sections = {}
+    for name in (name for name in TITLES if name in (arguments.names or TITLES)):
+        when = f"Measured on {datetime.date.today()}: {machine()}."
+        sections[name] = f"## {TITLES[name]}\n\n{when}\n\n" + measured(name, arguments, SOURCE / "build" / "macadam")
+    text = "\n".join(sections.values())
+    arguments.out.write_text(text)
     print(text)
+    if arguments.keep:
+        arguments.keep.write_text(kept(arguments.keep.read_text(), sections))
 
 
 main()

@@ -142,6 +142,7 @@ DriveScore score_of(const Drive& drive,
         score.latency_error_s.push_back(
             static_cast<float>(*matched.latency_s - recording.latency_s));
     }
+    score.route = route_score_of(drive, recording, driven_edges(matched.trace));
     const auto [from_s, to_s] = recorded_time(recording);
     const auto outages = outages_of(recording, rule.outage_s);
     const RoutePlaces places{drive};
@@ -184,11 +185,53 @@ DriveScore score_of(const Drive& drive,
     return score;
 }
 
+RouteScore route_score_of(const Drive& drive,
+                          const Recording& recording,
+                          std::span<const DrivenEdge> matched) {
+    const auto [from_s, to_s] = recorded_time(recording);
+    const double from_m = route_m_at(drive, from_s);
+    const double to_m = route_m_at(drive, to_s);
+    struct Lengths {
+        double truth_m = 0;
+        double matched_m = 0;
+    };
+    std::unordered_map<std::uint32_t, Lengths> of;
+    for (std::size_t i = 0; i < drive.route.size(); ++i) {
+        of[static_cast<std::uint32_t>(drive.route[i])].truth_m += std::max(
+            0.0, std::min(to_m, drive.start_m[i + 1]) - std::max(from_m, drive.start_m[i]));
+    }
+    for (const auto& part : matched) {
+        of[static_cast<std::uint32_t>(part.edge)].matched_m += part.to_m - part.from_m;
+    }
+    RouteScore score;
+    for (const auto& [edge, lengths] : of) {
+        score.truth_m += lengths.truth_m;
+        score.matched_m += lengths.matched_m;
+        score.common_m += std::min(lengths.truth_m, lengths.matched_m);
+    }
+    return score;
+}
+
+std::vector<DrivenEdge> driven_edges(const MatchedTrace& trace) {
+    std::vector<DrivenEdge> edges;
+    for (const auto& piece : trace) {
+        if (piece.kind == PieceKind::road) {
+            edges.push_back({piece.edge, piece.from_offset_m, piece.to_offset_m});
+        }
+    }
+    return edges;
+}
+
+RouteScore together(const RouteScore& a, const RouteScore& b) {
+    return {a.truth_m + b.truth_m, a.matched_m + b.matched_m, a.common_m + b.common_m};
+}
+
 DriveScore together(DriveScore sum, const DriveScore& one) {
     sum.drives += one.drives;
     sum.empty += one.empty;
     sum.gaps += one.gaps;
     sum.positions += one.positions;
+    sum.route = together(sum.route, one.route);
     for (double DriveScore::*const part : {&DriveScore::length_m,
                                            &DriveScore::right_m,
                                            &DriveScore::same_edge_m,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/match/simulated_drive.hpp"
+#include "bench/newson_krumm.hpp"
 #include "mapping/map_match.hpp"
 
 #include <array>
@@ -27,6 +28,17 @@ struct ConfidenceBin {
     double length_m = 0;
     double right_m = 0;
     double confidence_m = 0; ///< sum of confidence over length
+};
+
+/// What was driven and what was matched, edge by edge whatever the time: for matchers that give no
+/// times. An edge driven twice counts twice.
+struct RouteScore {
+    double truth_m = 0;
+    double matched_m = 0;
+    double common_m = 0;
+
+    /// Missed and wrong length over the true one. Source: Newson, Krumm 2009.
+    double mismatch() const { return (truth_m + matched_m - 2 * common_m) / truth_m; }
 };
 
 /// A part of the true route that was not matched to it.
@@ -64,6 +76,7 @@ struct DriveScore {
     double sure_m = 0;
     double sure_wrong_m = 0;
     std::vector<float> latency_error_s;
+    RouteScore route;
     std::vector<Fault> faults; ///< of one drive
 };
 
@@ -77,6 +90,12 @@ DriveScore score_of(const Drive& drive,
                     const Matched& matched,
                     const ScoreRule& rule = {});
 
+RouteScore
+route_score_of(const Drive& drive, const Recording& recording, std::span<const DrivenEdge> matched);
+
+std::vector<DrivenEdge> driven_edges(const MatchedTrace& trace);
+
+RouteScore together(const RouteScore& a, const RouteScore& b);
 DriveScore together(DriveScore sum, const DriveScore& one);
 
 /// Mean difference of confidence and share of right length, over bins weighed by their length.

@@ -219,6 +219,10 @@ TruePlace true_place_at(const Drive& drive, double t_s) {
     return {std::min(even_m, abreast_m), std::max(even_m, abreast_m)};
 }
 
+PathPlace place_at_time(const Drive& drive, double t_s) {
+    return place_at(drive.path, travel_m_at(drive.motion, t_s));
+}
+
 double t_s_at(const Drive& drive, double route_m) {
     const double travel_m = interpolated(drive.path.route_m, drive.path.travel_m, route_m);
     const auto& gone_m = drive.motion.travel_m;

@@ -1,18 +1,22 @@
 // How near matching comes to the truth on simulated drives over real networks: by sensors, by
 // receivers, in outages.
 
+#include "bench/match/goal.hpp"
+#include "bench/match/off_network.hpp"
 #include "bench/match/simulated_world.hpp"
 
 #include "estimator/common/error.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace macadam::bench {
@@ -98,37 +102,25 @@ std::string errors(const std::vector<float>& error_m) {
                        metres(absolute_quantile(error_m, 0.95)));
 }
 
-void print_head() {
-    fmt::print(
-        "| sensors | sigma m | Hz | latency | right edge % | the same edge % | off % | "
-        "along it: middle m | p50 m | p95 m | latency p95 s | ECE | sure % | of it wrong % | "
-        "empty | gaps |\n|{}\n",
-        "---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+struct Row {
+    const char* name;
+    Scenario scenario;
+    DriveScore score;
+};
+
+/// The row of a scenario; of the first one of these numbers.
+const DriveScore&
+score_in(const std::vector<Row>& rows, const char* name, const Scenario& scenario) {
+    const auto found = std::ranges::find_if(rows, [&](const Row& row) {
+        return row.name == std::string_view{name} && row.scenario.sigma_m == scenario.sigma_m &&
+               row.scenario.fix_rate_hz == scenario.fix_rate_hz &&
+               row.scenario.latency_stated == scenario.latency_stated;
+    });
+    return found->score;
 }
 
-void print_row(const char* name, const Scenario& scenario, const DriveScore& score) {
-    fmt::print("| {} | {:g} | {:g} | {} | {} | {} | {} | {} | {} | {:.3f} | {} | {} | {} | {} |\n",
-               name,
-               scenario.sigma_m,
-               scenario.fix_rate_hz,
-               scenario.latency_stated ? "stated" : "sought",
-               percent(score.right_m, score.length_m),
-               percent(score.same_edge_m, score.length_m),
-               percent(score.off_network_m + score.gap_m, score.length_m),
-               errors(score.error_m),
-               scenario.latency_stated ? ""
-                                       : metres(absolute_quantile(score.latency_error_s, 0.95)),
-               calibration_error(score),
-               percent(score.sure_m, score.length_m, 1),
-               percent(score.sure_wrong_m, score.sure_m),
-               score.empty,
-               score.gaps);
-    std::fflush(stdout);
-}
-
-void print_ablation(const std::vector<DrivenNetwork>& world) {
-    fmt::print("### Simulated truth, by sensors\n\n");
-    print_head();
+std::vector<Row> ablation(const std::vector<DrivenNetwork>& world) {
+    std::vector<Row> rows;
     for (const double rate_hz : {1.0, 0.2}) {
         for (const double sigma_m : {3.0, 10.0}) {
             for (const bool stated : {true, false}) {
@@ -140,33 +132,184 @@ void print_ablation(const std::vector<DrivenNetwork>& world) {
                                             .fix_rate_hz = rate_hz,
                                             .sensors = sensors,
                                             .latency_stated = stated};
-                    print_row(name, scenario, score_of(world, scenario));
+                    rows.push_back({name, scenario, score_of(world, scenario)});
                 }
             }
         }
     }
+    return rows;
+}
+
+void print_row(const Row& row) {
+    const auto& [name, scenario, score] = row;
+    fmt::print("| {} | {:g} | {:g} | {} | {} | {} | {} | {} | {} | {} | {:.3f} | {} | {} | {} | {} "
+               "|\n",
+               name,
+               scenario.sigma_m,
+               scenario.fix_rate_hz,
+               scenario.latency_stated ? "stated" : "sought",
+               percent(score.right_m, score.length_m),
+               percent(score.same_edge_m, score.length_m),
+               percent(score.route.mismatch(), 1),
+               percent(score.off_network_m + score.gap_m, score.length_m),
+               errors(score.error_m),
+               scenario.latency_stated ? ""
+                                       : metres(absolute_quantile(score.latency_error_s, 0.95)),
+               calibration_error(score),
+               percent(score.sure_m, score.length_m, 1),
+               percent(score.sure_wrong_m, score.sure_m),
+               score.empty,
+               score.gaps);
+}
+
+void print_plain(const Scenario& scenario, const RouteScore& score) {
+    fmt::print(
+        "| positions, plain Newson-Krumm | {:g} | {:g} |  |  |  | {} |  |  |  |  |  |  |  |  |  "
+        "|  |\n",
+        scenario.sigma_m,
+        scenario.fix_rate_hz,
+        percent(score.mismatch(), 1));
+}
+
+std::string at_least(double percent) {
+    return fmt::format(">= {:g} %", percent);
+}
+
+void print_goals(const std::vector<Row>& rows,
+                 const RouteScore& plain_3,
+                 const RouteScore& plain_10) {
+    const auto& all_3 = score_in(rows, "all", {});
+    const auto& all_10 = score_in(rows, "all", {.sigma_m = 10});
+    const auto& sought = score_in(rows, "all", {.latency_stated = false});
+    const auto& positions_3 = score_in(rows, "positions", {});
+    const auto& positions_10 = score_in(rows, "positions", {.sigma_m = 10});
+    const auto share = [](const DriveScore& score) {
+        return percent(score.right_m, score.length_m) + " %";
+    };
+    const auto plain = [](const RouteScore& score) {
+        return percent(score.common_m, score.truth_m) + " % of the edges";
+    };
+    print_goal(
+        {"right edge and direction, sigma 3 m, all sensors", at_least(99.8), share(all_3), ""});
+    print_goal({"the same, positions alone", at_least(99.8), share(positions_3), plain(plain_3)});
+    print_goal(
+        {"right edge and direction, sigma 10 m, all sensors", at_least(99), share(all_10), ""});
+    print_goal({"the same, positions alone", at_least(99), share(positions_10), plain(plain_10)});
+    print_goal({"place along the edge p50, sigma 3 m, 1 Hz",
+                "<= 1 m",
+                metres(absolute_quantile(all_3.error_m, 0.5)) + " m",
+                ""});
+    print_goal({"place along the edge p95, sigma 3 m, 1 Hz",
+                "<= 3 m",
+                metres(absolute_quantile(all_3.error_m, 0.95)) + " m",
+                ""});
+    print_goal({"latency not stated: error p95",
+                "<= 0.1 s",
+                metres(absolute_quantile(sought.latency_error_s, 0.95)) + " s",
+                ""});
+    for (const auto& [name, score] :
+         {std::pair{"all sensors", &all_3}, {"positions", &positions_3}}) {
+        print_goal({fmt::format("confidence, {}, sigma 3 m: calibration error", name),
+                    "<= 0.02",
+                    fmt::format("{:.3f}", calibration_error(*score)),
+                    ""});
+        print_goal({fmt::format("confidence, {}, sigma 3 m: length at 0.95 or more", name),
+                    at_least(97),
+                    percent(score->sure_m, score->length_m) + " %",
+                    ""});
+        print_goal({fmt::format("confidence, {}, sigma 3 m: of that length wrong", name),
+                    "<= 0.3 %",
+                    percent(score->sure_wrong_m, score->sure_m) + " %",
+                    ""});
+    }
+    std::size_t empty = 0;
+    for (const auto& row : rows) {
+        empty += row.score.empty;
+    }
+    print_goal({"empty traces of simulated drives", "0", std::to_string(empty), ""});
+}
+
+void print_ablation(const std::vector<DrivenNetwork>& world) {
+    const auto rows = ablation(world);
+    const auto plain_3 = plain_score_of(world, {});
+    const auto plain_10 = plain_score_of(world, {.sigma_m = 10});
+    print_goals(rows, plain_3, plain_10);
+    fmt::print(
+        "### Simulated truth, by sensors\n\n"
+        "| sensors | sigma m | Hz | latency | right edge % | the same edge % | RMF % | off % | "
+        "along it: middle m | p50 m | p95 m | latency p95 s | ECE | sure % | of it wrong % | "
+        "empty | gaps |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const auto& row : rows) {
+        print_row(row);
+    }
+    print_plain({}, plain_3);
+    print_plain({.sigma_m = 10}, plain_10);
     fmt::print("\n");
 }
 
 void print_outages(const std::vector<DrivenNetwork>& world) {
-    fmt::print("### Outages of 60 s, eight an hour\n\n"
-               "| sensors | sigma m | km inside | right edge inside % | inside: middle m | p50 m | "
-               "p95 m | right edge in all % |\n|---|---|---|---|---|---|---|---|\n");
+    std::string table;
     for (const double sigma_m : {3.0, 10.0}) {
         for (const auto& [name, sensors] : sets) {
-            const Scenario scenario{.sigma_m = sigma_m, .sensors = sensors, .outages_per_hour = 8};
-            const auto score = score_of(world, scenario);
-            fmt::print("| {} | {:g} | {:.1f} | {} | {} | {} |\n",
-                       name,
-                       sigma_m,
-                       score.outage_m / 1000,
-                       percent(score.outage_right_m, score.outage_m),
-                       errors(score.outage_error_m),
-                       percent(score.right_m, score.length_m));
-            std::fflush(stdout);
+            const auto score =
+                score_of(world, {.sigma_m = sigma_m, .sensors = sensors, .outages_per_hour = 8});
+            table += fmt::format("| {} | {:g} | {:.1f} | {} | {} | {} |\n",
+                                 name,
+                                 sigma_m,
+                                 score.outage_m / 1000,
+                                 percent(score.outage_right_m, score.outage_m),
+                                 errors(score.outage_error_m),
+                                 percent(score.right_m, score.length_m));
+            if (sigma_m == 3 && name == std::string_view{"all"}) {
+                print_goal({"place along the edge p95 inside outages of 60 s, all sensors",
+                            "<= 8 m",
+                            metres(absolute_quantile(score.outage_error_m, 0.95)) + " m",
+                            ""});
+            }
         }
     }
-    fmt::print("\n");
+    fmt::print("### Outages of 60 s, eight an hour\n\n"
+               "| sensors | sigma m | km inside | right edge inside % | inside: middle m | p50 m | "
+               "p95 m | right edge in all % |\n|---|---|---|---|---|---|---|---|\n{}\n",
+               table);
+}
+
+void print_off_network(const std::vector<DrivenNetwork>& world) {
+    constexpr double share = 0.05;
+    std::string table;
+    for (const double sigma_m : {3.0, 10.0}) {
+        for (const auto& [name, sensors] : sets) {
+            const auto score =
+                off_network_score(world, {.sigma_m = sigma_m, .sensors = sensors}, share, 1);
+            table +=
+                fmt::format("| {} | {:g} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.1f} | {:.1f} |\n",
+                            name,
+                            sigma_m,
+                            score.deleted_m / 1000,
+                            100 * score.recall(),
+                            100 * score.precision(),
+                            100 * score.false_share(),
+                            score.beside_m / 1000,
+                            100 * score.beside_false_share());
+            if (sigma_m == 3 &&
+                (name == std::string_view{"all"} || name == std::string_view{"positions"})) {
+                print_goal({fmt::format("deleted edges, simulated, {}: recall", name),
+                            at_least(95),
+                            percent(score.recall(), 1) + " %",
+                            ""});
+                print_goal({fmt::format("deleted edges, simulated, {}: precision", name),
+                            at_least(98),
+                            percent(score.precision(), 1) + " %",
+                            ""});
+            }
+        }
+    }
+    fmt::print("### Deleted edges: {:g} % of what was driven\n\n"
+               "| sensors | sigma m | deleted km | recall % | precision % | falsely on a road % | "
+               "with a neighbour km | of it falsely on a road % "
+               "|\n|---|---|---|---|---|---|---|---|\n{}\n",
+               100 * share,
+               table);
 }
 
 void print_faults(const DrivenNetwork& network, const Drive& drive, const DriveScore& score) {
@@ -230,6 +373,7 @@ void measure(const Options& options) {
     }
     print_ablation(world);
     print_outages(world);
+    print_off_network(world);
 }
 
 } // namespace

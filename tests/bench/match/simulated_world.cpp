@@ -43,8 +43,10 @@ DrivenNetwork
 driven_network(const std::filesystem::path& file, std::size_t drives, std::uint64_t seed) {
     const auto filename = file.filename().string();
     DrivenNetwork network{.name = filename.substr(0, filename.find('.')),
-                          .roads = build_network(read_network(file)),
+                          .ways = read_network(file),
+                          .roads = {},
                           .drives = {}};
+    network.roads = build_network(network.ways);
     const auto driving = standard_recipe(0, 1).driving;
     const auto own_seed = seed_of({seed, hash_of(network.name)});
     const auto map = make_route_map(network.roads, driving, own_seed);
@@ -83,6 +85,18 @@ DriveScore score_of(std::span<const DrivenNetwork> world,
             const auto found = matched(recording.trip, network.roads, config);
             sum = together(std::move(sum),
                            score_of(network.drives[i], recording, found, rule_of(scenario)));
+        }
+    }
+    return sum;
+}
+
+RouteScore plain_score_of(std::span<const DrivenNetwork> world, const Scenario& scenario) {
+    RouteScore sum;
+    for (const auto& network : world) {
+        for (std::size_t i = 0; i < network.drives.size(); ++i) {
+            const auto recording = recorded(network, i, scenario);
+            const auto edges = newson_krumm(recording.trip, network.roads);
+            sum = together(sum, route_score_of(network.drives[i], recording, edges));
         }
     }
     return sum;

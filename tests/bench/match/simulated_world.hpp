@@ -13,6 +13,7 @@ namespace macadam::bench {
 /// A network and drives over it.
 struct DrivenNetwork {
     std::string name;
+    std::vector<Way> ways; ///< that the network was built of
     RoadNetwork roads;
     std::vector<Drive> drives;
 };
@@ -21,7 +22,7 @@ struct DrivenNetwork {
 struct Scenario {
     double sigma_m = 3;
     double fix_rate_hz = 1;
-    SensorSet sensors;
+    SensorSet sensors{};
     bool latency_stated = true;
     double outages_per_hour = 0; ///< of 60 s each
 };
@@ -46,6 +47,9 @@ driven_network(const std::filesystem::path& file, std::size_t drives, std::uint6
 DriveScore score_of(std::span<const DrivenNetwork> world,
                     const Scenario& scenario,
                     const MatchConfig& config = {});
+
+/// The same by the plain method of Newson and Krumm.
+RouteScore plain_score_of(std::span<const DrivenNetwork> world, const Scenario& scenario);
 
 /// Places along the right way that are up to twice the receiver's sigma off, at least 10 m, may
 /// lead over a junction.
