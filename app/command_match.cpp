@@ -84,13 +84,14 @@ void run_match(const Arguments& arguments, const Console& console) {
     const auto roads = roads_of(options, console);
     const auto source = one_trip(options.trip, mapping_of(arguments));
     std::vector<std::string> warnings;
-    const auto trip =
-        timed(read_trip(source, needs_of_match(), console.progress("reading")), warnings);
+    const auto trip = timed(
+        read_trip(source, needs_of_match_with_heading(), console.progress("reading")), warnings);
 
     const auto [trace, summary] = naming(source.name(), [&] {
         auto use = unused(trip);
         const auto odometer = make_odometer(trip, {}, use);
-        auto matched = map_match(trip, odometer, roads, {}, use);
+        const auto heading = make_heading(trip, odometer, estimate_mounting(trip, odometer));
+        auto matched = map_match(trip, odometer, roads, {}, use, heading);
         auto words = matched_words(matched, odometer);
         return std::pair{std::move(matched), std::move(words)};
     });

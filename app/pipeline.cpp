@@ -314,7 +314,12 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
     }
     auto warnings = spoken_lateral(roughness, config.estimator.channels);
     std::ranges::move(warnings_of(trip, odometer, mounting), std::back_inserter(warnings));
-    return {std::move(odometer), std::move(roughness), std::move(use), std::move(warnings)};
+    auto heading = make_heading(trip, odometer, mounting);
+    return {std::move(odometer),
+            std::move(heading),
+            std::move(roughness),
+            std::move(use),
+            std::move(warnings)};
 }
 
 TripResult passes_of(TripLog trip,
@@ -330,9 +335,9 @@ TripResult passes_of(TripLog trip,
     const double paused_m = unrecorded_m(trip, trace.odometer, told, config.odometer.max_gap_s);
     trip.acc = {};
     trip.gyro.x = trip.gyro.y = trip.gyro.z = {};
-    const auto matched =
-        behind_antenna(map_match(trip, trace.odometer, roads, config.match, trace.use),
-                       antenna_ahead_m(trip.meta, vehicle));
+    const auto matched = behind_antenna(
+        map_match(trip, trace.odometer, roads, config.match, trace.use, trace.heading),
+        antenna_ahead_m(trip.meta, vehicle));
 
     trace.use = without_places_outside(std::move(trace.use), trip, trace.odometer, config.trim_m);
     std::ranges::move(trace.warnings, std::back_inserter(warnings));

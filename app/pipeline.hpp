@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/heading.hpp"
 #include "estimator/iri_trace.hpp"
 #include "estimator/stretch.hpp"
 #include "mapping/map_match.hpp"
@@ -24,6 +25,7 @@ struct PipelineConfig {
 /// Roughness along one trip, and what it was made of.
 struct TripTrace {
     Odometer odometer;
+    Heading heading;
     IriTrace roughness;
     TripUse use;
     std::vector<std::string> warnings;

@@ -168,8 +168,9 @@ MatchedTrace map_match(const TripLog& trip,
                        const Odometer& odometer,
                        const RoadNetwork& roads,
                        const MatchConfig& config,
-                       TripUse& use) {
-    const auto positions = positions_of(trip, odometer, config, use);
+                       TripUse& use,
+                       const Heading& heading) {
+    const auto positions = positions_of(trip, odometer, heading, config, use);
     if (positions.samples.empty()) {
         return {};
     }

@@ -2,6 +2,7 @@
 
 #include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
+#include "estimator/heading.hpp"
 #include "estimator/odometer.hpp"
 #include "mapping/road_network.hpp"
 
@@ -57,8 +58,8 @@ struct MatchConfig {
 /// The cheapest chain is found by Viterbi; where no way joins two samples the trace is cut into a
 /// gap and goes on. Confidence is the forward-backward posterior of the edge on the same lattice.
 ///
-/// Positions alone, and positions with speed and course, both work. `use.fixes` learns which fixes
-/// served.
+/// Positions alone, and positions with speed, course and rates of turn (`heading`), all work.
+/// `use.fixes` learns which fixes served.
 ///
 /// Source: P. Newson, J. Krumm, "Hidden Markov map matching through noise and sparseness",
 /// ACM SIGSPATIAL GIS 2009, pp. 336-343.
@@ -66,7 +67,8 @@ MatchedTrace map_match(const TripLog& trip,
                        const Odometer& odometer,
                        const RoadNetwork& roads,
                        const MatchConfig& config,
-                       TripUse& use);
+                       TripUse& use,
+                       const Heading& heading = {});
 
 /// One pair of consecutive nodes of a way, as driven.
 struct Arc {

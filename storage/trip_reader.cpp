@@ -67,6 +67,12 @@ TripNeeds needs_of_match() {
     return {.speed = true, .fixes = true, .columns = {{"t_s"}, {"lat_deg"}, {"lon_deg"}}};
 }
 
+TripNeeds needs_of_match_with_heading() {
+    auto needs = needs_of_match();
+    needs.acc = needs.gyro = true;
+    return needs;
+}
+
 TripNeeds needs_of_trace() {
     return {.acc = true,
             .gyro = true,

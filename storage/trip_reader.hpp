@@ -25,6 +25,7 @@ struct TripNeeds {
 };
 
 TripNeeds needs_of_match();
+TripNeeds needs_of_match_with_heading(); ///< the rates of turn too, and gravity to level them
 TripNeeds needs_of_trace();
 TripNeeds needs_of_import();
 

@@ -160,12 +160,13 @@ std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixe
 
 Positions positions_of(const TripLog& trip,
                        const Odometer& odometer,
+                       const Heading& heading,
                        const MatchConfig& config,
                        TripUse& use) {
     assert(use.fixes.size() == trip.fixes.size());
     const auto faults = faults_of(trip.fixes, worst_radius_m);
 
-    Positions positions{{}, has_speed(trip), {}, {}};
+    Positions positions{{}, has_speed(trip), {}, {}, &heading};
     std::vector<GeoPoint> places;
     for (std::size_t i = 0; i < trip.fixes.size(); ++i) {
         if (!faults[i]) {

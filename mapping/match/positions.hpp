@@ -26,6 +26,10 @@ struct Positions {
     bool odometer;             ///< travel is measured, not drawn from the positions themselves
     std::vector<Position> all; ///< in the order of time
     std::vector<std::size_t> samples; ///< of `all`: first, last, and one each spacing_m between
+
+    /// `turned(*heading, a.t_s, b.t_s)` is the turn from one position to another; the caller of
+    /// positions_of keeps it. Empty where the trip has no gyro.
+    const Heading* heading = nullptr;
 };
 
 /// Why each fix does not serve: no position, worse accuracy than `worst_accuracy_m`, the fix before
@@ -36,6 +40,7 @@ std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixe
 /// Sorts the fixes of a trip into those that serve and, in `use`, the reasons of the others.
 Positions positions_of(const TripLog& trip,
                        const Odometer& odometer,
+                       const Heading& heading,
                        const MatchConfig& config,
                        TripUse& use);
 

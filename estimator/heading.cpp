@@ -1,0 +1,354 @@
+#include "estimator/heading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+
+namespace macadam {
+namespace {
+
+constexpr double rad_per_deg = std::numbers::pi / 180;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+constexpr double longest_silence_s = 0.5; // bridged by a line
+constexpr double slight_axis = 0.2;       // of the vertical in a sensor's axis: it may be missing
+
+constexpr double noise_rad_per_sqrt_s = 0.002; // angle random walk, shaking of the mount with it
+constexpr double scale_sd = 0.01;              // of the gyro, and of hills: cos 6 degrees
+constexpr double least_sd_rad = 0.003;         // of stamps that are not quite the sensor's
+
+constexpr double prior_bias_sd_radps = 0.02;        // 1 degree a second: not calibrated
+constexpr double bias_walk_radps_per_sqrt_s = 5e-5; // with temperature: 0.003 rad/s in an hour
+constexpr double block_s = 10;                      // the bias is one within it
+constexpr double far_off = 3;                       // sds: beyond, a reading counts less
+
+constexpr double standing_mps = 0.1;
+constexpr double least_stand_s = 2;
+constexpr double quiet_radps = 0.02;      // people getting in shake it more
+constexpr double stand_sd_radps = 0.0005; // of the mean rate while standing
+
+constexpr double course_from_mps = 4;
+constexpr double least_span_s = 20; // between courses that are compared
+constexpr double most_span_s = 90;
+constexpr double course_sd_rad = 3 * rad_per_deg;
+constexpr double chord_sd_rad = 8 * rad_per_deg;
+constexpr double least_chord_m = 15;
+constexpr double longest_chord_s = 5;
+constexpr double unstated_latency_sd_s = 0.7;
+constexpr double stated_latency_sd_s = 0.1;
+constexpr double contradiction_rad = 0.5;
+constexpr double most_contradicting = 1.0 / 3;
+
+double wrapped(double rad) {
+    return std::remainder(rad, 2 * std::numbers::pi);
+}
+
+// -------------------------------------------------------------------------------- integration
+
+/// Rate about the vertical; NaN if an axis that matters was not sampled.
+double vertical_rate(const TriaxialSamples& gyro, std::size_t i, const Eigen::Vector3d& up) {
+    const float axes[] = {gyro.x[i], gyro.y[i], gyro.z[i]};
+    double rate = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!std::isnan(axes[axis])) {
+            rate += up[axis] * static_cast<double>(axes[axis]);
+        } else if (std::abs(up[axis]) > slight_axis) {
+            return unknown;
+        }
+    }
+    return rate;
+}
+
+bool is_within(double t_s, std::span<const TimeSpan> spans) {
+    return std::ranges::any_of(
+        spans, [=](const TimeSpan& span) { return span.from_s <= t_s && t_s < span.to_s; });
+}
+
+/// Trapezoids between the samples, read off at even times.
+Heading integrated(const TripLog& trip, const Mounting& mounting) {
+    const Eigen::Vector3d up = mounting.to_vehicle.row(2);
+    Heading heading;
+    double last_s = unknown;
+    double last_radps = 0;
+    double turned_rad = 0;
+    for (std::size_t i = 0; i < trip.gyro.t_s.size(); ++i) {
+        const double t_s = trip.gyro.t_s[i];
+        const double radps = vertical_rate(trip.gyro, i, up);
+        if (std::isnan(radps) || is_within(t_s, mounting.otherwise)) {
+            continue;
+        }
+        if (std::isnan(last_s)) {
+            heading.start_s = t_s;
+            heading.turned_rad.push_back(0);
+            last_s = t_s;
+            last_radps = radps;
+            continue;
+        }
+        const bool silent = t_s - last_s > longest_silence_s;
+        if (silent) {
+            heading.silent.push_back({last_s, t_s});
+        }
+        const double gain_rad = silent ? 0 : (last_radps + radps) / 2 * (t_s - last_s);
+        for (;;) {
+            const double next_s =
+                heading.start_s + heading.step_s * static_cast<double>(heading.turned_rad.size());
+            if (next_s > t_s) {
+                break;
+            }
+            const double share = (next_s - last_s) / (t_s - last_s);
+            heading.turned_rad.push_back(static_cast<float>(turned_rad + share * gain_rad));
+        }
+        turned_rad += gain_rad;
+        last_s = t_s;
+        last_radps = radps;
+    }
+    return heading;
+}
+
+double end_s(const Heading& heading) {
+    return heading.start_s + heading.step_s * static_cast<double>(heading.turned_rad.size() - 1);
+}
+
+double turned_at(const Heading& heading, double t_s) {
+    const double steps = std::clamp((t_s - heading.start_s) / heading.step_s,
+                                    0.0,
+                                    static_cast<double>(heading.turned_rad.size() - 1));
+    const auto i = static_cast<std::size_t>(steps);
+    const auto next = std::min(i + 1, heading.turned_rad.size() - 1);
+    return std::lerp(static_cast<double>(heading.turned_rad[i]),
+                     static_cast<double>(heading.turned_rad[next]),
+                     steps - static_cast<double>(i));
+}
+
+bool was_measured(const Heading& heading, double from_s, double to_s) {
+    if (heading.turned_rad.empty() || from_s < heading.start_s - heading.step_s ||
+        to_s > end_s(heading) + 2 * heading.step_s) {
+        return false;
+    }
+    const auto next = std::ranges::upper_bound(heading.silent, from_s, {}, &TimeSpan::to_s);
+    return next == heading.silent.end() || next->from_s >= to_s;
+}
+
+// --------------------------------------------------------------------------------------- bias
+
+/// What some time says of the bias.
+struct Reading {
+    double t_s;
+    double radps;
+    double variance;
+};
+
+std::vector<Reading> standing_readings(const Heading& heading, const Odometer& odometer) {
+    std::vector<Reading> readings;
+    double from_s = unknown;
+    const auto close = [&](double to_s) {
+        const double took_s = to_s - from_s;
+        if (took_s >= least_stand_s && was_measured(heading, from_s, to_s)) {
+            const double radps = (turned_at(heading, to_s) - turned_at(heading, from_s)) / took_s;
+            readings.push_back({(from_s + to_s) / 2,
+                                radps,
+                                stand_sd_radps * stand_sd_radps +
+                                    noise_rad_per_sqrt_s * noise_rad_per_sqrt_s / took_s});
+        }
+        from_s = unknown;
+    };
+    const double step_s = 5 * heading.step_s;
+    double before_radps = unknown;
+    for (double t_s = heading.start_s; t_s + step_s <= end_s(heading); t_s += step_s) {
+        const double radps = (turned_at(heading, t_s + step_s) - turned_at(heading, t_s)) / step_s;
+        const bool stands = odometer.speed_mps(t_s) < standing_mps &&
+                            !(std::abs(radps - before_radps) > quiet_radps);
+        if (stands && std::isnan(from_s)) {
+            from_s = t_s + step_s; // the last of the stopping left out
+        } else if (!stands && !std::isnan(from_s)) {
+            close(t_s - step_s);
+        }
+        before_radps = radps;
+    }
+    if (!std::isnan(from_s)) {
+        close(end_s(heading));
+    }
+    return readings;
+}
+
+struct Course {
+    double t_s;
+    double rad; ///< positive to the left
+    double sd_rad;
+};
+
+std::vector<Course> stated_courses(const TripLog& trip) {
+    std::vector<Course> courses;
+    for (const auto& fix : trip.fixes) {
+        if (fix.speed_mps > static_cast<float>(course_from_mps) && !std::isnan(fix.course_deg)) {
+            courses.push_back({fix.t_s - trip.meta.gnss_latency_s,
+                               -static_cast<double>(fix.course_deg) * rad_per_deg,
+                               course_sd_rad});
+        }
+    }
+    return courses;
+}
+
+std::vector<Course> courses_of_chords(const TripLog& trip) {
+    std::vector<Course> courses;
+    const GnssFix* from = nullptr;
+    for (const auto& fix : trip.fixes) {
+        if (from == nullptr || fix.t_s - from->t_s > longest_chord_s) {
+            from = &fix;
+            continue;
+        }
+        const double way_m = distance_m(from->at, fix.at);
+        if (way_m < least_chord_m) {
+            continue;
+        }
+        if (way_m > course_from_mps * (fix.t_s - from->t_s)) {
+            courses.push_back({(from->t_s + fix.t_s) / 2 - trip.meta.gnss_latency_s,
+                               -course_deg(from->at, fix.at) * rad_per_deg,
+                               chord_sd_rad});
+        }
+        from = &fix;
+    }
+    return courses;
+}
+
+std::vector<Course> courses_of(const TripLog& trip) {
+    auto courses = stated_courses(trip);
+    return courses.size() * 4 > trip.fixes.size() ? courses : courses_of_chords(trip);
+}
+
+/// What the stamp of a course may be off, in angle.
+double blur_rad(const Heading& heading, double t_s, const TripMeta& meta) {
+    const double rate_radps = turned_at(heading, t_s + 0.5) - turned_at(heading, t_s - 0.5);
+    return rate_radps * (meta.gnss_latency_stated ? stated_latency_sd_s : unstated_latency_sd_s);
+}
+
+std::vector<Reading>
+driving_readings(const Heading& heading, const std::vector<Course>& courses, const TripMeta& meta) {
+    std::vector<Reading> readings;
+    for (std::size_t from = 0, to = 0; to < courses.size(); ++to) {
+        const auto& a = courses[from];
+        const auto& b = courses[to];
+        const double took_s = b.t_s - a.t_s;
+        if (took_s < least_span_s) {
+            continue;
+        }
+        from = to;
+        if (took_s > most_span_s || !was_measured(heading, a.t_s, b.t_s)) {
+            continue;
+        }
+        const double gyro_rad = turned_at(heading, b.t_s) - turned_at(heading, a.t_s);
+        const double sd_rad = std::hypot(std::hypot(a.sd_rad, b.sd_rad),
+                                         blur_rad(heading, a.t_s, meta),
+                                         blur_rad(heading, b.t_s, meta));
+        readings.push_back({(a.t_s + b.t_s) / 2,
+                            wrapped(gyro_rad - (b.rad - a.rad)) / took_s,
+                            sd_rad * sd_rad / (took_s * took_s)});
+    }
+    return readings;
+}
+
+struct Belief {
+    double mean;
+    double variance;
+};
+
+Belief updated(const Belief& belief, const Reading& reading) {
+    const double off = reading.radps - belief.mean;
+    const double expected = belief.variance + reading.variance;
+    const double excess = off * off / (far_off * far_off * expected);
+    const double variance = reading.variance + std::max(0.0, excess - 1) * expected;
+    const double gain = belief.variance / (belief.variance + variance);
+    return {belief.mean + gain * off, (1 - gain) * belief.variance};
+}
+
+/// One for each block of the heading's time.
+std::vector<Belief> smoothed_bias(const Heading& heading, std::vector<Reading> readings) {
+    std::ranges::sort(readings, {}, &Reading::t_s);
+    const auto blocks = 1 + static_cast<std::size_t>((end_s(heading) - heading.start_s) / block_s);
+    const double walk = bias_walk_radps_per_sqrt_s * bias_walk_radps_per_sqrt_s * block_s;
+    std::vector<Belief> beliefs;
+    Belief belief{0, prior_bias_sd_radps * prior_bias_sd_radps};
+    auto next = readings.begin();
+    for (std::size_t i = 0; i < blocks; ++i) {
+        belief.variance += i > 0 ? walk : 0;
+        const double until_s = heading.start_s + static_cast<double>(i + 1) * block_s;
+        for (; next != readings.end() && next->t_s < until_s; ++next) {
+            belief = updated(belief, *next);
+        }
+        beliefs.push_back(belief);
+    }
+    for (auto i = blocks - 1; i-- > 0;) {
+        auto& earlier = beliefs[i];
+        const double gain = earlier.variance / (earlier.variance + walk);
+        earlier.mean += gain * (beliefs[i + 1].mean - earlier.mean);
+        earlier.variance += gain * gain * (beliefs[i + 1].variance - earlier.variance - walk);
+    }
+    return beliefs;
+}
+
+Heading without_bias(Heading heading, const std::vector<Belief>& beliefs) {
+    const auto per_block = static_cast<std::size_t>(std::lround(block_s / heading.step_s));
+    double bias_rad = 0;
+    double variance = 0;
+    for (std::size_t i = 0; i < heading.turned_rad.size(); ++i) {
+        const auto& belief = beliefs[std::min(i / per_block, beliefs.size() - 1)];
+        bias_rad += i > 0 ? belief.mean * heading.step_s : 0;
+        variance += belief.variance;
+        heading.turned_rad[i] -= static_cast<float>(bias_rad);
+    }
+    heading.bias_sd_radps = std::sqrt(variance / static_cast<double>(heading.turned_rad.size()));
+    return heading;
+}
+
+/// Whether most courses turn otherwise than the gyro does.
+bool is_contradicted(const Heading& heading, const std::vector<Course>& courses) {
+    int compared = 0;
+    int contradicting = 0;
+    for (std::size_t from = 0, to = 0; to < courses.size(); ++to) {
+        const auto& a = courses[from];
+        const auto& b = courses[to];
+        if (b.t_s - a.t_s < least_span_s) {
+            continue;
+        }
+        from = to;
+        if (b.t_s - a.t_s > most_span_s || !was_measured(heading, a.t_s, b.t_s)) {
+            continue;
+        }
+        const double gyro_rad = turned_at(heading, b.t_s) - turned_at(heading, a.t_s);
+        ++compared;
+        contradicting += std::abs(wrapped(gyro_rad - (b.rad - a.rad))) > contradiction_rad ? 1 : 0;
+    }
+    return contradicting > most_contradicting * compared;
+}
+
+} // namespace
+
+Turn turned(const Heading& heading, double from_s, double to_s) {
+    if (!was_measured(heading, from_s, to_s)) {
+        return {0, std::numeric_limits<double>::infinity()};
+    }
+    const double rad = turned_at(heading, to_s) - turned_at(heading, from_s);
+    const double took_s = to_s - from_s;
+    return {rad,
+            std::hypot(std::hypot(least_sd_rad, noise_rad_per_sqrt_s * std::sqrt(took_s)),
+                       heading.bias_sd_radps * took_s,
+                       scale_sd * rad)};
+}
+
+Heading make_heading(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
+    auto heading = integrated(trip, mounting);
+    if (heading.turned_rad.size() < 2) {
+        return {};
+    }
+    const auto courses = courses_of(trip);
+    auto readings = standing_readings(heading, odometer);
+    std::ranges::copy(driving_readings(heading, courses, trip.meta), std::back_inserter(readings));
+    const auto beliefs = smoothed_bias(heading, std::move(readings));
+    heading = without_bias(std::move(heading), beliefs);
+    return is_contradicted(heading, courses) ? Heading{} : heading;
+}
+
+} // namespace macadam
