@@ -121,7 +121,8 @@ Matched matched(TripLog trip, const RoadNetwork& roads, const MatchConfig& confi
     }
     auto use = unused(trip);
     auto odometer = make_odometer(trip, {}, use);
-    auto trace = map_match(trip, odometer, roads, config, use);
+    const auto heading = make_heading(trip, odometer, estimate_mounting(trip, odometer));
+    auto trace = map_match(trip, odometer, roads, config, use, heading);
     return {latency_s, std::move(odometer), std::move(trace)};
 }
 
