@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <numbers>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,13 +17,8 @@ constexpr double step_m = 1;
 constexpr double parallel_deg = 30;
 constexpr std::int64_t part_ids = std::int64_t{1} << 40; // beyond the ids of ways
 
-/// A piece of a way between two points, in either direction.
-struct WayPiece {
-    std::int64_t way;
-    std::int64_t low_node;
-    std::int64_t high_node;
-    friend auto operator<=>(const WayPiece&, const WayPiece&) = default;
-};
+/// A piece of a way between two points, in either direction: way, lower node, higher node.
+using WayPiece = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
 WayPiece piece_of(std::int64_t way, std::int64_t a, std::int64_t b) {
     return {way, std::min(a, b), std::max(a, b)};
