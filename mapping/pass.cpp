@@ -1,8 +1,11 @@
 #include "mapping/pass.hpp"
 
+#include "mapping/driven_part.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace macadam {
@@ -12,105 +15,48 @@ constexpr double millionths = 1e6;
 constexpr double thousandths = 1e3;
 constexpr double largest_um = 1e9; // 1000 m/km is no road
 
-struct TravelRange {
-    double from_m;
-    double to_m;
-};
-
 /// One drive over one segment, as the match has it.
 struct Passage {
     SegmentKey segment;
-    double segment_m;                ///< its length
-    std::vector<TravelRange> travel; ///< apart from one another
-    double offset_m = 0;             ///< driven along the road
-    double confident_m = 0;          ///< the same, times the confidence of the match
+    double segment_m;                   ///< its length
+    std::vector<TravelSpan> travel;     ///< apart from one another
+    double offset_m = 0;                ///< driven along the road
+    double confident_m = 0;             ///< the same, times the confidence of the match
+    std::optional<std::uint32_t> drive; ///< over the strip
     double t_enter_s;
     double t_leave_s;
 };
 
-/// A matched piece's part on one segment.
-struct Part {
-    SegmentKey segment;
-    double segment_m;
-    double offset_m;
-    TravelRange travel;
-    double t_enter_s;
-    double t_leave_s;
-    double confidence;
-};
-
-double share(double value, double from, double to) {
-    return (value - from) / (to - from);
-}
-
-/// The part of a piece between two offsets along its edge.
-Part part_of(
-    const MatchedPiece& piece, const SegmentKey& key, double segment_m, double a, double b) {
-    const double first = share(a, piece.from_offset_m, piece.to_offset_m);
-    const double last = share(b, piece.from_offset_m, piece.to_offset_m);
-    return {key,
-            segment_m,
-            b - a,
-            {std::lerp(piece.from_travel_m, piece.to_travel_m, first),
-             std::lerp(piece.from_travel_m, piece.to_travel_m, last)},
-            std::lerp(piece.t_enter_s, piece.t_leave_s, first),
-            std::lerp(piece.t_enter_s, piece.t_leave_s, last),
-            piece.confidence};
-}
-
-/// A road piece cut at the borders of segments, in driving direction.
-std::vector<Part> parts_of(const MatchedPiece& piece, const RoadNetwork& roads) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(piece.edge))];
-    const bool forward = is_forward(piece.edge);
-    const double segment_m = (link.to_m - link.from_m) / link.segments;
-    std::vector<Part> parts;
-    const auto first =
-        static_cast<std::uint32_t>(std::max(0.0, piece.from_offset_m / segment_m - 1));
-    for (auto i = first; i < link.segments && i * segment_m < piece.to_offset_m; ++i) {
-        const double a = std::max(piece.from_offset_m, i * segment_m);
-        const double b = std::min(piece.to_offset_m, (i + 1) * segment_m);
-        if (a < b) {
-            const auto along = forward ? i : link.segments - 1 - i;
-            const SegmentKey key{roads.ways[link.way].id, forward, link.first_segment + along};
-            parts.push_back(part_of(piece, key, segment_m, a, b));
-        }
-    }
-    return parts;
-}
-
-bool goes_on(const Passage& passage, const Part& part) {
+bool goes_on(const Passage& passage, const DrivenPart& part) {
     return passage.segment == part.segment &&
            part.travel.from_m - passage.travel.back().to_m < passage.segment_m;
 }
 
-Passage longer_by(Passage passage, const Part& part) {
+Passage longer_by(Passage passage, const DrivenPart& part) {
     if (!passage.travel.empty() && passage.travel.back().to_m == part.travel.from_m) {
         passage.travel.back().to_m = part.travel.to_m;
     } else {
         passage.travel.push_back(part.travel);
     }
-    passage.offset_m += part.offset_m;
-    passage.confident_m += part.offset_m * part.confidence;
+    const double length_m = part.to_station_m - part.from_station_m;
+    passage.offset_m += length_m;
+    passage.confident_m += length_m * part.confidence;
     passage.t_leave_s = part.t_leave_s;
     return passage;
 }
 
-std::vector<Passage> passages_of(const MatchedTrace& matched, const RoadNetwork& roads) {
+std::vector<Passage> passages_of(std::span<const DrivenPart> parts) {
     std::vector<Passage> passages;
-    for (const auto& piece : matched) {
-        if (piece.kind != PieceKind::road) {
-            continue;
+    for (const auto& part : parts) {
+        if (passages.empty() || !goes_on(passages.back(), part)) {
+            passages.push_back({.segment = part.segment,
+                                .segment_m = part.segment_m,
+                                .travel = {},
+                                .drive = part.drive,
+                                .t_enter_s = part.t_enter_s,
+                                .t_leave_s = part.t_leave_s});
         }
-        for (const auto& part : parts_of(piece, roads)) {
-            if (passages.empty() || !goes_on(passages.back(), part)) {
-                passages.push_back({.segment = part.segment,
-                                    .segment_m = part.segment_m,
-                                    .travel = {},
-                                    .t_enter_s = part.t_enter_s,
-                                    .t_leave_s = part.t_leave_s});
-            }
-            passages.back() = longer_by(std::move(passages.back()), part);
-        }
+        passages.back() = longer_by(std::move(passages.back()), part);
     }
     return passages;
 }
@@ -131,28 +77,6 @@ struct Reading {
     std::uint8_t validity = validity::ok;
 };
 
-struct Headline {
-    double iri;
-    double sd;
-    bool centre_only;
-};
-
-std::optional<Headline> headline_of(const IriMean& mean) {
-    if (mean.mri_mm_per_m) {
-        return Headline{*mean.mri_mm_per_m, mean.sd_mm_per_m, false};
-    }
-    if (!mean.hri_mm_per_m) {
-        return std::nullopt;
-    }
-    // Of a quotient the relative variances add up:
-    // (hri sd / ratio)^2 + (iri * sd of ratio / ratio)^2.
-    const double iri = *mean.hri_mm_per_m / hri_over_mri;
-    return Headline{
-        iri,
-        std::hypot(mean.sd_mm_per_m / hri_over_mri, iri * sd_hri_over_mri / hri_over_mri),
-        true};
-}
-
 Known sum_of(const Known& sum, const Known& value, double weight) {
     return sum && value ? Known{*sum + weight * *value} : std::nullopt;
 }
@@ -167,8 +91,8 @@ Reading read(const Passage& passage, const IriTrace& roughness, const Vehicle& v
             continue;
         }
         reading.covered_m += w;
-        reading.iri += w * headline->iri;
-        reading.sd += w * headline->sd; // one car: its ranges err alike
+        reading.iri += w * headline->iri_mm_per_m;
+        reading.sd += w * headline->sd_mm_per_m; // one car: its ranges err alike
         reading.speed += w * mean.speed_mps;
         reading.left = sum_of(reading.left, mean.left_mm_per_m, w);
         reading.right = sum_of(reading.right, mean.right_mm_per_m, w);
@@ -219,7 +143,8 @@ Pass quantised(const Passage& passage, const Reading& r, double covered_m) {
         .covered_mm = static_cast<std::int32_t>(std::lround(covered_m * thousandths)),
         .confidence_ppm =
             static_cast<std::int32_t>(std::lround(std::clamp(confidence, 0.0, 1.0) * millionths)),
-        .t_ms = std::llround((passage.t_enter_s + passage.t_leave_s) / 2 * thousandths)};
+        .t_ms = std::llround((passage.t_enter_s + passage.t_leave_s) / 2 * thousandths),
+        .drive = passage.drive};
 }
 
 std::optional<Pass> pass_of(const Passage& passage,
@@ -243,6 +168,22 @@ std::optional<Pass> pass_of(const Passage& passage,
 
 } // namespace
 
+std::optional<Headline> headline_of(const IriMean& mean) {
+    if (mean.mri_mm_per_m) {
+        return Headline{*mean.mri_mm_per_m, mean.sd_mm_per_m, false};
+    }
+    if (!mean.hri_mm_per_m) {
+        return std::nullopt;
+    }
+    // Of a quotient the relative variances add up:
+    // (hri sd / ratio)^2 + (iri * sd of ratio / ratio)^2.
+    const double iri = *mean.hri_mm_per_m / hri_over_mri;
+    return Headline{
+        iri,
+        std::hypot(mean.sd_mm_per_m / hri_over_mri, iri * sd_hri_over_mri / hri_over_mri),
+        true};
+}
+
 std::vector<Pass> cut_passes(const IriTrace& roughness,
                              const MatchedTrace& matched,
                              const RoadNetwork& roads,
@@ -250,7 +191,8 @@ std::vector<Pass> cut_passes(const IriTrace& roughness,
                              const PassConfig& config) {
     std::vector<Pass> passes;
     std::map<SegmentKey, std::uint32_t> occurrences;
-    for (const auto& passage : passages_of(matched, roads)) {
+    const auto parts = driven_parts(matched, roads, config.least_confidence);
+    for (const auto& passage : passages_of(parts)) {
         if (auto pass = pass_of(passage, roughness, vehicle, config)) {
             pass->occurrence = occurrences[pass->segment]++;
             passes.push_back(*pass);

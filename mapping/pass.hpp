@@ -29,6 +29,8 @@ struct Pass {
     std::int32_t covered_mm;            ///< of the segment's length
     std::int32_t confidence_ppm;        ///< of the match, 0..1,000,000
     std::int64_t t_ms;                  ///< middle of the passage, since the trip's t0
+    std::optional<std::uint32_t>
+        drive{}; ///< over the segment's strip, whose StripTrace it is part of
 };
 
 struct PassConfig {
@@ -41,6 +43,14 @@ struct PassConfig {
 /// 0.047 over the 100 m pieces of SH 130, Texas, by 0.022 over 20 m of a road with even tracks.
 inline constexpr double hri_over_mri = 0.91;
 inline constexpr double sd_hri_over_mri = 0.055;
+
+/// What an IRI is known by.
+struct Headline {
+    double iri_mm_per_m;
+    double sd_mm_per_m;
+    bool centre_only; ///< inferred from HRI
+};
+std::optional<Headline> headline_of(const IriMean& mean);
 
 /// Roughness and place meet again on the ruler of travel: the trace's mean over each segment that
 /// the trip drove. Ordered as driven.

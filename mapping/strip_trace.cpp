@@ -1,0 +1,62 @@
+#include "mapping/strip_trace.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr double step_um = 20;
+constexpr unsigned mantissa_bits = 5;
+constexpr unsigned steps_in_octave = 1U << mantissa_bits;
+
+/// In steps. Below two octaves every step has its code; then each octave has 32.
+constexpr unsigned steps_of(RoughnessCode code) {
+    const unsigned octave = code >> mantissa_bits;
+    const unsigned within = code % steps_in_octave;
+    return octave == 0 ? within : (steps_in_octave + within) << (octave - 1);
+}
+
+constexpr RoughnessCode largest_code = no_roughness - 1;
+constexpr unsigned most_steps = steps_of(largest_code);
+
+/// The code of the most steps that are not more than `steps`.
+RoughnessCode code_below(unsigned steps) {
+    const auto width = static_cast<unsigned>(std::bit_width(steps));
+    const unsigned octave = width > mantissa_bits ? width - mantissa_bits : 0;
+    const unsigned within = octave == 0 ? steps : (steps >> (octave - 1)) - steps_in_octave;
+    return static_cast<RoughnessCode>(octave * steps_in_octave + within);
+}
+
+} // namespace
+
+std::uint32_t segments_in_strip(double segment_length_m) {
+    return static_cast<std::uint32_t>(std::max(1.0, std::round(strip_length_m / segment_length_m)));
+}
+
+StripKey strip_of(const SegmentKey& segment, double segment_length_m) {
+    return {segment.way_id, segment.forward, segment.index / segments_in_strip(segment_length_m)};
+}
+
+double station_m(bool forward, double along_way_m) {
+    return forward ? along_way_m : -along_way_m;
+}
+
+RoughnessCode code_of(double mm_per_m) {
+    const double steps = mm_per_m * 1000 / step_um;
+    if (!(steps < most_steps)) {
+        return largest_code;
+    }
+    const auto below = code_below(static_cast<unsigned>(steps));
+    const double middle = (steps_of(below) + steps_of(below + 1)) / 2.0;
+    return static_cast<RoughnessCode>(below + (steps < middle ? 0 : 1));
+}
+
+std::optional<std::int32_t> um_of(RoughnessCode roughness) {
+    return roughness == no_roughness
+               ? std::nullopt
+               : std::optional{static_cast<std::int32_t>(steps_of(roughness) * step_um)};
+}
+
+} // namespace macadam
