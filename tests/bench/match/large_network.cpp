@@ -135,10 +135,8 @@ std::vector<double> medians_s(const std::vector<std::function<void()>>& works) {
             took_s[i].push_back(seconds_of(works[i]));
         }
     }
-    std::vector<double> middle_s;
-    for (auto& one : took_s) {
-        middle_s.push_back(median(std::move(one)));
-    }
+    std::vector<double> middle_s(works.size());
+    std::ranges::transform(took_s, middle_s.begin(), median);
     return middle_s;
 }
 
@@ -222,6 +220,7 @@ void match_all(const std::vector<TripLog>& trips, const RoadNetwork& roads) {
 
 void print_growth(const std::vector<Sized>& networks, const std::vector<TripLog>& trips) {
     std::vector<std::function<void()>> works;
+    works.reserve(networks.size());
     for (const auto& network : networks) {
         works.emplace_back([&] { match_all(trips, network.roads); });
     }
@@ -276,6 +275,7 @@ void print_lengths(const RoadNetwork& roads, const TripLog& hour) {
                                   {"an hour, 10 Hz", positions_of(hour, 1, 3600)},
                                   {"an hour, 10 Hz, with odometer, course and gyro", hour}};
     std::vector<std::function<void()>> works;
+    works.reserve(parts.size());
     for (const auto& part : parts) {
         works.emplace_back([&] { matched(part.trip, roads); });
     }
