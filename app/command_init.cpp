@@ -62,20 +62,27 @@ bool is_osm(const std::filesystem::path& file) {
     return name.find(".osm") != std::string::npos || name.ends_with(".pbf");
 }
 
+/// Trips are read one by one, and only what they drew is kept.
 std::vector<Way> traced_ways(const std::vector<std::filesystem::path>& paths,
                              const Console& console) {
-    std::vector<TripLog> trips;
+    const TraceConfig config;
+    std::vector<TripDrawing> trips;
     for (const auto& path : paths) {
-        for (const auto& source : find_tracks(path).trips) {
-            trips.push_back(read_trip(source, needs_of_match(), console.progress("reading")));
+        const auto found = find_tracks(path).trips;
+        const auto reading = console.progress("reading trips");
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            reading(i, found.size());
+            trips.push_back(trip_drawing(read_trip(found[i], needs_of_match()), config));
         }
+        reading(found.size(), found.size());
     }
-    auto ways = trace_network(trips, {});
+    auto ways = trace_network(trips, config, console.progress("drawing roads"));
     if (ways.empty()) {
-        throw InputError{
-            fmt::format("{} trips drew no road, expected positions along at least {} m",
-                        trips.size(),
-                        TraceConfig{}.least_way_m)};
+        throw InputError{fmt::format("{} trips drew no road, expected positions along at least {} "
+                                     "m, at most {} s apart",
+                                     trips.size(),
+                                     config.least_way_m,
+                                     config.longest_gap_s)};
     }
     return ways;
 }

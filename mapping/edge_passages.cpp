@@ -44,7 +44,9 @@ MatchedTrace edge_passages(const MatchedTrace& trace, double least_m) {
     }
     MatchedTrace passages;
     for (auto& piece : joined) {
-        const bool is_speck = piece.kind == PieceKind::road && long_m(piece) < least_m;
+        const double gone_m =
+            piece.kind == PieceKind::road ? long_m(piece) : piece.to_travel_m - piece.from_travel_m;
+        const bool is_speck = gone_m < least_m;
         if (is_speck && !passages.empty()) {
             passages.back().to_travel_m = piece.to_travel_m;
             passages.back().t_leave_s = piece.t_leave_s;

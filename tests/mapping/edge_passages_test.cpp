@@ -87,6 +87,12 @@ TEST(EdgePassages, SwallowASpeckAtTheBeginning) {
     EXPECT_EQ(passages[0].t_enter_s, 0);
 }
 
+TEST(EdgePassages, SwallowAHoleOfNoLength) {
+    const auto passages = edge_passages({on(first, 0, 100, 0), hole(100, 100.02, "why")});
+    ASSERT_THAT(passages, SizeIs(1));
+    EXPECT_EQ(passages[0].to_travel_m, 100.02);
+}
+
 TEST(EdgePassages, OfADriveOverFourEdgesAreFour) {
     const auto art = testing::road_art(R"(
         A---------B---------C---------D---------E
