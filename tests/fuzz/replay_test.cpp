@@ -64,6 +64,10 @@ TEST(Fuzz, MappedTripSurvivesEverySeedAndFinding) {
     survives(mapped_trip, "mapped_trip");
 }
 
+TEST(Fuzz, GpxSurvivesEverySeedAndFinding) {
+    survives(gpx, "gpx");
+}
+
 TEST(Fuzz, RawlogSurvivesEverySeedAndFinding) {
     survives(rawlog, "rawlog");
 }

@@ -17,6 +17,7 @@ void trip_written(std::string_view input);    ///< the text of a trip log, read,
 void phone_export(std::string_view input);    ///< the files of phyphox or Sensor Logger
 void mapped_trip(std::string_view input);     ///< a mapping, and a table for it
 void rawlog(std::string_view input);          ///< of MRPT, by its own reader
+void gpx(std::string_view input);             ///< a track, and the roads that it draws
 void vehicle_toml(std::string_view input);
 void recipe_toml(std::string_view input); ///< of a simulated fleet
 void profile_csv(std::string_view input);

@@ -3,6 +3,7 @@
 #include "fuzz/targets.hpp"
 
 #include "app/pipeline.hpp"
+#include "mapping/trace_network.hpp"
 #include "storage/foreign/trip_mapping.hpp"
 #include "storage/mapping_file.hpp"
 #include "storage/trip_reader.hpp"
@@ -12,6 +13,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -105,6 +107,19 @@ void trip_archive(std::string_view input) {
 
 void rawlog(std::string_view input) {
     read_as("a.rawlog", input);
+}
+
+void gpx(std::string_view input) {
+    const TripSource source{.file = input_file("a.gpx", input), .member = {}};
+    may_refuse([&] {
+        const auto trip = read_trip(source, needs_of_match());
+        expect_sound(trip);
+        expect(trip.sha256 == content_sha256(source), "a trip has the hash of its content");
+        for (const auto& way : trace_network(std::span{&trip, 1}, TraceConfig{})) {
+            expect(way.line.size() == way.node_ids.size() && way.line.size() >= 2,
+                   "every point of a way has its node");
+        }
+    });
 }
 
 void trip_written(std::string_view input) {
