@@ -171,8 +171,7 @@ struct Fit {
 
 /// Each point from its neighbours within a few sd_m along the line: a local straight line, so that
 /// the ends stay where they are.
-Points smoothed(const Points& line, double sd_m) {
-    const auto along_m = distances_along(line);
+Points locally_straight(const Points& line, const std::vector<double>& along_m, double sd_m) {
     Points smooth;
     std::size_t first = 0;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -186,6 +185,26 @@ Points smoothed(const Points& line, double sd_m) {
             fit.add(std::exp(-x * x / (2 * sd_m * sd_m)), x, line[k]);
         }
         smooth.push_back(fit.at_zero());
+    }
+    return smooth;
+}
+
+/// Smoothed twice: what the first smoothing took away, smoothed as well, is given back, so that
+/// bends are cut less.
+///
+/// Source: J. W. Tukey, "Exploratory Data Analysis" (1977): "twicing".
+Points smoothed(const Points& line, double sd_m) {
+    const auto along_m = distances_along(line);
+    auto smooth = locally_straight(line, along_m, sd_m);
+    auto rest = line;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        rest[i].east_m -= smooth[i].east_m;
+        rest[i].north_m -= smooth[i].north_m;
+    }
+    const auto back = locally_straight(rest, along_m, sd_m);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        smooth[i].east_m += back[i].east_m;
+        smooth[i].north_m += back[i].north_m;
     }
     return smooth;
 }
