@@ -213,7 +213,7 @@ ImportTotals import_trips(RoadStore& store,
         }
         if (outcome.result == TripOutcome::Result::imported) {
             const std::scoped_lock lock{store_in_use};
-            if (!store.add_trip(outcome.record, outcome.trip.passes)) {
+            if (!store.add_trip(outcome.record, outcome.trip.passes, outcome.trip.traces)) {
                 outcome.result = TripOutcome::Result::known; // twice in one call
             }
         }

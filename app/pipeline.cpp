@@ -6,6 +6,7 @@
 #include "estimator/common/gravity.hpp"
 #include "estimator/latency.hpp"
 #include "estimator/smoothed_iri.hpp"
+#include "mapping/strip_cut.hpp"
 
 #include <fmt/format.h>
 
@@ -345,6 +346,7 @@ TripResult passes_of(TripLog trip,
     const auto kept = config.trim_m > 0 ? trimmed(matched, told, roads) : matched;
     const auto begin_ms = begin_of(told, trace.odometer);
     auto passes = cut_passes(trace.roughness, kept, roads, vehicle, config.pass);
+    auto traces = cut_traces(trace.roughness, kept, roads, vehicle, config.pass);
     if (config.trim_m > 0) {
         warnings.push_back(spoken_trim(told, config.trim_m));
     }
@@ -352,6 +354,7 @@ TripResult passes_of(TripLog trip,
         warnings.push_back(spoken_emptiness(trace.roughness, matched));
     }
     return {.passes = counting_from(begin_ms.value_or(0), std::move(passes)),
+            .traces = std::move(traces),
             .rows = account(trip, trace.use),
             .begin_ms = begin_ms,
             .distance_m = std::max(0.0, told.to_m - told.from_m - paused_m),

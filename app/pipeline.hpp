@@ -5,6 +5,7 @@
 #include "estimator/stretch.hpp"
 #include "mapping/map_match.hpp"
 #include "mapping/pass.hpp"
+#include "mapping/strip_trace.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -51,7 +52,8 @@ TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineCo
 
 /// What one trip gives to the store, with every row of its log accounted for.
 struct TripResult {
-    std::vector<Pass> passes; ///< their times count from begin_ms on
+    std::vector<Pass> passes;         ///< their times count from begin_ms on
+    std::vector<StripTrace> traces{}; ///< what the passes were read from, metre by metre
     RowCount rows;
     std::optional<std::int64_t> begin_ms{0}; ///< of what is told, since the trip's t0; nothing: too
                                              ///< short to tell anything

@@ -93,21 +93,23 @@ std::string geojson_of(const std::vector<SegmentRecord>& records, const ClassTab
 }
 
 std::string history_table(const std::vector<PassRecord>& passes) {
-    auto table = fmt::format("{:<22} {:<16} {:>6} {:>6} {:>7} {:>10}  {}\n",
+    auto table = fmt::format("{:<22} {:<16} {:>6} {:>6} {:>6} {:>7} {:>10}  {}\n",
                              "when",
                              "vehicle",
                              "IRI",
                              "sd",
+                             "lag m",
                              "km/h",
                              "confidence",
                              "trip");
     for (const auto& record : passes) {
         const auto& pass = record.pass;
-        table += fmt::format("{:<22} {:<16} {:>6.2f} {:>6.2f} {:>7.1f} {:>10.2f}  {:.12}\n",
+        table += fmt::format("{:<22} {:<16} {:>6.2f} {:>6.2f} {:>6} {:>7.1f} {:>10.2f}  {:.12}\n",
                              record.utc_ms ? utc_text(*record.utc_ms / 1000 * 1000) : "undated",
                              record.vehicle,
                              pass.iri_um / 1000.0,
                              pass.sd_um / 1000.0,
+                             record.lag_m ? fmt::format("{:+.2f}", *record.lag_m) : "-",
                              pass.speed_mmps * 3.6e-3,
                              pass.confidence_ppm / 1e6,
                              record.trip_sha256);
@@ -133,6 +135,7 @@ std::string history_json(const std::vector<PassRecord>& passes) {
             .add("hri", um(pass.iri_centre_um))
             .add("speed_mps", JsonNumber{pass.speed_mmps / 1000.0, 3})
             .add("covered_m", JsonNumber{pass.covered_mm / 1000.0, 3})
+            .add("lag_m", record.lag_m ? json_number(*record.lag_m, 2) : JsonValue{nullptr})
             .add("confidence", JsonNumber{pass.confidence_ppm / 1e6, 3})
             .add("validity", name_of_validity(pass.validity))
             .add("trip", record.trip_sha256);

@@ -4,8 +4,9 @@
 #include "storage/atomic_file.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/row_reasons.hpp"
-#include "storage/segment_row.hpp"
 #include "storage/sha256.hpp"
+#include "storage/strip_fusion.hpp"
+#include "storage/strip_rows.hpp"
 
 #include <fmt/format.h>
 
@@ -82,15 +83,16 @@ std::int64_t row_of_segment(Statement& find, const Database& database, const Seg
     return find.integer(0);
 }
 
-std::optional<std::int64_t> whole(const std::optional<IriUm>& um) {
-    return um ? std::optional<std::int64_t>{*um} : std::nullopt;
+template <typename Integer>
+std::optional<std::int64_t> whole(const std::optional<Integer>& number) {
+    return number ? std::optional<std::int64_t>{*number} : std::nullopt;
 }
 
 void write_passes(Database& database, std::int64_t trip, std::span<const Pass> passes) {
     auto find =
         database.prepare("SELECT fid FROM segment WHERE way_id = ? AND direction = ? AND seq = ?");
     auto insert =
-        database.prepare("INSERT INTO pass VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        database.prepare("INSERT INTO pass VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     auto mark = database.prepare("INSERT OR IGNORE INTO segment_dirty VALUES (?)");
     for (const auto& pass : passes) {
         const auto segment = row_of_segment(find, database, pass.segment);
@@ -107,66 +109,14 @@ void write_passes(Database& database, std::int64_t trip, std::span<const Pass> p
                    std::int64_t{pass.speed_mmps},
                    std::int64_t{pass.covered_mm},
                    std::int64_t{pass.confidence_ppm},
-                   pass.t_ms);
+                   pass.t_ms,
+                   whole(pass.drive));
         mark.run(segment);
     }
 }
 
 bool has_trip(Database& database, const std::string& sha256) {
     return database.prepare("SELECT 1 FROM trip WHERE sha256 = ?").bind(sha256).step();
-}
-
-// -------------------------------------------------------------------------------------- fusion
-
-const std::string& dirty_passes() {
-    static const std::string sql = fmt::format(
-        "SELECT pass.segment, segment.way_id, segment.direction, segment.seq, trip.sha256,"
-        " trip.vehicle, trip.t0_utc_ms, {}"
-        " FROM segment_dirty AS dirty CROSS JOIN pass ON pass.segment = dirty.segment"
-        " CROSS JOIN segment ON segment.fid = dirty.segment"
-        " CROSS JOIN trip ON trip.id = pass.trip"
-        " ORDER BY dirty.segment, trip.sha256, pass.occurrence",
-        pass_columns);
-    return sql;
-}
-
-FusionInput input_in(const Statement& row) {
-    const SegmentKey key{
-        row.integer(1), row.text(2) == "forward", static_cast<std::uint32_t>(row.integer(3))};
-    FusionInput input{pass_in(row, 7, key), row.text(4), row.integer(5), known_utc_ms(row, 6)};
-    input.utc_ms = utc_ms_of(input.utc_ms, input.pass);
-    return input;
-}
-
-/// Fuses the dirty segments in the order of their keys until all are done or nobody wants more.
-std::size_t fuse_dirty(Database& database,
-                       const ClassTable& classes,
-                       const FusionConfig& config,
-                       const Progress& progress) {
-    constexpr std::size_t report_every = 1000;
-    const auto whole =
-        static_cast<std::size_t>(database.number("SELECT count(*) FROM segment_dirty"));
-    auto select = database.prepare(dirty_passes());
-    auto insert = database.prepare(insert_state);
-    std::size_t done = 0;
-    std::int64_t last = 0;
-    std::vector<FusionInput> inputs;
-    for (bool more = select.step(); more && !progress.stop.stop_requested(); ++done) {
-        last = select.integer(0);
-        inputs.clear();
-        do {
-            inputs.push_back(input_in(select));
-            more = select.step();
-        } while (more && select.integer(0) == last);
-        write_state(insert, last, fuse(inputs, config), classes);
-        if (done % report_every == 0) {
-            progress(done, whole);
-        }
-    }
-    select.reset();
-    database.prepare("DELETE FROM segment_dirty WHERE segment <= ?").run(last);
-    progress(done, whole);
-    return done;
 }
 
 } // namespace
@@ -208,7 +158,9 @@ bool RoadStore::knows_trip(const std::string& sha256) const {
     return has_trip(impl_->database, sha256);
 }
 
-bool RoadStore::add_trip(const TripRecord& trip, std::span<const Pass> passes) {
+bool RoadStore::add_trip(const TripRecord& trip,
+                         std::span<const Pass> passes,
+                         std::span<const StripTrace> traces) {
     auto& database = impl_->database;
     Transaction all{database, Transaction::Kind::write};
     if (has_trip(database, trip.sha256)) {
@@ -217,6 +169,7 @@ bool RoadStore::add_trip(const TripRecord& trip, std::span<const Pass> passes) {
     const auto row = write_trip(database, trip);
     write_row_reasons(database, row, trip.row_reasons);
     write_passes(database, row, passes);
+    write_traces(database, row, traces, segments_in_strip(impl_->settings.segment_length_m));
     all.commit();
     return true;
 }
@@ -224,7 +177,8 @@ bool RoadStore::add_trip(const TripRecord& trip, std::span<const Pass> passes) {
 std::size_t RoadStore::refresh(const FusionConfig& config, const Progress& progress) {
     auto& database = impl_->database;
     Transaction all{database, Transaction::Kind::write};
-    const auto fused = fuse_dirty(database, impl_->classes(), config, progress);
+    const auto strip = segments_in_strip(impl_->settings.segment_length_m);
+    const auto fused = fuse_dirty(database, strip, impl_->classes(), config, progress);
     all.commit();
     return fused;
 }

@@ -6,6 +6,7 @@
 #include "mapping/pass.hpp"
 #include "mapping/road_network.hpp"
 #include "mapping/segment_record.hpp"
+#include "mapping/strip_trace.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -62,6 +63,10 @@ struct PassRecord {
     std::string trip_sha256;
     std::string vehicle; ///< pseudonym
     std::optional<std::int64_t> utc_ms;
+
+    /// How far behind its own place the road lay that the trip read there, by what others read; as
+    /// the fusion takes it. Nothing: the pass has no trace.
+    std::optional<double> lag_m{};
 };
 
 /// What the trips of one car gave, read with one vehicle model by one method.
@@ -137,7 +142,9 @@ public:
     bool knows_trip(const std::string& sha256) const;
 
     /// \returns false, and changes nothing, if the trip is already there.
-    bool add_trip(const TripRecord& trip, std::span<const Pass> passes);
+    bool add_trip(const TripRecord& trip,
+                  std::span<const Pass> passes,
+                  std::span<const StripTrace> traces = {});
 
     /// Notes that an import has begun; `name` stands for what was asked, so that the same request
     /// finds its note again. \returns what an import of that name has done that began and did not
@@ -147,7 +154,9 @@ public:
     /// Takes the note away: there is nothing left to do.
     void end_import(const std::string& name);
 
-    /// Fuses every segment that has passes newer than its state. \returns how many.
+    /// Lays the passes of every strip with passes newer than their segments' states on each other
+    /// and fuses them (mapping/alignment.hpp, mapping/fusion.hpp). \returns how many segments had
+    /// new passes.
     std::size_t refresh(const FusionConfig& config, const Progress& progress = {});
 
     /// In the order of keys (way, forward before backward, index), or worst first.

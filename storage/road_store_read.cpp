@@ -2,6 +2,7 @@
 #include "storage/road_store_impl.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/sha256.hpp"
+#include "storage/strip_rows.hpp"
 
 #include <fmt/format.h>
 
@@ -211,7 +212,7 @@ void add_passes(Sha256& hash, Database& database) {
                                      pass_columns));
     while (select.step()) {
         hash.add(fmt::format("pass {} {}", select.text(0), select.text(1)) +
-                 columns_from(select, 2, 2 + pass_column_count));
+                 columns_from(select, 2, 2 + digest_column_count));
     }
 }
 
@@ -234,8 +235,10 @@ void RoadStore::visit(const SegmentFilter& filter,
 }
 
 std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
+    Transaction one_moment{impl_->database, Transaction::Kind::read};
     auto select = impl_->database.prepare(
-        fmt::format("SELECT trip.sha256, vehicle.pseudonym, trip.t0_utc_ms, {} FROM segment"
+        fmt::format("SELECT trip.sha256, vehicle.pseudonym, trip.t0_utc_ms, segment.strip,"
+                    " (segment.from_m + segment.to_m) / 2, {} FROM segment"
                     " CROSS JOIN pass ON pass.segment = segment.fid"
                     " CROSS JOIN trip ON trip.id = pass.trip"
                     " CROSS JOIN vehicle ON vehicle.id = trip.vehicle"
@@ -244,10 +247,20 @@ std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
                     pass_columns));
     select.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
     std::vector<PassRecord> passes;
+    std::optional<std::vector<PlacedTrace>> traces;
     while (select.step()) {
-        PassRecord record{
-            pass_in(select, 3, key), select.text(0), select.text(1), known_utc_ms(select, 2)};
+        if (!traces) {
+            traces = StripTraces{impl_->database}.placed(select.integer(3));
+        }
+        PassRecord record{pass_in(select, 5, key),
+                          select.text(0),
+                          select.text(1),
+                          known_utc_ms(select, 2),
+                          std::nullopt};
         record.utc_ms = utc_ms_of(record.utc_ms, record.pass);
+        if (const auto* placed = find_trace(*traces, record.trip_sha256, record.pass.drive)) {
+            record.lag_m = lag_m(placed->lag, station_m(key.forward, select.real(4)));
+        }
         passes.push_back(std::move(record));
     }
     return passes;

@@ -105,7 +105,13 @@ void write_state(Statement& insert,
 const char* const pass_columns =
     "pass.occurrence, pass.iri_left_um, pass.iri_right_um, pass.iri_centre_um, pass.iri_um,"
     " pass.sd_um, pass.centre_only, pass.validity, pass.speed_mmps, pass.covered_mm,"
-    " pass.confidence_ppm, pass.t_ms";
+    " pass.confidence_ppm, pass.t_ms, pass.drive";
+
+/// None for what no drive is numbered: it finds no trace.
+std::optional<std::uint32_t> known_drive_in(const Statement& row, int column) {
+    const auto number = row.known_integer(column);
+    return number ? std::optional{static_cast<std::uint32_t>(*number)} : std::nullopt;
+}
 
 Pass pass_in(const Statement& row, int first, const SegmentKey& segment) {
     return {.segment = segment,
@@ -120,7 +126,8 @@ Pass pass_in(const Statement& row, int first, const SegmentKey& segment) {
             .speed_mmps = static_cast<std::int32_t>(row.integer(first + 8)),
             .covered_mm = static_cast<std::int32_t>(row.integer(first + 9)),
             .confidence_ppm = static_cast<std::int32_t>(row.integer(first + 10)),
-            .t_ms = row.integer(first + 11)};
+            .t_ms = row.integer(first + 11),
+            .drive = known_drive_in(row, first + 12)};
 }
 
 std::optional<std::int64_t> known_utc_ms(const Statement& row, int column) {

@@ -27,7 +27,8 @@ void write_state(Statement& insert,
 
 /// Columns of a pass from the column `first` on; the table goes by the name pass.
 extern const char* const pass_columns;
-inline constexpr int pass_column_count = 12;
+inline constexpr int digest_column_count = 12; ///< the first of them; the last, the drive, only
+                                               ///< leads to the trace
 Pass pass_in(const Statement& row, int first, const SegmentKey& segment);
 
 /// A time in milliseconds since 1970; nothing for a column that holds none, or none of the years 1

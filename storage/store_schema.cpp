@@ -1,6 +1,7 @@
 #include "storage/store_schema.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/strip_trace.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/text.hpp"
 
@@ -11,12 +12,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string>
 
 namespace macadam {
 namespace {
 
-constexpr int store_version = 1;
+constexpr int store_version = 2;
 constexpr const char* format_name = "macadam-store";
 
 // Column types are those that a GeoPackage knows; it forbids STRICT, whose types are others.
@@ -41,7 +43,8 @@ CREATE TABLE segment (
     direction TEXT NOT NULL,
     seq INTEGER NOT NULL,
     from_m DOUBLE NOT NULL,
-    to_m DOUBLE NOT NULL
+    to_m DOUBLE NOT NULL,
+    strip INTEGER NOT NULL
 );
 CREATE TABLE vehicle (
     id INTEGER PRIMARY KEY,
@@ -76,9 +79,21 @@ CREATE TABLE pass (
     covered_mm INTEGER NOT NULL,
     confidence_ppm INTEGER NOT NULL,
     t_ms INTEGER NOT NULL,
+    drive INTEGER,
     PRIMARY KEY (segment, trip, occurrence)
 ) WITHOUT ROWID;
 CREATE INDEX pass_of_trip ON pass(trip);
+CREATE TABLE trace (
+    strip INTEGER NOT NULL REFERENCES segment(fid),
+    trip INTEGER NOT NULL REFERENCES trip(id),
+    drive INTEGER NOT NULL,
+    first_m INTEGER NOT NULL,
+    place_sd_mm INTEGER NOT NULL,
+    iri BLOB NOT NULL,
+    iri_left BLOB,
+    PRIMARY KEY (strip, trip, drive)
+) WITHOUT ROWID;
+CREATE INDEX trace_of_trip ON trace(trip);
 CREATE TABLE segment_state (
     fid INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
     iri DOUBLE NOT NULL,
@@ -176,9 +191,11 @@ struct Written {
 
 Written write_segments(Database& database, const RoadNetwork& roads, const Progress& progress) {
     auto insert =
-        database.prepare("INSERT INTO segment (geom, segment, way_id, direction, seq, from_m, to_m)"
-                         " VALUES (?, ?, ?, ?, ?, ?, ?)");
+        database.prepare("INSERT INTO segment (geom, segment, way_id, direction, seq, from_m, to_m,"
+                         " strip) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
     Written written;
+    std::optional<StripKey> strip;
+    std::int64_t first_of_strip = 0; // its row, of those that count from 1
     const auto count = static_cast<std::uint32_t>(roads.links.size());
     for (std::uint32_t first = 0, last = 0; first < count; first = last) {
         while (last < count && roads.links[last].way == roads.links[first].way) {
@@ -186,13 +203,18 @@ Written write_segments(Database& database, const RoadNetwork& roads, const Progr
         }
         for (const bool forward : {true, false}) {
             for (const auto& segment : drivable_segments(roads, first, last, forward)) {
+                if (const auto key = strip_of(segment.key, roads.segment_length_m); strip != key) {
+                    strip = key;
+                    first_of_strip = written.segments + 1;
+                }
                 insert.run(Blob{geometry_of(segment.line)},
                            name_of(segment.key),
                            segment.key.way_id,
                            forward ? "forward" : "backward",
                            std::int64_t{segment.key.index},
                            segment.from_m,
-                           segment.to_m);
+                           segment.to_m,
+                           first_of_strip);
                 ++written.segments;
                 written.length_m += segment.to_m - segment.from_m;
             }

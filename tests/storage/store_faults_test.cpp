@@ -155,8 +155,8 @@ TEST(StoreFaults, OfOtherGeoPackagesAndVersionsAreNamed) {
     std::filesystem::remove(folder / "a.gpkg");
     new_store(folder / "a.gpkg");
     Database{folder / "a.gpkg", Database::Access::write}.run(
-        "UPDATE meta SET value = '2' WHERE key = 'version'");
-    EXPECT_THAT(refusal(), HasSubstr("is a store of version '2', expected version 1"));
+        "UPDATE meta SET value = '1' WHERE key = 'version'");
+    EXPECT_THAT(refusal(), HasSubstr("is a store of version '1', expected version 2"));
 }
 
 /// What any tool for SQLite can do to a store.

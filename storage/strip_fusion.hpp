@@ -1,0 +1,23 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "mapping/fusion.hpp"
+#include "mapping/iri_class.hpp"
+#include "storage/sqlite.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace macadam {
+
+/// Fuses the strips that hold dirty segments, in the order of their keys, until all are done or
+/// nobody wants more. Every segment of a strip is fused anew, for a new trace may move the others.
+///
+/// \returns  how many dirty segments are clean now
+std::size_t fuse_dirty(Database& database,
+                       std::int64_t segments_in_strip,
+                       const ClassTable& classes,
+                       const FusionConfig& config,
+                       const Progress& progress);
+
+} // namespace macadam

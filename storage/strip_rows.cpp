@@ -1,0 +1,138 @@
+#include "storage/strip_rows.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+std::string_view bytes_of(const std::vector<RoughnessCode>& codes) {
+    return {reinterpret_cast<const char*>(codes.data()), codes.size()};
+}
+
+std::vector<RoughnessCode> codes_in(std::string_view bytes) {
+    return {bytes.begin(), bytes.end()};
+}
+
+std::int64_t row_of_strip(Statement& find,
+                          const Database& database,
+                          const StripKey& key,
+                          std::int64_t segments_in_strip) {
+    const auto first = key.number * segments_in_strip;
+    find.bind(
+        key.way_id, key.forward ? "forward" : "backward", first, first + segments_in_strip - 1);
+    if (!find.step()) {
+        throw InputError{fmt::format("{}: has no strip {} of way '{}' {}, expected traces over its "
+                                     "own network",
+                                     database.file().string(),
+                                     key.number,
+                                     key.way_id,
+                                     key.forward ? "forward" : "backward")};
+    }
+    return find.integer(0);
+}
+
+// Far more than any strip has; a store can be changed with any tool for SQLite.
+constexpr std::int64_t most_station_m = 20'000'000;
+constexpr std::int64_t longest_strip_m = 250'000;
+constexpr std::int64_t most_sd_mm = 1'000'000;
+
+bool is_sound(const Statement& row) {
+    const auto first_m = row.integer(2);
+    const auto left = row.blob(5).size();
+    const auto size = row.blob(4).size();
+    const auto sd_mm = row.integer(3);
+    return size > 0 && size <= longest_strip_m && (left == 0 || left == size) &&
+           first_m >= -most_station_m && first_m <= most_station_m && sd_mm > 0 &&
+           sd_mm <= most_sd_mm;
+}
+
+bool is_within_a_strip(std::span<const PlacedTrace> traces) {
+    auto first_m = most_station_m;
+    auto last_m = -most_station_m;
+    for (const auto& [trip, trace, lag] : traces) {
+        first_m = std::min<std::int64_t>(first_m, trace.first_m);
+        last_m = std::max<std::int64_t>(last_m, trace.first_m);
+    }
+    return last_m - first_m <= longest_strip_m;
+}
+
+} // namespace
+
+void write_traces(Database& database,
+                  std::int64_t trip,
+                  std::span<const StripTrace> traces,
+                  std::int64_t segments_in_strip) {
+    auto find = database.prepare("SELECT strip FROM segment WHERE way_id = ? AND direction = ?"
+                                 " AND seq BETWEEN ? AND ? LIMIT 1");
+    auto insert = database.prepare("INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)");
+    for (const auto& trace : traces) {
+        insert.run(row_of_strip(find, database, trace.strip, segments_in_strip),
+                   trip,
+                   std::int64_t{trace.drive},
+                   std::int64_t{trace.first_m},
+                   std::int64_t{trace.place_sd_mm},
+                   Blob{bytes_of(trace.iri)},
+                   trace.left.empty() ? std::nullopt : std::optional{Blob{bytes_of(trace.left)}});
+    }
+}
+
+StripTraces::StripTraces(Database& database)
+    : database_{&database}, select_{database.prepare(
+                                "SELECT trip.sha256, trace.drive, trace.first_m, trace.place_sd_mm,"
+                                " trace.iri, trace.iri_left FROM trace"
+                                " CROSS JOIN trip ON trip.id = trace.trip WHERE trace.strip = ?")} {
+}
+
+std::vector<PlacedTrace> StripTraces::placed(std::int64_t strip) {
+    std::vector<PlacedTrace> traces;
+    bool sound = true;
+    for (select_.bind(strip); sound && select_.step();) {
+        sound = is_sound(select_);
+        traces.push_back({.trip_sha256 = select_.text(0),
+                          .trace = {.strip = {},
+                                    .drive = static_cast<std::uint32_t>(select_.integer(1)),
+                                    .first_m = static_cast<std::int32_t>(select_.integer(2)),
+                                    .iri = codes_in(select_.blob(4)),
+                                    .left = codes_in(select_.blob(5)),
+                                    .place_sd_mm = static_cast<std::int32_t>(select_.integer(3))},
+                          .lag = {}});
+    }
+    select_.reset();
+    if (!sound || !is_within_a_strip(traces)) {
+        throw InputError{fmt::format("{}: a trace of strip '{}' is none; the store was changed",
+                                     database_->file().string(),
+                                     strip)};
+    }
+    std::ranges::sort(traces, {}, [](const PlacedTrace& placed) {
+        return std::pair<std::string_view, std::uint32_t>{placed.trip_sha256, placed.trace.drive};
+    });
+    std::vector<StripTrace> all;
+    std::ranges::transform(traces, std::back_inserter(all), &PlacedTrace::trace);
+    auto lags = lags_of(all, {});
+    for (std::size_t i = 0; i < traces.size(); ++i) {
+        traces[i].lag = std::move(lags[i]);
+    }
+    return traces;
+}
+
+const PlacedTrace* find_trace(std::span<const PlacedTrace> traces,
+                              const std::string& trip_sha256,
+                              const std::optional<std::uint32_t>& drive) {
+    if (!drive) {
+        return nullptr;
+    }
+    const std::pair<std::string_view, std::uint32_t> wanted{trip_sha256, *drive};
+    const auto key_of = [](const PlacedTrace& placed) {
+        return std::pair<std::string_view, std::uint32_t>{placed.trip_sha256, placed.trace.drive};
+    };
+    const auto found = std::ranges::lower_bound(traces, wanted, {}, key_of);
+    return found != traces.end() && key_of(*found) == wanted ? &*found : nullptr;
+}
+
+} // namespace macadam

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "mapping/alignment.hpp"
+#include "mapping/strip_trace.hpp"
+#include "storage/sqlite.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// A trace of a store and where it lies among the others of its strip.
+struct PlacedTrace {
+    std::string trip_sha256;
+    StripTrace trace;
+    LagLine lag;
+};
+
+/// \throws InputError  for a strip that the store does not have.
+void write_traces(Database& database,
+                  std::int64_t trip,
+                  std::span<const StripTrace> traces,
+                  std::int64_t segments_in_strip);
+
+/// The traces of strips, each laid on the others of its own.
+class StripTraces {
+public:
+    explicit StripTraces(Database& database);
+
+    /// In the order of (trip hash, drive); `strip` is the row of its first segment.
+    ///
+    /// \throws InputError  if a trace is none; the store was changed.
+    std::vector<PlacedTrace> placed(std::int64_t strip);
+
+private:
+    const Database* database_;
+    Statement select_;
+};
+
+/// Null if there is none.
+const PlacedTrace* find_trace(std::span<const PlacedTrace> traces,
+                              const std::string& trip_sha256,
+                              const std::optional<std::uint32_t>& drive);
+
+} // namespace macadam
