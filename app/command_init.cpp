@@ -113,8 +113,8 @@ void run_init(const Arguments& arguments, const Console& console) {
     const auto info = store.info();
     console.say(fmt::format("{}: {}, {}, {}, {:.1f} km counting each direction",
                             options.store.string(),
-                            counted(roads.ways.size(), "way"),
-                            counted(roads.links.size(), "link"),
+                            counted(way_count(roads), "way"),
+                            counted(link_count(roads), "link"),
                             counted(info.segments, "segment"),
                             info.network_km));
 }

@@ -119,9 +119,10 @@ void stop_if_wanted(const Talk& talk) {
 /// The network as whoever reads network.osm.pbf has it: places are on that format's grid.
 RoadNetwork written_network(const fs::path& network, const fs::path& folder, const Talk& talk) {
     const auto file = folder / "network.osm.pbf";
-    const auto given = build_network(read_network(network, {}, talk.progress("reading roads")));
-    naming(network.string(), [&] { expect_osm(given.ways); });
-    write_osm(given.ways, file);
+    const auto given =
+        copies_of_ways(build_network(read_network(network, {}, talk.progress("reading roads"))));
+    naming(network.string(), [&] { expect_osm(given); });
+    write_osm(given, file);
     return build_network(read_network(file));
 }
 
@@ -208,7 +209,7 @@ Made simulated(const SimulateOptions& options, const fs::path& folder, const Tal
         most_lane_bytes};
     write_truth(roads, surfaces, folder / "truth.csv", options.jobs, talk);
     const double km = write_trips(fleet, roads, surfaces, folder / "trips", options.jobs, talk);
-    return {fleet.recipe.driving.trips, fleet.cars.size(), roads.ways.size(), km};
+    return {fleet.recipe.driving.trips, fleet.cars.size(), way_count(roads), km};
 }
 
 void run_simulate(const Arguments& arguments, const Console& console) {

@@ -25,14 +25,14 @@ std::string_view kind_name(PieceKind kind) {
 }
 
 std::int64_t end_node_id(const RoadNetwork& roads, EdgeId edge, bool at_start) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
+    const auto link = link_at(roads, edge);
     const auto point = is_forward(edge) == at_start ? link.first_point : link.last_point;
-    return roads.ways[link.way].node_ids[point];
+    return way_of(roads, edge).node_ids[point];
 }
 
 /// Where along the way, from its first node, an offset on one of its edges lies.
 double along_way_m(const RoadNetwork& roads, EdgeId edge, double offset_m) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
+    const auto link = link_at(roads, edge);
     return is_forward(edge) ? link.from_m + offset_m : link.to_m - offset_m;
 }
 
@@ -47,10 +47,9 @@ struct RoadCells {
 };
 
 RoadCells road_cells(const MatchedPiece& piece, const RoadNetwork& roads) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(piece.edge))];
     const double a_m = along_way_m(roads, piece.edge, piece.from_offset_m);
     const double b_m = along_way_m(roads, piece.edge, piece.to_offset_m);
-    return {.way_id = roads.ways[link.way].id,
+    return {.way_id = way_of(roads, piece.edge).id,
             .from_node = end_node_id(roads, piece.edge, true),
             .to_node = end_node_id(roads, piece.edge, false),
             .direction = is_forward(piece.edge) ? "forward" : "backward",

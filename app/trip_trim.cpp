@@ -45,7 +45,7 @@ MatchedPiece between_offsets(const MatchedPiece& piece, double from_m, double to
 }
 
 double segment_m(const MatchedPiece& piece, const RoadNetwork& roads) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(piece.edge))];
+    const auto link = link_at(roads, piece.edge);
     return (link.to_m - link.from_m) / link.segments;
 }
 

@@ -19,16 +19,16 @@ struct Last {
 
 /// Offset of the edge's n-th point, in its direction of travel.
 double point_offset_m(const RoadNetwork& roads, EdgeId edge, std::uint32_t n) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
-    const auto& along_m = roads.way_point_m[link.way];
+    const auto link = link_at(roads, edge);
+    const auto along_m = way_of(roads, edge).along_m;
     return is_forward(edge) ? along_m[link.first_point + n] - link.from_m
                             : link.to_m - along_m[link.last_point - n];
 }
 
 Arc arc_at(const RoadNetwork& roads, const MatchedPiece& piece, std::uint32_t n, double t_s) {
     const auto edge = piece.edge;
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
-    const auto& way = roads.ways[link.way];
+    const auto link = link_at(roads, edge);
+    const auto way = way_of(roads, edge);
     return is_forward(edge) ? Arc{way.node_ids[link.first_point + n],
                                   way.node_ids[link.first_point + n + 1],
                                   way.id,
@@ -56,7 +56,7 @@ std::vector<Arc> arcs_of(const MatchedTrace& trace, const RoadNetwork& roads) {
         if (piece.kind != PieceKind::road) {
             continue;
         }
-        const auto& link = roads.links[static_cast<std::uint32_t>(link_of(piece.edge))];
+        const auto link = link_at(roads, piece.edge);
         const auto count = link.last_point - link.first_point;
         const bool goes_on =
             last && last->edge == piece.edge && piece.from_offset_m > last->offset_m - meet_m;

@@ -38,7 +38,7 @@ DrivenPart part_of(const MatchedPiece& piece, const DrivenPart& segment, double 
 /// A road piece cut at the borders of segments, in driving direction.
 std::vector<DrivenPart> parts_of(const MatchedPiece& piece, const RoadNetwork& roads) {
     std::vector<DrivenPart> parts;
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(piece.edge))];
+    const auto link = link_at(roads, piece.edge);
     const bool forward = is_forward(piece.edge);
     const double segment_m = (link.to_m - link.from_m) / link.segments;
     const double start_m = station_m(forward, forward ? link.from_m : link.to_m);
@@ -50,7 +50,7 @@ std::vector<DrivenPart> parts_of(const MatchedPiece& piece, const RoadNetwork& r
         if (a < b) {
             const auto along = forward ? i : link.segments - 1 - i;
             DrivenPart segment{};
-            segment.segment = {roads.ways[link.way].id, forward, link.first_segment + along};
+            segment.segment = {way_of(roads, piece.edge).id, forward, link.first_segment + along};
             segment.segment_m = segment_m;
             segment.from_station_m = segment.to_station_m = start_m;
             parts.push_back(part_of(piece, segment, a, b));

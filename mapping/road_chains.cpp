@@ -15,17 +15,9 @@ std::uint32_t number_of(EdgeId edge) {
     return static_cast<std::uint32_t>(edge);
 }
 
-const Link& link_at(const RoadNetwork& roads, EdgeId edge) {
-    return roads.links[static_cast<std::uint32_t>(link_of(edge))];
-}
-
-const Way& way_at(const RoadNetwork& roads, EdgeId edge) {
-    return roads.ways[link_at(roads, edge).way];
-}
-
 double course_at_start_deg(const RoadNetwork& roads, EdgeId edge) {
-    const auto& link = link_at(roads, edge);
-    const auto& line = way_at(roads, edge).line;
+    const auto link = link_at(roads, edge);
+    const auto line = way_of(roads, edge).line;
     return is_forward(edge) ? course_deg(line[link.first_point], line[link.first_point + 1])
                             : course_deg(line[link.last_point], line[link.last_point - 1]);
 }
@@ -40,7 +32,7 @@ bool is_next_of_way(const RoadNetwork& roads, EdgeId edge, EdgeId next) {
            number_of(next) == (forward ? number_of(edge) + 2 : number_of(edge) - 2);
 }
 
-bool is_same_road(const Way& a, const Way& b) {
+bool is_same_road(const WayView& a, const WayView& b) {
     return a.name == b.name && (!a.name.empty() || a.highway == b.highway);
 }
 
@@ -50,7 +42,7 @@ turn_deg(const RoadNetwork& roads, EdgeId edge, EdgeId next, double sharpest_tur
     if (is_next_of_way(roads, edge, next)) {
         return along_the_way;
     }
-    if (next == reversed(edge) || !is_same_road(way_at(roads, edge), way_at(roads, next))) {
+    if (next == reversed(edge) || !is_same_road(way_of(roads, edge), way_of(roads, next))) {
         return std::nullopt;
     }
     const double turn = std::abs(
@@ -100,7 +92,7 @@ next_edges(const RoadNetwork& roads, const std::vector<bool>& wanted, double sha
 
 std::vector<std::vector<EdgeId>>
 road_chains(const RoadNetwork& roads, const std::vector<bool>& wanted, double sharpest_turn_deg) {
-    assert(wanted.size() == 2 * roads.links.size());
+    assert(wanted.size() == 2 * link_count(roads));
     const auto next = next_edges(roads, wanted, sharpest_turn_deg);
     std::vector<bool> is_first = wanted;
     for (const auto edge : next) {

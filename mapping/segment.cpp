@@ -13,9 +13,10 @@ namespace {
 
 /// The way's place `at_m` from its first node, which lies on the link.
 GeoPoint place_at(const RoadNetwork& roads, const Link& link, double at_m) {
-    const auto& along_m = roads.way_point_m[link.way];
-    const auto& line = roads.ways[link.way].line;
-    const auto next = std::upper_bound(
+    const auto way = way_at(roads, link.way);
+    const auto& along_m = way.along_m;
+    const auto& line = way.line;
+    const auto next = std::ranges::upper_bound(
         along_m.begin() + link.first_point + 1, along_m.begin() + link.last_point, at_m);
     const auto i = static_cast<std::size_t>(next - along_m.begin());
     const double step_m = along_m[i] - along_m[i - 1];
@@ -31,13 +32,14 @@ double border_m(const Link& link, std::uint32_t number) {
 
 std::vector<GeoPoint>
 line_between(const RoadNetwork& roads, const Link& link, double from_m, double to_m) {
-    const auto& along_m = roads.way_point_m[link.way];
+    const auto way = way_at(roads, link.way);
+    const auto& along_m = way.along_m;
     std::vector<GeoPoint> line{place_at(roads, link, from_m)};
     const auto last = along_m.begin() + link.last_point;
-    auto point = std::upper_bound(along_m.begin() + link.first_point + 1, last, from_m);
+    auto point = std::ranges::upper_bound(along_m.begin() + link.first_point + 1, last, from_m);
     for (; point != last && *point < to_m; ++point) {
         const auto i = static_cast<std::size_t>(point - along_m.begin());
-        line.push_back(roads.ways[link.way].line[i]);
+        line.push_back(way.line[i]);
     }
     line.push_back(place_at(roads, link, to_m));
     return line;
@@ -71,14 +73,14 @@ SegmentKey parse_segment_key(std::string_view text) {
 }
 
 std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
+    const auto link = link_at(roads, edge);
     const bool forward = is_forward(edge);
     std::vector<Segment> segments;
     segments.reserve(link.segments);
     for (std::uint32_t i = 0; i < link.segments; ++i) {
         const double from_m = border_m(link, i);
         const double to_m = border_m(link, i + 1);
-        segments.push_back({{roads.ways[link.way].id, forward, link.first_segment + i},
+        segments.push_back({{way_at(roads, link.way).id, forward, link.first_segment + i},
                             from_m,
                             to_m,
                             line_between(roads, link, from_m, to_m)});

@@ -44,8 +44,8 @@ struct Piece {
 /// Those of an edge that are measured, in the order of their keys.
 std::span<const std::size_t>
 measured_on(const RoadNetwork& roads, const Lookup& lookup, EdgeId edge) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
-    const SegmentKey first{roads.ways[link.way].id, is_forward(edge), link.first_segment};
+    const auto link = link_at(roads, edge);
+    const SegmentKey first{way_of(roads, edge).id, is_forward(edge), link.first_segment};
     auto past = first;
     past.index += link.segments;
     const auto at = [&](const SegmentKey& key) {
@@ -56,7 +56,7 @@ measured_on(const RoadNetwork& roads, const Lookup& lookup, EdgeId edge) {
 }
 
 std::vector<Piece> pieces_on(const RoadNetwork& roads, const Lookup& lookup, EdgeId edge) {
-    const auto& link = roads.links[static_cast<std::uint32_t>(link_of(edge))];
+    const auto link = link_at(roads, edge);
     const double piece_m = (link.to_m - link.from_m) / link.segments;
     std::vector<Piece> pieces;
     for (std::uint32_t i = 0; i < link.segments; ++i) {
@@ -82,7 +82,7 @@ pieces_along(const RoadNetwork& roads, const Lookup& lookup, const std::vector<E
 /// Edges with a measured segment, and those so short that a stretch may bridge them.
 std::vector<bool>
 edges_to_follow(const RoadNetwork& roads, const Lookup& lookup, const RoadStretchConfig& config) {
-    std::vector<bool> wanted(2 * roads.links.size(), false);
+    std::vector<bool> wanted(2 * link_count(roads), false);
     for (std::uint32_t i = 0; i < wanted.size(); ++i) {
         const EdgeId edge{i};
         wanted[i] = !measured_on(roads, lookup, edge).empty() ||

@@ -130,11 +130,12 @@ CREATE VIEW roughness AS
 
 // ------------------------------------------------------------------------------------- network
 
-template <typename Value>
-std::string bytes_of(const std::vector<Value>& values) {
-    std::string bytes(values.size() * sizeof(Value), '\0');
-    if (!values.empty()) {
-        std::memcpy(bytes.data(), values.data(), bytes.size());
+template <typename Values>
+std::string bytes_of(const Values& values) {
+    std::string bytes;
+    bytes.reserve(values.size() * sizeof(values[0]));
+    for (const auto& value : values) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
     }
     return bytes;
 }
@@ -151,13 +152,14 @@ std::vector<Value> values_of(std::string_view bytes) {
 /// Two doubles, latitude first: the point's own layout in memory.
 static_assert(sizeof(GeoPoint) == 2 * sizeof(double));
 
-std::optional<std::string_view> unless_empty(const std::string& text) {
-    return text.empty() ? std::nullopt : std::optional<std::string_view>{text};
+std::optional<std::string_view> unless_empty(std::string_view text) {
+    return text.empty() ? std::nullopt : std::optional{text};
 }
 
 void write_ways(Database& database, const RoadNetwork& roads) {
     auto insert = database.prepare("INSERT INTO way VALUES (?, ?, ?, ?, ?, ?)");
-    for (const auto& way : roads.ways) {
+    for (std::uint32_t i = 0; i < way_count(roads); ++i) {
+        const auto way = way_at(roads, i);
         insert.run(way.id,
                    unless_empty(way.name),
                    unless_empty(way.highway),
@@ -196,9 +198,10 @@ Written write_segments(Database& database, const RoadNetwork& roads, const Progr
     Written written;
     std::optional<StripKey> strip;
     std::int64_t first_of_strip = 0; // its row, of those that count from 1
-    const auto count = static_cast<std::uint32_t>(roads.links.size());
+    const auto count = link_count(roads);
     for (std::uint32_t first = 0, last = 0; first < count; first = last) {
-        while (last < count && roads.links[last].way == roads.links[first].way) {
+        while (last < count &&
+               link_at(roads, LinkId{last}).way == link_at(roads, LinkId{first}).way) {
             ++last;
         }
         for (const bool forward : {true, false}) {

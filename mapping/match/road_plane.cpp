@@ -79,10 +79,9 @@ RoadPlane::Drawn RoadPlane::drawn(LinkId link) {
     if (!is_new) {
         return found->second;
     }
-    const auto& there = roads_.links[static_cast<std::uint32_t>(link)];
-    const auto& along_m = roads_.way_point_m[there.way];
-    const auto line = std::span{roads_.ways[there.way].line}.subspan(
-        there.first_point, there.last_point - there.first_point + 1);
+    const auto there = link_at(roads_, link);
+    const auto along_m = way_of(roads_, link).along_m;
+    const auto line = line_of(roads_, edge_of(link, true));
     auto& drawn = found->second;
     drawn.first = static_cast<std::uint32_t>(points_.size());
     drawn.count = static_cast<std::uint32_t>(line.size());

@@ -9,9 +9,19 @@
 namespace macadam {
 namespace {
 
+template <typename Is>
+bool is_any_way(const RoadNetwork& roads, Is is) {
+    for (std::uint32_t i = 0; i < way_count(roads); ++i) {
+        if (is(way_at(roads, i))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool is_class(const std::string& highway, const RoadNetwork& roads) {
     return highway == "road" || road_kind(highway) != "other" ||
-           std::ranges::find(roads.ways, highway, &Way::highway) != roads.ways.end();
+           is_any_way(roads, [&](const WayView& way) { return way.highway == highway; });
 }
 
 std::vector<std::string> idle_words(const RoadRule& rule, const RoadNetwork& roads) {
@@ -21,11 +31,12 @@ std::vector<std::string> idle_words(const RoadRule& rule, const RoadNetwork& roa
             words.push_back(fmt::format("no road has the class '{}'", highway));
         }
     }
-    if (rule.way_id && std::ranges::find(roads.ways, *rule.way_id, &Way::id) == roads.ways.end()) {
+    if (rule.way_id &&
+        !is_any_way(roads, [&](const WayView& way) { return way.id == *rule.way_id; })) {
         words.push_back(fmt::format("no road has the way_id '{}'", *rule.way_id));
     }
     if (!rule.name.empty() &&
-        std::ranges::find(roads.ways, rule.name, &Way::name) == roads.ways.end()) {
+        !is_any_way(roads, [&](const WayView& way) { return way.name == rule.name; })) {
         words.push_back(fmt::format("no road has the name '{}'", rule.name));
     }
     return words;

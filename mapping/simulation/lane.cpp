@@ -20,7 +20,7 @@ std::uint64_t bits_of(std::int64_t id) {
     return static_cast<std::uint64_t>(id);
 }
 
-bool fits(const RoadRule& rule, std::size_t number, const Way& way, std::uint64_t seed) {
+bool fits(const RoadRule& rule, std::size_t number, const WayView& way, std::uint64_t seed) {
     const bool right_class = rule.highways.empty() ||
                              std::ranges::find(rule.highways, way.highway) != rule.highways.end();
     if (!right_class || (rule.way_id && *rule.way_id != way.id) ||
@@ -68,17 +68,12 @@ std::vector<double> mean_profile(const WheelPaths& paths) {
     return mean_m;
 }
 
-std::span<const Link> links_of_way(const RoadNetwork& roads, std::uint32_t way) {
-    const auto found = std::ranges::equal_range(roads.links, way, {}, &Link::way);
-    return {found.begin(), found.end()};
-}
-
 } // namespace
 
 std::vector<Lane> drivable_lanes(const RoadNetwork& roads) {
     std::vector<Lane> lanes;
-    for (std::uint32_t way = 0; way < roads.ways.size(); ++way) {
-        const auto oneway = roads.ways[way].oneway;
+    for (std::uint32_t way = 0; way < way_count(roads); ++way) {
+        const auto oneway = way_at(roads, way).oneway;
         if (oneway != Oneway::backward) {
             lanes.push_back({way, true});
         }
@@ -94,11 +89,11 @@ double whole_mm(double length_m) {
 }
 
 double lane_length_m(const RoadNetwork& roads, const Lane& lane) {
-    return whole_mm(roads.way_point_m[lane.way].back());
+    return whole_mm(way_at(roads, lane.way).along_m.back());
 }
 
 RoadRecipe
-road_recipe(const FleetRecipe& recipe, const Way& way, bool forward, std::uint64_t seed) {
+road_recipe(const FleetRecipe& recipe, const WayView& way, bool forward, std::uint64_t seed) {
     const double level = Random{seed_of({seed, draw_level, bits_of(way.id), forward})}.uniform();
     RoadRecipe road;
     for (std::size_t i = 0; i < recipe.roads.size(); ++i) {
@@ -113,7 +108,7 @@ RoadSurface lane_surface(const FleetRecipe& recipe,
                          const RoadNetwork& roads,
                          const Lane& lane,
                          std::uint64_t seed) {
-    const auto& way = roads.ways[lane.way];
+    const auto way = way_at(roads, lane.way);
     return make_surface(road_recipe(recipe, way, lane.forward, seed),
                         std::max(lane_length_m(roads, lane), shortest_lane_m),
                         seed_of({seed, draw_surface, bits_of(way.id), lane.forward}));
@@ -128,7 +123,9 @@ lane_truth(const RoadNetwork& roads, const Lane& lane, const RoadSurface& surfac
     const double length_m = lane_length_m(roads, lane);
 
     std::vector<SegmentTruth> truth;
-    for (const auto& link : links_of_way(roads, lane.way)) {
+    const auto way = way_at(roads, lane.way);
+    for (auto number = way.first_link; number < way.past_link; ++number) {
+        const auto link = link_at(roads, LinkId{number});
         const double segment_m = (link.to_m - link.from_m) / link.segments;
         for (std::uint32_t i = 0; i < link.segments; ++i) {
             const double from_m = link.from_m + i * segment_m;
@@ -138,7 +135,7 @@ lane_truth(const RoadNetwork& roads, const Lane& lane, const RoadSurface& surfac
             const auto mean = [&](std::span<const float> strokes) {
                 return mean_between(strokes, paths.step_m, enter_m, leave_m);
             };
-            truth.push_back({{roads.ways[lane.way].id, lane.forward, link.first_segment + i},
+            truth.push_back({{way.id, lane.forward, link.first_segment + i},
                              from_m,
                              to_m,
                              mean(left),

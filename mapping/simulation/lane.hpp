@@ -30,7 +30,8 @@ double whole_mm(double length_m);
 double lane_length_m(const RoadNetwork& roads, const Lane& lane);
 
 /// What the rules say of a lane, in their order.
-RoadRecipe road_recipe(const FleetRecipe& recipe, const Way& way, bool forward, std::uint64_t seed);
+RoadRecipe
+road_recipe(const FleetRecipe& recipe, const WayView& way, bool forward, std::uint64_t seed);
 
 /// The lane's road: fixed by way, direction and seed, so that all cars feel the same.
 RoadSurface lane_surface(const FleetRecipe& recipe,

@@ -29,10 +29,6 @@ struct Vertex {
     double usual_mps;
 };
 
-const Link& link_at(const RoadNetwork& roads, EdgeId edge) {
-    return roads.links[static_cast<std::uint32_t>(link_of(edge))];
-}
-
 GeoPoint middle_of(const RoadNetwork& roads, const std::vector<EdgeId>& route) {
     GeoBox box;
     for (const auto edge : route) {
@@ -47,7 +43,7 @@ std::vector<LanePiece> pieces_of(const RoadNetwork& roads, const std::vector<Edg
     std::vector<LanePiece> pieces;
     double route_m = 0;
     for (const auto edge : route) {
-        const auto& link = link_at(roads, edge);
+        const auto link = link_at(roads, edge);
         const Lane lane{link.way, is_forward(edge)};
         const double from_m = whole_mm(link.from_m);
         const double to_m = whole_mm(link.to_m);
@@ -73,9 +69,9 @@ std::vector<Vertex> vertices_of(const RoadNetwork& roads,
     std::vector<Vertex> vertices;
     double route_m = 0;
     for (const auto edge : route) {
-        const auto& link = link_at(roads, edge);
-        const auto& way = roads.ways[link.way];
-        const auto& along_m = roads.way_point_m[link.way];
+        const auto link = link_at(roads, edge);
+        const auto way = way_at(roads, link.way);
+        const auto& along_m = way.along_m;
         const double from_m = whole_mm(link.from_m);
         const double to_m = whole_mm(link.to_m);
         const double side = driving.right_hand ? -1 : 1;

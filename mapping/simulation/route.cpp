@@ -69,10 +69,10 @@ std::vector<bool> reach(const std::vector<std::vector<NodeId>>& next, NodeId sta
 /// The largest set of nodes of which each can be reached from each. Cores are looked for from nodes
 /// that are in none yet, until what is left cannot hold a larger one.
 std::vector<NodeId> largest_core(const RoadNetwork& roads) {
-    const auto count = roads.nodes.size();
+    const auto count = node_count(roads);
     std::vector<std::vector<NodeId>> next(count);
     std::vector<std::vector<NodeId>> before(count);
-    for (const auto edge : roads.out_edges) {
+    for (const auto edge : drivable_edges(roads)) {
         next[index(from_node(roads, edge))].push_back(to_node(roads, edge));
         before[index(to_node(roads, edge))].push_back(from_node(roads, edge));
     }
@@ -141,8 +141,8 @@ std::vector<EdgeId> quickest(const RoadNetwork& roads,
                              std::uint64_t taste) {
     using Entry = std::pair<double, EdgeId>;
     constexpr double never = std::numeric_limits<double>::infinity();
-    std::vector<double> time_s(2 * roads.links.size(), never);
-    std::vector<std::optional<EdgeId>> before(2 * roads.links.size());
+    std::vector<double> time_s(2 * link_count(roads), never);
+    std::vector<std::optional<EdgeId>> before(2 * link_count(roads));
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     const auto offer = [&](EdgeId edge, double at_s, const std::optional<EdgeId>& from) {
         const double then_s = at_s + thought_time_s(map, edge, taste);
@@ -256,15 +256,16 @@ Tour homeward(const Tour& out,
 
 } // namespace
 
-double usual_speed_kmh(const DrivingRecipe& driving, const std::string& highway) {
-    if (const auto own = driving.speed_kmh.find(highway); own != driving.speed_kmh.end()) {
+double usual_speed_kmh(const DrivingRecipe& driving, std::string_view highway) {
+    if (const auto own = driving.speed_kmh.find(std::string{highway});
+        own != driving.speed_kmh.end()) {
         return own->second;
     }
     const auto found = std::ranges::find(class_speeds, highway, &ClassSpeed::highway);
     return found == class_speeds.end() ? other_speed_kmh : found->kmh;
 }
 
-bool flows_freely(const std::string& highway) {
+bool flows_freely(std::string_view highway) {
     return highway.starts_with("motorway") || highway.starts_with("trunk");
 }
 
@@ -274,7 +275,7 @@ make_route_map(const RoadNetwork& roads, const DrivingRecipe& driving, std::uint
     if (core.size() < 2) {
         throw InputError{fmt::format("of {} roads no two places lead to each other and back, "
                                      "expected a network with round trips",
-                                     roads.ways.size())};
+                                     way_count(roads))};
     }
     RouteMap map;
     Random random{seed_of({seed, draw_places})};
@@ -283,8 +284,9 @@ make_route_map(const RoadNetwork& roads, const DrivingRecipe& driving, std::uint
         std::swap(core[i], core[i + random.below(core.size() - i)]);
     }
     map.places.assign(core.begin(), core.begin() + static_cast<std::ptrdiff_t>(places));
-    for (const auto& link : roads.links) {
-        const double speed_kmh = usual_speed_kmh(driving, roads.ways[link.way].highway);
+    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
+        const auto link = link_at(roads, LinkId{i});
+        const double speed_kmh = usual_speed_kmh(driving, way_of(roads, LinkId{i}).highway);
         const double time_s = whole_mm(link.to_m - link.from_m) * 3.6 / speed_kmh;
         map.edge_time_s.insert(map.edge_time_s.end(), 2, time_s);
     }

@@ -5,15 +5,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace macadam {
 
 /// Usual speed of a class of road, km/h, unless the recipe says otherwise.
-double usual_speed_kmh(const DrivingRecipe& driving, const std::string& highway);
+double usual_speed_kmh(const DrivingRecipe& driving, std::string_view highway);
 
 /// Do its junctions flow (motorways, trunk roads and their ramps)?
-bool flows_freely(const std::string& highway);
+bool flows_freely(std::string_view highway);
 
 /// Where the people of a fleet drive: all that routes need of a network, once for all trips.
 struct RouteMap {

@@ -41,13 +41,13 @@ std::vector<Stop> stops_of(const RoadNetwork& roads,
     std::vector<Stop> stops;
     double route_m = 0;
     for (std::size_t i = 0; i + 1 < route.size(); ++i) {
-        const auto& link = roads.links[static_cast<std::uint32_t>(link_of(route[i]))];
+        const auto link = link_at(roads, route[i]);
         route_m += whole_mm(link.to_m) - whole_mm(link.from_m);
         const bool junction = out_edges(roads, to_node(roads, route[i])).size() >= least_ways_on;
         const bool chosen = random.uniform() < driving.stop_share;
         const double duration_s = random.uniform(driving.stop_s.low, driving.stop_s.high);
         const bool clear = stops.empty() || route_m - stops.back().route_m > stop_clearance_m;
-        if (junction && chosen && clear && !flows_freely(roads.ways[link.way].highway)) {
+        if (junction && chosen && clear && !flows_freely(way_of(roads, route[i]).highway)) {
             stops.push_back({route_m, duration_s});
         }
     }
@@ -69,7 +69,7 @@ std::vector<double> allowed_mps(const DrivenPath& path,
         while (piece + 1 < path.pieces.size() && path.pieces[piece].to_m <= path.route_m[i]) {
             ++piece;
         }
-        const auto& highway = roads.ways[path.pieces[piece].lane.way].highway;
+        const auto highway = way_at(roads, path.pieces[piece].lane.way).highway;
         const double road_mps =
             usual_speed_kmh(driving, highway) / 3.6 * factor * std::max(0.5, 1 + mood[i]);
         const double curve = std::max(std::abs(path.curvature_per_m[i]), 1e-9);

@@ -22,7 +22,7 @@ MapScene town_scene(int side) {
     MapScene scene;
     scene.box = extent_of(roads);
     int number = 0;
-    for (std::uint32_t i = 0; i < roads.links.size(); ++i) {
+    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
         for (const bool forward : {true, false}) {
             const auto edge = edge_of(LinkId{i}, forward);
             if (is_drivable(roads, edge)) {

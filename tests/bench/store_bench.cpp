@@ -35,7 +35,7 @@ fs::path scratch(const std::string& name) {
 
 std::vector<SegmentKey> keys_of(const RoadNetwork& roads) {
     std::vector<SegmentKey> keys;
-    for (std::uint32_t i = 0; i < roads.links.size(); ++i) {
+    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
         for (const bool forward : {true, false}) {
             const auto edge = edge_of(LinkId{i}, forward);
             if (is_drivable(roads, edge)) {

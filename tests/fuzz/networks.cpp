@@ -30,11 +30,14 @@ void expect_sound(const std::vector<Way>& ways) {
 
 /// A way's segments cover it without a gap, as far as that can be told from their borders.
 void expect_sound(const RoadNetwork& roads) {
-    for (std::uint32_t link = 0; link < roads.links.size(); ++link) {
+    for (std::uint32_t link = 0; link < link_count(roads); ++link) {
         const auto segments = segments_of(roads, edge_of(LinkId{link}, true));
-        expect(segments.size() == roads.links[link].segments, "a link has the segments it counts");
-        expect(segments.front().from_m == roads.links[link].from_m, "segments begin with the link");
-        expect(segments.back().to_m == roads.links[link].to_m, "segments end with the link");
+        expect(segments.size() == link_at(roads, LinkId{link}).segments,
+               "a link has the segments it counts");
+        expect(segments.front().from_m == link_at(roads, LinkId{link}).from_m,
+               "segments begin with the link");
+        expect(segments.back().to_m == link_at(roads, LinkId{link}).to_m,
+               "segments end with the link");
     }
 }
 

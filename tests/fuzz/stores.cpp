@@ -48,7 +48,7 @@ void read_store(const fs::path& file) {
     const auto& classes = *class_table(store.settings().class_table);
     may_refuse([&] { store.info(); });
     may_refuse([&] { store.digest(); });
-    may_refuse([&] { build_network(store.roads().ways); });
+    may_refuse([&] { store.roads(); });
     SegmentFilter worst_here;
     worst_here.box = GeoBox{4, 45, 5, 46};
     worst_here.worst = 5;

@@ -116,10 +116,7 @@ TEST(MapMatch, UsesTheCourseToTellACrossingRoad) {
     const auto trace = match(testing::drive({from, to}, {.speed_mps = 8, .courses = true}), art);
     ASSERT_FALSE(trace.empty());
     ASSERT_EQ(trace.front().kind, PieceKind::road);
-    EXPECT_EQ(
-        art.roads.ways[art.roads.links[static_cast<std::uint32_t>(link_of(trace.front().edge))].way]
-            .name,
-        "NBS");
+    EXPECT_EQ(way_at(art.roads, link_at(art.roads, trace.front().edge).way).name, "NBS");
 }
 
 TEST(MapMatch, TakesTheReceiversLatencyOff) {

@@ -12,6 +12,7 @@ namespace macadam {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -37,8 +38,8 @@ TEST(RoadNetwork, CutsAWayWhereAnotherMeetsIt) {
     )",
                                        10,
                                        {"ABC", "BD"});
-    EXPECT_THAT(art.roads.links, SizeIs(3));
-    EXPECT_THAT(art.roads.nodes, SizeIs(4));
+    EXPECT_EQ(link_count(art.roads), 3U);
+    EXPECT_EQ(node_count(art.roads), 4U);
 }
 
 TEST(RoadNetwork, KeepsAwayFromTheAntimeridian) {
@@ -52,20 +53,20 @@ TEST(RoadNetwork, KeepsAwayFromTheAntimeridian) {
                         HasSubstr("expected roads at least 0.1 degrees from the antimeridian"));
         }
     }
-    EXPECT_THAT(build_network({way(5, {1, 2}, northward(2, 179.8))}).links, SizeIs(1));
+    EXPECT_EQ(link_count(build_network({way(5, {1, 2}, northward(2, 179.8))})), 1U);
 }
 
 TEST(RoadNetwork, KeepsBendsWithinALink) {
     const auto roads = build_network({way(1, {1, 2, 3, 4}, northward(4))});
-    ASSERT_THAT(roads.links, SizeIs(1));
+    ASSERT_EQ(link_count(roads), 1U);
     EXPECT_THAT(line_of(roads, EdgeId{0}), SizeIs(4));
 }
 
 TEST(RoadNetwork, OfAClosedWayHasItsFirstPointAsNode) {
     const auto roads =
         build_network({way(1, {1, 2, 3, 1}, {{50, 10}, {50.001, 10}, {50.001, 10.001}, {50, 10}})});
-    ASSERT_THAT(roads.links, SizeIs(1));
-    EXPECT_EQ(roads.links[0].from, roads.links[0].to);
+    ASSERT_EQ(link_count(roads), 1U);
+    EXPECT_EQ(link_at(roads, LinkId{0}).from, link_at(roads, LinkId{0}).to);
 }
 
 TEST(RoadNetwork, CutsAWayThatMeetsItself) {
@@ -73,17 +74,17 @@ TEST(RoadNetwork, CutsAWayThatMeetsItself) {
         {way(1,
              {1, 2, 3, 4, 2},
              {{50, 10}, {50.001, 10}, {50.002, 10}, {50.002, 10.001}, {50.001, 10}})});
-    EXPECT_THAT(roads.links, SizeIs(2));
+    EXPECT_EQ(link_count(roads), 2U);
 }
 
 TEST(RoadNetwork, ToleratesARepeatedPoint) {
     const auto roads = build_network({way(1, {1, 1, 2}, {{50, 10}, {50, 10}, {50.001, 10}})});
-    ASSERT_THAT(roads.links, SizeIs(1));
-    EXPECT_THAT(roads.ways[0].node_ids, ElementsAre(1, 2));
+    ASSERT_EQ(link_count(roads), 1U);
+    EXPECT_THAT(way_at(roads, 0).node_ids, ElementsAre(1, 2));
 }
 
 TEST(RoadNetwork, LeavesOutAWayThatIsAPoint) {
-    EXPECT_THAT(build_network({way(1, {1, 2}, {{50, 10}, {50, 10}})}).ways, IsEmpty());
+    EXPECT_EQ(way_count(build_network({way(1, {1, 2}, {{50, 10}, {50, 10}})})), 0U);
 }
 
 TEST(RoadNetwork, RefusesAWayIdThatStandsTwice) {
@@ -103,14 +104,14 @@ TEST(RoadNetwork, NumbersSegmentsAlongTheWay) {
     // 3 x 111.2 m; a branch after the first 111.2 m: round(111.2/20) = 6, round(222.5/20) = 11.
     const auto roads = build_network(
         {way(1, {1, 2, 3, 4}, northward(4)), way(2, {2, 9}, {{50.001, 10}, {50, 11}})});
-    EXPECT_EQ(roads.links[0].segments, 6u);
-    EXPECT_EQ(roads.links[1].first_segment, 6u);
-    EXPECT_EQ(roads.links[1].segments, 11u);
+    EXPECT_EQ(link_at(roads, LinkId{0}).segments, 6u);
+    EXPECT_EQ(link_at(roads, LinkId{1}).first_segment, 6u);
+    EXPECT_EQ(link_at(roads, LinkId{1}).segments, 11u);
 }
 
 TEST(RoadNetwork, GivesEvenAShortLinkOneSegment) {
     const auto roads = build_network({way(1, {1, 2}, {{50, 10}, {50.00001, 10}})});
-    EXPECT_EQ(roads.links[0].segments, 1u);
+    EXPECT_EQ(link_at(roads, LinkId{0}).segments, 1u);
 }
 
 TEST(RoadNetwork, LetsNobodyLeaveAgainstAOneway) {
@@ -136,11 +137,15 @@ TEST(RoadNetwork, IsTheSameWhateverTheOrderOfTheWays) {
                                  {"ABC", "DEF", "AD", "BE", "CF"});
     std::reverse(art.ways.begin(), art.ways.end());
     const auto other = build_network(art.ways);
-    EXPECT_EQ(other.nodes, art.roads.nodes);
-    EXPECT_EQ(other.out_edges, art.roads.out_edges);
-    for (std::size_t i = 0; i < other.links.size(); ++i) {
-        EXPECT_EQ(other.links[i].from, art.roads.links[i].from);
-        EXPECT_EQ(other.links[i].way, art.roads.links[i].way);
+    ASSERT_EQ(node_count(other), node_count(art.roads));
+    for (std::uint32_t i = 0; i < node_count(other); ++i) {
+        EXPECT_EQ(place_of(other, NodeId{i}), place_of(art.roads, NodeId{i}));
+    }
+    EXPECT_THAT(drivable_edges(other), ElementsAreArray(drivable_edges(art.roads)));
+    ASSERT_EQ(link_count(other), link_count(art.roads));
+    for (std::uint32_t i = 0; i < link_count(other); ++i) {
+        EXPECT_EQ(link_at(other, LinkId{i}).from, link_at(art.roads, LinkId{i}).from);
+        EXPECT_EQ(link_at(other, LinkId{i}).way, link_at(art.roads, LinkId{i}).way);
     }
 }
 
@@ -178,7 +183,7 @@ TEST_P(LinksNear, MissesNoLinkThatABruteSearchFinds) {
         const auto box = grown(including({}, at), 120);
         const auto found = links_near(roads, box);
         EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
-        for (std::uint32_t link = 0; link < roads.links.size(); ++link) {
+        for (std::uint32_t link = 0; link < link_count(roads); ++link) {
             const auto line = line_of(roads, edge_of(LinkId{link}, true));
             bool meets = false;
             for (int k = 0; k <= 1000 && !meets; ++k) {

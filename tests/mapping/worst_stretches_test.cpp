@@ -39,15 +39,18 @@ RoadNetwork one_road() {
 
 SegmentRecord
 record_of(const RoadNetwork& roads, const Segment& segment, double iri, std::int32_t passes = 3) {
-    const auto way =
-        std::ranges::find(roads.ways, segment.key.way_id, [](const Way& w) { return w.id; });
+    std::uint32_t number = 0;
+    while (way_at(roads, number).id != segment.key.way_id) {
+        ++number;
+    }
+    const auto way = way_at(roads, number);
     SegmentState state{};
     state.segment = segment.key;
     state.iri_um = static_cast<IriUm>(std::lround(iri * 1000));
     state.sd_um = 400;
     state.passes = passes;
     state.vehicles = 2;
-    return {segment, way->name, way->highway, state};
+    return {segment, std::string{way.name}, std::string{way.highway}, state};
 }
 
 /// What `iri` says of every segment in one direction of a way, by the number along the way;
@@ -56,7 +59,7 @@ template <typename Iri>
 std::vector<SegmentRecord>
 driven(const RoadNetwork& roads, std::int64_t way_id, bool forward, Iri iri) {
     std::vector<SegmentRecord> records;
-    for (std::uint32_t link = 0; link < roads.links.size(); ++link) {
+    for (std::uint32_t link = 0; link < link_count(roads); ++link) {
         for (const auto& segment : segments_of(roads, edge_of(LinkId{link}, forward))) {
             const double value = iri(segment.key.index);
             if (segment.key.way_id == way_id && value >= 0) {

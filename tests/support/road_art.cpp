@@ -81,9 +81,9 @@ RoadArt road_art(std::string_view art, double cell_m, const std::vector<std::str
 }
 
 EdgeId edge_between(const RoadArt& art, char from, char to) {
-    for (std::uint32_t i = 0; i < art.roads.links.size(); ++i) {
-        const auto& link = art.roads.links[i];
-        const auto& ids = art.roads.ways[link.way].node_ids;
+    for (std::uint32_t i = 0; i < link_count(art.roads); ++i) {
+        const auto link = link_at(art.roads, LinkId{i});
+        const auto ids = way_at(art.roads, link.way).node_ids;
         for (auto point = link.first_point; point < link.last_point; ++point) {
             if (ids[point] == from && ids[point + 1] == to) {
                 return edge_of(LinkId{i}, true);

@@ -52,7 +52,7 @@ RoadNetwork made_up_town(int side) {
 
 Journey wander(const RoadNetwork& roads, std::size_t edges, std::mt19937_64& random) {
     for (;;) {
-        Journey journey{{roads.out_edges[random() % roads.out_edges.size()]}, {0}};
+        Journey journey{{drivable_edges(roads)[random() % drivable_edges(roads).size()]}, {0}};
         while (journey.edges.size() < edges) {
             const auto last = journey.edges.back();
             std::vector<EdgeId> next;

@@ -29,11 +29,15 @@ RoadRule rule(double iri_mm_per_m) {
     return rule;
 }
 
-Way way_of(std::int64_t id, const char* highway) {
-    return {.id = id, .name = "Main Street", .highway = highway, .node_ids = {}, .line = {}};
+WayView way_of(std::int64_t id, const char* highway) {
+    WayView way;
+    way.id = id;
+    way.name = "Main Street";
+    way.highway = highway;
+    return way;
 }
 
-double iri_of(const FleetRecipe& recipe, const Way& way) {
+double iri_of(const FleetRecipe& recipe, const WayView& way) {
     return road_recipe(recipe, way, true, 1).iri_mm_per_m;
 }
 
@@ -51,7 +55,7 @@ TEST(Lane, IsTheSameForEveryCarAndAnotherInTheOtherDirection) {
 TEST(Lane, IsAsLongAsItsWayToTheMillimetre) {
     const auto art = street();
     EXPECT_NEAR(lane_surface(recipe_of({rule(2)}), art.roads, {0, true}, 1).length_m(),
-                art.roads.way_point_m[0].back(),
+                way_at(art.roads, 0).along_m.back(),
                 0.00051);
 }
 
@@ -122,7 +126,7 @@ TEST(LaneTruth, HasARowForEachSegmentThatMayBeDriven) {
                               100,
                               {"ABC", "DB>"});
     std::size_t expected = 0;
-    for (std::uint32_t link = 0; link < art.roads.links.size(); ++link) {
+    for (std::uint32_t link = 0; link < link_count(art.roads); ++link) {
         for (const bool forward : {true, false}) {
             const auto edge = edge_of(LinkId{link}, forward);
             expected += is_drivable(art.roads, edge) ? segments_of(art.roads, edge).size() : 0;

@@ -1,0 +1,447 @@
+#include "mapping/road_network.hpp"
+
+#include "estimator/common/error.hpp"
+#include "mapping/speed_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+/// Of a link, under one box of the tree: a long winding link is several small boxes.
+constexpr std::uint32_t most_steps_of_a_piece = 16;
+
+/// What a network built in memory looks into.
+struct Tables {
+    std::vector<PackedWay> ways;
+    std::vector<PackedPoint> points;
+    std::vector<std::int64_t> node_ids;
+    std::vector<std::uint32_t> along_mm;
+    std::vector<PackedLink> links;
+    std::vector<std::uint32_t> node_point;
+    std::vector<std::uint32_t> first_out;
+    std::vector<EdgeId> out_edges;
+    std::vector<PackedTurn> barred_turns;
+    std::vector<TurnRule> turns;
+    BoxTreeArrays tree;
+    std::vector<std::uint32_t> first_letter;
+    std::vector<char> letters;
+};
+
+// ---------------------------------------------------------------------------------------- ways
+
+/// Without repeats of one and the same point in sequence, which maps hold now and then.
+Way without_repeats(Way way) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < way.node_ids.size(); ++i) {
+        if (i > 0 && way.node_ids[i] == way.node_ids[kept - 1]) {
+            continue;
+        }
+        way.node_ids[kept] = way.node_ids[i];
+        way.line[kept] = way.line[i];
+        ++kept;
+    }
+    way.node_ids.resize(kept);
+    way.line.resize(kept);
+    return way;
+}
+
+bool is_a_line(const Way& way) {
+    return std::any_of(way.line.begin(), way.line.end(), [&](const GeoPoint& point) {
+        return packed(point) != packed(way.line.front());
+    });
+}
+
+/// In the order of their ids, each a line.
+std::vector<Way> in_order(std::vector<Way> ways) {
+    for (auto& way : ways) {
+        assert(way.node_ids.size() == way.line.size());
+        way = without_repeats(std::move(way));
+    }
+    std::erase_if(ways, [](const Way& way) { return !is_a_line(way); });
+    std::sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.id < b.id; });
+    const auto twice = std::adjacent_find(
+        ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.id == b.id; });
+    if (twice != ways.end()) {
+        throw InputError{
+            fmt::format("way '{}' stands twice in the network, expected each id once", twice->id)};
+    }
+    return ways;
+}
+
+/// Where longitudes jump from 180 to -180 neither lines nor boxes nor plane metres hold.
+void expect_away_from_antimeridian(const std::vector<Way>& ways) {
+    constexpr double farthest_lon_deg = 179.9; // 11 km of room at the equator
+    for (const auto& way : ways) {
+        for (const auto& point : way.line) {
+            if (std::abs(point.lon_deg) > farthest_lon_deg) {
+                throw InputError{fmt::format("way '{}' reaches longitude {:g}, expected roads at "
+                                             "least {:.1f} degrees from the antimeridian",
+                                             way.id,
+                                             point.lon_deg,
+                                             180 - farthest_lon_deg)};
+            }
+        }
+    }
+}
+
+/// Texts that are kept once each.
+class TextPool {
+public:
+    explicit TextPool(Tables& tables) : tables_{tables} { tables_.first_letter = {0}; }
+
+    std::uint32_t number_of(const std::string& text) {
+        const auto [found, fresh] =
+            numbers_.try_emplace(text, static_cast<std::uint32_t>(numbers_.size()));
+        if (fresh) {
+            tables_.letters.insert(tables_.letters.end(), text.begin(), text.end());
+            tables_.first_letter.push_back(static_cast<std::uint32_t>(tables_.letters.size()));
+        }
+        return found->second;
+    }
+
+private:
+    Tables& tables_;
+    std::unordered_map<std::string, std::uint32_t> numbers_;
+};
+
+void add_lengths(Tables& tables, const Way& way) {
+    constexpr double longest_m = std::numeric_limits<std::uint32_t>::max() / Unpacked::per_m;
+    const std::span points{tables.points.end() - static_cast<std::ptrdiff_t>(way.line.size()),
+                           tables.points.end()};
+    double along_m = 0;
+    tables.along_mm.push_back(0);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        along_m += distance_m(Unpacked{}(points[i - 1]), Unpacked{}(points[i]));
+        if (!(along_m < longest_m)) {
+            throw InputError{fmt::format(
+                "way '{}' is longer than {:.0f} km, expected a road", way.id, longest_m / 1000)};
+        }
+        tables.along_mm.push_back(
+            static_cast<std::uint32_t>(std::lround(along_m * Unpacked::per_m)));
+    }
+}
+
+/// Records of the ways with their points, and one past the last; each way is let go of when it is
+/// told, because a map of a country has millions. Links are not there yet.
+void add_ways(Tables& tables, std::vector<Way> ways) {
+    TextPool texts{tables};
+    const auto start = [&] {
+        return PackedWay{.id = 0,
+                         .first_point = static_cast<std::uint32_t>(tables.points.size()),
+                         .first_link = 0,
+                         .first_turn = static_cast<std::uint32_t>(tables.turns.size()),
+                         .name = 0,
+                         .highway = 0,
+                         .speed_limit_cmps = 0,
+                         .oneway = 0,
+                         .zero = 0};
+    };
+    for (auto& taken : ways) {
+        const auto way = std::move(taken);
+        auto record = start();
+        record.id = way.id;
+        record.name = texts.number_of(way.name);
+        record.highway = texts.number_of(way.highway);
+        record.speed_limit_cmps = way.speed_limit_cmps;
+        record.oneway = static_cast<std::uint8_t>(way.oneway);
+        tables.ways.push_back(record);
+        std::transform(way.line.begin(), way.line.end(), std::back_inserter(tables.points), packed);
+        tables.node_ids.insert(tables.node_ids.end(), way.node_ids.begin(), way.node_ids.end());
+        tables.turns.insert(tables.turns.end(), way.turns.begin(), way.turns.end());
+        add_lengths(tables, way);
+    }
+    tables.ways.push_back(start());
+}
+
+// ------------------------------------------------------------------------------------ topology
+
+/// Identities of the points that are nodes, rising: ends of ways and points met more than once.
+std::vector<std::int64_t> node_identities(const Tables& tables) {
+    auto met = tables.node_ids;
+    for (std::size_t way = 0; way + 1 < tables.ways.size(); ++way) {
+        met.push_back(tables.node_ids[tables.ways[way].first_point]); // an end counts as met twice
+        met.push_back(tables.node_ids[tables.ways[way + 1].first_point - 1]);
+    }
+    std::sort(met.begin(), met.end());
+    std::vector<std::int64_t> nodes;
+    for (std::size_t i = 1; i < met.size(); ++i) {
+        if (met[i] == met[i - 1] && (nodes.empty() || nodes.back() != met[i])) {
+            nodes.push_back(met[i]);
+        }
+    }
+    return nodes;
+}
+
+std::optional<std::uint32_t> number_of_node(const std::vector<std::int64_t>& nodes,
+                                            std::int64_t id) {
+    const auto found = std::lower_bound(nodes.begin(), nodes.end(), id);
+    return found != nodes.end() && *found == id
+               ? std::optional{static_cast<std::uint32_t>(found - nodes.begin())}
+               : std::nullopt;
+}
+
+std::uint16_t flags_of(Oneway oneway) {
+    return static_cast<std::uint16_t>((oneway != Oneway::backward ? link_flags::forward : 0) |
+                                      (oneway != Oneway::forward ? link_flags::backward : 0));
+}
+
+std::string_view text(const Tables& tables, std::uint32_t number) {
+    const auto first = tables.first_letter[number];
+    return {tables.letters.data() + first, tables.first_letter[number + 1] - first};
+}
+
+std::uint16_t speed_limit_cmps(const Tables& tables, const PackedWay& way) {
+    return way.speed_limit_cmps > 0 ? way.speed_limit_cmps
+                                    : usual_speed_limit_cmps(text(tables, way.highway));
+}
+
+/// The way's parts between nodes, in its own direction.
+void add_links(Tables& tables,
+               std::uint32_t way,
+               const std::vector<std::int64_t>& nodes,
+               double segment_length_m) {
+    const auto& record = tables.ways[way];
+    PackedLink link{.way = way,
+                    .from = *number_of_node(nodes, tables.node_ids[record.first_point]),
+                    .to = 0,
+                    .first_point = record.first_point,
+                    .first_segment = 0,
+                    .length_mm = 0,
+                    .speed_limit_cmps = speed_limit_cmps(tables, record),
+                    .flags = flags_of(static_cast<Oneway>(record.oneway))};
+    for (auto i = record.first_point + 1; i < tables.ways[way + 1].first_point; ++i) {
+        const auto node = number_of_node(nodes, tables.node_ids[i]);
+        if (!node) {
+            continue;
+        }
+        link.to = *node;
+        link.length_mm = tables.along_mm[i] - tables.along_mm[link.first_point];
+        tables.links.push_back(link);
+        tables.node_point[link.from] = link.first_point;
+        tables.node_point[link.to] = i;
+        link.from = link.to;
+        link.first_point = i;
+        link.first_segment += segments_in(Unpacked{}(link.length_mm), segment_length_m);
+    }
+}
+
+void add_links(Tables& tables, const std::vector<std::int64_t>& nodes, double segment_length_m) {
+    tables.node_point.resize(nodes.size());
+    const auto past = static_cast<std::uint32_t>(tables.ways.size() - 1);
+    for (std::uint32_t way = 0; way < past; ++way) {
+        tables.ways[way].first_link = static_cast<std::uint32_t>(tables.links.size());
+        add_links(tables, way, nodes, segment_length_m);
+    }
+    tables.ways[past].first_link = static_cast<std::uint32_t>(tables.links.size());
+    tables.links.push_back({.way = past,
+                            .from = 0,
+                            .to = 0,
+                            .first_point = static_cast<std::uint32_t>(tables.points.size()),
+                            .first_segment = 0,
+                            .length_mm = 0,
+                            .speed_limit_cmps = 0,
+                            .flags = 0});
+}
+
+/// Calls `visit(node, edge)` for every drivable edge, in the order of the edges.
+template <typename Visit>
+void for_each_departure(const Tables& tables, Visit visit) {
+    for (std::uint32_t i = 0; i + 1 < tables.links.size(); ++i) {
+        const auto& link = tables.links[i];
+        if ((link.flags & link_flags::forward) != 0) {
+            visit(link.from, edge_of(LinkId{i}, true));
+        }
+        if ((link.flags & link_flags::backward) != 0) {
+            visit(link.to, edge_of(LinkId{i}, false));
+        }
+    }
+}
+
+void add_departures(Tables& tables) {
+    auto& first = tables.first_out;
+    first.assign(tables.node_point.size() + 1, 0);
+    for_each_departure(tables, [&](std::uint32_t node, EdgeId) { ++first[node + 1]; });
+    for (std::size_t i = 1; i < first.size(); ++i) {
+        first[i] += first[i - 1];
+    }
+    tables.out_edges.resize(first.back());
+    auto next = first;
+    for_each_departure(
+        tables, [&](std::uint32_t node, EdgeId edge) { tables.out_edges[next[node]++] = edge; });
+}
+
+// --------------------------------------------------------------------------------------- turns
+
+/// The one drivable edge of a way that leaves a node; nothing if there are two or none.
+std::optional<EdgeId> departure(const Tables& tables, std::uint32_t way, std::uint32_t node) {
+    std::optional<EdgeId> found;
+    for (auto i = tables.first_out[node]; i < tables.first_out[node + 1]; ++i) {
+        const auto edge = tables.out_edges[i];
+        if (tables.links[static_cast<std::uint32_t>(link_of(edge))].way == way) {
+            if (found) {
+                return {};
+            }
+            found = edge;
+        }
+    }
+    return found;
+}
+
+/// The one drivable edge of a way that arrives at a node; nothing if there are two or none.
+std::optional<EdgeId> arrival(const Tables& tables, std::uint32_t way, std::uint32_t node) {
+    std::optional<EdgeId> found;
+    const auto take = [&](EdgeId edge, bool arrives) {
+        const bool twice = arrives && found;
+        found = arrives ? std::optional{edge} : found;
+        return !twice;
+    };
+    for (auto i = tables.ways[way].first_link; i < tables.ways[way + 1].first_link; ++i) {
+        const auto& link = tables.links[i];
+        const bool forward = link.to == node && (link.flags & link_flags::forward) != 0;
+        const bool backward = link.from == node && (link.flags & link_flags::backward) != 0;
+        if (!take(edge_of(LinkId{i}, true), forward) ||
+            !take(edge_of(LinkId{i}, false), backward)) {
+            return {};
+        }
+    }
+    return found;
+}
+
+std::optional<std::uint32_t> number_of_way(const Tables& tables, std::int64_t id) {
+    const auto past = tables.ways.end() - 1;
+    const auto found = std::lower_bound(
+        tables.ways.begin(), past, id, [](const PackedWay& way, std::int64_t sought) {
+            return way.id < sought;
+        });
+    return found != past && found->id == id
+               ? std::optional{static_cast<std::uint32_t>(found - tables.ways.begin())}
+               : std::nullopt;
+}
+
+/// The turns that a rule forbids. A rule that the ways' ends do not make plain forbids none.
+void add_barred(Tables& tables,
+                std::uint32_t way,
+                const TurnRule& rule,
+                const std::vector<std::int64_t>& nodes) {
+    const auto node = number_of_node(nodes, rule.via_node);
+    const auto to_way = number_of_way(tables, rule.to_way);
+    const auto from = node && to_way ? arrival(tables, way, *node) : std::nullopt;
+    const auto to = from ? departure(tables, *to_way, *node) : std::nullopt;
+    if (!to) {
+        return;
+    }
+    for (auto i = tables.first_out[*node]; i < tables.first_out[*node + 1]; ++i) {
+        const auto edge = tables.out_edges[i];
+        if ((edge == *to) != (rule.only != 0)) {
+            tables.barred_turns.push_back(
+                {static_cast<std::uint32_t>(*from), static_cast<std::uint32_t>(edge)});
+        }
+    }
+}
+
+void add_barred(Tables& tables, const std::vector<std::int64_t>& nodes) {
+    for (std::uint32_t way = 0; way + 1 < tables.ways.size(); ++way) {
+        for (auto i = tables.ways[way].first_turn; i < tables.ways[way + 1].first_turn; ++i) {
+            add_barred(tables, way, tables.turns[i], nodes);
+        }
+    }
+    auto& turns = tables.barred_turns;
+    std::sort(turns.begin(), turns.end());
+    turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
+    for (const auto& turn : turns) {
+        const EdgeId from{turn.from};
+        tables.links[static_cast<std::uint32_t>(link_of(from))].flags |=
+            is_forward(from) ? link_flags::forward_barred : link_flags::backward_barred;
+    }
+}
+
+// --------------------------------------------------------------------------------------- index
+
+GridBox box_of(std::span<const PackedPoint> points) {
+    GridBox box{points[0].lat_e7, points[0].lon_e7, points[0].lat_e7, points[0].lon_e7};
+    for (const auto& point : points) {
+        box = {std::min(box.south_e7, point.lat_e7),
+               std::min(box.west_e7, point.lon_e7),
+               std::max(box.north_e7, point.lat_e7),
+               std::max(box.east_e7, point.lon_e7)};
+    }
+    return box;
+}
+
+BoxTreeArrays tree_of(const Tables& tables) {
+    std::vector<GridBox> boxes;
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i + 1 < tables.links.size(); ++i) {
+        const auto& link = tables.links[i];
+        const auto& next = tables.links[i + 1];
+        const auto last =
+            next.way == link.way ? next.first_point : tables.ways[link.way + 1].first_point - 1;
+        const auto steps = last - link.first_point;
+        const auto pieces = (steps + most_steps_of_a_piece - 1) / most_steps_of_a_piece;
+        for (std::uint32_t piece = 0; piece < pieces; ++piece) {
+            const auto from = link.first_point + steps * piece / pieces;
+            const auto to = link.first_point + steps * (piece + 1) / pieces;
+            boxes.push_back(box_of(std::span{tables.points}.subspan(from, to - from + 1)));
+            numbers.push_back(i);
+        }
+    }
+    return build_box_tree(std::move(boxes), std::move(numbers));
+}
+
+void expect_to_be_numbered(const std::vector<Way>& ways) {
+    std::size_t points = 0;
+    for (const auto& way : ways) {
+        points += way.line.size();
+    }
+    // Edges are two for each link, and there are fewer links than points.
+    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() / 2;
+    if (points >= most) {
+        throw InputError{
+            fmt::format("the roads have {} points, expected fewer than {}", points, most)};
+    }
+}
+
+} // namespace
+
+RoadNetwork build_network(std::vector<Way> ways, double segment_length_m) {
+    if (!(segment_length_m > 0) || !std::isfinite(segment_length_m)) {
+        throw InputError{
+            fmt::format("segment length '{}', expected metres above 0", segment_length_m)};
+    }
+    auto ordered = in_order(std::move(ways));
+    expect_away_from_antimeridian(ordered);
+    expect_to_be_numbered(ordered);
+    const auto tables = std::make_shared<Tables>();
+    add_ways(*tables, std::move(ordered));
+    const auto nodes = node_identities(*tables);
+    add_links(*tables, nodes, segment_length_m);
+    add_departures(*tables);
+    add_barred(*tables, nodes);
+    tables->tree = tree_of(*tables);
+    return {.owner = tables,
+            .segment_length_m = segment_length_m,
+            .ways = tables->ways,
+            .points = tables->points,
+            .node_ids = tables->node_ids,
+            .along_mm = tables->along_mm,
+            .links = tables->links,
+            .node_point = tables->node_point,
+            .first_out = tables->first_out,
+            .out_edges = tables->out_edges,
+            .barred_turns = tables->barred_turns,
+            .turns = tables->turns,
+            .tree = {tables->tree.boxes, tables->tree.numbers},
+            .first_letter = tables->first_letter,
+            .letters = tables->letters};
+}
+
+} // namespace macadam
