@@ -153,11 +153,13 @@ private:
             content_.tracks += name == "trk" ? 1 : 0;
             content_.routes += name == "rte" ? 1 : 0;
             content_.way_points += name == "wpt" ? 1 : 0;
+        } else if (point_depth_ > 0) {
+            return; // what a point holds is no track of its own
         } else if (name == "trkseg") {
             content_.segments.emplace_back();
         } else if (name == "trkpt" && !content_.segments.empty()) {
             content_.segments.back().push_back(placed(attributes));
-            in_point_ = true;
+            point_depth_ = depth_;
         }
     }
 
@@ -175,12 +177,12 @@ private:
     }
 
     void end(std::string_view name) {
-        --depth_;
-        if (name == "trkpt") {
-            in_point_ = false;
-        } else if (in_point_) {
+        if (depth_ == point_depth_) {
+            point_depth_ = 0;
+        } else if (point_depth_ > 0) {
             fill(content_.segments.back().back(), name);
         }
+        --depth_;
         text_.clear();
     }
 
@@ -205,7 +207,7 @@ private:
     Content content_;
     std::string text_;
     std::size_t depth_ = 0;
-    bool in_point_ = false;
+    std::size_t point_depth_ = 0; ///< of the track point that is open; 0: none
     std::optional<std::string> refusal_;
 };
 

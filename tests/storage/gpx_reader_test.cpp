@@ -125,6 +125,14 @@ TEST(Gpx, DoesNotTakeWayPointsOrRoutesForATrack) {
     EXPECT_THAT(trip.fixes, SizeIs(2));
 }
 
+TEST(Gpx, TakesNoTrackFromWithinAPoint) {
+    const auto inner = "<trkseg><trkpt lat=\"1\" lon=\"1\"/></trkseg>" + at("2020-05-01T10:00:00Z");
+    const auto trip =
+        read(track(point(47, 8, inner) + point(47, 8.001, at("2020-05-01T10:00:05Z"))));
+    ASSERT_THAT(trip.fixes, SizeIs(2));
+    EXPECT_EQ(trip.fixes[0].at.lat_deg, 47);
+}
+
 TEST(Gpx, WithoutATrackIsRefusedWithWhatItHolds) {
     EXPECT_THAT(refusal(head + "<wpt lat=\"1\" lon=\"1\"/><rte/>\n</gpx>"),
                 HasSubstr("tour.gpx:4: holds 1 route, 1 way point only, expected a track (trk) "
