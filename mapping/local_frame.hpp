@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// A plane that touches the ellipsoid at `origin`, x east, y north. MRPT does the geodesy.
+/// A plane that touches the ellipsoid at `origin`, x east, y north. MRPT does the way back.
 ///
 /// Distances in the plane are short by 1e-5 at 30 km from the origin and 1e-4 at 90 km.
 struct LocalFrame {

@@ -1,5 +1,6 @@
 #include "mapping/map_match.hpp"
 
+#include "mapping/match/hole.hpp"
 #include "mapping/match/lattice.hpp"
 #include "mapping/match/offsets.hpp"
 #include "mapping/match/path.hpp"
@@ -153,26 +154,6 @@ void fill(MatchedTrace& trace,
     }
 }
 
-struct Hole {
-    PieceKind kind;
-    std::string reason;
-};
-
-/// Why there is no road between two samples of the chain.
-Hole hole_between(const std::vector<Chosen>& chain,
-                  std::size_t from,
-                  std::size_t to,
-                  const MatchConfig& config) {
-    const auto off = [](const Chosen& chosen) { return chosen.candidate.off_network; };
-    const auto begin = chain.begin() + static_cast<std::ptrdiff_t>(from);
-    const auto end = chain.begin() + static_cast<std::ptrdiff_t>(to);
-    if (std::any_of(begin, end, off)) {
-        return {PieceKind::off_network,
-                fmt::format("no fitting road within {:g} m", config.off_network_m)};
-    }
-    return {PieceKind::gap, "no way on the network joins the positions"};
-}
-
 } // namespace
 
 MatchedTrace map_match(const TripLog& trip,
@@ -188,7 +169,7 @@ MatchedTrace map_match(const TripLog& trip,
     RoadPlane plane{roads, positions.frame};
     Routes routes{roads, config.u_turn_cost_m};
     const auto chain = cheapest_chain(roads, plane, routes, positions, config);
-    const auto paths = paths_of(roads, routes, positions, chain, config);
+    const auto paths = paths_of(roads, plane, routes, positions, chain, config);
 
     const double begin_m = positions.all.front().travel_m;
     const double end_m = positions.all.back().travel_m;
@@ -200,12 +181,12 @@ MatchedTrace map_match(const TripLog& trip,
         if (pieces.empty()) {
             continue;
         }
-        const auto hole = hole_between(chain, sample, path.first_sample, config);
+        const auto hole = hole_between(positions, chain, sample, path.first_sample, config);
         fill(trace, hole.kind, pieces.front().from_travel_m, hole.reason, begin_m, odometer);
         trace.insert(trace.end(), pieces.begin(), pieces.end());
         sample = path.last_sample;
     }
-    const auto hole = hole_between(chain, sample, chain.size(), config);
+    const auto hole = hole_between(positions, chain, sample, chain.size(), config);
     fill(trace, hole.kind, end_m, hole.reason, begin_m, odometer);
     return trace;
 }

@@ -14,8 +14,8 @@ namespace macadam {
 
 enum class PieceKind : std::uint8_t {
     road,        ///< on an edge
-    off_network, ///< driving where the map has no road
-    gap,         ///< no positions, or no way between them
+    off_network, ///< driving or parked where the map has no road
+    gap,         ///< no positions, and no way that fits what was travelled
 };
 
 /// A part of a trip. On a road: the edge, and between which offsets (along the edge in driving
@@ -41,11 +41,12 @@ struct MatchedPiece {
 using MatchedTrace = std::vector<MatchedPiece>;
 
 struct MatchConfig {
-    double spacing_m = 40;     ///< of the samples that are matched, along the trip
-    double emission_sd_m = 20; ///< of a position across the road: receiver, map and lane together
+    double spacing_m = 30;     ///< of the samples that are matched, along the trip
+    double emission_sd_m = 20; ///< of a position across the road: receiver, map and lane together;
+                               ///< trips that lie nearer to their roads are believed up to twice
     double search_radius_m = 120;
     int most_candidates = 20;
-    double transition_scale_m = 40; ///< of |route - travelled| with positions alone
+    double transition_scale_m = 20; ///< of |route - travelled| with positions alone, plus 10 %
     double odometer_scale_m = 10;   ///< of the same with a speed sensor, plus 2 % of the way
     double u_turn_cost_m = 200;     ///< what turning round is worth in metres of detour
     double course_sd_deg = 30;      ///< of the receiver's course, where it is known and driving

@@ -9,46 +9,17 @@
 namespace macadam {
 namespace {
 
+constexpr double off_nats = 1.2;      // of a spacing off the network: a road 1.5 sd away
 constexpr double off_switch_nats = 6; // leaving the network, and coming back
+constexpr float off_end_nats = 3;     // beginning or ending there
+constexpr double hop_nats = 16;       // leaving it and coming back between two samples
 constexpr double gap_nats = 25;       // going on elsewhere: more than any credible detour
 constexpr double beam_nats = 15;      // behind the best by more: not followed
 constexpr std::size_t widest_beam = 12;
 constexpr std::size_t widest_far_beam = 5; // where each needs a long search
 constexpr double far_m = 1000;
 
-constexpr double evidence_share = 3; // the lattice is about three times as wide as errors are
-
 constexpr double never = std::numeric_limits<double>::infinity();
-
-struct Transition {
-    std::uint32_t from; ///< states of the whole lattice
-    std::uint32_t to;
-    float cost;
-    bool joined;
-};
-
-struct State {
-    Candidate candidate;
-    double cost;           ///< of the cheapest chain up to here, its own included
-    std::uint32_t arrival; ///< the transition of that chain
-};
-
-/// One range of states and one of transitions into them for each sample.
-struct Lattice {
-    std::vector<State> states;
-    std::vector<Transition> transitions;
-    std::vector<std::size_t> first_state; ///< per sample + 1
-    std::vector<std::size_t> first_transition;
-
-    std::span<const State> states_of(std::size_t sample) const {
-        return std::span{states}.subspan(first_state[sample],
-                                         first_state[sample + 1] - first_state[sample]);
-    }
-    std::span<const Transition> into(std::size_t sample) const {
-        return std::span{transitions}.subspan(
-            first_transition[sample], first_transition[sample + 1] - first_transition[sample]);
-    }
-};
 
 double distance_nats(double distance_m, double sd_m) {
     const double sds = distance_m / sd_m;
@@ -56,37 +27,43 @@ double distance_nats(double distance_m, double sd_m) {
 }
 
 /// Von Mises: quadratic like a normal distribution for small angles, bounded for large ones.
-double course_nats(double angle_rad, const MatchConfig& config) {
-    const double sd_rad = config.course_sd_deg * std::numbers::pi / 180;
+double course_nats(double angle_rad, double sd_rad) {
     return (1 - std::cos(angle_rad)) / (sd_rad * sd_rad);
 }
 
 void add_candidates(std::vector<State>& states,
                     const RoadNetwork& roads,
                     const std::vector<NearPlace>& places,
-                    const Position& position,
+                    const Evidence& evidence,
                     const MatchConfig& config) {
     const auto first = states.size();
     const auto full = [&] {
         return states.size() - first >= static_cast<std::size_t>(config.most_candidates);
     };
     for (const auto& place : places) {
+        const double distance = distance_nats(place.distance_m, evidence.sd_m);
         for (const bool forward : {true, false}) {
             const auto edge = edge_of(place.link, forward);
             if (full() || !is_drivable(roads, edge)) {
                 continue;
             }
-            double cost = distance_nats(place.distance_m, position.sd_m);
-            if (!std::isnan(position.course_rad)) {
-                const double course_rad = place.course_rad + (forward ? 0.0 : std::numbers::pi);
-                cost += course_nats(position.course_rad - course_rad, config);
-            }
+            const double course_rad = place.course_rad + (forward ? 0.0 : std::numbers::pi);
+            const double course =
+                std::isnan(evidence.course_rad)
+                    ? 0
+                    : course_nats(evidence.course_rad - course_rad, evidence.course_sd_rad);
             const double offset_m = forward ? place.along_m : length_m(roads, edge) - place.along_m;
-            states.push_back({{false, edge, offset_m, static_cast<float>(cost)}, never, 0});
+            states.push_back({{false,
+                               edge,
+                               offset_m,
+                               static_cast<float>(course_rad),
+                               static_cast<float>(evidence.weight * (distance + course))},
+                              never,
+                              0});
         }
     }
-    const double off = distance_nats(config.off_network_m, position.sd_m);
-    states.push_back({{true, EdgeId{}, 0, static_cast<float>(off)}, never, 0});
+    states.push_back(
+        {{true, EdgeId{}, 0, 0, static_cast<float>(evidence.weight * off_nats)}, never, 0});
 }
 
 /// States of a sample that are worth following, the best first.
@@ -125,7 +102,8 @@ public:
             Routes& routes,
             const Positions& positions,
             const MatchConfig& config)
-        : roads_{roads}, plane_{plane}, routes_{routes}, positions_{positions}, config_{config} {}
+        : roads_{roads}, plane_{plane}, routes_{routes}, positions_{positions}, config_{config},
+          sd_m_{road_sd_m(positions, roads, plane, config)} {}
 
     Lattice build() && {
         for (std::size_t sample = 0; sample < positions_.samples.size(); ++sample) {
@@ -149,9 +127,12 @@ private:
         add_candidates(lattice_.states,
                        roads_,
                        plane_.near(position.at, position.place, config_.search_radius_m),
-                       position,
+                       evidence_of(positions_, sample, sd_m_, config_),
                        config_);
         lattice_.first_state.push_back(lattice_.states.size());
+        if (sample == 0 || sample + 1 == positions_.samples.size()) {
+            lattice_.states.back().candidate.cost += off_end_nats;
+        }
         if (sample == 0) {
             for (auto i = first; i < lattice_.states.size(); ++i) {
                 lattice_.states[i].cost = lattice_.states[i].candidate.cost;
@@ -160,8 +141,8 @@ private:
     }
 
     void add_transitions(std::size_t sample) {
-        const auto between =
-            between_samples(positions_, positions_.samples[sample - 1], positions_.samples[sample]);
+        const auto between = between_samples(
+            positions_, positions_.samples[sample - 1], positions_.samples[sample], config_);
         const bool far = between.travelled_m > far_m;
         const auto from = survivors(lattice_, sample - 1, far ? widest_far_beam : widest_beam);
         const auto targets = edges_of(lattice_.states_of(sample));
@@ -185,20 +166,29 @@ private:
             const auto& target = lattice_.states[to].candidate;
             if (candidate.off_network || target.off_network) {
                 const bool stays = candidate.off_network && target.off_network;
-                add({from, to, stays ? 0 : static_cast<float>(off_switch_nats), false});
+                const double cost = off_way_nats(between) + (stays ? 0 : off_switch_nats);
+                add({from, to, static_cast<float>(std::min(cost, gap_nats)), false});
                 continue;
             }
             const auto passage = passage_of(roads_, *reached, candidate, target, between, config_);
             if (passage) {
-                const double cost = cost_of(*passage, between, config_);
+                const double cost =
+                    cost_of(*passage, between) + turn_nats(candidate, target, between);
                 if (cost < gap_nats) {
                     add({from, to, static_cast<float>(cost), true});
                 }
             }
             if (best) {
-                add({from, to, static_cast<float>(gap_nats), false});
+                const double cost = between.dense ? hop_nats : gap_nats;
+                add({from, to, static_cast<float>(cost), false});
             }
         }
+    }
+
+    /// A sample stands for a spacing; what was travelled off the network beyond that costs alike.
+    double off_way_nats(const Between& between) const {
+        const double beyond_m = std::max(0.0, between.travelled_m - 2 * config_.spacing_m);
+        return between.usual_nats + off_nats * beyond_m / config_.spacing_m;
     }
 
     void add(const Transition& transition) {
@@ -217,85 +207,9 @@ private:
     Routes& routes_;
     const Positions& positions_;
     const MatchConfig& config_;
+    double sd_m_;
     Lattice lattice_;
 };
-
-// ---------------------------------------------------------------------------------- posterior
-
-double weight(double cost) {
-    return std::exp(-evidence_share * cost);
-}
-
-void scale_to_one(std::vector<double>& values, std::size_t first, std::size_t last) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = values.begin() + static_cast<std::ptrdiff_t>(last);
-    const double sum = std::accumulate(begin, end, 0.0);
-    if (sum > 0) {
-        std::for_each(begin, end, [&](double& value) { value /= sum; });
-    }
-}
-
-/// Per sample, the least cost of its candidates: what all share says nothing about any.
-std::vector<double> floors(const Lattice& lattice, std::size_t samples) {
-    std::vector<double> least(samples, never);
-    for (std::size_t sample = 0; sample < samples; ++sample) {
-        for (const auto& state : lattice.states_of(sample)) {
-            least[sample] = std::min(least[sample], static_cast<double>(state.candidate.cost));
-        }
-    }
-    return least;
-}
-
-std::vector<double> state_weights(const Lattice& lattice, std::size_t samples) {
-    const auto floor = floors(lattice, samples);
-    std::vector<double> weights(lattice.states.size());
-    for (std::size_t sample = 0; sample < samples; ++sample) {
-        for (auto i = lattice.first_state[sample]; i < lattice.first_state[sample + 1]; ++i) {
-            weights[i] = weight(lattice.states[i].candidate.cost - floor[sample]);
-        }
-    }
-    return weights;
-}
-
-/// Probability of each state given all positions (the forward-backward recursion).
-std::vector<double> posteriors(const Lattice& lattice, std::size_t samples) {
-    const auto own = state_weights(lattice, samples);
-    std::vector<double> step(lattice.transitions.size());
-    for (std::size_t i = 0; i < step.size(); ++i) {
-        step[i] = weight(lattice.transitions[i].cost);
-    }
-    std::vector<double> forward(own.size(), 0.0);
-    std::vector<double> backward(own.size(), 0.0);
-    for (std::size_t sample = 0; sample < samples; ++sample) {
-        for (auto i = lattice.first_transition[sample]; i < lattice.first_transition[sample + 1];
-             ++i) {
-            const auto& way = lattice.transitions[i];
-            forward[way.to] += forward[way.from] * step[i];
-        }
-        for (auto i = lattice.first_state[sample]; i < lattice.first_state[sample + 1]; ++i) {
-            forward[i] = (sample == 0 ? 1 : forward[i]) * own[i];
-        }
-        scale_to_one(forward, lattice.first_state[sample], lattice.first_state[sample + 1]);
-    }
-    std::fill(backward.begin() + static_cast<std::ptrdiff_t>(lattice.first_state[samples - 1]),
-              backward.end(),
-              1.0);
-    for (std::size_t sample = samples - 1; sample > 0; --sample) {
-        for (auto i = lattice.first_transition[sample]; i < lattice.first_transition[sample + 1];
-             ++i) {
-            const auto& way = lattice.transitions[i];
-            backward[way.from] += backward[way.to] * own[way.to] * step[i];
-        }
-        scale_to_one(backward, lattice.first_state[sample - 1], lattice.first_state[sample]);
-    }
-    for (std::size_t sample = 0; sample < samples; ++sample) {
-        for (auto i = lattice.first_state[sample]; i < lattice.first_state[sample + 1]; ++i) {
-            forward[i] *= backward[i];
-        }
-        scale_to_one(forward, lattice.first_state[sample], lattice.first_state[sample + 1]);
-    }
-    return forward;
-}
 
 double confidence_of(const Lattice& lattice,
                      const std::vector<double>& posterior,
@@ -324,7 +238,7 @@ std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
         return chain;
     }
     const auto lattice = Builder{roads, plane, routes, positions, config}.build();
-    const auto posterior = posteriors(lattice, samples);
+    const auto posterior = posteriors(lattice);
     const auto last = lattice.states_of(samples - 1);
     auto at = static_cast<std::size_t>(
         std::min_element(last.begin(),

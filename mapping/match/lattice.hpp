@@ -1,22 +1,25 @@
 #pragma once
 
 #include "mapping/map_match.hpp"
+#include "mapping/match/evidence.hpp"
 #include "mapping/match/positions.hpp"
 #include "mapping/match/road_plane.hpp"
 #include "mapping/match/routes.hpp"
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace macadam {
 
 /// Where a sample may have been.
 struct Candidate {
-    bool off_network; ///< then edge and offset say nothing
+    bool off_network; ///< then edge, offset and course say nothing
     EdgeId edge;
-    double offset_m; ///< along the edge, in its direction of travel
-    float cost;      ///< -log likelihood of the position
+    double offset_m;  ///< along the edge, in its direction of travel
+    float course_rad; ///< of the edge there, clockwise from north
+    float cost;       ///< -log likelihood of the position
 };
 
 /// How a car may have come from one candidate to another.
@@ -30,14 +33,6 @@ struct Passage {
     double way_m;  ///< a little below 0 where noise sets a car back
     double turn_m; ///< what turning round was worth
 };
-
-/// What joins two samples.
-struct Between {
-    double travelled_m;
-    bool standing; ///< the car stood a while
-    bool odometer; ///< travelled_m is measured; otherwise it is the straight chord
-};
-Between between_samples(const Positions& positions, std::size_t from, std::size_t to);
 
 /// The ways out of `edge` that matter over such a distance.
 const std::vector<Reached>& reached_from(Routes& routes,
@@ -54,8 +49,45 @@ std::optional<Passage> passage_of(const RoadNetwork& roads,
                                   const Between& between,
                                   const MatchConfig& config);
 
-/// In nats.
-double cost_of(const Passage& passage, const Between& between, const MatchConfig& config);
+/// In nats; what the gyro says of the turn is not in it.
+double cost_of(const Passage& passage, const Between& between);
+
+/// -log likelihood of what the gyro measured if the car went from one candidate to the other.
+double turn_nats(const Candidate& from, const Candidate& to, const Between& between);
+
+/// A step from one state to another of the next sample.
+struct Transition {
+    std::uint32_t from; ///< states of the whole lattice
+    std::uint32_t to;
+    float cost;
+    bool joined; ///< by a passage
+};
+
+struct State {
+    Candidate candidate;
+    double cost;           ///< of the cheapest chain up to here, its own included
+    std::uint32_t arrival; ///< the transition of that chain
+};
+
+/// One range of states and one of transitions into them for each sample.
+struct Lattice {
+    std::vector<State> states;
+    std::vector<Transition> transitions;
+    std::vector<std::size_t> first_state; ///< per sample + 1
+    std::vector<std::size_t> first_transition;
+
+    std::span<const State> states_of(std::size_t sample) const {
+        return std::span{states}.subspan(first_state[sample],
+                                         first_state[sample + 1] - first_state[sample]);
+    }
+};
+
+/// Probability of each state given all positions: the forward-backward recursion, with costs
+/// sharpened, because the lattice is wider than errors are so that it never loses a road.
+///
+/// Source: L. R. Rabiner, "A tutorial on hidden Markov models and selected applications in speech
+/// recognition", Proceedings of the IEEE 77 (1989), pp. 257-286, eqs. 19 to 27.
+std::vector<double> posteriors(const Lattice& lattice);
 
 /// The place in the lattice that a sample was given.
 struct Chosen {

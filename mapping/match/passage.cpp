@@ -6,17 +6,20 @@
 namespace macadam {
 namespace {
 
-constexpr double set_back_m = 30;        // noise may set a car back by as much on its edge
-constexpr double detour_m = 250;         // of a way beyond what was travelled that is still sought
-constexpr double detour_share = 0.5;     // and of the travelled
-constexpr double chord_spread = 0.1;     // a way is longer than its chord by so much, more or less
-constexpr double odometer_spread = 0.02; // scale of the odometer and the map's cut corners
-constexpr double standing_mps = 2;       // a mean speed below: the car stood
-constexpr double standing_s = 5;
+constexpr double set_back_m = 30;           // noise may set a car back by as much on its edge
+constexpr double unseen_detour_m = 250;     // of a way beyond the travelled that is still sought
+constexpr double unseen_detour_share = 0.5; // and of the travelled
+constexpr double seen_detour_m = 130;       // the same where positions would have shown it
+constexpr double seen_detour_share = 0.2;
+constexpr double seen_detour_sd_m = 22; // of a way beyond the line that dense positions draw
+constexpr double turn_scale_m = 44;     // of what turning round is worth
+constexpr double turn_sd_rad = 0.6;     // of an edge's course at a sample, corners being rounded
 constexpr double standing_turn_share = 0.5; // of the price of turning round, where the car stood
 
 double longest_m(const Between& between, const MatchConfig& config) {
-    return std::min(config.longest_route_m, (1 + detour_share) * between.travelled_m + detour_m);
+    const double detour_m = between.dense ? seen_detour_m : unseen_detour_m;
+    const double share = between.dense ? seen_detour_share : unseen_detour_share;
+    return std::min(config.longest_route_m, (1 + share) * between.travelled_m + detour_m);
 }
 
 /// Round on the edge itself: at the farther of the two places, or beyond it if there was the time.
@@ -33,17 +36,6 @@ Passage turned(double length_m,
 }
 
 } // namespace
-
-Between between_samples(const Positions& positions, std::size_t from, std::size_t to) {
-    const auto& a = positions.all[from];
-    const auto& b = positions.all[to];
-    const double chord_m = std::hypot(b.at.east_m - a.at.east_m, b.at.north_m - a.at.north_m);
-    const double travelled_m = positions.odometer ? b.travel_m - a.travel_m : chord_m;
-    const double took_s = b.t_s - a.t_s;
-    return {travelled_m,
-            took_s > standing_s && travelled_m < standing_mps * took_s,
-            positions.odometer};
-}
 
 const std::vector<Reached>& reached_from(Routes& routes,
                                          EdgeId edge,
@@ -62,7 +54,7 @@ std::optional<Passage> passage_of(const RoadNetwork& roads,
                                   const MatchConfig& config) {
     std::optional<Passage> best;
     const auto take = [&](const Passage& passage) {
-        if (!best || cost_of(passage, between, config) < cost_of(*best, between, config)) {
+        if (!best || cost_of(passage, between) < cost_of(*best, between)) {
             best = passage;
         }
     };
@@ -81,12 +73,24 @@ std::optional<Passage> passage_of(const RoadNetwork& roads,
     return best;
 }
 
-double cost_of(const Passage& passage, const Between& between, const MatchConfig& config) {
-    const double scale_m = between.odometer
-                               ? config.odometer_scale_m + odometer_spread * between.travelled_m
-                               : config.transition_scale_m + chord_spread * between.travelled_m;
+double cost_of(const Passage& passage, const Between& between) {
     const double turn_m = between.standing ? standing_turn_share * passage.turn_m : passage.turn_m;
-    return (std::abs(passage.way_m - between.travelled_m) + turn_m) / scale_m;
+    const double seen_m = std::max(between.travelled_m, between.drawn_m);
+    const double unseen =
+        between.dense ? std::max(0.0, passage.way_m - seen_m) / seen_detour_sd_m : 0;
+    return std::abs(passage.way_m - between.travelled_m) / between.scale_m + turn_m / turn_scale_m +
+           unseen * unseen / 2;
+}
+
+double turn_nats(const Candidate& from, const Candidate& to, const Between& between) {
+    if (!std::isfinite(between.turn.sd_rad)) {
+        return 0;
+    }
+    const double sd_rad = std::hypot(turn_sd_rad, between.turn.sd_rad);
+    // Courses are clockwise, the gyro's turns are not.
+    const double apart_rad =
+        static_cast<double>(to.course_rad - from.course_rad) + between.turn.rad;
+    return (1 - std::cos(apart_rad)) / (sd_rad * sd_rad);
 }
 
 } // namespace macadam

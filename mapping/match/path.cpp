@@ -1,5 +1,7 @@
 #include "mapping/match/path.hpp"
 
+#include "mapping/match/path_ends.hpp"
+
 #include <algorithm>
 #include <cassert>
 
@@ -35,11 +37,13 @@ void vouch_for_unseen(std::vector<Leg>& legs) {
 class PathBuilder {
 public:
     PathBuilder(const RoadNetwork& roads,
+                RoadPlane& plane,
                 Routes& routes,
                 const Positions& positions,
                 const std::vector<Chosen>& chain,
                 const MatchConfig& config)
-        : roads_{roads}, routes_{routes}, positions_{positions}, chain_{chain}, config_{config} {}
+        : roads_{roads}, plane_{plane}, routes_{routes},
+          positions_{positions}, chain_{chain}, config_{config} {}
 
     std::vector<RoadPath> build() && {
         for (std::size_t sample = 0; sample < chain_.size(); ++sample) {
@@ -53,6 +57,8 @@ public:
         for (auto& path : paths_) {
             path.legs.back().to_m = length_m(roads_, path.legs.back().edge);
             vouch_for_unseen(path.legs);
+            settle(path);
+            trim(path);
         }
         return std::move(paths_);
     }
@@ -82,10 +88,9 @@ private:
             return false;
         }
         const auto between =
-            between_samples(positions_, chain_[last].position, chain_[sample].position);
+            between_samples(positions_, chain_[last].position, chain_[sample].position, config_);
         const auto connection = connect(last, sample, between);
-        if (!connection ||
-            (skipped > 0 && cost_of(connection->passage, between, config_) > bad_run_nats)) {
+        if (!connection || (skipped > 0 && cost_of(connection->passage, between) > bad_run_nats)) {
             return false;
         }
         follow(*connection, last, sample);
@@ -132,6 +137,16 @@ private:
         }
     }
 
+    /// A path that ends in a hole does so where the positions say; at the trip's ends all are its.
+    void settle(RoadPath& path) {
+        if (path.first_sample > 0) {
+            settle_begin(path, roads_, plane_, positions_, chain_[path.first_sample - 1].position);
+        }
+        if (path.last_sample + 1 < chain_.size()) {
+            settle_end(path, roads_, plane_, positions_, chain_[path.last_sample + 1].position);
+        }
+    }
+
     /// Ends the last leg at `end_m` of its edge and begins the next at `begin_m` of its own.
     void go_on(EdgeId edge, double end_m, double begin_m) {
         auto& legs = paths_.back().legs;
@@ -142,6 +157,7 @@ private:
     }
 
     const RoadNetwork& roads_;
+    RoadPlane& plane_;
     Routes& routes_;
     const Positions& positions_;
     const std::vector<Chosen>& chain_;
@@ -157,11 +173,12 @@ double length_m(const RoadPath& path) {
 }
 
 std::vector<RoadPath> paths_of(const RoadNetwork& roads,
+                               RoadPlane& plane,
                                Routes& routes,
                                const Positions& positions,
                                const std::vector<Chosen>& chain,
                                const MatchConfig& config) {
-    return PathBuilder{roads, routes, positions, chain, config}.build();
+    return PathBuilder{roads, plane, routes, positions, chain, config}.build();
 }
 
 } // namespace macadam

@@ -31,6 +31,7 @@ double length_m(const RoadPath& path);
 /// The chain's edges joined to paths. A sample or two off the network between places that a way of
 /// the travelled length joins are bad positions, not an excursion.
 std::vector<RoadPath> paths_of(const RoadNetwork& roads,
+                               RoadPlane& plane,
                                Routes& routes,
                                const Positions& positions,
                                const std::vector<Chosen>& chain,

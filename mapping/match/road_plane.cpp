@@ -102,6 +102,18 @@ std::span<const LinePoint> RoadPlane::line(LinkId link) {
     return std::span{points_}.subspan(there.first, there.count);
 }
 
+NearPlace RoadPlane::nearest(LinkId link, const PointEn& at) {
+    const auto points = line(link);
+    NearPlace best{link, 0, std::numeric_limits<double>::infinity(), 0};
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const auto on = nearest_on(points[i].at, points[i + 1].at, at);
+        if (on.distance_m < best.distance_m) {
+            best = place_at(link, points[i], points[i + 1], on);
+        }
+    }
+    return best;
+}
+
 void RoadPlane::look_around(const PointEn& at, const GeoPoint& place, double radius_m) {
     const double moved_m =
         std::hypot(at.east_m - nearby_at_.east_m, at.north_m - nearby_at_.north_m);

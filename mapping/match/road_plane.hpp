@@ -35,6 +35,9 @@ public:
     /// hairpin does, gives a place each time.
     std::vector<NearPlace> near(const PointEn& at, const GeoPoint& place, double radius_m);
 
+    /// The place of a link that is nearest to a position.
+    NearPlace nearest(LinkId link, const PointEn& at);
+
 private:
     struct Drawn {
         std::uint32_t first; ///< in points_

@@ -44,12 +44,15 @@ double Routes::turn_m(EdgeId edge) const {
 }
 
 void Routes::leave(EdgeId edge, float way_m, float turn_m_so_far, double longest_m) {
+    if (way_m > longest_m) {
+        return;
+    }
     for (const auto next : out_edges(roads_, to_node(roads_, edge))) {
-        const auto turn = next == reversed(edge) ? turn_m_so_far + static_cast<float>(turn_m(edge))
-                                                 : turn_m_so_far;
-        if (way_m + turn > longest_m) {
-            continue;
+        const bool turns = next == reversed(edge);
+        if (turns && turn_m_so_far > 0) {
+            continue; // nobody turns round twice between two samples
         }
+        const auto turn = turns ? static_cast<float>(turn_m(edge)) : turn_m_so_far;
         auto& label = label_of(next);
         const auto& known = label.reached;
         if (label.search == search_ &&

@@ -28,7 +28,7 @@ public:
     /// Everything within kept_m after the end of `edge`, in the order of edges. Valid as long as
     /// this object lives.
     const std::vector<Reached>& around(EdgeId edge);
-    static constexpr double kept_m = 350;
+    static constexpr double kept_m = 200;
 
     /// The same up to `longest_m`, ending as soon as all `targets` (in order) are reached. Valid
     /// until the next call.
