@@ -2,20 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 namespace macadam {
 namespace {
 
-constexpr double touched_m = 0.01; // less of an arc is rounding
-constexpr double meet_m = 1;       // two pieces that are nearer than this go on from each other
+constexpr double touched_m = 5; // less of an arc (or half of a short one) is noise
+constexpr double meet_m = 1;    // two pieces that are nearer than this go on from each other
 
-/// The last arc that was driven, and how far on its edge.
-struct Last {
-    EdgeId edge;
-    std::uint32_t arc;
-    double offset_m;
-};
+/// Pieces on one edge, each farther along it than the one before; there may be holes between.
+using Run = std::vector<MatchedPiece>;
+
+std::vector<Run> runs_of(const MatchedTrace& trace) {
+    std::vector<Run> runs;
+    for (const auto& piece : trace) {
+        if (piece.kind != PieceKind::road) {
+            continue;
+        }
+        const bool goes_on = !runs.empty() && runs.back().back().edge == piece.edge &&
+                             piece.from_offset_m > runs.back().back().to_offset_m - meet_m;
+        if (!goes_on) {
+            runs.emplace_back();
+        }
+        runs.back().push_back(piece);
+    }
+    return runs;
+}
 
 /// Offset of the edge's n-th point, in its direction of travel.
 double point_offset_m(const RoadNetwork& roads, EdgeId edge, std::uint32_t n) {
@@ -41,38 +53,39 @@ Arc arc_at(const RoadNetwork& roads, const MatchedPiece& piece, std::uint32_t n,
                                   piece.confidence};
 }
 
+/// When the piece came to a place of its edge; its beginning for one before.
 double time_at(const MatchedPiece& piece, double offset_m) {
     const double whole_m = piece.to_offset_m - piece.from_offset_m;
     const double share = whole_m > 0 ? (offset_m - piece.from_offset_m) / whole_m : 0;
     return std::lerp(piece.t_enter_s, piece.t_leave_s, std::clamp(share, 0.0, 1.0));
 }
 
+void add_arcs(std::vector<Arc>& arcs, const Run& run, const RoadNetwork& roads) {
+    const auto edge = run.front().edge;
+    const auto link = link_at(roads, edge);
+    auto first = run.begin(); // of the pieces on an arc
+    for (std::uint32_t n = 0; n < link.last_point - link.first_point; ++n) {
+        const double from_m = point_offset_m(roads, edge, n);
+        const double to_m = point_offset_m(roads, edge, n + 1);
+        while (first + 1 != run.end() && first->to_offset_m <= from_m) {
+            ++first;
+        }
+        double driven_m = 0;
+        for (auto piece = first; piece != run.end() && piece->from_offset_m < to_m; ++piece) {
+            driven_m += std::min(to_m, piece->to_offset_m) - std::max(from_m, piece->from_offset_m);
+        }
+        if (driven_m > std::min(touched_m, (to_m - from_m) / 2)) {
+            arcs.push_back(arc_at(roads, *first, n, time_at(*first, from_m)));
+        }
+    }
+}
+
 } // namespace
 
 std::vector<Arc> arcs_of(const MatchedTrace& trace, const RoadNetwork& roads) {
     std::vector<Arc> arcs;
-    std::optional<Last> last;
-    for (const auto& piece : trace) {
-        if (piece.kind != PieceKind::road) {
-            continue;
-        }
-        const auto link = link_at(roads, piece.edge);
-        const auto count = link.last_point - link.first_point;
-        const bool goes_on =
-            last && last->edge == piece.edge && piece.from_offset_m > last->offset_m - meet_m;
-        for (std::uint32_t n = 0; n < count; ++n) {
-            const double from_m = point_offset_m(roads, piece.edge, n);
-            const double to_m = point_offset_m(roads, piece.edge, n + 1);
-            if (to_m < piece.from_offset_m + touched_m || from_m > piece.to_offset_m - touched_m ||
-                (goes_on && n <= last->arc)) {
-                continue;
-            }
-            arcs.push_back(arc_at(roads, piece, n, time_at(piece, from_m)));
-            last = {piece.edge, n, piece.to_offset_m};
-        }
-        if (last && last->edge == piece.edge) {
-            last->offset_m = piece.to_offset_m;
-        }
+    for (const auto& run : runs_of(trace)) {
+        add_arcs(arcs, run, roads);
     }
     return arcs;
 }

@@ -85,7 +85,8 @@ struct Arc {
 };
 
 /// Every pair of consecutive points of the ways that the trace touched, in driving order, the first
-/// and the last whole; shape points included.
+/// and the last whole; shape points included. Touching by less than 5 m, or by less than half of a
+/// shorter arc, does not count: it is noise.
 std::vector<Arc> arcs_of(const MatchedTrace& trace, const RoadNetwork& roads);
 
 } // namespace macadam

@@ -14,7 +14,7 @@ constexpr double seen_detour_share = 0.2;
 constexpr double seen_detour_sd_m = 22; // of a way beyond the line that dense positions draw
 constexpr double turn_scale_m = 44;     // of what turning round is worth
 constexpr double turn_sd_rad = 0.6;     // of an edge's course at a sample, corners being rounded
-constexpr double standing_turn_share = 0.5; // of the price of turning round, where the car stood
+constexpr double standing_turn_share = 0.75; // of the price of turning round, where the car stood
 
 double longest_m(const Between& between, const MatchConfig& config) {
     const double detour_m = between.dense ? seen_detour_m : unseen_detour_m;

@@ -52,7 +52,13 @@ void Routes::leave(EdgeId edge, float way_m, float turn_m_so_far, double longest
         if (turns && turn_m_so_far > 0) {
             continue; // nobody turns round twice between two samples
         }
-        const auto turn = turns ? static_cast<float>(turn_m(edge)) : turn_m_so_far;
+        auto turn = turn_m_so_far;
+        if (turns) {
+            turn += static_cast<float>(turn_m(edge));
+        } else if (!may_turn(roads_, edge, next)) {
+            turn +=
+                static_cast<float>(u_turn_cost_m_); // drivers do, and maps err: dear, not barred
+        }
         auto& label = label_of(next);
         const auto& known = label.reached;
         if (label.search == search_ &&

@@ -14,7 +14,7 @@ struct Reached {
     EdgeId edge;
     EdgeId before; ///< from which it was entered
     float way_m;   ///< between the end of the edge of departure and the beginning of this one
-    float turn_m;  ///< what turning round on the way was worth
+    float turn_m;  ///< what turning round, or where it is forbidden, was worth
 };
 
 /// Ways between edges on the network, the shortest with U-turns at their price.

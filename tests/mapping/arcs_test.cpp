@@ -41,6 +41,18 @@ TEST(ArcsOf, LeavesOutWhatWasNotDriven) {
     EXPECT_EQ(text_of({on(edge_between(art, 'A', 'B'), 250, 350)}, art), "BC ");
 }
 
+TEST(ArcsOf, LeavesOutWhatNoiseAloneTouched) {
+    const auto art = bends();
+    EXPECT_EQ(text_of({on(edge_between(art, 'A', 'B'), 197, 404)}, art), "BC ");
+    EXPECT_EQ(text_of({on(edge_between(art, 'A', 'B'), 194, 406)}, art), "AB BC CD ");
+}
+
+TEST(ArcsOf, AddsUpThePiecesOfAnArc) {
+    const auto art = bends();
+    const auto edge = edge_between(art, 'A', 'B');
+    EXPECT_EQ(text_of({on(edge, 193, 197), on(edge, 197, 200), on(edge, 200, 300)}, art), "AB BC ");
+}
+
 TEST(ArcsOf, RunsBackwardOnABackwardEdge) {
     const auto art = bends();
     EXPECT_EQ(text_of({on(edge_between(art, 'B', 'A'), 50, 350)}, art), "DC CB ");
