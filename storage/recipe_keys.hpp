@@ -52,6 +52,7 @@ inline constexpr std::array driving_numbers{
     NumberKey<DrivingRecipe>{"lateral_mps2", positive_number, [](auto& r) -> double& { return r.lateral_mps2; }},
     NumberKey<DrivingRecipe>{"lane_offset_m", short_distance, [](auto& r) -> double& { return r.lane_offset_m; }},
     NumberKey<DrivingRecipe>{"oneway_offset_m", short_distance, [](auto& r) -> double& { return r.oneway_offset_m; }},
+    NumberKey<DrivingRecipe>{"corner_m", positive_number, [](auto& r) -> double& { return r.corner_m; }},
     NumberKey<DrivingRecipe>{"wander_m", not_negative_number, [](auto& r) -> double& { return r.wander_m; }},
     NumberKey<DrivingRecipe>{"wander_length_m", positive_number, [](auto& r) -> double& { return r.wander_length_m; }},
 };

@@ -22,6 +22,7 @@ lateral_mps2 = 2.5          # at most, in curves
 driving_side = "right"      # or "left"
 lane_offset_m = 1.75        # of the lane of a two-way road from the line on the map
 oneway_offset_m = 0
+corner_m = 17               # corners are rounded by three moving means of this length
 wander_m = 0.15             # sd of the car's place in its lane, ...
 wander_length_m = 200       # ... which changes over this distance
 

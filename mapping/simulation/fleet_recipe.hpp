@@ -52,6 +52,7 @@ struct DrivingRecipe {
     bool right_hand = true;               ///< on which side of the road one drives
     double lane_offset_m = 1.75;          ///< of the lane of a two-way road from the map's line
     double oneway_offset_m = 0;           ///< of the lane of a oneway road, to the same side
+    double corner_m = 17;                 ///< corners are rounded by three moving means of so much
     double wander_m = 0.15;               ///< of the car in its lane, standard deviation, ...
     double wander_length_m = 200;         ///< ... which changes over this distance
     std::int64_t from_utc_s = 1735689600; ///< 2025-01-01: first and last day of driving

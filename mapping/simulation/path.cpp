@@ -16,8 +16,6 @@ constexpr double grid_m = 1;
 constexpr double sharpest_per_m = 0.5; // no car turns within less than 2 m
 constexpr double least_step_m = 0.05;  // of travel between points: a turn on the spot still moves
 constexpr double corner_cosine = 0.87; // 30 degrees: from here on a bend is a corner
-// Three boxes of 17 m turn into the near lane on a radius of 5 m, into the far one on 10 m.
-constexpr std::size_t corner_box = 8;
 constexpr std::size_t widest_box = 40;
 constexpr std::size_t wander_box = 20;
 
@@ -160,9 +158,15 @@ struct LaneLine {
     std::vector<std::size_t> box;
 };
 
+/// Half a box. Three of 17 m turn into the near lane on a radius of 5 m, into the far one on 10 m.
+double corner_box(const DrivingRecipe& driving) {
+    return std::clamp(std::round((driving.corner_m / grid_m - 1) / 2), 1.0, double{widest_box});
+}
+
 LaneLine lane_line(const std::vector<Vertex>& vertices,
                    const std::vector<double>& route_m,
-                   const std::vector<double>& wander_m) {
+                   const std::vector<double>& wander_m,
+                   double least_box) {
     const auto corner_m = to_corner_m(vertices, route_m, widest_box);
     LaneLine line;
     std::size_t at = 0;
@@ -181,8 +185,8 @@ LaneLine lane_line(const std::vector<Vertex>& vertices,
         line.north_m.push_back(a.at.north_m + share * (b.at.north_m - a.at.north_m) +
                                left_m * ahead.east_m);
         const double speed_box = (a.usual_mps / 6) * (a.usual_mps / 6); // as v^2 / lateral force
-        line.box.push_back(static_cast<std::size_t>(
-            std::clamp(speed_box, double{corner_box}, corner_box + corner_m[i])));
+        line.box.push_back(
+            static_cast<std::size_t>(std::clamp(speed_box, least_box, least_box + corner_m[i])));
     }
     return line;
 }
@@ -266,7 +270,7 @@ DrivenPath driven_path(const RoadNetwork& roads,
     const auto vertices = without_seams(vertices_of(roads, route, driving, path.plane));
     path.route_m = grid_over(path.pieces.back().to_m);
     path.wander_m = wander_along(path.route_m.size(), driving, seed);
-    path.points = rounded(lane_line(vertices, path.route_m, path.wander_m));
+    path.points = rounded(lane_line(vertices, path.route_m, path.wander_m, corner_box(driving)));
     path.travel_m = travel_along(path.plane, path.points);
     path.curvature_per_m = curvature_along(path.plane, path.points);
     return path;

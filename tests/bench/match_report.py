@@ -8,8 +8,8 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parents[2]
 NETWORKS = SOURCE / "sample_data" / "networks"
 
-NOTE = """Drives over the eight networks of sample_data/networks, whose truth is known to the metre: a lane 2.5 m beside
-the map's line, corners rounded as cars drive them, stops; position errors forgotten over 30 s (standard deviation
+NOTE = """Drives over the eight networks of sample_data/networks, whose truth is known to the metre: a lane 1.5 to 3.5 m
+beside the map's line (by driver; on oneway roads up to 1.5 m to either side), corners cut more or less, stops; position errors forgotten over 30 s (standard deviation
 of an axis *sigma*) and a tenth of it new at every fix; latency of 0 to 2.5 s; odometer at 10 Hz wrong by 0.5 %
 (standard deviation); gyro at 50 Hz with a wandering bias.
 

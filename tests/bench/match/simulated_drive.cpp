@@ -16,6 +16,7 @@ namespace macadam::bench {
 namespace {
 
 enum Draw : std::uint64_t {
+    draw_driver = 60,
     draw_path = 61,
     draw_speed = 62,
     draw_gnss = 63,
@@ -172,6 +173,15 @@ std::vector<GnssFix> without_velocity(std::vector<GnssFix> fixes) {
     return fixes;
 }
 
+/// How one driver keeps his lane and takes his corners.
+DrivingRecipe of_a_driver(DrivingRecipe driving, std::uint64_t seed) {
+    Random random{seed};
+    driving.lane_offset_m += random.uniform(-1, 1);
+    driving.oneway_offset_m += random.uniform(-1.5, 1.5);
+    driving.corner_m *= random.uniform(0.6, 1.5);
+    return driving;
+}
+
 } // namespace
 
 DriveRecipe standard_recipe(double sigma_m, double fix_rate_hz) {
@@ -197,8 +207,9 @@ Drive make_drive(const RoadNetwork& roads,
                  std::uint64_t seed,
                  std::size_t number) {
     auto route = route_of_trip(roads, map, driving, seed, number);
-    auto path = driven_path(roads, route, driving, seed_of({seed, draw_path, number}));
-    auto motion = drive_along(path, roads, route, driving, seed_of({seed, draw_speed, number}));
+    const auto own = of_a_driver(driving, seed_of({seed, draw_driver, number}));
+    auto path = driven_path(roads, route, own, seed_of({seed, draw_path, number}));
+    auto motion = drive_along(path, roads, route, own, seed_of({seed, draw_speed, number}));
     auto start_m = starts_of(roads, route);
     auto abreast_m = abreast_along(path, line_of_route(roads, route, start_m, path.plane));
     return {std::move(route),
