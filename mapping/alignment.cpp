@@ -35,8 +35,11 @@ struct Member {
 
 // ------------------------------------------------------------------------------------- places
 
-std::int32_t block_at(double station) {
-    return static_cast<std::int32_t>(std::floor(station / lag_block_m));
+/// Of the metre that begins at a station.
+std::int32_t block_of(std::int32_t metre) {
+    constexpr auto length = static_cast<std::int32_t>(lag_block_m);
+    static_assert(length == lag_block_m);
+    return metre >= 0 ? metre / length : -((length - 1 - metre) / length);
 }
 
 double line_at(std::span<const double> lags_m, std::int32_t first_block, double station) {
@@ -61,12 +64,11 @@ Signal laid_down(const Member& member) {
         const double station = laid.first_m + static_cast<double>(i) + 0.5;
         const double at =
             static_cast<double>(i) - reach_m + line_at(member.lag_m, member.first_block, station);
-        const double below = std::floor(at);
-        if (below < 0 || below + 1 >= static_cast<double>(from.x.size())) {
+        if (at < 0 || at + 1 >= static_cast<double>(from.x.size())) {
             continue;
         }
-        const auto k = static_cast<std::size_t>(below);
-        const auto share = static_cast<float>(at - below);
+        const auto k = static_cast<std::size_t>(at);
+        const auto share = static_cast<float>(at - static_cast<double>(k));
         laid.x[i] = from.x[k] + share * (from.x[k + 1] - from.x[k]);
         laid.known[i] = from.known[k] * from.known[k + 1];
     }
@@ -77,12 +79,12 @@ Member member_of(const StripTrace& trace) {
     Member member{.signal = signal_of(trace),
                   .place_sd_m = std::max(0.1, trace.place_sd_mm / 1000.0),
                   .independent_m = 1,
-                  .first_block = block_at(trace.first_m),
+                  .first_block = block_of(trace.first_m),
                   .lag_m = {},
                   .laid = {}};
     member.independent_m = independent_m(member.signal.x);
-    const double end_m = trace.first_m + static_cast<double>(trace.iri.size());
-    member.lag_m.resize(static_cast<std::size_t>(block_at(end_m - 0.5) - member.first_block + 1));
+    const auto last_m = trace.first_m + static_cast<std::int32_t>(trace.iri.size()) - 1;
+    member.lag_m.resize(static_cast<std::size_t>(block_of(last_m) - member.first_block + 1));
     return member;
 }
 
@@ -139,8 +141,8 @@ std::vector<Correlation> correlations(const Member& member, const Values& textur
     std::vector<Correlation> sums(member.lag_m.size(), Correlation{});
     const auto last_block = static_cast<std::int32_t>(sums.size()) - 1;
     for (std::size_t i = 0; i < texture.size(); ++i) {
-        const double station = signal.first_m - reach_m + static_cast<double>(i) + 0.5;
-        const auto block = std::clamp(block_at(station) - member.first_block, 0, last_block);
+        const auto metre = signal.first_m - reach_m + static_cast<std::int32_t>(i);
+        const auto block = std::clamp(block_of(metre) - member.first_block, 0, last_block);
         auto& sum = sums[static_cast<std::size_t>(block)];
         const float r = texture[i];
         const float* const opposite = x.data() + i; // at lag -reach_m

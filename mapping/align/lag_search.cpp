@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace macadam {
 namespace {
@@ -37,15 +38,18 @@ States scores_of(const Correlation& sums, double scale) {
 
 /// The best that comes to each state from a neighbouring block.
 States carried(const States& from, double tie) {
-    States to{};
-    for (std::size_t k = 0; k < state_count; ++k) {
-        double best = from[k];
-        for (std::size_t step = 1; step <= farthest_step; ++step) {
-            const double cost = tie * static_cast<double>(step * step);
-            best = k >= step ? std::max(best, from[k - step] - cost) : best;
-            best = k + step < state_count ? std::max(best, from[k + step] - cost) : best;
+    std::array<double, state_count + 2 * farthest_step> padded;
+    padded.fill(std::numeric_limits<double>::lowest());
+    std::ranges::copy(from, padded.begin() + farthest_step);
+    States to = from;
+    for (std::size_t step = 1; step <= farthest_step; ++step) {
+        const double cost = tie * static_cast<double>(step * step);
+        for (std::size_t k = 0; k < state_count; ++k) {
+            const double left = padded[k + farthest_step - step];
+            const double right = padded[k + farthest_step + step];
+            const double best = (left > right ? left : right) - cost;
+            to[k] = best > to[k] ? best : to[k];
         }
-        to[k] = best;
     }
     return to;
 }

@@ -114,12 +114,19 @@ Signal signal_of(const StripTrace& trace) {
 double independent_m(const std::vector<float>& x) {
     constexpr std::size_t farthest_m = 15;
     const double whole = square_sum(x);
-    double sum = 1;
-    for (std::size_t lag = 1; lag <= farthest_m && lag < x.size() && whole > 0; ++lag) {
-        float product = 0;
-        for (std::size_t i = lag; i < x.size(); ++i) {
-            product += x[i] * x[i - lag];
+    if (!(whole > 0)) {
+        return 1;
+    }
+    std::vector<float> behind(x.size() + farthest_m); // zeros, then x
+    std::ranges::copy(x, behind.begin() + farthest_m);
+    std::array<float, farthest_m> products{}; // by lag, from farthest_m down to 1
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        for (std::size_t k = 0; k < farthest_m; ++k) {
+            products[k] += x[i] * behind[i + k];
         }
+    }
+    double sum = 1;
+    for (const float product : products) {
         const double rho = static_cast<double>(product) / whole;
         sum += 2 * rho * rho;
     }

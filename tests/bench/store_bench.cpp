@@ -1,11 +1,15 @@
-// What the store costs: adding and fusing passes, and asking for about a thousand segments by place
-// in stores of doubling size.
+// What the store costs: adding and fusing passes with and without their traces, laying ever more
+// traces of a strip on each other, and asking for about a thousand segments by place in stores of
+// doubling size.
 
+#include "mapping/alignment.hpp"
 #include "storage/road_store.hpp"
+#include "support/texture.hpp"
 #include "support/town.hpp"
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -73,6 +77,34 @@ std::vector<Pass> passes_over(const std::vector<SegmentKey>& keys) {
     return passes;
 }
 
+/// What trip `number` reads of a road of that length, some metres off its place.
+StripTrace trace_of_trip(int number, double length_m) {
+    static const auto texture = testing::texture(1000, 1);
+    const double lag_m = (number * 37) % 60 / 10.0 - 3;
+    return testing::read_texture(texture,
+                                 {.from_m = -10,
+                                  .to_m = std::ceil(length_m) + 10,
+                                  .lag_m = [=](double) { return lag_m - 20; },
+                                  .seed = static_cast<std::uint64_t>(number)});
+}
+
+/// The traces of all strips of those segments; passes of about 20 m.
+std::vector<StripTrace> traces_over(const std::vector<SegmentKey>& keys, int number) {
+    std::vector<StripTrace> traces;
+    for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
+        const auto strip = strip_of(keys[first], 20);
+        while (last < keys.size() && strip_of(keys[last], 20) == strip) {
+            ++last;
+        }
+        auto trace = trace_of_trip(number, 20.0 * static_cast<double>(last - first));
+        trace.strip = strip;
+        // Two trips' worth of one strip in one trip are two drives.
+        trace.drive = static_cast<std::uint32_t>(traces.size());
+        traces.push_back(std::move(trace));
+    }
+    return traces;
+}
+
 TripRecord trip_number(int number) {
     TripRecord trip;
     trip.trip_id = "trip-" + std::to_string(number);
@@ -124,7 +156,9 @@ void ask_by_place(benchmark::State& state) {
     state.counters["segments"] = static_cast<double>(store.info().segments);
 }
 
-/// Trips of 500 passes into a town that already has one pass everywhere, fused after each trip.
+/// Trips of 500 passes into a town that already has one pass everywhere, fused after each trip;
+/// with_traces: each pass laid on the others.
+template <bool with_traces>
 void add_and_fuse_trips(benchmark::State& state) {
     const auto side = static_cast<int>(state.range(0));
     const auto file = scratch("growing-" + std::to_string(side) + ".gpkg");
@@ -139,7 +173,15 @@ void add_and_fuse_trips(benchmark::State& state) {
         for (std::size_t i = 0; i < passes_a_trip; ++i) {
             driven.push_back(keys[(first + i) % keys.size()]);
         }
-        store.add_trip(trip_number(++number), passes_over(driven));
+        state.PauseTiming();
+        auto passes = passes_over(driven);
+        auto traces = with_traces ? traces_over(driven, number) : std::vector<StripTrace>{};
+        for (std::size_t i = 0, trace = 0; with_traces && i < passes.size(); ++i) {
+            trace += strip_of(passes[i].segment, 20) != traces[trace].strip ? 1U : 0U;
+            passes[i].drive = traces[trace].drive;
+        }
+        state.ResumeTiming();
+        store.add_trip(trip_number(++number), passes, traces);
         store.refresh({});
     }
     state.counters["passes/s"] = benchmark::Counter(static_cast<double>(passes_a_trip) *
@@ -148,8 +190,24 @@ void add_and_fuse_trips(benchmark::State& state) {
     state.counters["segments"] = static_cast<double>(keys.size());
 }
 
+/// Twice as many traces of 500 m should cost twice as much.
+void lay_traces(benchmark::State& state) {
+    std::vector<StripTrace> traces;
+    for (int number = 0; number < state.range(0); ++number) {
+        traces.push_back(trace_of_trip(number, 500));
+    }
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(lags_of(traces, {}));
+    }
+    state.counters["passes/s"] = benchmark::Counter(25.0 * static_cast<double>(state.range(0)) *
+                                                        static_cast<double>(state.iterations()),
+                                                    benchmark::Counter::kIsRate);
+}
+
+BENCHMARK(lay_traces)->RangeMultiplier(4)->Range(2, 512)->Unit(benchmark::kMillisecond);
 BENCHMARK(ask_by_place)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
-BENCHMARK(add_and_fuse_trips)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(add_and_fuse_trips<false>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(add_and_fuse_trips<true>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace macadam
