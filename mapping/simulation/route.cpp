@@ -100,14 +100,14 @@ std::vector<NodeId> largest_core(const RoadNetwork& roads) {
     return best;
 }
 
-/// Edges by which one may go on after `edge`: not back, unless the road ends.
+/// Edges by which one may go on after `edge`: not back, unless there is no other way on.
 std::vector<EdgeId> ways_on(const RoadNetwork& roads, EdgeId edge) {
     std::vector<EdgeId> on;
     bool back = false;
     for (const auto next : out_edges(roads, to_node(roads, edge))) {
         if (next == reversed(edge)) {
             back = true;
-        } else {
+        } else if (may_turn(roads, edge, next)) {
             on.push_back(next);
         }
     }

@@ -29,8 +29,9 @@ RouteMap make_route_map(const RoadNetwork& roads, const DrivingRecipe& driving, 
 
 /// The way of a trip, edge after edge, each beginning where the one before it ends: from place to
 /// place by the roads that this driver thinks quickest, until it is as long as drawn. It turns back
-/// only where a road ends. Trips of one seed use the same places, so that they share roads; every
-/// second trip may go back the way of the one before it, place by place.
+/// only where a road ends or every turn is forbidden, and obeys the map's turn restrictions. Trips
+/// of one seed use the same places, so that they share roads; every second trip may go back the way
+/// of the one before it, place by place.
 ///
 /// \throws InputError  if no way can be found, as from a road that leads nowhere.
 std::vector<EdgeId> route_of_trip(const RoadNetwork& roads,

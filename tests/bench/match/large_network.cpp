@@ -76,17 +76,25 @@ std::size_t arcs_in(const std::vector<Way>& ways) {
     return arcs;
 }
 
+Way renumbered(Way way, std::int64_t shift) {
+    way.id += shift;
+    for (auto& id : way.node_ids) {
+        id += shift;
+    }
+    for (auto& turn : way.turns) {
+        turn.via_node += shift;
+        turn.to_way += shift;
+    }
+    return way;
+}
+
 /// All networks of the files as one; ways of different files have ids of their own.
 std::vector<Way> ways_of(const std::vector<std::filesystem::path>& files) {
     constexpr std::int64_t file_ids = std::int64_t{1} << 36;
     std::vector<Way> ways;
     for (std::size_t i = 0; i < files.size(); ++i) {
         for (auto& way : read_network(files[i])) {
-            way.id += static_cast<std::int64_t>(i) * file_ids;
-            for (auto& id : way.node_ids) {
-                id += static_cast<std::int64_t>(i) * file_ids;
-            }
-            ways.push_back(std::move(way));
+            ways.push_back(renumbered(std::move(way), static_cast<std::int64_t>(i) * file_ids));
         }
     }
     return ways;
@@ -98,11 +106,7 @@ std::vector<Way> copies_of(const std::vector<Way>& ways, std::size_t copies) {
     all.reserve(copies * ways.size());
     for (std::size_t k = 0; k < copies; ++k) {
         for (auto way : ways) {
-            const auto shift = static_cast<std::int64_t>(k) * copy_ids;
-            way.id += shift;
-            for (auto& id : way.node_ids) {
-                id += shift;
-            }
+            way = renumbered(std::move(way), static_cast<std::int64_t>(k) * copy_ids);
             for (auto& place : way.line) {
                 place.lon_deg += static_cast<double>(k) * copy_lon_deg;
             }

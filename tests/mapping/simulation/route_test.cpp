@@ -81,6 +81,27 @@ TEST(Route, TurnsBackOnlyWhereTheRoadEnds) {
     EXPECT_GT(turns, 0U); // else this test has seen nothing
 }
 
+TEST(Route, NeverTurnsWhereTheMapForbidsIt) {
+    auto art = town();
+    const auto turns_south_at_c = [&] {
+        std::size_t count = 0;
+        for (const auto& route : routes_in(art.roads, short_trips())) {
+            for (std::size_t i = 1; i < route.size(); ++i) {
+                count += route[i - 1] == edge_between(art, 'B', 'C') &&
+                                 route[i] == edge_between(art, 'C', 'F')
+                             ? 1
+                             : 0;
+            }
+        }
+        return count;
+    };
+    EXPECT_GT(turns_south_at_c(), 0U);
+    constexpr std::int64_t south_way = 5; // "CF"
+    art.ways.front().turns.push_back({.via_node = 'C', .to_way = south_way});
+    art.roads = build_network(art.ways);
+    EXPECT_EQ(turns_south_at_c(), 0U);
+}
+
 TEST(Route, IsAsLongAsDrawnGiveOrTakeItsLastEdge) {
     const auto art = town();
     auto driving = short_trips();
