@@ -3,6 +3,7 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/trace_network.hpp"
+#include "storage/network_file.hpp"
 #include "storage/network_reader.hpp"
 #include "storage/road_store.hpp"
 #include "storage/trip_reader.hpp"
@@ -109,6 +110,8 @@ void run_init(const Arguments& arguments, const Console& console) {
     const auto roads = build_network(std::move(ways), options.segment_length_m);
     const auto store =
         RoadStore::create(options.store, roads, settings, console.progress("writing segments"));
+
+    keep_roads(store, roads);
 
     const auto info = store.info();
     console.say(fmt::format("{}: {}, {}, {}, {:.1f} km counting each direction",

@@ -10,6 +10,7 @@
 #include "mapping/map_match.hpp"
 #include "storage/atomic_file.hpp"
 #include "storage/foreign/gpx_reader.hpp"
+#include "storage/network_file.hpp"
 #include "storage/network_reader.hpp"
 #include "storage/road_store.hpp"
 #include "storage/trip_reader.hpp"
@@ -55,10 +56,13 @@ MatchOptions parse_match(const Arguments& arguments) {
     return options;
 }
 
-/// Of a map, or of a store that was made from one.
+/// Of a map, of a store that was made from one, or of the file beside such a store.
 RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
     if (options.network.extension() == ".gpkg" && is_store(options.network)) {
-        return RoadStore::open(options.network, RoadStore::Access::read).roads();
+        return kept_roads(RoadStore::open(options.network, RoadStore::Access::read));
+    }
+    if (is_network_file(options.network)) {
+        return open_network_file(options.network).roads;
     }
     return build_network(
         read_network(options.network, options.columns, console.progress("reading roads")));
@@ -118,7 +122,8 @@ constexpr std::array operands{
 constexpr std::array options{
     Option{"--network",
            "FILE",
-           "The roads: .osm.pbf, .osm, a store, or any line layer that GDAL reads."},
+           "The roads: .osm.pbf, .osm, a store, its STORE-network, or any line layer that GDAL "
+           "reads."},
     mapping_option,
     Option{"--arcs", "", "Every pair of consecutive nodes as driven, instead of pieces of edges."},
     Option{"-o,--output", "FILE", "A .csv or .geojson file instead of CSV on standard output."},

@@ -4,6 +4,7 @@
 #include "app/stretch_output.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/network_file.hpp"
 
 #include <fmt/format.h>
 
@@ -202,7 +203,7 @@ void print_worst_stretches(const RoadStore& store,
     RoadStretchConfig config;
     config.above_mm_per_m = options.worst.above_mm_per_m.value_or(poor_above(classes));
     config.least_length_m = options.worst.least_length_m;
-    auto stretches = worst_stretches(store.roads(), records, config);
+    auto stretches = worst_stretches(kept_roads(store), records, config);
     stretches.resize(std::min(stretches.size(), options.worst.count));
     if (stretches.empty()) {
         console.say(fmt::format(

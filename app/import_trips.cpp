@@ -3,6 +3,7 @@
 #include "app/trip_place.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/network_file.hpp"
 
 #include <fmt/format.h>
 
@@ -176,7 +177,7 @@ ImportTotals import_trips(RoadStore& store,
                           std::size_t jobs,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell) {
-    const auto roads = store.roads();
+    const auto roads = kept_roads(store);
     std::mutex store_in_use;
 
     const auto work = [&](std::size_t number) {

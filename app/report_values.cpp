@@ -4,6 +4,7 @@
 #include "app/stretch_output.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/network_file.hpp"
 #include "storage/utc.hpp"
 
 #include <fmt/format.h>
@@ -190,7 +191,7 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     const auto survey = survey_of(store);
     RoadStretchConfig poor;
     poor.above_mm_per_m = poor_above(classes);
-    auto stretches = worst_stretches(store.roads(), survey.measured, poor);
+    auto stretches = worst_stretches(kept_roads(store), survey.measured, poor);
 
     Report report;
     report.title = config.title;

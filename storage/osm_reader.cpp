@@ -2,10 +2,12 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/osm_tags.hpp"
+#include "storage/osm_turns.hpp"
 
 #include <fmt/core.h>
 
 #include <osmium/io/any_input.hpp>
+#include <osmium/osm/relation.hpp>
 #include <osmium/osm/way.hpp>
 
 #include <algorithm>
@@ -14,6 +16,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace macadam {
@@ -40,27 +43,58 @@ NodeIds nodes_of(const osmium::Way& way) {
     return ids;
 }
 
-/// The drivable ways, yet without places.
-std::vector<Way> drivable_ways(const osmium::io::File& file, const Progress& progress) {
-    osmium::io::Reader reader{file, osmium::osm_entity_bits::way};
-    std::vector<Way> ways;
+/// What a file says of ways, yet without places.
+struct WaysAndTurns {
+    std::vector<Way> ways; ///< the drivable ones
+    std::vector<TurnOutOfWay> turns;
+};
+
+void add(std::vector<Way>& ways, const osmium::Way& way) {
+    const OsmTags tags = [&](const char* key) { return way.tags()[key]; };
+    if (!is_drivable(tags)) {
+        return;
+    }
+    ways.push_back({.id = way.id(),
+                    .name = std::string{name_of(tags)},
+                    .highway = way.tags()["highway"],
+                    .oneway = oneway_of(tags),
+                    .node_ids = nodes_of(way),
+                    .line = {},
+                    .speed_limit_cmps = speed_limit_cmps_of(tags),
+                    .turns = {}});
+}
+
+OsmKind kind_of(osmium::item_type type) {
+    return type == osmium::item_type::node  ? OsmKind::node
+           : type == osmium::item_type::way ? OsmKind::way
+                                            : OsmKind::relation;
+}
+
+void add(std::vector<TurnOutOfWay>& turns, const osmium::Relation& relation) {
+    const OsmTags tags = [&](const char* key) { return relation.tags()[key]; };
+    std::vector<OsmMember> members;
+    for (const auto& member : relation.members()) {
+        members.push_back({kind_of(member.type()), member.ref(), member.role()});
+    }
+    const auto found = turns_in(tags, members);
+    turns.insert(turns.end(), found.begin(), found.end());
+}
+
+WaysAndTurns ways_and_turns(const osmium::io::File& file, const Progress& progress) {
+    osmium::io::Reader reader{file,
+                              osmium::osm_entity_bits::way | osmium::osm_entity_bits::relation};
+    WaysAndTurns all;
     while (const auto buffer = reader.read()) {
         for (const auto& way : buffer.select<osmium::Way>()) {
-            const OsmTags tags = [&](const char* key) { return way.tags()[key]; };
-            if (!is_drivable(tags)) {
-                continue;
-            }
-            ways.push_back({.id = way.id(),
-                            .name = std::string{name_of(tags)},
-                            .highway = way.tags()["highway"],
-                            .oneway = oneway_of(tags),
-                            .node_ids = nodes_of(way),
-                            .line = {}});
+            add(all.ways, way);
+        }
+        for (const auto& relation : buffer.select<osmium::Relation>()) {
+            add(all.turns, relation);
         }
         pace(reader, 0, progress);
     }
     reader.close();
-    return ways;
+    return all;
 }
 
 NodeIds used_nodes(const std::vector<Way>& ways) {
@@ -149,6 +183,25 @@ std::vector<Way> in_order(std::vector<Way> ways) {
     return ways;
 }
 
+/// Gives each turn rule to its way. \param ways  in the order of their ids
+std::vector<Way> with_turns(std::vector<Way> ways, std::vector<TurnOutOfWay> turns) {
+    std::sort(turns.begin(), turns.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.from_way, a.rule.via_node, a.rule.to_way, a.rule.only) <
+               std::tie(b.from_way, b.rule.via_node, b.rule.to_way, b.rule.only);
+    });
+    for (const auto& turn : turns) {
+        const auto way = std::lower_bound(ways.begin(),
+                                          ways.end(),
+                                          turn.from_way,
+                                          [](const Way& a, std::int64_t id) { return a.id < id; });
+        const bool known = way != ways.end() && way->id == turn.from_way;
+        if (known && (way->turns.empty() || way->turns.back() != turn.rule)) {
+            way->turns.push_back(turn.rule);
+        }
+    }
+    return ways;
+}
+
 } // namespace
 
 bool is_osm_file(const std::filesystem::path& file) {
@@ -163,10 +216,10 @@ std::vector<Way> read_osm(const std::filesystem::path& file, const Progress& pro
     try {
         // An absolute path, because libosmium takes "-" and "https:..." for something else.
         const osmium::io::File osm{std::filesystem::absolute(file).string()};
-        auto ways = drivable_ways(osm, progress);
-        const auto ids = used_nodes(ways);
+        auto all = ways_and_turns(osm, progress);
+        const auto ids = used_nodes(all.ways);
         const auto places = places_of(ids, osm, progress);
-        return in_order(placed(std::move(ways), ids, places));
+        return with_turns(in_order(placed(std::move(all.ways), ids, places)), std::move(all.turns));
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {

@@ -1,6 +1,8 @@
 #include "storage/osm_tags.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <iterator>
 
 namespace macadam {
@@ -76,6 +78,31 @@ std::string_view access_of(const OsmTags& tags) {
     return {};
 }
 
+constexpr double mps_per_kmh = 1 / 3.6;
+constexpr double mps_per_mph = 0.44704;
+constexpr double no_limit_kmh = 250; // what the faster makes of car limit themselves to
+constexpr double walking_kmh = 7;    // as far as German courts go; OSM wiki, Key:maxspeed
+
+/// 0 for what is no speed.
+double speed_mps(std::string_view text) {
+    if (text == "none") {
+        return no_limit_kmh * mps_per_kmh;
+    }
+    if (text == "walk") {
+        return walking_kmh * mps_per_kmh;
+    }
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || !(number > 0 && number <= no_limit_kmh)) {
+        return 0;
+    }
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    return text.empty() || text == "km/h" || text == "kmh" || text == "kph" ? number * mps_per_kmh
+           : text == "mph"                                                  ? number * mps_per_mph
+                                                                            : 0;
+}
+
 } // namespace
 
 bool is_drivable(const OsmTags& tags) {
@@ -107,6 +134,14 @@ Oneway oneway_of(const OsmTags& tags) {
     const bool implied =
         junction == "roundabout" || junction == "circular" || value(tags, "highway") == "motorway";
     return implied ? Oneway::forward : Oneway::no;
+}
+
+std::uint16_t speed_limit_cmps_of(const OsmTags& tags) {
+    constexpr double cm_per_m = 100;
+    const double either_mps = speed_mps(value(tags, "maxspeed"));
+    const double of_one_mps = std::max(speed_mps(value(tags, "maxspeed:forward")),
+                                       speed_mps(value(tags, "maxspeed:backward")));
+    return static_cast<std::uint16_t>(std::lround(std::max(either_mps, of_one_mps) * cm_per_m));
 }
 
 std::string_view name_of(const OsmTags& tags) {

@@ -2,6 +2,7 @@
 
 #include "mapping/road_network.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <string_view>
 
@@ -20,6 +21,10 @@ bool is_drivable(const OsmTags& tags);
 
 /// By `oneway`; without it roundabouts and motorways run forward.
 Oneway oneway_of(const OsmTags& tags);
+
+/// `maxspeed` in cm/s, of the faster direction where they differ: km/h, or as it says mph. 0 where
+/// there is none, or one that changes by the hour. `none` is 250 km/h, `walk` 7 km/h.
+std::uint16_t speed_limit_cmps_of(const OsmTags& tags);
 
 /// `name`, or failing that `ref`.
 std::string_view name_of(const OsmTags& tags);

@@ -12,6 +12,7 @@
 #include <osmium/io/writer.hpp>
 #include <osmium/memory/buffer.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <map>
@@ -76,6 +77,9 @@ std::vector<std::pair<std::string, std::string>> tags_of(const Way& way) {
     if (!way.name.empty()) {
         tags.emplace_back("name", way.name);
     }
+    if (way.speed_limit_cmps > 0) {
+        tags.emplace_back("maxspeed", kmh_text(way.speed_limit_cmps));
+    }
     // Said of every way, because some classes are oneway unless they say that they are not.
     tags.emplace_back("oneway",
                       way.oneway == Oneway::no        ? "no"
@@ -84,9 +88,34 @@ std::vector<std::pair<std::string, std::string>> tags_of(const Way& way) {
     return tags;
 }
 
+/// Kilometres an hour as signs have them, or with as many digits as the centimetres need.
+std::string kmh_text(std::uint16_t speed_cmps) {
+    constexpr double kmh_per_cmps = 0.036;
+    const double kmh = speed_cmps * kmh_per_cmps;
+    const double whole_kmh = std::round(kmh);
+    return std::lround(whole_kmh / kmh_per_cmps) == speed_cmps ? fmt::format("{:.0f}", whole_kmh)
+                                                               : fmt::format("{:.2f}", kmh);
+}
+
 void add_way(osmium::memory::Buffer& buffer, const Way& way) {
     const auto tags = tags_of(way);
     osmium::builder::add_way(buffer, _id(way.id), _nodes(way.node_ids), _tags(tags));
+}
+
+/// The value of `restriction` names a direction, but readers go by its first word.
+void add_turn(osmium::memory::Buffer& buffer,
+              std::int64_t id,
+              std::int64_t from_way,
+              const TurnRule& turn) {
+    const auto member = [](osmium::item_type type, std::int64_t ref, const char* role) {
+        return member_type{type, ref, role};
+    };
+    const std::vector members{member(osmium::item_type::way, from_way, "from"),
+                              member(osmium::item_type::node, turn.via_node, "via"),
+                              member(osmium::item_type::way, turn.to_way, "to")};
+    const std::vector<std::pair<std::string, std::string>> tags{
+        {"type", "restriction"}, {"restriction", turn.only != 0 ? "only_straight_on" : "no_entry"}};
+    osmium::builder::add_relation(buffer, _id(id), _members(members), _tags(tags));
 }
 
 /// Hands a full buffer over to the writer.
@@ -112,6 +141,13 @@ void write(std::span<const Way> ways, const std::filesystem::path& file) {
     for (const auto& way : ways) {
         add_way(buffer, way);
         buffer = flushed(writer, std::move(buffer));
+    }
+    std::int64_t restrictions = 0;
+    for (const auto& way : ways) {
+        for (const auto& turn : way.turns) {
+            add_turn(buffer, ++restrictions, way.id, turn);
+            buffer = flushed(writer, std::move(buffer));
+        }
     }
     writer(std::move(buffer));
     writer.close();

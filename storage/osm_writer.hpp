@@ -13,7 +13,8 @@ namespace macadam {
 void expect_osm(std::span<const Way> ways);
 
 /// Writes ways as an .osm.pbf that read_network reads back as the same ways: their ids, the ids and
-/// places of their nodes (to 1e-7 degrees, the format's own grid), name, highway and oneway.
+/// places of their nodes (to 1e-7 degrees, the format's own grid), name, highway, oneway, speed
+/// limit and turn rules.
 /// Nothing else: no contributors, no times. A class that OSM does not know, or none, becomes
 /// `highway=road`. Equal ways give equal bytes.
 ///

@@ -150,6 +150,14 @@ const StoreSettings& RoadStore::settings() const {
     return impl_->settings;
 }
 
+const std::filesystem::path& RoadStore::file() const {
+    return impl_->database.file();
+}
+
+std::string RoadStore::network_hash() const {
+    return read_network_hash(impl_->database);
+}
+
 RoadNetwork RoadStore::roads() const {
     return build_network(read_ways(impl_->database), impl_->settings.segment_length_m);
 }

@@ -136,8 +136,14 @@ public:
 
     const StoreSettings& settings() const;
 
-    /// The network this store was made for; its segments are cut from it.
+    const std::filesystem::path& file() const;
+
+    /// The network this store was made for; its segments are cut from it. Built from the ways that
+    /// the store holds: kept_roads (storage/network_file.hpp) has it quicker.
     RoadNetwork roads() const;
+
+    /// SHA-256 of these ways, in hex digits, as it was when the store was made.
+    std::string network_hash() const;
 
     bool knows_trip(const std::string& sha256) const;
 

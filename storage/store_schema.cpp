@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "mapping/strip_trace.hpp"
 #include "storage/geopackage.hpp"
+#include "storage/sha256.hpp"
 #include "storage/text.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,9 @@ CREATE TABLE way (
     highway TEXT,
     oneway SMALLINT NOT NULL,
     node_ids BLOB NOT NULL,
-    points BLOB NOT NULL
+    points BLOB NOT NULL,
+    speed_limit_cmps INTEGER NOT NULL,
+    turns BLOB NOT NULL
 );
 CREATE TABLE segment (
     fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,
@@ -149,24 +152,46 @@ std::vector<Value> values_of(std::string_view bytes) {
     return values;
 }
 
-/// Two doubles, latitude first: the point's own layout in memory.
+/// Two doubles, latitude first, and three integers: their own layouts in memory.
 static_assert(sizeof(GeoPoint) == 2 * sizeof(double));
+static_assert(sizeof(TurnRule) == 3 * sizeof(std::int64_t));
 
 std::optional<std::string_view> unless_empty(std::string_view text) {
     return text.empty() ? std::nullopt : std::optional{text};
 }
 
-void write_ways(Database& database, const RoadNetwork& roads) {
-    auto insert = database.prepare("INSERT INTO way VALUES (?, ?, ?, ?, ?, ?)");
+/// \returns SHA-256 of all that was written.
+std::string write_ways(Database& database, const RoadNetwork& roads) {
+    auto insert = database.prepare("INSERT INTO way VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    Sha256 hash;
     for (std::uint32_t i = 0; i < way_count(roads); ++i) {
         const auto way = way_at(roads, i);
+        const auto node_ids = bytes_of(way.node_ids);
+        const auto points = bytes_of(way.line);
+        const auto turns = bytes_of(way.turns);
         insert.run(way.id,
                    unless_empty(way.name),
                    unless_empty(way.highway),
                    static_cast<int>(way.oneway),
-                   Blob{bytes_of(way.node_ids)},
-                   Blob{bytes_of(way.line)});
+                   Blob{node_ids},
+                   Blob{points},
+                   std::int64_t{way.speed_limit_cmps},
+                   Blob{turns});
+        hash.add(fmt::format("{} {} {} {} {} {} {}\n{}\n{}\n",
+                             way.id,
+                             way.name.size(),
+                             way.highway.size(),
+                             static_cast<int>(way.oneway),
+                             way.line.size(),
+                             way.speed_limit_cmps,
+                             way.turns.size(),
+                             way.name,
+                             way.highway));
+        hash.add(node_ids);
+        hash.add(points);
+        hash.add(turns);
     }
+    return hash.hex();
 }
 
 /// Of the links [first, last), one way's, in one direction; by their number along the way.
@@ -267,6 +292,7 @@ double real_meta(Database& database, std::string_view key) {
 void write_meta(Database& database,
                 const RoadNetwork& roads,
                 const StoreSettings& settings,
+                const std::string& network_hash,
                 const Written& written) {
     put(database, "format", format_name);
     put(database, "version", fmt::format("{}", store_version));
@@ -274,6 +300,7 @@ void write_meta(Database& database,
     put(database, "class_table", settings.class_table);
     put(database, "network_source", settings.network_source);
     put(database, "attribution", settings.attribution);
+    put(database, "network_sha256", network_hash);
     put(database, "segments", fmt::format("{}", written.segments));
     put(database, "network_m", fmt::format("{}", written.length_m));
 }
@@ -304,10 +331,10 @@ void write_store(Database& database,
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
     database.run(tables);
-    write_ways(database, roads);
+    const auto network_hash = write_ways(database, roads);
     const auto written = write_segments(database, roads, progress);
     database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
-    write_meta(database, roads, settings, written);
+    write_meta(database, roads, settings, network_hash, written);
 
     const auto box = extent_of(roads);
     list_features(database, {"segment", "segment", "Pieces of road, one for each direction", box});
@@ -359,9 +386,14 @@ StoreSettings read_settings(Database& database) {
     return settings;
 }
 
+std::string read_network_hash(Database& database) {
+    return meta(database, "network_sha256");
+}
+
 std::vector<Way> read_ways(Database& database) {
     auto select = database.prepare(
-        "SELECT way_id, name, highway, oneway, node_ids, points FROM way ORDER BY way_id");
+        "SELECT way_id, name, highway, oneway, node_ids, points, speed_limit_cmps, turns"
+        " FROM way ORDER BY way_id");
     std::vector<Way> ways;
     while (select.step()) {
         ways.push_back({.id = select.integer(0),
@@ -369,7 +401,9 @@ std::vector<Way> read_ways(Database& database) {
                         .highway = select.text(2),
                         .oneway = static_cast<Oneway>(select.integer(3)),
                         .node_ids = values_of<std::int64_t>(select.blob(4)),
-                        .line = values_of<GeoPoint>(select.blob(5))});
+                        .line = values_of<GeoPoint>(select.blob(5)),
+                        .speed_limit_cmps = static_cast<std::uint16_t>(select.integer(6)),
+                        .turns = values_of<TurnRule>(select.blob(7))});
         expect_sound(ways.back(), database);
     }
     return ways;

@@ -6,6 +6,7 @@
 #include "storage/sqlite.hpp"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace macadam {
@@ -21,6 +22,9 @@ void check_store(Database& database);
 
 /// \throws InputError  for a class table or segment length that nobody knows.
 StoreSettings read_settings(Database& database);
+
+/// SHA-256 of the ways and all that they say, in hex digits.
+std::string read_network_hash(Database& database);
 
 /// The ways as they were written, in the order of their ids.
 ///

@@ -36,6 +36,8 @@ std::vector<Way> ways() {
     }
     ways[0].name = "Untere Landstraße";
     ways[0].highway = "residential";
+    ways[0].speed_limit_cmps = 1389; // 50 km/h
+    ways[0].turns = {{'B', 1, 0}, {'B', 2, 1}};
     ways[1].highway = "motorway";
     ways[2].highway = "track";
     ways[2].oneway = Oneway::backward;
@@ -67,6 +69,18 @@ TEST(OsmWriter, IsReadBackAsTheSameWays) {
         EXPECT_EQ(read[i].oneway, expected[i].oneway);
         EXPECT_EQ(read[i].node_ids, expected[i].node_ids);
         EXPECT_EQ(read[i].line, expected[i].line);
+        EXPECT_EQ(read[i].speed_limit_cmps, expected[i].speed_limit_cmps);
+        EXPECT_EQ(read[i].turns, expected[i].turns);
+    }
+}
+
+TEST(OsmWriter, KeepsEverySpeedLimitToTheCentimetre) {
+    const auto file = test_folder() / "network.osm.pbf";
+    for (std::uint16_t cmps = 7; cmps < 6944; cmps = static_cast<std::uint16_t>(cmps + 331)) {
+        auto limited = ways();
+        limited[1].speed_limit_cmps = cmps;
+        write_osm(limited, file);
+        EXPECT_EQ(read_network(file)[1].speed_limit_cmps, cmps);
     }
 }
 

@@ -111,6 +111,22 @@ TEST(NetworkReader, KeepsIdsNamesAndPlacesOfAnOsmWay) {
                 ElementsAre(GeoPoint{48.1, 16.1}, GeoPoint{48.2, 16.2}, GeoPoint{48.3, 16.3}));
 }
 
+TEST(NetworkReader, ReadsEachSpellingOfASpeedLimit) {
+    const auto limit_with = [](const std::string& tags) {
+        return read_osm_of(tag("highway", "primary") + tags).at(0).speed_limit_cmps;
+    };
+    EXPECT_EQ(limit_with(""), 0);
+    EXPECT_EQ(limit_with(tag("maxspeed", "50")), 1389); // 50 / 3.6 = 13.889 m/s
+    EXPECT_EQ(limit_with(tag("maxspeed", "50 km/h")), 1389);
+    EXPECT_EQ(limit_with(tag("maxspeed", "30 mph")), 1341); // 30 * 0.44704 m/s
+    EXPECT_EQ(limit_with(tag("maxspeed", "none")), 6944);
+    EXPECT_EQ(limit_with(tag("maxspeed", "walk")), 194);
+    EXPECT_EQ(limit_with(tag("maxspeed:forward", "50") + tag("maxspeed:backward", "70")), 1944);
+    for (const auto* const other : {"signals", "DE:urban", "0", "-5", "1000", "50; 30", "mph"}) {
+        EXPECT_EQ(limit_with(tag("maxspeed", other)), 0) << other;
+    }
+}
+
 TEST(NetworkReader, NamesARoadByItsNumberIfItHasNoName) {
     EXPECT_EQ(read_osm_of(tag("highway", "primary") + tag("ref", "B1")).at(0).name, "B1");
 }

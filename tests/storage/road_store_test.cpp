@@ -78,6 +78,8 @@ TEST(RoadStore, GivesBackTheNetworkThatItWasMadeWith) {
         EXPECT_EQ(one.oneway, other.oneway);
         EXPECT_EQ(one.node_ids, other.node_ids);
         EXPECT_EQ(one.line, other.line);
+        EXPECT_EQ(one.speed_limit_cmps, other.speed_limit_cmps);
+        EXPECT_EQ(one.turns, other.turns);
     }
     EXPECT_EQ(link_count(kept), link_count(made));
     EXPECT_EQ(kept.segment_length_m, made.segment_length_m);

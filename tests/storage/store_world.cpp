@@ -20,6 +20,8 @@ RoadNetwork small_country() {
     ways[0].highway = "residential";
     ways[1].name = "=HYPERLINK(\"x\"), _Lane_";
     ways[1].highway = "service";
+    ways[0].turns = {{ways[0].node_ids.back(), 1, 0}};
+    ways[1].speed_limit_cmps = 833;
     ways[2].name = "";
     ways[2].highway = "";
     return build_network(std::move(ways), 20);
