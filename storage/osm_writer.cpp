@@ -68,6 +68,15 @@ std::string class_of(const Way& way) {
     return is_drivable(tags) ? way.highway : "road";
 }
 
+/// Kilometres an hour as signs have them, or with as many digits as the centimetres need.
+std::string kmh_text(std::uint16_t speed_cmps) {
+    constexpr double kmh_per_cmps = 0.036;
+    const double kmh = speed_cmps * kmh_per_cmps;
+    const double whole_kmh = std::round(kmh);
+    return std::lround(whole_kmh / kmh_per_cmps) == speed_cmps ? fmt::format("{:.0f}", whole_kmh)
+                                                               : fmt::format("{:.2f}", kmh);
+}
+
 std::vector<std::pair<std::string, std::string>> tags_of(const Way& way) {
     std::vector<std::pair<std::string, std::string>> tags;
     tags.emplace_back("highway", class_of(way));
@@ -86,15 +95,6 @@ std::vector<std::pair<std::string, std::string>> tags_of(const Way& way) {
                       : way.oneway == Oneway::forward ? "yes"
                                                       : "-1");
     return tags;
-}
-
-/// Kilometres an hour as signs have them, or with as many digits as the centimetres need.
-std::string kmh_text(std::uint16_t speed_cmps) {
-    constexpr double kmh_per_cmps = 0.036;
-    const double kmh = speed_cmps * kmh_per_cmps;
-    const double whole_kmh = std::round(kmh);
-    return std::lround(whole_kmh / kmh_per_cmps) == speed_cmps ? fmt::format("{:.0f}", whole_kmh)
-                                                               : fmt::format("{:.2f}", kmh);
 }
 
 void add_way(osmium::memory::Buffer& buffer, const Way& way) {

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -134,31 +135,68 @@ std::optional<Oneway> parse_oneway(std::string_view text) {
     return {};
 }
 
-/// Two vertices that are equal to 1e-7 degrees (1 cm) are one node.
+/// Two vertices that are no farther apart than 1e-7 degrees (1 cm) in latitude and in longitude are
+/// one node, at the place of the first that was met.
 class Nodes {
 public:
-    std::int64_t number_of(const GeoPoint& point) {
-        constexpr double per_deg = 1e7;
-        const Key key{std::llround(point.lat_deg * per_deg), std::llround(point.lon_deg * per_deg)};
-        return numbers_.try_emplace(key, static_cast<std::int64_t>(numbers_.size()) + 1)
-            .first->second;
+    struct Node {
+        std::int64_t number;
+        GeoPoint place;
+    };
+
+    Node node_at(const GeoPoint& point) {
+        const auto cell = cell_of(point);
+        // A cell is twice as wide as the distance, so that what is near lies in it or beyond the
+        // nearer of its borders.
+        const auto beyond = [](double deg, std::int64_t index) {
+            return deg / cell_deg - static_cast<double>(index) < 0.5 ? index - 1 : index + 1;
+        };
+        for (const auto lat : {cell.lat, beyond(point.lat_deg, cell.lat)}) {
+            for (const auto lon : {cell.lon, beyond(point.lon_deg, cell.lon)}) {
+                const auto [first, past] = nodes_.equal_range({lat, lon});
+                const auto same = std::find_if(first, past, [&](const auto& known) {
+                    return are_one(known.second.place, point);
+                });
+                if (same != past) {
+                    return same->second;
+                }
+            }
+        }
+        const Node fresh{++count_, point};
+        nodes_.emplace(cell, fresh);
+        return fresh;
     }
 
 private:
-    struct Key {
+    static constexpr double one_deg = 1e-7;
+    static constexpr double cell_deg = 2 * one_deg;
+
+    struct Cell {
         std::int64_t lat;
         std::int64_t lon;
-        bool operator==(const Key&) const = default;
+        bool operator==(const Cell&) const = default;
     };
     struct Hash {
-        std::size_t operator()(const Key& key) const {
+        std::size_t operator()(const Cell& cell) const {
             constexpr std::uint64_t mix = 0x9e3779b97f4a7c15; // 2^64 over the golden ratio
-            return (static_cast<std::uint64_t>(key.lat) * mix ^
-                    static_cast<std::uint64_t>(key.lon)) *
+            return (static_cast<std::uint64_t>(cell.lat) * mix ^
+                    static_cast<std::uint64_t>(cell.lon)) *
                    mix;
         }
     };
-    std::unordered_map<Key, std::int64_t, Hash> numbers_;
+
+    static Cell cell_of(const GeoPoint& point) {
+        return {static_cast<std::int64_t>(std::floor(point.lat_deg / cell_deg)),
+                static_cast<std::int64_t>(std::floor(point.lon_deg / cell_deg))};
+    }
+    static bool are_one(const GeoPoint& a, const GeoPoint& b) {
+        constexpr double rounding = 1 + 1e-6; // of degrees in doubles: one_deg itself still counts
+        return std::abs(a.lat_deg - b.lat_deg) <= one_deg * rounding &&
+               std::abs(a.lon_deg - b.lon_deg) <= one_deg * rounding;
+    }
+
+    std::unordered_multimap<Cell, Node, Hash> nodes_;
+    std::int64_t count_ = 0;
 };
 
 struct Columns {
@@ -287,10 +325,10 @@ private:
             fail(fmt::format("the id {} stands twice, expected each once", way.id));
         }
         for (const auto& point : places_of(line)) {
-            const auto node = nodes_.number_of(point);
-            if (way.node_ids.empty() || way.node_ids.back() != node) {
-                way.node_ids.push_back(node);
-                way.line.push_back(point);
+            const auto node = nodes_.node_at(point);
+            if (way.node_ids.empty() || way.node_ids.back() != node.number) {
+                way.node_ids.push_back(node.number);
+                way.line.push_back(node.place);
             }
         }
         if (way.line.size() >= 2) {

@@ -3,6 +3,7 @@
 #include "storage/compressed.hpp"
 #include "storage/files.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -78,6 +79,37 @@ std::string content_of(const std::string& file) {
     return {std::istreambuf_iterator<char>{in}, {}};
 }
 
+/// Way 1 from node 11 to 12 and ways 2, 3 on from there, with one relation over node 12: from way 1
+/// to way 2, with those tags and further members.
+std::vector<TurnRule>
+turns_with(const std::string& tags,
+           const std::string& members = "<member type='node' ref='12' role='via'/>") {
+    const auto way = [](int id, int from, int to) {
+        return fmt::format("<way id='{}' version='1'><nd ref='{}'/><nd ref='{}'/>{}</way>",
+                           id,
+                           from,
+                           to,
+                           tag("highway", "primary"));
+    };
+    const auto file = written(
+        test_folder(),
+        "a.osm",
+        "<osm version='0.6'>"
+        "<node id='11' version='1' lat='48.1' lon='16.1'/>"
+        "<node id='12' version='1' lat='48.2' lon='16.2'/>"
+        "<node id='13' version='1' lat='48.3' lon='16.3'/>"
+        "<node id='14' version='1' lat='48.2' lon='16.3'/>" +
+            way(1, 11, 12) + way(2, 12, 13) + way(3, 12, 14) +
+            "<relation id='5' version='1'><member type='way' ref='1' role='from'/>" + members +
+            "<member type='way' ref='2' role='to'/>" + tags + "</relation></osm>");
+    const auto ways = read_network(file);
+    EXPECT_THAT(ways.at(1).turns, IsEmpty());
+    EXPECT_THAT(ways.at(2).turns, IsEmpty());
+    return ways.at(0).turns;
+}
+
+const std::string restriction = tag("type", "restriction");
+
 } // namespace
 
 TEST(NetworkReader, ReadsTheDrivableWaysOfARealMap) {
@@ -125,6 +157,45 @@ TEST(NetworkReader, ReadsEachSpellingOfASpeedLimit) {
     for (const auto* const other : {"signals", "DE:urban", "0", "-5", "1000", "50; 30", "mph"}) {
         EXPECT_EQ(limit_with(tag("maxspeed", other)), 0) << other;
     }
+}
+
+TEST(NetworkReader, ReadsEachSpellingOfATurnRestriction) {
+    for (const std::string value : {"left_turn", "right_turn", "straight_on", "u_turn"}) {
+        EXPECT_THAT(turns_with(restriction + tag("restriction", "no_" + value)),
+                    ElementsAre(TurnRule{12, 2, 0}));
+        EXPECT_THAT(turns_with(restriction + tag("restriction", "only_" + value)),
+                    ElementsAre(TurnRule{12, 2, 1}));
+    }
+    EXPECT_THAT(turns_with(restriction + tag("restriction", "no_entry")),
+                ElementsAre(TurnRule{12, 2, 0}));
+    EXPECT_THAT(turns_with(restriction + tag("restriction:motorcar", "no_left_turn")),
+                ElementsAre(TurnRule{12, 2, 0}));
+    EXPECT_THAT(
+        turns_with(restriction + tag("restriction", "no_left_turn") + tag("except", "bicycle;psv")),
+        ElementsAre(TurnRule{12, 2, 0}));
+}
+
+TEST(NetworkReader, PassesOverTurnRestrictionsThatAreNotForCarsAtAllHours) {
+    const auto left = tag("restriction", "no_left_turn");
+    for (const auto& tags : {left,
+                             tag("type", "route") + left,
+                             restriction + tag("restriction", "no_hope"),
+                             restriction + tag("restriction:hgv", "no_left_turn"),
+                             restriction + tag("restriction:conditional", "no_left_turn @ (Su)"),
+                             restriction + left + tag("except", "psv; motorcar"),
+                             restriction + left + tag("hour_on", "07:00")}) {
+        EXPECT_THAT(turns_with(tags), IsEmpty()) << tags;
+    }
+}
+
+TEST(NetworkReader, PassesOverTurnRestrictionsThatAreNotOverOneNode) {
+    const auto tags = restriction + tag("restriction", "no_left_turn");
+    EXPECT_THAT(turns_with(tags, ""), IsEmpty());
+    EXPECT_THAT(turns_with(tags, "<member type='way' ref='3' role='via'/>"), IsEmpty());
+    EXPECT_THAT(turns_with(tags,
+                           "<member type='node' ref='12' role='via'/>"
+                           "<member type='node' ref='13' role='via'/>"),
+                IsEmpty());
 }
 
 TEST(NetworkReader, NamesARoadByItsNumberIfItHasNoName) {
@@ -231,6 +302,21 @@ TEST(NetworkReader, MeetsLinesOfALayerWhereTheyShareAVertex) {
     ASSERT_EQ(ways.size(), 2U);
     EXPECT_THAT(ways[0].node_ids, ElementsAre(1, 2, 3));
     EXPECT_THAT(ways[1].node_ids, ElementsAre(4, 2));
+}
+
+TEST(NetworkReader, MeetsLinesOfALayerWhoseVerticesLieWithinACentimetre) {
+    // Ends drawn 0.6e-7 degrees apart, wherever on the grid of 1e-7 that happens to be.
+    for (int i = 0; i < 20; ++i) {
+        const double lon_deg = 10.01 + i * 0.13e-7;
+        const auto ways = read_geojson(geojson_of(
+            {{"{}", line(fmt::format("[10, 50], [{:.10f}, 50]", lon_deg))},
+             {"{}", line(fmt::format("[{:.10f}, 50.00000006], [10.02, 50]", lon_deg + 0.6e-7))},
+             {"{}", line(fmt::format("[{:.10f}, 50], [10.03, 50]", lon_deg + 3e-7))}}));
+        ASSERT_EQ(ways.size(), 3U);
+        EXPECT_EQ(ways[0].node_ids.back(), ways[1].node_ids.front());
+        EXPECT_EQ(ways[0].line.back(), ways[1].line.front());
+        EXPECT_NE(ways[0].node_ids.back(), ways[2].node_ids.front());
+    }
 }
 
 TEST(NetworkReader, FindsTheUsualColumnsOfALayer) {
