@@ -158,8 +158,11 @@ Head head_in(std::span<const std::byte> image) {
         throw InputError{fmt::format(
             "is a network file of version '{}', expected version {}", head.version, image_version)};
     }
-    if (head.head_sum != sum_of(head)) {
-        throw InputError{"its head is damaged: its sum is another"};
+    const bool is_filled_up =
+        std::ranges::all_of(image.first(head_bytes).subspan(sizeof(head)),
+                            [](std::byte byte) { return byte == std::byte{0}; });
+    if (head.head_sum != sum_of(head) || !is_filled_up) {
+        throw InputError{"is damaged: the sum of its head is another"};
     }
     if (head.bytes != image.size()) {
         throw InputError{

@@ -60,6 +60,9 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view text) {
+    if (text.empty()) { // which may lie nowhere
+        return;
+    }
     if (std::fwrite(text.data(), 1, text.size(), out_) != text.size()) {
         fail(file_, errno);
     }
