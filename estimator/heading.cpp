@@ -112,17 +112,6 @@ double end_s(const Heading& heading) {
     return heading.start_s + heading.step_s * static_cast<double>(heading.turned_rad.size() - 1);
 }
 
-double turned_at(const Heading& heading, double t_s) {
-    const double steps = std::clamp((t_s - heading.start_s) / heading.step_s,
-                                    0.0,
-                                    static_cast<double>(heading.turned_rad.size() - 1));
-    const auto i = static_cast<std::size_t>(steps);
-    const auto next = std::min(i + 1, heading.turned_rad.size() - 1);
-    return std::lerp(static_cast<double>(heading.turned_rad[i]),
-                     static_cast<double>(heading.turned_rad[next]),
-                     steps - static_cast<double>(i));
-}
-
 bool was_measured(const Heading& heading, double from_s, double to_s) {
     if (heading.turned_rad.empty() || from_s < heading.start_s - heading.step_s ||
         to_s > end_s(heading) + 2 * heading.step_s) {
@@ -325,6 +314,17 @@ bool is_contradicted(const Heading& heading, const std::vector<Course>& courses)
 }
 
 } // namespace
+
+double turned_at(const Heading& heading, double t_s) {
+    const double steps = std::clamp((t_s - heading.start_s) / heading.step_s,
+                                    0.0,
+                                    static_cast<double>(heading.turned_rad.size() - 1));
+    const auto i = static_cast<std::size_t>(steps);
+    const auto next = std::min(i + 1, heading.turned_rad.size() - 1);
+    return std::lerp(static_cast<double>(heading.turned_rad[i]),
+                     static_cast<double>(heading.turned_rad[next]),
+                     steps - static_cast<double>(i));
+}
 
 Turn turned(const Heading& heading, double from_s, double to_s) {
     if (!was_measured(heading, from_s, to_s)) {

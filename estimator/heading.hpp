@@ -16,6 +16,9 @@ struct Heading {
     double bias_sd_radps = 0;      ///< of what is left of the gyro's bias
 };
 
+/// The turn since start_s, held before and after; across silences nothing is added.
+double turned_at(const Heading& heading, double t_s);
+
 struct Turn {
     double rad;    ///< positive to the left
     double sd_rad; ///< infinite where not all of it was measured

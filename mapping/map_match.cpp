@@ -17,29 +17,35 @@ namespace {
 
 constexpr double straight_m = 0.25; // pieces keep the place along the edge within this
 
-/// Travel at which the trip came to a place of the path; the ends of the knots for one beyond them.
-double travel_at(const std::vector<Knot>& knots, double along_m) {
+/// The knot at a place of the path; the ends of the knots for one beyond them.
+Knot knot_at(const std::vector<Knot>& knots, double along_m) {
     const auto next =
         std::lower_bound(knots.begin(), knots.end(), along_m, [](const Knot& knot, double m) {
             return knot.along_m < m;
         });
     if (next == knots.begin() || next == knots.end()) {
-        return next == knots.end() ? knots.back().travel_m : next->travel_m;
+        const auto& end = next == knots.end() ? knots.back() : *next;
+        return {end.travel_m, along_m, end.sd_m};
     }
     const auto& before = *(next - 1);
     const double share = (along_m - before.along_m) / (next->along_m - before.along_m);
-    return std::lerp(before.travel_m, next->travel_m, share);
+    return {std::lerp(before.travel_m, next->travel_m, share),
+            along_m,
+            std::lerp(before.sd_m, next->sd_m, share)};
 }
 
 /// The knots between two places of the path, with new ones at both.
 std::vector<Knot> clipped(const std::vector<Knot>& knots, double from_m, double to_m) {
+    if (knots.empty()) {
+        return {};
+    }
     from_m = std::max(from_m, knots.front().along_m);
     to_m = std::min(to_m, knots.back().along_m);
     if (!(from_m < to_m)) {
         return {};
     }
-    std::vector<Knot> inside{{travel_at(knots, from_m), from_m}};
-    const Knot last{travel_at(knots, to_m), to_m};
+    std::vector<Knot> inside{knot_at(knots, from_m)};
+    const auto last = knot_at(knots, to_m);
     for (auto knot = std::upper_bound(knots.begin(),
                                       knots.end(),
                                       inside.front().travel_m,
@@ -80,6 +86,10 @@ std::size_t straight_count(std::span<const Knot> knots) {
     return good;
 }
 
+double worst_sd_m(std::span<const Knot> knots) {
+    return std::ranges::max(knots, {}, &Knot::sd_m).sd_m;
+}
+
 void add_leg(MatchedTrace& trace,
              const Leg& leg,
              const std::vector<Knot>& knots,
@@ -102,7 +112,8 @@ void add_leg(MatchedTrace& trace,
                              odometer.t_s(from.travel_m),
                              odometer.t_s(to.travel_m),
                              leg.confidence,
-                             ""});
+                             "",
+                             worst_sd_m(rest.first(count))});
         }
         rest = rest.subspan(count - 1);
     }
@@ -184,7 +195,8 @@ MatchedTrace map_match(const TripLog& trip,
     MatchedTrace trace;
     std::size_t sample = 0; // of the chain, up to which the trace is filled
     for (const auto& path : paths) {
-        auto pieces = pieces_of(path, smoothed_knots(path, roads, plane, positions), odometer);
+        auto pieces =
+            pieces_of(path, smoothed_knots(path, roads, plane, positions, odometer), odometer);
         if (pieces.empty()) {
             continue;
         }

@@ -31,6 +31,10 @@ struct MatchedPiece {
     double t_leave_s;
     double confidence;  ///< 0..1, of the edge and direction; 0 for the other kinds
     std::string reason; ///< why it is not on a road; "" on a road
+
+    /// Standard deviation of the place along the edge, given that it is the right edge: the largest
+    /// in the piece. 0 for the other kinds.
+    double offset_sd_m = 0;
 };
 
 /// In the order of travel, one after the other without holes, from the first to the last position.

@@ -1,163 +1,182 @@
 #include "mapping/match/offsets.hpp"
 
+#include "mapping/match/place_smoother.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace macadam {
 namespace {
 
-constexpr double window_m = 60;       // around where the sample's place puts a position
-constexpr double pull = 0.01;         // towards it: decides between the ways there and back
-constexpr double alike_m = 300;       // positions this near one another err alike (tens of seconds)
-constexpr double least_step_m = 0.05; // a car that moved less tells nothing new
-constexpr double odometer_drift = 0.01; // m2 per m: 1 m after 100 m
-constexpr double positions_drift = 2;   // m2 per m: travel is itself drawn from positions
-constexpr double astray_m = 15;         // off the line by more: hardly believed along it either
+constexpr double least_step_s = 0.95; // fixes nearer than this err alike
+constexpr double most_step_m = 15;    // without a knot, where travel is measured
+constexpr double least_step_m = 0.05; // a car that moved less is where it was
+constexpr double heading_half_m = 8;
+constexpr double gyro_step_m = 2;
+constexpr double bias_alike_s = 30;     // what is left of a gyro's bias is alike so long
+constexpr double silence_variance = 10; // of the heading after one: anything
 constexpr double longest_beyond_m = 40; // of noise beyond the end of a road; more is a hole
 constexpr double fade = 5;              // so that places still rise with travel
 
-/// The path's line, its places measured along the path.
-std::vector<LinePoint> line_of(const RoadPath& path, const RoadNetwork& roads, RoadPlane& plane) {
-    std::vector<LinePoint> line;
-    for (const auto& leg : path.legs) {
-        const auto link = plane.line(link_of(leg.edge));
-        const double edge_m = length_m(roads, leg.edge);
-        const bool forward = is_forward(leg.edge);
-        const auto offset_m = [&](const LinePoint& point) {
-            return forward ? point.along_m : edge_m - point.along_m;
-        };
-        for (std::size_t i = 0; i + 1 < link.size(); ++i) {
-            const auto& a = forward ? link[i] : link[link.size() - 1 - i];
-            const auto& b = forward ? link[i + 1] : link[link.size() - 2 - i];
-            const double step_m = offset_m(b) - offset_m(a);
-            const double from_m = std::max(offset_m(a), leg.from_m);
-            const double to_m = std::min(offset_m(b), leg.to_m);
-            if (from_m > to_m) {
-                continue;
-            }
-            for (const double at_m : {from_m, to_m}) {
-                const double fraction = step_m > 0 ? (at_m - offset_m(a)) / step_m : 0;
-                line.push_back({{std::lerp(a.at.east_m, b.at.east_m, fraction),
-                                 std::lerp(a.at.north_m, b.at.north_m, fraction)},
-                                leg.start_m + at_m - leg.from_m});
-            }
+/// The gyro's turn over travel, summed, so that means over travel cost nothing.
+class GyroTrack {
+public:
+    GyroTrack(const Heading& heading, const Odometer& odometer, double from_m, double to_m)
+        : heading_{heading}, odometer_{odometer}, from_m_{from_m} {
+        if (heading.turned_rad.empty()) {
+            return;
+        }
+        const auto count = static_cast<std::size_t>((to_m - from_m) / gyro_step_m) + 2;
+        sums_.reserve(count);
+        double before_rad = turned_at(heading, odometer.t_s(from_m));
+        sums_.push_back(0);
+        for (std::size_t i = 1; i < count; ++i) {
+            const double at_m = from_m + gyro_step_m * static_cast<double>(i);
+            const double rad = turned_at(heading, odometer.t_s(at_m));
+            sums_.push_back(sums_.back() + gyro_step_m * (before_rad + rad) / 2);
+            before_rad = rad;
         }
     }
-    return line;
-}
 
-struct Projection {
-    double along_m;
-    double off_m;
-};
-
-Projection project(const std::vector<LinePoint>& line, const PointEn& at, double expected_m) {
-    auto step = std::lower_bound(line.begin(),
-                                 line.end(),
-                                 expected_m - window_m,
-                                 [](const auto& p, double along_m) { return p.along_m < along_m; });
-    step = step == line.begin() ? step : step - 1;
-    Projection best{expected_m, std::numeric_limits<double>::infinity()};
-    double least = std::numeric_limits<double>::infinity();
-    for (; step + 1 < line.end() && step->along_m <= expected_m + window_m; ++step) {
-        const auto& a = *step;
-        const auto& b = *(step + 1);
-        const double east_m = b.at.east_m - a.at.east_m;
-        const double north_m = b.at.north_m - a.at.north_m;
-        const double square = east_m * east_m + north_m * north_m;
-        const double dot =
-            (at.east_m - a.at.east_m) * east_m + (at.north_m - a.at.north_m) * north_m;
-        const double fraction = square > 0 ? std::clamp(dot / square, 0.0, 1.0) : 0.0;
-        const double along_m = std::lerp(a.along_m, b.along_m, fraction);
-        const double off_east_m = a.at.east_m + fraction * east_m - at.east_m;
-        const double off_north_m = a.at.north_m + fraction * north_m - at.north_m;
-        const double off_square = off_east_m * off_east_m + off_north_m * off_north_m;
-        const double away_m = along_m - expected_m;
-        if (off_square + pull * away_m * away_m < least) {
-            least = off_square + pull * away_m * away_m;
-            best = {along_m, std::sqrt(off_square)};
+    /// Nothing where not all of it was measured.
+    std::optional<double> mean_rad(double travel_m) const {
+        if (sums_.empty()) {
+            return std::nullopt;
         }
+        const double low_m = travel_m - heading_half_m;
+        const double high_m = travel_m + heading_half_m;
+        const auto turn = turned(heading_, odometer_.t_s(low_m), odometer_.t_s(high_m));
+        return std::isinf(turn.sd_rad)
+                   ? std::nullopt
+                   : std::optional{(sum_at(high_m) - sum_at(low_m)) / (high_m - low_m)};
     }
-    return best;
-}
 
-/// What a position says of (place along the path - travel).
-struct Reading {
-    double travel_m;
-    double lead_m;
-    double variance;
+private:
+    double sum_at(double travel_m) const {
+        const double steps = std::clamp(
+            (travel_m - from_m_) / gyro_step_m, 0.0, static_cast<double>(sums_.size() - 1));
+        const auto i = std::min(static_cast<std::size_t>(steps), sums_.size() - 2);
+        return std::lerp(sums_[i], sums_[i + 1], steps - static_cast<double>(i));
+    }
+
+    const Heading& heading_;
+    const Odometer& odometer_;
+    double from_m_;
+    std::vector<double> sums_;
 };
 
-std::vector<Reading>
-readings_of(const RoadPath& path, const std::vector<LinePoint>& line, const Positions& positions) {
-    std::vector<Reading> readings;
-    std::size_t sample = 0; // the one at or before the position
-    for (auto i = path.positions.front(); i <= path.positions.back(); ++i) {
+/// What the gyro may have strayed between two epochs.
+double strayed_variance(const Heading& heading, const Epoch& from, const Epoch& to) {
+    const auto turn = turned(heading, from.t_s, to.t_s);
+    const double bias = heading.bias_sd_radps;
+    return std::isinf(turn.sd_rad)
+               ? silence_variance
+               : turn.sd_rad * turn.sd_rad + bias_alike_s * bias * bias * (to.t_s - from.t_s);
+}
+
+/// Measured travel between two fixes, in steps.
+std::vector<Epoch> epochs_between(const Epoch& from, const Epoch& to, const Odometer& odometer) {
+    const double gone_m = to.travel_m - from.travel_m;
+    const auto steps = static_cast<int>(std::ceil(gone_m / most_step_m));
+    std::vector<Epoch> between;
+    for (int i = 1; i < steps; ++i) {
+        const double travel_m = from.travel_m + gone_m * i / steps;
+        between.push_back({.t_s = odometer.t_s(travel_m),
+                           .travel_m = travel_m,
+                           .speed_mps = 0,
+                           .measured = true,
+                           .fix = std::nullopt,
+                           .fix_sd_m = to.fix_sd_m,
+                           .gyro_rad = std::nullopt});
+    }
+    return between;
+}
+
+/// The fixes of a path, those thinned that come in quick succession, and what lies between.
+std::vector<Epoch>
+epochs_of(const RoadPath& path, const Positions& positions, const Odometer& odometer) {
+    std::vector<Epoch> epochs;
+    const auto last = path.positions.back();
+    for (auto i = path.positions.front(); i <= last; ++i) {
         const auto& position = positions.all[i];
-        const double gone_m =
-            readings.empty() ? 2 * alike_m : position.travel_m - readings.back().travel_m;
-        if (gone_m < least_step_m) {
+        const bool first = epochs.empty();
+        const double took_s = first ? 0 : position.t_s - epochs.back().t_s;
+        if (!first && took_s < least_step_s && i != last) {
             continue;
         }
-        while (sample + 2 < path.positions.size() && path.positions[sample + 1] <= i) {
+        const double gone_m = first ? 0 : position.travel_m - epochs.back().travel_m;
+        const double known_mps = odometer.speed_mps(position.t_s - took_s / 2);
+        const double speed_mps = odometer.speed_mps(position.t_s);
+        const double mean_mps = took_s > 0 ? gone_m / took_s : 0;
+        const Epoch epoch{.t_s = position.t_s,
+                          .travel_m = position.travel_m,
+                          .speed_mps = std::isnan(speed_mps) ? mean_mps : speed_mps,
+                          .measured = positions.odometer && !std::isnan(known_mps),
+                          .fix = position.at,
+                          .fix_sd_m = static_cast<double>(position.own_sd_m),
+                          .gyro_rad = std::nullopt};
+        if (!first && epoch.measured) {
+            const auto between = epochs_between(epochs.back(), epoch, odometer);
+            epochs.insert(epochs.end(), between.begin(), between.end());
+        }
+        epochs.push_back(epoch);
+    }
+    return epochs;
+}
+
+std::vector<Epoch>
+with_gyro(std::vector<Epoch> epochs, const Heading& heading, const Odometer& odometer) {
+    if (heading.turned_rad.empty()) {
+        return epochs;
+    }
+    const GyroTrack gyro{heading,
+                         odometer,
+                         epochs.front().travel_m - heading_half_m,
+                         epochs.back().travel_m + heading_half_m};
+    for (std::size_t k = 0; k < epochs.size(); ++k) {
+        epochs[k].gyro_rad = gyro.mean_rad(epochs[k].travel_m);
+        epochs[k].heading_variance =
+            k > 0 ? strayed_variance(heading, epochs[k - 1], epochs[k]) : 0;
+    }
+    return epochs;
+}
+
+/// Where on the driven line the samples put the epochs: straight between them over travel.
+std::vector<double> nominal_places(const std::vector<Epoch>& epochs,
+                                   const RoadPath& path,
+                                   const Positions& positions,
+                                   const DrivenLine& line) {
+    const auto travel_m = [&](std::size_t sample) {
+        return positions.all[path.positions[sample]].travel_m;
+    };
+    std::vector<double> nominal_m;
+    std::size_t sample = 0; // the one at or before the epoch
+    const auto count = path.positions.size();
+    for (const auto& epoch : epochs) {
+        while (sample + 2 < count && travel_m(sample + 1) <= epoch.travel_m) {
             ++sample;
         }
-        const auto next = std::min(sample + 1, path.positions.size() - 1);
-        const double from_m = positions.all[path.positions[sample]].travel_m;
-        const double to_m = positions.all[path.positions[next]].travel_m;
-        const double share = to_m > from_m ? (position.travel_m - from_m) / (to_m - from_m) : 0;
-        const double expected_m =
-            std::lerp(path.sample_m[sample], path.sample_m[next], std::clamp(share, 0.0, 1.0));
-        const auto found = project(line, position.at, expected_m);
-        const double astray = found.off_m / astray_m;
-        const auto sd_m = static_cast<double>(position.own_sd_m);
-        readings.push_back(
-            {position.travel_m,
-             found.along_m - position.travel_m,
-             sd_m * sd_m * (1 + astray * astray) * std::max(1.0, 2 * alike_m / gone_m)});
+        const auto next = std::min(sample + 1, count - 1);
+        const double gap_m = travel_m(next) - travel_m(sample);
+        const double share = gap_m > 0 ? (epoch.travel_m - travel_m(sample)) / gap_m : 0;
+        nominal_m.push_back(std::lerp(driven_m_at(line, path.sample_m[sample]),
+                                      driven_m_at(line, path.sample_m[next]),
+                                      std::clamp(share, 0.0, 1.0)));
     }
-    return readings;
-}
-
-struct Belief {
-    double mean;
-    double variance;
-};
-
-std::vector<Belief> smoothed(const std::vector<Reading>& readings, double drift) {
-    std::vector<Belief> beliefs;
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-        const auto& reading = readings[i];
-        if (i == 0) {
-            beliefs.push_back({reading.lead_m, reading.variance});
-            continue;
-        }
-        const double gone_m = reading.travel_m - readings[i - 1].travel_m;
-        const double predicted = beliefs.back().variance + drift * gone_m;
-        const double gain = predicted / (predicted + reading.variance);
-        const double mean = beliefs.back().mean;
-        beliefs.push_back({mean + gain * (reading.lead_m - mean), (1 - gain) * predicted});
-    }
-    for (auto i = beliefs.size(); i-- > 1;) {
-        const double gone_m = readings[i].travel_m - readings[i - 1].travel_m;
-        auto& belief = beliefs[i - 1];
-        const double gain = belief.variance / (belief.variance + drift * gone_m);
-        belief.mean += gain * (beliefs[i].mean - belief.mean);
-    }
-    return beliefs;
+    return nominal_m;
 }
 
 /// Noise may put a trip's ends a little beyond the ends of its path: `beyond_m` of it is taken
 /// back, all at the end `at_m` and less and less over the way from there.
-void pull_in(std::vector<Knot>& knots, double at_m, double beyond_m) {
+std::vector<Knot> pulled_in(std::vector<Knot> knots, double at_m, double beyond_m) {
     if (beyond_m == 0 || std::abs(beyond_m) > longest_beyond_m) {
-        return;
+        return knots;
     }
     const double fade_m = fade * std::abs(beyond_m);
     for (auto& knot : knots) {
         knot.along_m -= beyond_m * std::max(0.0, 1 - std::abs(knot.travel_m - at_m) / fade_m);
     }
+    return knots;
 }
 
 } // namespace
@@ -165,19 +184,34 @@ void pull_in(std::vector<Knot>& knots, double at_m, double beyond_m) {
 std::vector<Knot> smoothed_knots(const RoadPath& path,
                                  const RoadNetwork& roads,
                                  RoadPlane& plane,
-                                 const Positions& positions) {
-    const auto line = line_of(path, roads, plane);
-    const auto readings = readings_of(path, line, positions);
-    const auto leads = smoothed(readings, positions.odometer ? odometer_drift : positions_drift);
-    std::vector<Knot> knots;
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-        const double along_m = readings[i].travel_m + leads[i].mean;
-        knots.push_back({readings[i].travel_m,
-                         knots.empty() ? along_m : std::max(knots.back().along_m, along_m)});
+                                 const Positions& positions,
+                                 const Odometer& odometer) {
+    const auto line = driven_line(path, roads, plane);
+    if (line.at.size() < 2) {
+        return {};
     }
-    pull_in(knots, knots.front().travel_m, std::min(0.0, knots.front().along_m));
-    pull_in(knots, knots.back().travel_m, std::max(0.0, knots.back().along_m - length_m(path)));
-    return knots;
+    const auto epochs =
+        with_gyro(epochs_of(path, positions, odometer), *positions.heading, odometer);
+    const auto placed = smoothed_places(line,
+                                        epochs,
+                                        nominal_places(epochs, path, positions, line),
+                                        {.latency_sd_s = positions.latency_sd_s,
+                                         .scale_sd = positions.odometer ? 0.01 : 1e-4,
+                                         .heading_half_m = heading_half_m});
+    std::vector<Knot> knots;
+    for (std::size_t k = 0; k < epochs.size(); ++k) {
+        const double along_m = place_at(line, placed[k].driven_m).along_m;
+        if (knots.empty() || epochs[k].travel_m - knots.back().travel_m > least_step_m) {
+            knots.push_back({epochs[k].travel_m,
+                             knots.empty() ? along_m : std::max(knots.back().along_m, along_m),
+                             placed[k].sd_m});
+        }
+    }
+    const double before_m = std::min(0.0, knots.front().along_m);
+    const double beyond_m = std::max(0.0, knots.back().along_m - length_m(path));
+    const double end_m = knots.back().travel_m;
+    return pulled_in(
+        pulled_in(std::move(knots), epochs.front().travel_m, before_m), end_m, beyond_m);
 }
 
 } // namespace macadam

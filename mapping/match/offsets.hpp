@@ -10,18 +10,17 @@ namespace macadam {
 struct Knot {
     double travel_m; ///< rising
     double along_m;  ///< never falling; beyond the path's ends where the trip went beyond
+    double sd_m;     ///< of along_m
 };
 
-/// Place along the path over travel: each position projected near where its sample was put, all of
-/// them smoothed against travel. The difference of the two rulers drifts slowly (scale of the
-/// odometer, cut corners of the map) while the error of positions is alike over hundreds of metres;
-/// a random walk against that noise, smoothed forward and backward, weighs one against the other.
-///
-/// Source: H. E. Rauch, F. Tung, C. T. Striebel, "Maximum likelihood estimates of linear dynamic
-/// systems", AIAA Journal 3 (1965), pp. 1445-1450.
+/// Place along the path over travel, never by the nearest point: all that was measured (fixes with
+/// their slow error and latency, travel with its scale, the gyro's turns against the path's) goes
+/// into one smoother along the path as a car drives it (place_smoother.hpp). At least one knot at
+/// each fix that comes a second after the last, and each 12 m where travel is measured.
 std::vector<Knot> smoothed_knots(const RoadPath& path,
                                  const RoadNetwork& roads,
                                  RoadPlane& plane,
-                                 const Positions& positions);
+                                 const Positions& positions,
+                                 const Odometer& odometer);
 
 } // namespace macadam

@@ -149,6 +149,19 @@ std::vector<std::size_t> thinned(const Positions& positions, double spacing_m) {
     return samples;
 }
 
+/// Only other sensors know of it; a latency of 0 that nobody stated was not found.
+double latency_sd_s(const TripLog& trip, const Heading& heading) {
+    constexpr double stated_s = 0.02;
+    constexpr double estimated_s = 0.1;
+    constexpr double anything_s = 1;
+    if (trip.speed.t_s.empty() && heading.turned_rad.empty()) {
+        return 0;
+    }
+    return trip.meta.gnss_latency_stated  ? stated_s
+           : trip.meta.gnss_latency_s > 0 ? estimated_s
+                                          : anything_s;
+}
+
 } // namespace
 
 std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixes,
@@ -166,7 +179,7 @@ Positions positions_of(const TripLog& trip,
     assert(use.fixes.size() == trip.fixes.size());
     const auto faults = faults_of(trip.fixes, worst_radius_m);
 
-    Positions positions{{}, has_speed(trip), {}, {}, &heading};
+    Positions positions{{}, has_speed(trip), {}, {}, &heading, latency_sd_s(trip, heading)};
     std::vector<GeoPoint> places;
     for (std::size_t i = 0; i < trip.fixes.size(); ++i) {
         if (!faults[i]) {

@@ -30,6 +30,8 @@ struct Positions {
     /// `turned(*heading, a.t_s, b.t_s)` is the turn from one position to another; the caller of
     /// positions_of keeps it. Empty where the trip has no gyro.
     const Heading* heading = nullptr;
+
+    double latency_sd_s = 0; ///< of what is left in t_s of the receiver's latency
 };
 
 /// Why each fix does not serve: no position, worse accuracy than `worst_accuracy_m`, the fix before
