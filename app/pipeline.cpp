@@ -197,6 +197,18 @@ void expect_sensors(const TripLog& trip, const std::optional<SensorSet>& sensors
     }
 }
 
+/// By the speeds if they tell it, else by the ways from fix to fix against wheels and gyro.
+std::optional<double> latency_of(const TripLog& trip) {
+    const auto by_speeds = estimate_gnss_latency_s(trip);
+    if (by_speeds || trip.fixes.size() < 2 || (trip.speed.t_s.empty() && trip.gyro.t_s.empty())) {
+        return by_speeds;
+    }
+    auto use = unused(trip);
+    const auto odometer = make_odometer(trip, {}, use);
+    const auto mounting = estimate_mounting(trip, odometer);
+    return estimate_gnss_latency_s(trip, make_heading(trip, odometer, mounting));
+}
+
 } // namespace
 
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
@@ -273,7 +285,7 @@ TripLog with_latency(TripLog trip, std::vector<std::string>& warnings) {
     if (trip.meta.gnss_latency_stated || trip.fixes.empty()) {
         return trip;
     }
-    if (const auto latency_s = estimate_gnss_latency_s(trip)) {
+    if (const auto latency_s = latency_of(trip)) {
         trip.meta.gnss_latency_s = *latency_s;
         warnings.push_back(
             fmt::format("gnss_latency_s is not stated; estimated as {:.2f} s", *latency_s));

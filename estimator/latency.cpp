@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace macadam {
@@ -12,6 +13,13 @@ constexpr int lags = 61;                // 0 to 3 s
 constexpr std::size_t least_fixes = 30; // fewer agree by chance
 constexpr double longest_step_s = 0.5;  // between wheel speeds that are joined by a line
 constexpr double clear_share = 0.5;     // of the worst lag's deviation: the best must be below it
+
+constexpr double least_chord_m = 8;
+constexpr double longest_chord_s = 6;
+constexpr float most_apart_mps = 3; // a faulty reading counts no more than this
+constexpr float most_apart_rad = 0.3F;
+constexpr double credible_nats = 4;
+constexpr double widest_s = 0.4; // about the best lag: no lag farther off may be credible
 
 float median_of(std::vector<float> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -58,6 +66,128 @@ double deviation_mps(const TripLog& trip, double lag_s) {
     return sum / static_cast<double>(apart_mps.size());
 }
 
+// ------------------------------------------------------------- from place to place, and turns
+
+/// The way between two fixes: long enough that their noise leaves it a course.
+struct Chord {
+    double from_s; ///< of the stamps
+    double to_s;
+    double speed_mps;
+    double course_rad; ///< positive to the left
+};
+
+std::vector<Chord> chords_of(const TripLog& trip) {
+    std::vector<Chord> chords;
+    const GnssFix* from = nullptr;
+    for (const auto& fix : trip.fixes) {
+        if (from == nullptr || fix.t_s - from->t_s > longest_chord_s) {
+            from = &fix;
+            continue;
+        }
+        const double way_m = distance_m(from->at, fix.at);
+        if (way_m >= least_chord_m) {
+            chords.push_back({from->t_s,
+                              fix.t_s,
+                              way_m / (fix.t_s - from->t_s),
+                              -course_deg(from->at, fix.at) * std::numbers::pi / 180});
+            from = &fix;
+        }
+    }
+    return chords;
+}
+
+/// Wheel speeds summed: metres at each reading's time.
+std::vector<double> wheel_travel_m(const SpeedSamples& wheels) {
+    std::vector<double> travel_m(wheels.t_s.size(), 0.0);
+    for (std::size_t i = 1; i < travel_m.size(); ++i) {
+        const double mean_mps =
+            static_cast<double>(wheels.speed_mps[i - 1] + wheels.speed_mps[i]) / 2;
+        travel_m[i] = travel_m[i - 1] + mean_mps * (wheels.t_s[i] - wheels.t_s[i - 1]);
+    }
+    return travel_m;
+}
+
+double travel_at(const SpeedSamples& wheels, const std::vector<double>& travel_m, double t_s) {
+    const auto after = std::ranges::upper_bound(wheels.t_s, t_s) - wheels.t_s.begin();
+    if (after == 0 || after == std::ssize(wheels.t_s)) {
+        return NAN;
+    }
+    const auto i = static_cast<std::size_t>(after);
+    const double share = (t_s - wheels.t_s[i - 1]) / (wheels.t_s[i] - wheels.t_s[i - 1]);
+    return std::lerp(travel_m[i - 1], travel_m[i], share);
+}
+
+/// -log likelihood of differences that have one middle and fat tails (Laplace's distribution);
+/// 0 if too few can be compared. Neighbours share a fix, so two of them count as one.
+double cost_of(std::vector<float> apart, float most) {
+    if (apart.size() < least_fixes) {
+        return 0;
+    }
+    const float middle = median_of(apart);
+    double sum = 0;
+    for (const float a : apart) {
+        sum += static_cast<double>(std::min(std::abs(a - middle), most));
+    }
+    const auto n = static_cast<double>(apart.size());
+    return n / 2 * std::log(std::max(sum / n, 1e-3));
+}
+
+/// Of a lag, by the speeds from place to place against the wheels'.
+double speed_cost(const std::vector<Chord>& chords,
+                  const SpeedSamples& wheels,
+                  const std::vector<double>& travel_m,
+                  double lag_s) {
+    std::vector<float> apart_mps;
+    for (const auto& chord : chords) {
+        const double way_m = travel_at(wheels, travel_m, chord.to_s - lag_s) -
+                             travel_at(wheels, travel_m, chord.from_s - lag_s);
+        if (std::isfinite(way_m)) {
+            apart_mps.push_back(
+                static_cast<float>(chord.speed_mps - way_m / (chord.to_s - chord.from_s)));
+        }
+    }
+    return cost_of(std::move(apart_mps), most_apart_mps);
+}
+
+/// The gyro's mean turn so far over a chord (Simpson's rule).
+double mean_turned_rad(const Heading& heading, const Chord& chord, double lag_s) {
+    const double from_s = chord.from_s - lag_s;
+    const double to_s = chord.to_s - lag_s;
+    return (turned_at(heading, from_s) + 4 * turned_at(heading, (from_s + to_s) / 2) +
+            turned_at(heading, to_s)) /
+           6;
+}
+
+/// Of a lag, by the turns from one chord to the next against the gyro's.
+double turn_cost(const std::vector<Chord>& chords, const Heading& heading, double lag_s) {
+    std::vector<float> apart_rad;
+    for (std::size_t i = 1; i < chords.size() && !heading.turned_rad.empty(); ++i) {
+        const auto& a = chords[i - 1];
+        const auto& b = chords[i];
+        if (a.to_s != b.from_s || std::isinf(turned(heading, a.from_s - lag_s, b.to_s).sd_rad)) {
+            continue;
+        }
+        const double gyro_rad =
+            mean_turned_rad(heading, b, lag_s) - mean_turned_rad(heading, a, lag_s);
+        apart_rad.push_back(static_cast<float>(
+            std::remainder(b.course_rad - a.course_rad - gyro_rad, 2 * std::numbers::pi)));
+    }
+    return cost_of(std::move(apart_rad), most_apart_rad);
+}
+
+/// The vertex of the parabola through the least of the values and its neighbours, as a lag.
+double vertex_s(const std::vector<double>& values) {
+    const auto best = std::ranges::min_element(values);
+    const auto i = best - values.begin();
+    if (i == 0 || best + 1 == values.end()) {
+        return static_cast<double>(i) * lag_step_s;
+    }
+    const double before = *(best - 1);
+    const double after = *(best + 1);
+    const double bend = before - 2 * *best + after;
+    return (static_cast<double>(i) + (bend > 0 ? 0.5 * (before - after) / bend : 0)) * lag_step_s;
+}
+
 } // namespace
 
 std::optional<double> estimate_gnss_latency_s(const TripLog& trip) {
@@ -72,15 +202,31 @@ std::optional<double> estimate_gnss_latency_s(const TripLog& trip) {
     if (!(*best < clear_share * std::ranges::max(deviations))) {
         return std::nullopt;
     }
-    const auto i = best - deviations.begin();
-    if (i == 0 || i + 1 == lags) {
-        return static_cast<double>(i) * lag_step_s;
+    return vertex_s(deviations);
+}
+
+std::optional<double> estimate_gnss_latency_s(const TripLog& trip, const Heading& heading) {
+    if (const auto by_speeds = estimate_gnss_latency_s(trip)) {
+        return by_speeds;
     }
-    // The vertex of the parabola through the best lag and its neighbours.
-    const double before = *(best - 1);
-    const double after = *(best + 1);
-    const double bend = before - 2 * *best + after;
-    return (static_cast<double>(i) + (bend > 0 ? 0.5 * (before - after) / bend : 0)) * lag_step_s;
+    const auto chords = chords_of(trip);
+    const auto travel_m = wheel_travel_m(trip.speed);
+    std::vector<double> costs;
+    for (int i = 0; i < lags; ++i) {
+        const double lag_s = i * lag_step_s;
+        costs.push_back(
+            speed_cost(chords, trip.speed, travel_m, lag_s - trip.meta.speed_latency_s) +
+            turn_cost(chords, heading, lag_s));
+    }
+    const double best_s = vertex_s(costs);
+    const double least = std::ranges::min(costs);
+    for (int i = 0; i < lags; ++i) {
+        const bool credible = costs[static_cast<std::size_t>(i)] < least + credible_nats;
+        if (credible && std::abs(i * lag_step_s - best_s) > widest_s) {
+            return std::nullopt;
+        }
+    }
+    return best_s;
 }
 
 } // namespace macadam

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimator/common/trip.hpp"
+#include "estimator/heading.hpp"
 
 #include <optional>
 
@@ -15,5 +15,13 @@ namespace macadam {
 ///
 /// \returns nothing if the trip lacks either speed, or if the speed changed too little to tell.
 std::optional<double> estimate_gnss_latency_s(const TripLog& trip);
+
+/// The same, and where the speeds do not tell it: the lag at which the ways from fix to fix agree
+/// best with the wheels, in length, and with the gyro (`heading`), in their turns. Both are weighed
+/// by how well they agree.
+///
+/// \returns nothing if lags that differ by 0.4 s are about as likely, or the log has neither
+/// sensor.
+std::optional<double> estimate_gnss_latency_s(const TripLog& trip, const Heading& heading);
 
 } // namespace macadam

@@ -101,7 +101,8 @@ epochs_of(const RoadPath& path, const Positions& positions, const Odometer& odom
         const auto& position = positions.all[i];
         const bool first = epochs.empty();
         const double took_s = first ? 0 : position.t_s - epochs.back().t_s;
-        if (!first && took_s < least_step_s && i != last) {
+        const bool idle = position.dead_reckoned || took_s < least_step_s;
+        if (!first && idle && i != last) {
             continue;
         }
         const double gone_m = first ? 0 : position.travel_m - epochs.back().travel_m;
@@ -112,7 +113,7 @@ epochs_of(const RoadPath& path, const Positions& positions, const Odometer& odom
                           .travel_m = position.travel_m,
                           .speed_mps = std::isnan(speed_mps) ? mean_mps : speed_mps,
                           .measured = positions.odometer && !std::isnan(known_mps),
-                          .fix = position.at,
+                          .fix = position.dead_reckoned ? std::nullopt : std::optional{position.at},
                           .fix_sd_m = static_cast<double>(position.own_sd_m),
                           .gyro_rad = std::nullopt};
         if (!first && epoch.measured) {

@@ -1,5 +1,7 @@
 #include "mapping/match/positions.hpp"
 
+#include "mapping/match/dead_reckoning.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -128,6 +130,30 @@ float own_sd_m(const GnssFix& fix) {
                                          : usual_m;
 }
 
+/// With the places that odometer and gyro give where fixes are far apart.
+std::vector<Position> with_dead_reckoned(const Positions& positions,
+                                         const Odometer& odometer,
+                                         const MatchConfig& config) {
+    const auto places = dead_reckoned(positions, odometer, config.spacing_m);
+    std::vector<Position> all;
+    all.reserve(positions.all.size() + places.size());
+    auto next = places.begin();
+    for (const auto& position : positions.all) {
+        for (; next != places.end() && next->travel_m < position.travel_m; ++next) {
+            all.push_back({next->t_s,
+                           next->travel_m,
+                           next->at,
+                           positions.frame.to_geo(next->at),
+                           static_cast<float>(std::hypot(config.emission_sd_m, next->sd_m)),
+                           static_cast<float>(next->sd_m),
+                           next->course_rad,
+                           true});
+        }
+        all.push_back(position);
+    }
+    return all;
+}
+
 /// One each spacing_m of the way; where the car stands, one.
 std::vector<std::size_t> thinned(const Positions& positions, double spacing_m) {
     std::vector<std::size_t> samples;
@@ -207,6 +233,7 @@ Positions positions_of(const TripLog& trip,
     for (std::size_t i = 0; i < local.size(); ++i) {
         positions.all[i].at = local[i];
     }
+    positions.all = with_dead_reckoned(positions, odometer, config);
     positions.samples = thinned(positions, config.spacing_m);
     return positions;
 }

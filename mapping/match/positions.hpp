@@ -15,9 +15,10 @@ struct Position {
     double travel_m;
     PointEn at; ///< in Positions::frame
     GeoPoint place;
-    float sd_m;       ///< across the road: receiver, map and lane together
-    float own_sd_m;   ///< of the receiver alone
-    float course_rad; ///< clockwise from north; NaN where it says nothing
+    float sd_m;                 ///< across the road: receiver, map and lane together
+    float own_sd_m;             ///< of the receiver alone
+    float course_rad;           ///< clockwise from north; NaN where it says nothing
+    bool dead_reckoned = false; ///< no fix, but a place between fixes by odometer and gyro
 };
 
 /// The positions of a trip, and which of them are matched.

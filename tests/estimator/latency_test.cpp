@@ -43,5 +43,68 @@ TEST(Latency, NeedsBothSpeeds) {
     EXPECT_EQ(estimate_gnss_latency_s(trip), std::nullopt);
 }
 
+/// The same minute along bends, four times; the receiver tells places alone, 0.3 m of noise each.
+TripLog bends(double late_s, bool wheels, bool gyro) {
+    const auto turned_rad = [](double t_s) { return 0.8 * std::sin(0.25 * t_s); };
+    const auto mps = [](double t_s) { return 12 + 4 * std::sin(0.35 * t_s); };
+    TripLog trip;
+    for (int i = 0; i < 12000; ++i) {
+        const double t_s = 0.02 * i;
+        if (wheels) {
+            trip.speed.t_s.push_back(t_s);
+            trip.speed.speed_mps.push_back(static_cast<float>(1.005 * mps(t_s)));
+        }
+        if (gyro) {
+            const double radps = (turned_rad(t_s + 0.01) - turned_rad(t_s - 0.01)) / 0.02;
+            trip.gyro.t_s.push_back(t_s);
+            trip.gyro.x.push_back(0);
+            trip.gyro.y.push_back(0);
+            trip.gyro.z.push_back(static_cast<float>(radps + 0.002));
+        }
+    }
+    double east_m = 0;
+    double north_m = 0;
+    unsigned noise = 1;
+    const auto noise_m = [&] {
+        noise = noise * 1664525 + 1013904223;
+        return 1.0 * (noise >> 8) / (1U << 24) - 0.5;
+    };
+    constexpr int fine = 20; // of a second
+    for (int i = 0; i < 240 * fine; ++i) {
+        const double t_s = static_cast<double>(i) / fine - late_s;
+        if (i % fine == 0) {
+            trip.fixes.push_back(
+                {static_cast<double>(i) / fine,
+                 {48 + (north_m + noise_m()) / 111200, 11 + (east_m + noise_m()) / 74550},
+                 NAN,
+                 NAN,
+                 3});
+        }
+        east_m += mps(t_s + 0.025) / fine * std::cos(turned_rad(t_s + 0.025));
+        north_m += mps(t_s + 0.025) / fine * std::sin(turned_rad(t_s + 0.025));
+    }
+    return trip;
+}
+
+Heading heading_of(const TripLog& trip) {
+    auto use = unused(trip);
+    const auto odometer = make_odometer(trip, {}, use);
+    return make_heading(trip, odometer, estimate_mounting(trip, odometer));
+}
+
+TEST(Latency, IsFoundFromPlacesAgainstWheelsAndAgainstTheGyro) {
+    for (const double late_s : {0.2, 0.9, 2.1}) {
+        for (const auto& trip :
+             {bends(late_s, true, false), bends(late_s, false, true), bends(late_s, true, true)}) {
+            EXPECT_NEAR(estimate_gnss_latency_s(trip, heading_of(trip)).value_or(-1), late_s, 0.1);
+        }
+    }
+}
+
+TEST(Latency, IsNotGuessedFromPlacesAlone) {
+    const auto trip = bends(0.9, false, false);
+    EXPECT_EQ(estimate_gnss_latency_s(trip, {}), std::nullopt);
+}
+
 } // namespace
 } // namespace macadam

@@ -114,15 +114,18 @@ void add_fault(DriveScore& score, double route_m, const char* what) {
 } // namespace
 
 Matched matched(TripLog trip, const RoadNetwork& roads, const MatchConfig& config) {
+    const auto heading_of = [&](const Odometer& odometer) {
+        return make_heading(trip, odometer, estimate_mounting(trip, odometer));
+    };
     std::optional<double> latency_s = trip.meta.gnss_latency_s;
     if (!trip.meta.gnss_latency_stated) {
-        latency_s = estimate_gnss_latency_s(trip);
+        auto unlagged = unused(trip);
+        latency_s = estimate_gnss_latency_s(trip, heading_of(make_odometer(trip, {}, unlagged)));
         trip.meta.gnss_latency_s = latency_s.value_or(0);
     }
     auto use = unused(trip);
     auto odometer = make_odometer(trip, {}, use);
-    const auto heading = make_heading(trip, odometer, estimate_mounting(trip, odometer));
-    auto trace = map_match(trip, odometer, roads, config, use, heading);
+    auto trace = map_match(trip, odometer, roads, config, use, heading_of(odometer));
     return {latency_s, std::move(odometer), std::move(trace)};
 }
 
