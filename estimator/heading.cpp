@@ -293,7 +293,9 @@ Heading without_bias(Heading heading, const std::vector<Belief>& beliefs) {
 }
 
 /// Whether most courses turn otherwise than the gyro does.
-bool is_contradicted(const Heading& heading, const std::vector<Course>& courses) {
+bool is_contradicted(const Heading& heading,
+                     const std::vector<Course>& courses,
+                     const TripMeta& meta) {
     int compared = 0;
     int contradicting = 0;
     for (std::size_t from = 0, to = 0; to < courses.size(); ++to) {
@@ -307,8 +309,11 @@ bool is_contradicted(const Heading& heading, const std::vector<Course>& courses)
             continue;
         }
         const double gyro_rad = turned_at(heading, b.t_s) - turned_at(heading, a.t_s);
+        const double blurred_rad =
+            std::abs(blur_rad(heading, a.t_s, meta)) + std::abs(blur_rad(heading, b.t_s, meta));
+        const double off_rad = std::abs(wrapped(gyro_rad - (b.rad - a.rad)));
         ++compared;
-        contradicting += std::abs(wrapped(gyro_rad - (b.rad - a.rad))) > contradiction_rad ? 1 : 0;
+        contradicting += off_rad > contradiction_rad + 3 * blurred_rad ? 1 : 0;
     }
     return contradicting > most_contradicting * compared;
 }
@@ -348,7 +353,7 @@ Heading make_heading(const TripLog& trip, const Odometer& odometer, const Mounti
     std::ranges::copy(driving_readings(heading, courses, trip.meta), std::back_inserter(readings));
     const auto beliefs = smoothed_bias(heading, std::move(readings));
     heading = without_bias(std::move(heading), beliefs);
-    return is_contradicted(heading, courses) ? Heading{} : heading;
+    return is_contradicted(heading, courses, trip.meta) ? Heading{} : heading;
 }
 
 } // namespace macadam

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -18,6 +19,7 @@ constexpr double least_chord_m = 8;
 constexpr double longest_chord_s = 6;
 constexpr float most_apart_mps = 3; // a faulty reading counts no more than this
 constexpr float most_apart_rad = 0.3F;
+constexpr std::size_t neighbours = 8; // chords on either side
 constexpr double credible_nats = 4;
 constexpr double widest_s = 0.4; // about the best lag: no lag farther off may be credible
 
@@ -158,20 +160,47 @@ double mean_turned_rad(const Heading& heading, const Chord& chord, double lag_s)
            6;
 }
 
-/// Of a lag, by the turns from one chord to the next against the gyro's.
+/// What each has more than its neighbours on both sides in the mean.
+std::vector<float> apart_from_neighbours(const std::vector<double>& values) {
+    std::vector<double> sums{0};
+    for (const double value : values) {
+        sums.push_back(sums.back() + value);
+    }
+    std::vector<float> apart;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto low = i - std::min(i, neighbours);
+        const auto high = std::min(i + neighbours + 1, values.size());
+        const double mean = (sums[high] - sums[low]) / static_cast<double>(high - low);
+        apart.push_back(static_cast<float>(values[i] - mean));
+    }
+    return apart;
+}
+
+/// Of a lag, by the courses of the chords against the gyro. Where its zero points is unknown and
+/// wanders, so only what is more than in neighbours counts.
 double turn_cost(const std::vector<Chord>& chords, const Heading& heading, double lag_s) {
     std::vector<float> apart_rad;
-    for (std::size_t i = 1; i < chords.size() && !heading.turned_rad.empty(); ++i) {
-        const auto& a = chords[i - 1];
-        const auto& b = chords[i];
-        if (a.to_s != b.from_s || std::isinf(turned(heading, a.from_s - lag_s, b.to_s).sd_rad)) {
+    std::vector<double> zeros_rad; // course less turn, of chords without a silence between
+    double last_s = 0;
+    const auto close = [&] {
+        std::ranges::copy(apart_from_neighbours(zeros_rad), std::back_inserter(apart_rad));
+        zeros_rad.clear();
+    };
+    for (const auto& chord : chords) {
+        if (heading.turned_rad.empty() ||
+            std::isinf(turned(heading, chord.from_s - lag_s, chord.to_s).sd_rad)) {
             continue;
         }
-        const double gyro_rad =
-            mean_turned_rad(heading, b, lag_s) - mean_turned_rad(heading, a, lag_s);
-        apart_rad.push_back(static_cast<float>(
-            std::remainder(b.course_rad - a.course_rad - gyro_rad, 2 * std::numbers::pi)));
+        if (!zeros_rad.empty() && chord.from_s - last_s > longest_chord_s) {
+            close();
+        }
+        const double zero_rad = chord.course_rad - mean_turned_rad(heading, chord, lag_s);
+        const double before_rad = zeros_rad.empty() ? zero_rad : zeros_rad.back();
+        zeros_rad.push_back(before_rad +
+                            std::remainder(zero_rad - before_rad, 2 * std::numbers::pi));
+        last_s = chord.to_s;
     }
+    close();
     return cost_of(std::move(apart_rad), most_apart_rad);
 }
 

@@ -9,6 +9,8 @@ namespace macadam {
 namespace {
 
 constexpr double least_step_s = 0.95; // fixes nearer than this err alike
+constexpr double slow_step_s = 5;     // ... and these, where the car hardly moved
+constexpr double new_way_m = 4;
 constexpr double most_step_m = 15;    // without a knot, where travel is measured
 constexpr double least_step_m = 0.05; // a car that moved less is where it was
 constexpr double heading_half_m = 8;
@@ -101,11 +103,12 @@ epochs_of(const RoadPath& path, const Positions& positions, const Odometer& odom
         const auto& position = positions.all[i];
         const bool first = epochs.empty();
         const double took_s = first ? 0 : position.t_s - epochs.back().t_s;
-        const bool idle = position.dead_reckoned || took_s < least_step_s;
+        const double gone_m = first ? 0 : position.travel_m - epochs.back().travel_m;
+        const bool idle = position.dead_reckoned || took_s < least_step_s ||
+                          (gone_m < new_way_m && took_s < slow_step_s);
         if (!first && idle && i != last) {
             continue;
         }
-        const double gone_m = first ? 0 : position.travel_m - epochs.back().travel_m;
         const double known_mps = odometer.speed_mps(position.t_s - took_s / 2);
         const double speed_mps = odometer.speed_mps(position.t_s);
         const double mean_mps = took_s > 0 ? gone_m / took_s : 0;

@@ -1,7 +1,7 @@
 #include "mapping/match/place_smoother.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@ using Vector = Eigen::Matrix<double, states, 1>;
 using Square = Eigen::Matrix<double, states, states>;
 
 constexpr int rounds = 3; // by then the places stand still to centimetres
+constexpr double settled_m = 0.3;
 
 constexpr double prior_lead_sd_m = 30;
 constexpr double prior_lane_sd_m = 3; // to either side of the road
@@ -58,9 +59,13 @@ prior(const DrivenLine& line, const Epoch& first, double nominal_m, const PlaceM
     return {prior_mean(line, first, nominal_m, model.heading_half_m), sd.cwiseAbs2().asDiagonal()};
 }
 
-/// From one epoch to the next: x' = f x + noise.
+/// From one epoch to the next: x' = f x + noise, where f is 1 on its diagonal but for the slow
+/// error, and otherwise only what the lead gains.
 struct Step {
-    Square f;
+    double scale_gain; ///< of the lead, per unit of the scale ...
+    double lane_gain;  ///< ... and per metre of the lanes
+    double oneway_gain;
+    double kept;  ///< of the slow error
     Vector noise; ///< variances
 };
 
@@ -73,11 +78,7 @@ Step step_between(const Epoch& from,
     const double turn_rad = there.turned_rad[0] - here.turned_rad[0];
     const double oneway_rad = there.turned_rad[1] - here.turned_rad[1];
     const double kept = std::exp(-took_s / slow_error_s);
-    Step step{Square::Identity(), Vector::Zero()};
-    step.f(lead, scale) = gone_m;
-    step.f(lead, lane) = -turn_rad;
-    step.f(lead, lane_oneway) = -oneway_rad;
-    step.f(east, east) = step.f(north, north) = kept;
+    Step step{gone_m, -turn_rad, -oneway_rad, kept, Vector::Zero()};
     step.noise[lead] = (to.measured ? lead_walk : lead_walk_unmeasured) * gone_m +
                        lead_walk_turning * std::abs(turn_rad + oneway_rad) + 1e-6;
     step.noise[scale] = scale_walk * gone_m;
@@ -88,38 +89,85 @@ Step step_between(const Epoch& from,
     return step;
 }
 
+/// f * x
+Vector stepped(const Step& step, Vector x) {
+    x[lead] +=
+        step.scale_gain * x[scale] + step.lane_gain * x[lane] + step.oneway_gain * x[lane_oneway];
+    x[east] *= step.kept;
+    x[north] *= step.kept;
+    return x;
+}
+
+/// f' * x
+Vector stepped_back(const Step& step, Vector x) {
+    x[scale] += step.scale_gain * x[lead];
+    x[lane] += step.lane_gain * x[lead];
+    x[lane_oneway] += step.oneway_gain * x[lead];
+    x[east] *= step.kept;
+    x[north] *= step.kept;
+    return x;
+}
+
+/// f * p * f', column by column and then row by row.
+template <typename Apply>
+Square on_both_sides(const Square& p, const Apply& apply) {
+    Square half;
+    for (int i = 0; i < states; ++i) {
+        half.col(i) = apply(p.col(i));
+    }
+    Square whole;
+    for (int i = 0; i < states; ++i) {
+        whole.col(i) = apply(half.row(i).transpose());
+    }
+    return whole;
+}
+
 Belief predicted(const Belief& belief, const Step& step) {
-    Belief next{step.f * belief.mean, step.f * belief.variance * step.f.transpose()};
+    const auto apply = [&](const Vector& x) { return stepped(step, x); };
+    Belief next{apply(belief.mean), on_both_sides(belief.variance, apply)};
     next.variance.diagonal() += step.noise;
     return next;
 }
 
-/// Takes in a measurement h x + noise that stands `off` from what was expected; the less, the more
-/// incredible it is.
+/// A measurement as the filter took it in: h x + noise stood `off` from what was expected.
 template <int Size>
-Belief updated(const Belief& belief,
-               const Eigen::Matrix<double, Size, states>& h,
-               const Eigen::Matrix<double, Size, 1>& off,
-               Eigen::Matrix<double, Size, Size> noise) {
+struct Taken {
+    Eigen::Matrix<double, Size, states> h;
+    Eigen::Matrix<double, Size, 1> off;
+    Eigen::Matrix<double, Size, Size> weight; ///< 1 / variance of off
+    Eigen::Matrix<double, states, Size> gain;
+};
+
+/// How a measurement is taken in: the more incredible it is, the less it counts.
+template <int Size>
+Taken<Size> taken(const Belief& belief,
+                  const Eigen::Matrix<double, Size, states>& h,
+                  const Eigen::Matrix<double, Size, 1>& off,
+                  Eigen::Matrix<double, Size, Size> noise) {
     const Eigen::Matrix<double, states, Size> cross = belief.variance * h.transpose();
     Eigen::Matrix<double, Size, Size> spread = h * cross + noise;
-    const double sds = off.dot(spread.llt().solve(off));
+    const double sds = off.dot(spread.inverse() * off);
     if (sds > Size * credible) {
         noise += (sds / (Size * credible) - 1) * spread;
         spread = h * cross + noise;
     }
-    const Eigen::Matrix<double, states, Size> gain =
-        spread.llt().solve(cross.transpose()).transpose();
-    Belief next{belief.mean + gain * off, belief.variance - gain * cross.transpose()};
+    const Eigen::Matrix<double, Size, Size> weight = spread.inverse();
+    return {h, off, weight, cross * weight};
+}
+
+template <int Size>
+Belief updated(const Belief& belief, const Taken<Size>& taken) {
+    const Eigen::Matrix<double, Size, states> cross = taken.h * belief.variance;
+    Belief next{belief.mean + taken.gain * taken.off, belief.variance - taken.gain * cross};
     next.variance = (next.variance + next.variance.transpose()).eval() / 2;
     return next;
 }
 
-Belief with_fix(const Belief& belief,
-                const Epoch& epoch,
-                const DrivenPlace& place,
-                double nominal_m,
-                double gone_m) {
+Taken<2> take_fix(const Belief& belief,
+                  const Epoch& epoch,
+                  const DrivenPlace& place,
+                  double nominal_m,
+                  double gone_m) {
     const Eigen::Vector2d ahead{place.ahead.east_m, place.ahead.north_m};
     const Eigen::Vector2d right{ahead.y(), -ahead.x()};
     Eigen::Matrix<double, 2, states> h = Eigen::Matrix<double, 2, states>::Zero();
@@ -135,15 +183,15 @@ Belief with_fix(const Belief& belief,
         map_sd_m * map_sd_m * map_length_m / std::clamp(gone_m, 1.0, map_length_m);
     const Eigen::Matrix2d noise = quick_error_m * quick_error_m * Eigen::Matrix2d::Identity() +
                                   across * right * right.transpose();
-    return updated<2>(belief, h, off, noise);
+    return taken<2>(belief, h, off, noise);
 }
 
-Belief with_heading(const Belief& belief,
-                    const DrivenLine& line,
-                    const Epoch& epoch,
-                    double nominal_m,
-                    double gone_m,
-                    double half_m) {
+Taken<1> take_heading(const Belief& belief,
+                      const DrivenLine& line,
+                      const Epoch& epoch,
+                      double nominal_m,
+                      double gone_m,
+                      double half_m) {
     constexpr double step_m = 1;
     const double before_rad = mean_heading_rad(line, nominal_m - step_m, half_m);
     const double after_rad = mean_heading_rad(line, nominal_m + step_m, half_m);
@@ -159,46 +207,100 @@ Belief with_heading(const Belief& belief,
     const double bend_sd_rad = bend_per_m * bend_sd_m;
     const Eigen::Matrix<double, 1, 1> noise{
         alike * (heading_sd_rad * heading_sd_rad + bend_sd_rad * bend_sd_rad)};
-    return updated<1>(belief, h, off, noise);
+    return taken<1>(belief, h, off, noise);
 }
 
-/// One of the smoother's rounds, linear about `nominal_m`.
-std::vector<Belief> smoothed(const DrivenLine& line,
+/// What the filter leaves of an epoch for the way back.
+struct Passed {
+    Step step;     ///< from the epoch before
+    Vector spread; ///< before the measurements: of the lead with each state
+    double lead_m;
+    std::optional<Taken<2>> fix;
+    std::optional<Taken<1>> heading; ///< taken in after the fix
+};
+
+std::vector<Passed> filtered(const DrivenLine& line,
                              const std::vector<Epoch>& epochs,
                              const std::vector<double>& nominal_m,
                              const PlaceModel& model) {
-    std::vector<DrivenPlace> places;
-    places.reserve(epochs.size());
-    for (const double driven_m : nominal_m) {
-        places.push_back(place_at(line, driven_m));
-    }
-    std::vector<Belief> beliefs;
-    beliefs.reserve(epochs.size());
+    std::vector<Passed> passed;
+    passed.reserve(epochs.size());
+    auto place = place_at(line, nominal_m[0]);
+    auto belief = prior(line, epochs[0], nominal_m[0], model);
     for (std::size_t k = 0; k < epochs.size(); ++k) {
         const auto& epoch = epochs[k];
-        auto belief = k == 0
-                          ? prior(line, epoch, nominal_m[0], model)
-                          : predicted(beliefs.back(),
-                                      step_between(epochs[k - 1], epoch, places[k - 1], places[k]));
-        const double gone_m =
-            k == 0 ? map_length_m : std::max(0.0, epoch.travel_m - epochs[k - 1].travel_m);
+        Step step{};
+        double gone_m = map_length_m;
+        if (k > 0) {
+            const auto before = place;
+            place = place_at(line, nominal_m[k]);
+            gone_m = std::max(0.0, epoch.travel_m - epochs[k - 1].travel_m);
+            step = step_between(epochs[k - 1], epoch, before, place);
+            belief = predicted(belief, step);
+        }
+        passed.push_back(
+            {step, belief.variance.col(lead), belief.mean[lead], std::nullopt, std::nullopt});
         if (epoch.fix) {
-            belief = with_fix(belief, epoch, places[k], nominal_m[k], gone_m);
+            passed.back().fix = take_fix(belief, epoch, place, nominal_m[k], gone_m);
+            belief = updated(belief, *passed.back().fix);
         }
         if (epoch.gyro_rad) {
-            belief = with_heading(belief, line, epoch, nominal_m[k], gone_m, model.heading_half_m);
+            passed.back().heading =
+                take_heading(belief, line, epoch, nominal_m[k], gone_m, model.heading_half_m);
+            belief = updated(belief, *passed.back().heading);
         }
-        beliefs.push_back(belief);
     }
-    for (auto k = epochs.size() - 1; k-- > 0;) {
-        const auto step = step_between(epochs[k], epochs[k + 1], places[k], places[k + 1]);
-        auto& belief = beliefs[k];
-        const auto next = predicted(belief, step);
-        const Square gain = next.variance.ldlt().solve(step.f * belief.variance).transpose();
-        belief.mean += gain * (beliefs[k + 1].mean - next.mean);
-        belief.variance += gain * (beliefs[k + 1].variance - next.variance) * gain.transpose();
+    return passed;
+}
+
+/// What later measurements say of the state: x = mean - variance * score, and its spread is
+/// variance - variance * information * variance.
+struct Hindsight {
+    Vector score = Vector::Zero();
+    Square information = Square::Zero();
+};
+
+template <int Size>
+Hindsight before_taking(const Hindsight& after, const Taken<Size>& taken) {
+    const Eigen::Matrix<double, Size, 1> scored = taken.gain.transpose() * after.score;
+    const Eigen::Matrix<double, states, Size> informed = after.information * taken.gain;
+    const Eigen::Matrix<double, Size, Size> inner =
+        taken.weight + taken.gain.transpose() * informed;
+    const Square mixed = informed * taken.h;
+    return {after.score - taken.h.transpose() * (scored + taken.weight * taken.off),
+            after.information - mixed - mixed.transpose() + taken.h.transpose() * inner * taken.h};
+}
+
+Hindsight before_step(const Hindsight& after, const Step& step) {
+    const auto apply = [&](const Vector& x) { return stepped_back(step, x); };
+    return {apply(after.score), on_both_sides(after.information, apply)};
+}
+
+/// One of the smoother's rounds, linear about `nominal_m`: forward, and back with what came later.
+std::vector<Placed> smoothed(const DrivenLine& line,
+                             const std::vector<Epoch>& epochs,
+                             const std::vector<double>& nominal_m,
+                             const PlaceModel& model) {
+    const auto passed = filtered(line, epochs, nominal_m, model);
+    std::vector<Placed> placed(epochs.size());
+    Hindsight hindsight;
+    for (auto k = epochs.size(); k-- > 0;) {
+        const auto& here = passed[k];
+        if (here.heading) {
+            hindsight = before_taking(hindsight, *here.heading);
+        }
+        if (here.fix) {
+            hindsight = before_taking(hindsight, *here.fix);
+        }
+        const double lead_m = here.lead_m - here.spread.dot(hindsight.score);
+        const double variance =
+            here.spread[lead] - here.spread.dot(hindsight.information * here.spread);
+        placed[k] = {epochs[k].travel_m + lead_m, std::sqrt(std::max(0.0, variance))};
+        if (k > 0) {
+            hindsight = before_step(hindsight, here.step);
+        }
     }
-    return beliefs;
+    return placed;
 }
 
 } // namespace
@@ -207,13 +309,18 @@ std::vector<Placed> smoothed_places(const DrivenLine& line,
                                     const std::vector<Epoch>& epochs,
                                     std::vector<double> nominal_m,
                                     const PlaceModel& model) {
-    std::vector<Placed> placed(epochs.size());
+    std::vector<Placed> placed;
     for (int round = 0; round < rounds; ++round) {
-        const auto beliefs = smoothed(line, epochs, nominal_m, model);
+        placed = smoothed(line, epochs, nominal_m, model);
+        double moved_m = 0;
         for (std::size_t k = 0; k < epochs.size(); ++k) {
-            const double driven_m = epochs[k].travel_m + beliefs[k].mean[lead];
-            nominal_m[k] = k == 0 ? driven_m : std::max(nominal_m[k - 1], driven_m);
-            placed[k] = {nominal_m[k], std::sqrt(std::max(0.0, beliefs[k].variance(lead, lead)))};
+            auto& driven_m = placed[k].driven_m;
+            driven_m = k == 0 ? driven_m : std::max(placed[k - 1].driven_m, driven_m);
+            moved_m = std::max(moved_m, std::abs(driven_m - nominal_m[k]));
+            nominal_m[k] = driven_m;
+        }
+        if (moved_m < settled_m) {
+            break;
         }
     }
     return placed;

@@ -45,8 +45,8 @@ struct PlaceModel {
 ///
 /// \param nominal_m  per epoch, about where on the driven line it was. \returns as many.
 ///
-/// Source: H. E. Rauch, F. Tung, C. T. Striebel, "Maximum likelihood estimates of linear dynamic
-/// systems", AIAA Journal 3 (1965), pp. 1445-1450.
+/// Source: G. J. Bierman, "Fixed interval smoothing with discrete measurements", International
+/// Journal of Control 18 (1973), pp. 65-75 (the modified Bryson-Frazier form: no inverses).
 std::vector<Placed> smoothed_places(const DrivenLine& line,
                                     const std::vector<Epoch>& epochs,
                                     std::vector<double> nominal_m,

@@ -45,7 +45,7 @@ TEST(Latency, NeedsBothSpeeds) {
 
 /// The same minute along bends, four times; the receiver tells places alone, 0.3 m of noise each.
 TripLog bends(double late_s, bool wheels, bool gyro) {
-    const auto turned_rad = [](double t_s) { return 0.8 * std::sin(0.25 * t_s); };
+    const auto turned_rad = [](double t_s) { return 0.8 * std::sin(0.4 * t_s); };
     const auto mps = [](double t_s) { return 12 + 4 * std::sin(0.35 * t_s); };
     TripLog trip;
     for (int i = 0; i < 12000; ++i) {
