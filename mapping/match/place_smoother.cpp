@@ -16,7 +16,7 @@ using Vector = Eigen::Matrix<double, states, 1>;
 using Square = Eigen::Matrix<double, states, states>;
 
 constexpr int rounds = 3; // by then the places stand still to centimetres
-constexpr double settled_m = 0.3;
+constexpr double settled_m = 0.5;
 
 constexpr double prior_lead_sd_m = 30;
 constexpr double prior_lane_sd_m = 3; // to either side of the road
@@ -273,7 +273,9 @@ Hindsight before_taking(const Hindsight& after, const Taken<Size>& taken) {
 
 Hindsight before_step(const Hindsight& after, const Step& step) {
     const auto apply = [&](const Vector& x) { return stepped_back(step, x); };
-    return {apply(after.score), on_both_sides(after.information, apply)};
+    const Square information = on_both_sides(after.information, apply);
+    // Rounding errors that are not symmetric would grow from step to step.
+    return {apply(after.score), (information + information.transpose()) / 2};
 }
 
 /// One of the smoother's rounds, linear about `nominal_m`: forward, and back with what came later.
