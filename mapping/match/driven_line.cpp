@@ -8,7 +8,7 @@
 namespace macadam {
 namespace {
 
-constexpr double step_m = 2;
+constexpr double about_step_m = 2;
 // Three boxes of 17 m: a right-angled corner becomes a bend of 5 m radius in the near lane and of
 // 10 m in the far one, as drivers take them.
 constexpr std::size_t box_half = 4; // steps
@@ -55,11 +55,14 @@ std::vector<Corner> corners_of(const RoadPath& path, const RoadNetwork& roads, R
     return line;
 }
 
-/// At even steps, the first at the beginning and the last no more than a step before the end.
+/// At even steps from end to end.
 DrivenLine evened(const std::vector<Corner>& corners) {
+    const double whole_m = corners.back().along_m;
+    const auto steps = static_cast<std::size_t>(std::max(1.0, std::round(whole_m / about_step_m)));
+    const double step_m = whole_m / static_cast<double>(steps);
     DrivenLine line{step_m, {}, {}, {}, {}, {}, {}};
     std::size_t next = 1;
-    const auto count = static_cast<std::size_t>(corners.back().along_m / step_m) + 1;
+    const auto count = steps + 1;
     line.at.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const double along_m = step_m * static_cast<double>(i);
@@ -151,8 +154,8 @@ double heading_sum_at(const DrivenLine& line, double driven_m) {
 
 DrivenLine driven_line(const RoadPath& path, const RoadNetwork& roads, RoadPlane& plane) {
     const auto corners = corners_of(path, roads, plane);
-    if (corners.size() < 2 || corners.back().along_m < step_m) {
-        return {step_m, {}, {}, {}, {}, {}, {}};
+    if (corners.size() < 2 || corners.back().along_m < about_step_m / 2) {
+        return {about_step_m, {}, {}, {}, {}, {}, {}};
     }
     auto line = evened(corners);
     for (int i = 0; i < 3; ++i) { // three boxes are nearly a bell
