@@ -1,5 +1,7 @@
 #include "support/road_art.hpp"
 
+#include "mapping/packed_roads.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -24,8 +26,9 @@ std::map<char, GeoPoint> places_in(std::string_view art, double cell_m) {
             ++row;
             continue;
         }
-        const GeoPoint at{corner.lat_deg - 2 * row * cell_m / m_per_deg_lat,
-                          corner.lon_deg + column * cell_m / m_per_deg_lon};
+        const GeoPoint drawn{corner.lat_deg - 2 * row * cell_m / m_per_deg_lat,
+                             corner.lon_deg + column * cell_m / m_per_deg_lon};
+        const auto at = Unpacked{}(packed(drawn)); // where a network can hold it
         if (std::isalpha(static_cast<unsigned char>(c)) != 0 && !places.emplace(c, at).second) {
             throw std::logic_error{"letter drawn twice"};
         }
