@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-constexpr double off_nats = 1.2;      // of a spacing off the network: a road 1.5 sd away
+constexpr double off_nats = 2;        // of a spacing off the network: a road 2 sd away
 constexpr double off_switch_nats = 6; // leaving the network, and coming back
 constexpr float off_end_nats = 3;     // beginning or ending there
 constexpr double hop_nats = 16;       // leaving it and coming back between two samples
