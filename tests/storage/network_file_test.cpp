@@ -122,7 +122,7 @@ TEST(KeptRoads, AreFoundByWhatTheyAreMadeOf) {
     ways[0].turns = {{ways[0].node_ids.back(), 2, 0}};
     const auto with_turn = hash_with("c.gpkg");
     EXPECT_NE(with_turn, first);
-    ways[1].speed_limit_cmps = 833;
+    ways[1].speed_limit_cmps = 1111;
     const auto with_limit = hash_with("d.gpkg");
     EXPECT_NE(with_limit, with_turn);
     ways[0].line[1].lat_deg += 1e-6;
