@@ -58,7 +58,7 @@ public:
             path.legs.back().to_m = length_m(roads_, path.legs.back().edge);
             vouch_for_unseen(path.legs);
             settle(path);
-            trim(path);
+            trim(path, roads_);
         }
         return std::move(paths_);
     }

@@ -5,9 +5,10 @@
 namespace macadam {
 namespace {
 
-constexpr double end_m = 0.5;    // this near to an edge's end it is passed
-constexpr double left_m = 15;    // off an edge's line: the car has left it
-constexpr double touched_m = 10; // less of an edge is noise
+constexpr double end_m = 0.5;         // this near to an edge's end it is passed
+constexpr double left_m = 15;         // off an edge's line: the car has left it
+constexpr double touched_m = 10;      // less of an edge is noise, ...
+constexpr double touched_share = 0.9; // ... unless it is a short edge and all of it was driven
 
 /// A position and its place along an edge, in the direction of travel.
 struct Placed {
@@ -42,6 +43,11 @@ void erase_legs(RoadPath& path, std::size_t first, std::size_t last) {
     const auto next = path.legs.erase(legs + static_cast<std::ptrdiff_t>(first),
                                       legs + static_cast<std::ptrdiff_t>(last));
     std::for_each(next, path.legs.end(), [&](Leg& leg) { leg.start_m -= gone_m; });
+}
+
+/// Whether noise alone can have put `m` on the leg's edge.
+bool hardly_touched(const RoadNetwork& roads, const Leg& leg, double m) {
+    return m < std::min(touched_m, touched_share * length_m(roads, leg.edge));
 }
 
 } // namespace
@@ -99,7 +105,7 @@ void settle_begin(RoadPath& path,
     }
 }
 
-void trim(RoadPath& path) {
+void trim(RoadPath& path, const RoadNetwork& roads) {
     auto& legs = path.legs;
     for (std::size_t i = 1; i + 2 < legs.size();) {
         const bool there_and_back =
@@ -110,10 +116,12 @@ void trim(RoadPath& path) {
             ++i;
         }
     }
-    while (legs.size() > 1 && legs[1].start_m - path.sample_m.front() < touched_m) {
+    while (legs.size() > 1 &&
+           hardly_touched(roads, legs[0], legs[1].start_m - path.sample_m.front())) {
         erase_legs(path, 0, 1);
     }
-    while (legs.size() > 1 && path.sample_m.back() - legs.back().start_m < touched_m) {
+    while (legs.size() > 1 &&
+           hardly_touched(roads, legs.back(), path.sample_m.back() - legs.back().start_m)) {
         legs.pop_back();
     }
 }

@@ -22,6 +22,6 @@ void settle_begin(RoadPath& path,
 
 /// Takes off edges at the ends that were hardly touched, and those into which a car would have
 /// driven so little before it turned that noise alone can have put it there.
-void trim(RoadPath& path);
+void trim(RoadPath& path, const RoadNetwork& roads);
 
 } // namespace macadam

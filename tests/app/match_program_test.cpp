@@ -189,5 +189,26 @@ TEST(MatchProgram, MatchesAGpxTrackToRoadsDrawnFromIt) {
     EXPECT_EQ(rows[1][1], "1");
 }
 
+TEST(MatchProgram, TakesAStoreItsNetworkBesideItOrTheMapForTheSame) {
+    const auto folder = fresh_folder();
+    const auto store = (folder / "roads.gpkg").string();
+    const auto beside = store + "-network";
+    expect_done({"init", store, "--network", andorra, "--segment-length", "500"});
+    ASSERT_TRUE(fs::exists(beside));
+    const auto of_map = expect_done({"match", tour, "--network", andorra}).out;
+    EXPECT_EQ(expect_done({"match", tour, "--network", store}).out, of_map);
+    EXPECT_EQ(expect_done({"match", tour, "--network", beside}).out, of_map);
+
+    const auto bytes = read_file(beside);
+    write_file(beside, bytes.substr(0, bytes.size() / 2));
+    const auto refused = run_macadam({"match", tour, "--network", beside});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_THAT(refused.err,
+                ContainsRegex("roads.gpkg-network: has [0-9]+ bytes, expected [0-9]+: "
+                              "it was cut off"));
+    EXPECT_EQ(expect_done({"match", tour, "--network", store}).out, of_map);
+    EXPECT_EQ(read_file(beside), bytes); // made again
+}
+
 } // namespace
 } // namespace macadam::testing
