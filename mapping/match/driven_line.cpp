@@ -15,6 +15,15 @@ constexpr std::size_t box_half = 4; // steps
 constexpr double least_step_m =
     0.02; // where the car turns round on the spot, the line still goes on
 
+/// Not std::lerp, whose care for infinities costs more than all the rest.
+double between(double a, double b, double share) {
+    return a + share * (b - a);
+}
+
+PointEn between(const PointEn& a, const PointEn& b, double share) {
+    return {between(a.east_m, b.east_m, share), between(a.north_m, b.north_m, share)};
+}
+
 struct Corner {
     PointEn at;
     double along_m;
@@ -45,10 +54,8 @@ std::vector<Corner> corners_of(const RoadPath& path, const RoadNetwork& roads, R
             }
             for (const double at_m : {from_m, to_m}) {
                 const double fraction = piece_m > 0 ? (at_m - offset_m(a)) / piece_m : 0;
-                line.push_back({{std::lerp(a.at.east_m, b.at.east_m, fraction),
-                                 std::lerp(a.at.north_m, b.at.north_m, fraction)},
-                                leg.start_m + at_m - leg.from_m,
-                                lane});
+                line.push_back(
+                    {between(a.at, b.at, fraction), leg.start_m + at_m - leg.from_m, lane});
             }
         }
     }
@@ -60,10 +67,11 @@ DrivenLine evened(const std::vector<Corner>& corners) {
     const double whole_m = corners.back().along_m;
     const auto steps = static_cast<std::size_t>(std::max(1.0, std::round(whole_m / about_step_m)));
     const double step_m = whole_m / static_cast<double>(steps);
-    DrivenLine line{step_m, {}, {}, {}, {}, {}, {}};
+    DrivenLine line{step_m, {}, {}, {}, {}, {}, {}, {}};
     std::size_t next = 1;
     const auto count = steps + 1;
     line.at.reserve(count);
+    line.lane.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const double along_m = step_m * static_cast<double>(i);
         while (next + 1 < corners.size() && corners[next].along_m < along_m) {
@@ -74,8 +82,7 @@ DrivenLine evened(const std::vector<Corner>& corners) {
         const double piece_m = b.along_m - a.along_m;
         const double share =
             piece_m > 0 ? std::clamp((along_m - a.along_m) / piece_m, 0.0, 1.0) : 0;
-        line.at.push_back({std::lerp(a.at.east_m, b.at.east_m, share),
-                           std::lerp(a.at.north_m, b.at.north_m, share)});
+        line.at.push_back(between(a.at, b.at, share));
         line.lane.push_back(a.lane);
     }
     return line;
@@ -83,58 +90,106 @@ DrivenLine evened(const std::vector<Corner>& corners) {
 
 /// Means over box_half points on both sides, over as many as there are on both near the ends.
 std::vector<PointEn> boxed(const std::vector<PointEn>& points) {
-    std::vector<PointEn> sums{{0, 0}};
-    sums.reserve(points.size() + 1);
-    for (const auto& p : points) {
-        sums.push_back({sums.back().east_m + p.east_m, sums.back().north_m + p.north_m});
-    }
-    std::vector<PointEn> means;
-    means.reserve(points.size());
+    std::vector<PointEn> sums(points.size() + 1, {0, 0});
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto half = std::min({box_half, i, points.size() - 1 - i});
+        sums[i + 1] = {sums[i].east_m + points[i].east_m, sums[i].north_m + points[i].north_m};
+    }
+    std::vector<PointEn> means(points.size());
+    const auto mean = [&](std::size_t i, std::size_t half) {
         const auto& low = sums[i - half];
         const auto& high = sums[i + half + 1];
-        const auto n = static_cast<double>(2 * half + 1);
-        means.push_back({(high.east_m - low.east_m) / n, (high.north_m - low.north_m) / n});
+        const double share = 1 / static_cast<double>(2 * half + 1);
+        return PointEn{(high.east_m - low.east_m) * share, (high.north_m - low.north_m) * share};
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        means[i] = mean(i, std::min({box_half, i, points.size() - 1 - i}));
     }
     return means;
 }
 
+/// Angle from one direction to another, positive to the left.
+double turn_between(const PointEn& from, const PointEn& to) {
+    constexpr double slight = 1e-3;
+    const double along = from.east_m * to.east_m + from.north_m * to.north_m;
+    const double across = from.east_m * to.north_m - from.north_m * to.east_m;
+    if (std::abs(across) <
+        slight * along) { // nearly everywhere; the series is exact to the last bit
+        const double tan = across / along;
+        const double square = tan * tan;
+        return tan * (1 - square * (1.0 / 3 - square * (1.0 / 5 - square / 7)));
+    }
+    const bool back = along < 0 && std::abs(across) < -slight * slight * along;
+    return back ? std::numbers::pi : std::atan2(across, along); // round on the spot: to the left
+}
+
+/// For each step of driven length, the piece that holds its beginning.
+std::vector<std::uint32_t> first_pieces(const DrivenLine& line) {
+    std::vector<std::uint32_t> pieces;
+    pieces.reserve(line.driven_m.size());
+    std::uint32_t piece = 0;
+    for (double at_m = 0; at_m < line.driven_m.back();
+         at_m = line.step_m * static_cast<double>(pieces.size())) {
+        while (piece + 2 < line.driven_m.size() && line.driven_m[piece + 1] <= at_m) {
+            ++piece;
+        }
+        pieces.push_back(piece);
+    }
+    return pieces;
+}
+
 DrivenLine measured(DrivenLine line) {
     const auto count = line.at.size();
-    line.driven_m.assign(count, 0);
-    line.heading_rad.assign(count, 0);
-    line.heading_sum.assign(count, 0);
-    line.turned_rad.assign(count, {0, 0});
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto& before = line.at[i > 0 ? i - 1 : 0];
-        const auto& after = line.at[std::min(i + 1, count - 1)];
-        const double east_m = after.east_m - before.east_m;
-        const double north_m = after.north_m - before.north_m;
-        const double rad = std::atan2(north_m, east_m);
-        if (i == 0) {
-            line.heading_rad[0] = rad;
-            continue;
-        }
-        const double turn_rad = std::remainder(rad - line.heading_rad[i - 1], 2 * std::numbers::pi);
-        line.heading_rad[i] = line.heading_rad[i - 1] + turn_rad;
+    line.driven_m.resize(count);
+    line.heading_rad.resize(count);
+    line.heading_sum.resize(count);
+    line.turned_rad.resize(count);
+    const auto step = [&](std::size_t from, std::size_t to) {
+        return PointEn{line.at[to].east_m - line.at[from].east_m,
+                       line.at[to].north_m - line.at[from].north_m};
+    };
+    auto before = step(0, 1);
+    line.heading_rad[0] = std::atan2(before.north_m, before.east_m);
+    for (std::size_t i = 1; i < count; ++i) {
+        const auto ahead = step(i - 1, std::min(i + 1, count - 1));
+        const double turn_rad = turn_between(before, ahead);
+        const bool stands = ahead.east_m == 0 && ahead.north_m == 0;
+        before = stands ? before : ahead;
+        const auto gone = step(i - 1, i);
         const double gone_m = std::max(
-            least_step_m,
-            std::hypot(line.at[i].east_m - before.east_m, line.at[i].north_m - before.north_m));
+            least_step_m, std::sqrt(gone.east_m * gone.east_m + gone.north_m * gone.north_m));
+        line.heading_rad[i] = line.heading_rad[i - 1] + turn_rad;
         line.driven_m[i] = line.driven_m[i - 1] + gone_m;
         line.heading_sum[i] =
             line.heading_sum[i - 1] + gone_m * (line.heading_rad[i - 1] + line.heading_rad[i]) / 2;
         line.turned_rad[i] = line.turned_rad[i - 1];
         line.turned_rad[i][static_cast<std::size_t>(line.lane[i])] += turn_rad;
     }
+    line.first_piece = first_pieces(line);
     return line;
 }
 
 /// The piece of the line that holds a place, the outermost for one beyond.
 std::size_t piece_at(const DrivenLine& line, double driven_m) {
-    const auto next = std::ranges::upper_bound(line.driven_m, driven_m) - line.driven_m.begin();
-    return std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(next, 1)) - 1,
-                    line.driven_m.size() - 2);
+    const double steps = std::max(0.0, driven_m / line.step_m);
+    const auto last = static_cast<double>(line.first_piece.size() - 1);
+    std::size_t i = line.first_piece[static_cast<std::size_t>(std::min(steps, last))];
+    while (i + 2 < line.driven_m.size() && line.driven_m[i + 1] <= driven_m) {
+        ++i;
+    }
+    return i;
+}
+
+/// Where in its piece a place lies, and how far beyond the line, which is 0 but at the ends.
+struct Share {
+    double share;
+    double beyond_m;
+};
+
+Share share_of(const DrivenLine& line, std::size_t piece, double driven_m) {
+    const double piece_m = line.driven_m[piece + 1] - line.driven_m[piece];
+    const double into_m = driven_m - line.driven_m[piece];
+    const double share = std::clamp(into_m / piece_m, 0.0, 1.0);
+    return {share, share > 0 && share < 1 ? 0 : into_m - share * piece_m};
 }
 
 /// Sum of the heading up to a place.
@@ -155,7 +210,7 @@ double heading_sum_at(const DrivenLine& line, double driven_m) {
 DrivenLine driven_line(const RoadPath& path, const RoadNetwork& roads, RoadPlane& plane) {
     const auto corners = corners_of(path, roads, plane);
     if (corners.size() < 2 || corners.back().along_m < about_step_m / 2) {
-        return {about_step_m, {}, {}, {}, {}, {}, {}};
+        return {about_step_m, {}, {}, {}, {}, {}, {}, {}};
     }
     auto line = evened(corners);
     for (int i = 0; i < 3; ++i) { // three boxes are nearly a bell
@@ -166,24 +221,23 @@ DrivenLine driven_line(const RoadPath& path, const RoadNetwork& roads, RoadPlane
 
 DrivenPlace place_at(const DrivenLine& line, double driven_m) {
     const auto i = piece_at(line, driven_m);
-    const double piece_m = line.driven_m[i + 1] - line.driven_m[i];
-    const double into_m = driven_m - line.driven_m[i];
-    const double share = std::clamp(into_m / piece_m, 0.0, 1.0);
-    const double beyond_m = into_m - share * piece_m; // 0 but at the ends
-    const double heading_rad = std::lerp(line.heading_rad[i], line.heading_rad[i + 1], share);
+    const auto [share, beyond_m] = share_of(line, i, driven_m);
+    const double heading_rad = between(line.heading_rad[i], line.heading_rad[i + 1], share);
     const PointEn ahead{std::cos(heading_rad), std::sin(heading_rad)};
-    const auto between = [&](const PointEn& a, const PointEn& b) {
-        return PointEn{std::lerp(a.east_m, b.east_m, share) + beyond_m * ahead.east_m,
-                       std::lerp(a.north_m, b.north_m, share) + beyond_m * ahead.north_m};
-    };
-    const auto turned_rad = [&](std::size_t kind) {
-        return std::lerp(line.turned_rad[i][kind], line.turned_rad[i + 1][kind], share);
-    };
-    return {between(line.at[i], line.at[i + 1]),
-            ahead,
-            line.step_m * (static_cast<double>(i) + share) + beyond_m,
-            line.lane[i],
-            {turned_rad(0), turned_rad(1)}};
+    const auto at = between(line.at[i], line.at[i + 1], share);
+    const auto& before_rad = line.turned_rad[i];
+    const auto& after_rad = line.turned_rad[i + 1];
+    return {
+        {at.east_m + beyond_m * ahead.east_m, at.north_m + beyond_m * ahead.north_m},
+        ahead,
+        line.lane[i],
+        {between(before_rad[0], after_rad[0], share), between(before_rad[1], after_rad[1], share)}};
+}
+
+double along_m_at(const DrivenLine& line, double driven_m) {
+    const auto i = piece_at(line, driven_m);
+    const auto [share, beyond_m] = share_of(line, i, driven_m);
+    return line.step_m * (static_cast<double>(i) + share) + beyond_m;
 }
 
 double driven_m_at(const DrivenLine& line, double along_m) {

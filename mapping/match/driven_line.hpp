@@ -3,6 +3,7 @@
 #include "mapping/match/path.hpp"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace macadam {
@@ -22,6 +23,7 @@ struct DrivenLine {
     std::vector<double> heading_sum; ///< of heading_rad over driven_m
     std::vector<LaneKind> lane;
     std::vector<std::array<double, 2>> turned_rad; ///< to the left so far, by kind of lane
+    std::vector<std::uint32_t> first_piece; ///< per step_m of driven length: the piece it begins in
 };
 
 /// \returns fewer than two points if the path has no length.
@@ -30,12 +32,14 @@ DrivenLine driven_line(const RoadPath& path, const RoadNetwork& roads, RoadPlane
 /// A place of the rounded line; beyond its ends, straight on.
 struct DrivenPlace {
     PointEn at;
-    PointEn ahead;  ///< of length 1
-    double along_m; ///< along the map's line
+    PointEn ahead; ///< of length 1
     LaneKind lane;
     std::array<double, 2> turned_rad;
 };
 DrivenPlace place_at(const DrivenLine& line, double driven_m);
+
+/// The place of the map's line; driven_m_at is the inverse.
+double along_m_at(const DrivenLine& line, double driven_m);
 
 /// How long the rounded line is up to a place of the map's.
 double driven_m_at(const DrivenLine& line, double along_m);

@@ -15,6 +15,7 @@ constexpr double rad_per_deg = std::numbers::pi / 180;
 // error alone would make it: hence an sd of several times the median distance.
 constexpr std::size_t asked_samples = 60;
 constexpr double sd_per_median = 5.5;
+constexpr double usual_m = 30; // hardly any position lies farther from its road
 constexpr double best_share = 0.5;
 constexpr double sample_weight = 0.75;
 constexpr double drawn_course_sd_rad = 60 * rad_per_deg; // positions wander sideways together
@@ -114,12 +115,15 @@ std::optional<double> nearest_m(const Positions& positions,
                                 const MatchConfig& config) {
     const auto& position = positions.all[at];
     const auto course = drawn_course(positions, at);
-    for (const auto& place : plane.near(position.at, position.place, config.search_radius_m)) {
-        const bool along = !course || std::cos(course->course_rad - place.course_rad) > 0;
-        const bool against = !course || std::cos(course->course_rad - place.course_rad) < 0;
-        if ((along && is_drivable(roads, edge_of(place.link, true))) ||
-            (against && is_drivable(roads, edge_of(place.link, false)))) {
-            return place.distance_m;
+    for (const double radius_m :
+         {std::min(usual_m, config.search_radius_m), config.search_radius_m}) {
+        for (const auto& place : plane.near(position.at, position.place, radius_m)) {
+            const bool along = !course || std::cos(course->course_rad - place.course_rad) > 0;
+            const bool against = !course || std::cos(course->course_rad - place.course_rad) < 0;
+            if ((along && is_drivable(roads, edge_of(place.link, true))) ||
+                (against && is_drivable(roads, edge_of(place.link, false)))) {
+                return place.distance_m;
+            }
         }
     }
     return {};

@@ -204,7 +204,7 @@ std::vector<Knot> smoothed_knots(const RoadPath& path,
                                          .heading_half_m = heading_half_m});
     std::vector<Knot> knots;
     for (std::size_t k = 0; k < epochs.size(); ++k) {
-        const double along_m = place_at(line, placed[k].driven_m).along_m;
+        const double along_m = along_m_at(line, placed[k].driven_m);
         if (knots.empty() || epochs[k].travel_m - knots.back().travel_m > least_step_m) {
             knots.push_back({epochs[k].travel_m,
                              knots.empty() ? along_m : std::max(knots.back().along_m, along_m),

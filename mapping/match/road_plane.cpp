@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace macadam {
 namespace {
 
-constexpr double look_ahead_m = 150; // of one look into the index, for the positions to come
-constexpr double hairpin_m = 25;     // a line that left by so much and came back is near twice
+constexpr double look_ahead_m = 60; // of one look into the index, for the positions to come
+constexpr double hairpin_m = 25;    // a line that left by so much and came back is near twice
 
 struct OnStep {
     double fraction;
@@ -79,8 +80,10 @@ RoadPlane::Drawn RoadPlane::drawn(LinkId link) {
     if (!is_new) {
         return found->second;
     }
-    const auto there = link_at(roads_, link);
-    const auto along_m = way_of(roads_, link).along_m;
+    const auto first_point = packed_link(roads_, edge_of(link, true)).first_point;
+    const auto along_m = [&](std::size_t i) {
+        return Unpacked{}(roads_.along_mm[first_point + i]);
+    };
     const auto line = line_of(roads_, edge_of(link, true));
     auto& drawn = found->second;
     drawn.first = static_cast<std::uint32_t>(points_.size());
@@ -88,7 +91,7 @@ RoadPlane::Drawn RoadPlane::drawn(LinkId link) {
     const auto local = frame_.to_local(line);
     drawn.low = drawn.high = local.front();
     for (std::size_t i = 0; i < local.size(); ++i) {
-        points_.push_back({local[i], along_m[there.first_point + i] - there.from_m});
+        points_.push_back({local[i], along_m(i) - along_m(0)});
         drawn.low = {std::min(drawn.low.east_m, local[i].east_m),
                      std::min(drawn.low.north_m, local[i].north_m)};
         drawn.high = {std::max(drawn.high.east_m, local[i].east_m),
@@ -140,8 +143,9 @@ std::vector<NearPlace> RoadPlane::near(const PointEn& at, const GeoPoint& place,
         add_minima(
             places, link, std::span{points_}.subspan(there.first, there.count), at, radius_m);
     }
-    std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) {
-        return a.distance_m < b.distance_m;
+    std::ranges::sort(places, [](const NearPlace& a, const NearPlace& b) {
+        return std::tie(a.distance_m, a.link, a.along_m) <
+               std::tie(b.distance_m, b.link, b.along_m);
     });
     return places;
 }

@@ -9,14 +9,14 @@ namespace {
 constexpr std::size_t first_labels = 1024;
 constexpr double dead_end_share = 0.25; // of the price of a U-turn, where there is no other way
 
+constexpr auto dearer = [](const auto& a, const auto& b) {
+    return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
+};
+
 } // namespace
 
 Routes::Routes(const RoadNetwork& roads, double u_turn_cost_m)
     : roads_{roads}, u_turn_cost_m_{u_turn_cost_m}, labels_(first_labels) {}
-
-bool Routes::dearer(const Waiting& a, const Waiting& b) {
-    return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
-}
 
 Routes::Label& Routes::label_of(EdgeId edge) {
     const auto mask = labels_.size() - 1;
@@ -75,13 +75,13 @@ void Routes::leave(EdgeId edge, float way_m, float turn_m_so_far, double longest
     }
 }
 
-std::vector<Reached>
+const std::vector<Reached>&
 Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
     ++search_;
     labelled_ = 0;
     waiting_.clear();
     leave(edge, 0, 0, longest_m);
-    std::vector<Reached> settled;
+    settled_.clear();
     auto missing = targets.size();
     while (!waiting_.empty()) {
         std::pop_heap(waiting_.begin(), waiting_.end(), dearer);
@@ -93,7 +93,7 @@ Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
         }
         label.settled = true;
         const auto reached = label.reached; // leave() may move the labels
-        settled.push_back(reached);
+        settled_.push_back(reached);
         if (std::binary_search(targets.begin(), targets.end(), next) && --missing == 0) {
             break;
         }
@@ -102,10 +102,8 @@ Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
               reached.turn_m,
               longest_m);
     }
-    std::sort(settled.begin(), settled.end(), [](const auto& a, const auto& b) {
-        return a.edge < b.edge;
-    });
-    return settled;
+    std::ranges::sort(settled_, {}, &Reached::edge);
+    return settled_;
 }
 
 const std::vector<Reached>& Routes::around(EdgeId edge) {
@@ -118,8 +116,7 @@ const std::vector<Reached>& Routes::around(EdgeId edge) {
 
 const std::vector<Reached>&
 Routes::towards(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
-    towards_ = search(edge, targets, longest_m);
-    return towards_;
+    return search(edge, targets, longest_m);
 }
 
 const Reached* find(const std::vector<Reached>& reached, EdgeId edge) {

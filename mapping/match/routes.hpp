@@ -31,7 +31,7 @@ public:
     static constexpr double kept_m = 200;
 
     /// The same up to `longest_m`, ending as soon as all `targets` (in order) are reached. Valid
-    /// until the next call.
+    /// until the next call of either.
     const std::vector<Reached>&
     towards(EdgeId edge, std::span<const EdgeId> targets, double longest_m);
 
@@ -49,8 +49,8 @@ private:
         EdgeId edge;
     };
 
-    static bool dearer(const Waiting& a, const Waiting& b);
-    std::vector<Reached> search(EdgeId edge, std::span<const EdgeId> targets, double longest_m);
+    const std::vector<Reached>&
+    search(EdgeId edge, std::span<const EdgeId> targets, double longest_m);
     void leave(EdgeId edge, float way_m, float turn_m, double longest_m);
     Label& label_of(EdgeId edge);
     void grow_labels();
@@ -58,7 +58,7 @@ private:
     const RoadNetwork& roads_;
     double u_turn_cost_m_;
     std::unordered_map<std::uint32_t, std::vector<Reached>> around_; ///< by EdgeId
-    std::vector<Reached> towards_;
+    std::vector<Reached> settled_;                                   ///< of the last search
     std::vector<Label> labels_; ///< a hash table with open addressing, a power of two long
     std::size_t labelled_ = 0;
     std::uint32_t search_ = 0;
