@@ -13,221 +13,210 @@ namespace {
 constexpr double um_per_mm = 1000;
 constexpr double interval_90 = 1.645;  // two-sided, normal distribution
 constexpr double sd_over_mad = 1.4826; // normal distribution
-constexpr double ms_per_year = 365.25 * 86400e3;
-constexpr int most_rounds = 50; // a round shrinks the step by 2 to 10
-constexpr double settled_um = 1e-4;
+constexpr double claims = 6;           // readings that scatter as claimed, known beforehand
 
-struct Reading {
+using Eigen::Index;
+using Eigen::VectorXd;
+
+struct Weighed {
     double value_um;
     double weight;
 };
 
-/// Middle of the readings by weight; halfway between two where they share it evenly.
-double weighted_median(std::vector<Reading> readings) {
-    std::sort(readings.begin(), readings.end(), [](const Reading& a, const Reading& b) {
+/// Middle of the values by weight; halfway between two where they share it evenly.
+double weighted_median(std::vector<Weighed> values) {
+    std::sort(values.begin(), values.end(), [](const Weighed& a, const Weighed& b) {
         return std::pair{a.value_um, a.weight} < std::pair{b.value_um, b.weight};
     });
     double whole = 0;
-    for (const auto& reading : readings) {
-        whole += reading.weight;
+    for (const auto& value : values) {
+        whole += value.weight;
     }
     double passed = 0;
-    for (std::size_t i = 0; i + 1 < readings.size(); ++i) {
-        passed += readings[i].weight;
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+        passed += values[i].weight;
         if (std::abs(2 * passed - whole) <= 1e-12 * whole) {
-            return (readings[i].value_um + readings[i + 1].value_um) / 2;
+            return (values[i].value_um + values[i + 1].value_um) / 2;
         }
         if (2 * passed > whole) {
-            return readings[i].value_um;
+            return values[i].value_um;
         }
     }
-    return readings.back().value_um;
+    return values.back().value_um;
 }
 
 double square(double x) {
     return x * x;
 }
 
-/// A pass as the mean sees it.
-struct Vote {
-    double value_um;
-    double sd_um;
-    double variance_um2; ///< sd^2 + between^2
-    double strange_um2;  ///< squared distance from the mean that is nothing strange
-    double weight = 0;   ///< in the mean
+/// Linear in IRI; a pass read by a calibrated car as it would have been by a good one.
+double true_um(const FusionInput& input, double read_um) {
+    return input.calibration
+               ? std::max(0.0, (read_um - input.calibration->offset_um) / input.calibration->gain)
+               : read_um;
+}
+
+/// Passes in the order of car, trip and occurrence; cars by their first trip, so that what numbers
+/// they have changes no sum.
+std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
+    std::unordered_map<std::int64_t, std::size_t> cars;
+    std::vector<std::pair<std::size_t, const FusionInput*>> of_cars;
+    of_cars.reserve(passes.size());
+    for (const auto& input : passes) {
+        of_cars.emplace_back(cars.try_emplace(input.vehicle, cars.size()).first->second, &input);
+    }
+    std::stable_sort(of_cars.begin(), of_cars.end(), [](const auto& a, const auto& b) {
+        return a.first < b.first;
+    });
+    std::vector<const FusionInput*> sorted;
+    sorted.reserve(passes.size());
+    for (const auto& [car, input] : of_cars) {
+        sorted.push_back(input);
+    }
+    return sorted;
+}
+
+/// Runs of passes that `alike` puts together.
+template <typename Alike>
+std::vector<Readings::Block> runs_of(const std::vector<const FusionInput*>& passes,
+                                     const Alike& alike) {
+    std::vector<Readings::Block> runs;
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        if (i == 0 || !alike(*passes[i - 1], *passes[i])) {
+            runs.push_back({static_cast<Index>(i), 0});
+        }
+        ++runs.back().count;
+    }
+    return runs;
+}
+
+VectorXd values_of(const std::vector<const FusionInput*>& passes) {
+    VectorXd values(static_cast<Index>(passes.size()));
+    std::ranges::transform(passes, values.begin(), [](const FusionInput* input) {
+        return true_um(*input, input->pass.iri_um);
+    });
+    return values;
+}
+
+/// The middle of what the passes read, each alike.
+double level_um(const VectorXd& values) {
+    std::vector<Weighed> alike;
+    for (const double value_um : values) {
+        alike.push_back({value_um, 1});
+    }
+    return std::max(1.0, weighted_median(std::move(alike)));
+}
+
+/// The sds that passes state, as they would be had the passes read what the segment is. Most of an
+/// sd is a share of what was read, and a pass must not gain weight by reading low.
+VectorXd stated_um(const std::vector<const FusionInput*>& passes, double level_um) {
+    VectorXd stated(static_cast<Index>(passes.size()));
+    std::ranges::transform(passes, stated.begin(), [&](const FusionInput* input) {
+        return input->pass.sd_um * level_um / std::max<double>(1, input->pass.iri_um);
+    });
+    return stated;
+}
+
+/// Of the stated variance, in the car's part of a reading.
+struct Shares {
+    double car;    ///< of a car that is not calibrated
+    double common; ///< of one that is, beside what its calibration states
 };
 
-std::vector<Reading> readings_of(const std::vector<Vote>& votes) {
-    std::vector<Reading> readings;
-    readings.reserve(votes.size());
-    for (const auto& vote : votes) {
-        readings.push_back({vote.value_um, 1 / vote.variance_um2});
+Readings readings_of(const std::vector<const FusionInput*>& passes,
+                     const VectorXd& values,
+                     const VectorXd& stated,
+                     double level_um,
+                     const Shares& shares,
+                     const FusionConfig& config) {
+    const auto same_car = [](const FusionInput& a, const FusionInput& b) {
+        return a.vehicle == b.vehicle;
+    };
+    const auto same_trip = [&](const FusionInput& a, const FusionInput& b) {
+        return same_car(a, b) && a.trip_sha256 == b.trip_sha256;
+    };
+    const double rest =
+        std::hypot(config.rest_relative_sd * level_um, config.rest_sd_mm_per_m * um_per_mm);
+    Readings readings{.values = values,
+                      .car_sd = std::sqrt(shares.car) * stated,
+                      .rest_sd = VectorXd::Constant(values.size(), rest),
+                      .trip_sd = config.trip_relative_sd * level_um,
+                      .cars = runs_of(passes, same_car),
+                      .trips = runs_of(passes, same_trip)};
+    for (Index i = 0; i < values.size(); ++i) {
+        if (const auto& calibration = passes[static_cast<std::size_t>(i)]->calibration) {
+            readings.car_sd[i] = std::hypot(calibration->relative_sd * level_um,
+                                            std::sqrt(shares.common) * stated[i]);
+        }
     }
     return readings;
 }
 
-/// The middle of what the passes read, each alike.
-double level_um(std::span<const FusionInput> passes) {
-    std::vector<Reading> readings;
-    readings.reserve(passes.size());
-    for (const auto& input : passes) {
-        readings.push_back({static_cast<double>(input.pass.iri_um), 1});
-    }
-    return weighted_median(std::move(readings));
+/// Of each reading by itself, without what all cars share.
+VectorXd variances_of(const Readings& readings) {
+    return readings.car_sd.array().square() + readings.rest_sd.array().square() +
+           square(readings.trip_sd);
 }
 
-double between_um2(double level_um, const FusionConfig& config) {
-    return square(config.between_relative_sd * level_um) +
-           square(config.between_sd_mm_per_m * um_per_mm);
+double scatter_um(const VectorXd& values, const VectorXd& variances) {
+    std::vector<Weighed> weighed;
+    for (Index i = 0; i < values.size(); ++i) {
+        weighed.push_back({values[i], 1 / variances[i]});
+    }
+    const double middle_um = weighted_median(weighed);
+    for (auto& value : weighed) {
+        value.value_um = std::abs(value.value_um - middle_um);
+    }
+    return sd_over_mad * weighted_median(std::move(weighed));
 }
 
-/// A pass's own sd, as it would be had the pass read what the segment is. Most of it is a share of
-/// what was read, and a pass must not gain weight by reading low.
-double sd_at_level_um(const Pass& pass, double level_um) {
-    return pass.sd_um * level_um / std::max<double>(1, pass.iri_um);
-}
-
-struct Fused {
-    double mean_um;
-    double rest_um2;         ///< between^2
-    std::vector<Vote> votes; ///< as many as passes
-};
-
-double median_um(const std::vector<Vote>& votes) {
-    return weighted_median(readings_of(votes));
-}
-
-double median_deviation_um(const std::vector<Vote>& votes, double middle_um) {
-    auto readings = readings_of(votes);
-    for (auto& reading : readings) {
-        reading.value_um = std::abs(reading.value_um - middle_um);
+/// 1 / variance of each reading by itself, as far as it and its car are trusted.
+VectorXd weights_of(const Readings& readings, const Trust& trust) {
+    VectorXd variances =
+        readings.rest_sd.array().square() / trust.of_reading.array() + square(readings.trip_sd);
+    for (Index i = 0; const auto& [first, count] : readings.cars) {
+        variances.segment(first, count).array() +=
+            readings.car_sd.segment(first, count).array().square() / trust.of_car[i++];
     }
-    return weighted_median(std::move(readings));
-}
-
-/// The weights of the t distribution about `mean_um`, and the mean under them.
-double reweighted_mean(std::vector<Vote>& votes, double mean_um, double dof) {
-    double weights = 0, sum = 0;
-    for (auto& vote : votes) {
-        const double strange = square(vote.value_um - mean_um) / vote.strange_um2;
-        vote.weight = (dof + 1) / (dof + strange) / vote.variance_um2;
-        weights += vote.weight;
-        sum += vote.weight * vote.value_um;
-    }
-    return sum / weights;
-}
-
-Fused fused(std::span<const FusionInput> passes, const FusionConfig& config) {
-    const double middle_um = level_um(passes);
-    const double rest_um2 = between_um2(middle_um, config);
-    std::vector<Vote> votes;
-    votes.reserve(passes.size());
-    for (const auto& input : passes) {
-        const double sd_um = sd_at_level_um(input.pass, middle_um);
-        votes.push_back(
-            {static_cast<double>(input.pass.iri_um), sd_um, square(sd_um) + rest_um2, 0});
-    }
-    double mean_um = median_um(votes);
-    const double scatter_um2 = square(sd_over_mad * median_deviation_um(votes, mean_um));
-    for (auto& vote : votes) {
-        vote.strange_um2 = rest_um2 + std::min(square(vote.sd_um), scatter_um2);
-    }
-    for (int round = 0; round < most_rounds; ++round) {
-        const double before_um =
-            std::exchange(mean_um, reweighted_mean(votes, mean_um, config.heavy_tail_dof));
-        if (std::abs(mean_um - before_um) < settled_um) {
-            break;
-        }
-    }
-    return {mean_um, rest_um2, std::move(votes)};
+    return variances.cwiseInverse();
 }
 
 /// By how much the passes scatter more than they claim, at least 1.
-double excess(const Fused& all) {
-    if (all.votes.size() < 2) {
-        return 1;
-    }
-    double strangeness = 0, most = 0;
-    for (const auto& vote : all.votes) {
-        most = std::max(most, vote.weight * vote.variance_um2);
-    }
-    for (const auto& vote : all.votes) {
-        const double trust = vote.weight * vote.variance_um2 / most;
-        strangeness += trust * square(vote.value_um - all.mean_um) / vote.variance_um2;
-    }
-    return std::sqrt(std::max(1.0, strangeness / static_cast<double>(all.votes.size() - 1)));
+double excess(const Readings& readings, const RoadLevel& level, const VectorXd& weights) {
+    const VectorXd variances = variances_of(readings);
+    const VectorXd trust = weights.cwiseProduct(variances);
+    const VectorXd off = readings.values - level.expected_um;
+    const double strangeness =
+        (trust.array() * off.array().square() / variances.array()).sum() / trust.maxCoeff();
+    const auto others = static_cast<double>(readings.values.size() - 1);
+    return std::sqrt(std::max(1.0, (claims + strangeness) / (claims + others)));
 }
 
-/// Places of the passes' vehicles in a list of them by first appearance, so that what numbers they
-/// have changes no sum.
-std::vector<std::size_t> cars_of(std::span<const FusionInput> passes) {
-    std::unordered_map<std::int64_t, std::size_t> known;
-    std::vector<std::size_t> cars;
-    cars.reserve(passes.size());
-    for (const auto& input : passes) {
-        cars.push_back(known.try_emplace(input.vehicle, known.size()).first->second);
+/// Mean distance of one side from the headline in the passes since `from_ms`.
+std::optional<double> side_off_um(const std::vector<const FusionInput*>& passes,
+                                  const VectorXd& weights,
+                                  std::optional<IriUm> Pass::*side,
+                                  const std::optional<RoadChange>& change) {
+    double whole = 0, sum = 0;
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        const auto& input = *passes[i];
+        const auto side_um = input.pass.*side;
+        const bool old = change && input.utc_ms && *input.utc_ms < change->utc_ms;
+        if (side_um && !old) {
+            const double weight = weights[static_cast<Index>(i)];
+            whole += weight;
+            sum += weight * (true_um(input, *side_um) - true_um(input, input.pass.iri_um));
+        }
     }
-    return cars;
-}
-
-std::size_t count_of(const std::vector<std::size_t>& cars) {
-    return *std::max_element(cars.begin(), cars.end()) + 1;
-}
-
-double sd_of_mean_um(const Fused& all, const std::vector<std::size_t>& cars, double common_share) {
-    double weights = 0, scatter = 0;
-    std::vector<double> of_car(count_of(cars), 0.0);
-    for (std::size_t i = 0; i < all.votes.size(); ++i) {
-        const auto& vote = all.votes[i];
-        weights += vote.weight;
-        scatter += square(vote.weight) * all.rest_um2;
-        of_car[cars[i]] += vote.weight * vote.sd_um;
-    }
-    const double by_car = std::inner_product(of_car.begin(), of_car.end(), of_car.begin(), 0.0);
-    const double by_all = square(std::accumulate(of_car.begin(), of_car.end(), 0.0));
-    const double shared = std::lerp(by_car, by_all, common_share);
-    return excess(all) * std::sqrt(scatter + shared) / weights;
+    return whole > 0 ? std::optional{sum / whole} : std::nullopt;
 }
 
 IriUm whole_um(double um) {
     return static_cast<IriUm>(std::lround(um));
 }
 
-std::optional<IriUm> side_um(std::span<const FusionInput> passes,
-                             const std::vector<Vote>& votes,
-                             std::optional<IriUm> Pass::*side) {
-    double weights = 0, sum = 0;
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        if (const auto value_um = passes[i].pass.*side) {
-            weights += votes[i].weight;
-            sum += votes[i].weight * *value_um;
-        }
-    }
-    return weights > 0 ? std::optional{whole_um(sum / weights)} : std::nullopt;
-}
-
-/// Slope of the weighted line through the dated passes.
-std::optional<IriUm> trend_um_per_year(std::span<const FusionInput> passes,
-                                       const std::vector<Vote>& votes,
-                                       std::int64_t first_ms) {
-    double weights = 0, sum_t = 0, sum_x = 0, sum_tt = 0, sum_tx = 0, span = 0;
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        if (!passes[i].utc_ms) {
-            continue;
-        }
-        const double t = static_cast<double>(*passes[i].utc_ms - first_ms) / ms_per_year;
-        const double w = votes[i].weight, x = votes[i].value_um;
-        weights += w;
-        sum_t += w * t;
-        sum_x += w * x;
-        sum_tt += w * t * t;
-        sum_tx += w * t * x;
-        span = std::max(span, t);
-    }
-    if (span <= 1) {
-        return std::nullopt;
-    }
-    return whole_um((weights * sum_tx - sum_t * sum_x) / (weights * sum_tt - sum_t * sum_t));
+std::optional<IriUm> side_um(double level_um, const std::optional<double>& off_um) {
+    return off_um ? std::optional{std::max(0, whole_um(level_um + *off_um))} : std::nullopt;
 }
 
 /// What needs no weights: counts, dates, flags.
@@ -237,9 +226,10 @@ SegmentState gathered(std::span<const FusionInput> passes) {
     state.passes = static_cast<std::int32_t>(passes.size());
     state.centre_only = true;
     state.validity = 0xff;
-    for (const auto& [pass, trip, vehicle, utc_ms] : passes) {
-        state.centre_only = state.centre_only && pass.centre_only;
-        state.validity &= pass.validity;
+    for (const auto& input : passes) {
+        const auto& utc_ms = input.utc_ms;
+        state.centre_only = state.centre_only && input.pass.centre_only;
+        state.validity &= input.pass.validity;
         if (utc_ms) {
             state.first_seen_ms = std::min(state.first_seen_ms.value_or(*utc_ms), *utc_ms);
             state.last_seen_ms = std::max(state.last_seen_ms.value_or(*utc_ms), *utc_ms);
@@ -248,25 +238,66 @@ SegmentState gathered(std::span<const FusionInput> passes) {
     return state;
 }
 
+SegmentState with_level(SegmentState state, const RoadLevel& level, double sd_um) {
+    state.iri_um = std::max(0, whole_um(level.um));
+    state.sd_um = std::max(1, whole_um(sd_um));
+    state.low_um = std::max(0, whole_um(level.um - interval_90 * sd_um));
+    state.high_um = std::max(state.iri_um, whole_um(level.um + interval_90 * sd_um));
+    if (level.trend) {
+        state.trend_um_per_year = whole_um(level.trend->um_per_year);
+        state.trend_sd_um_per_year = whole_um(level.trend->sd_um_per_year);
+    }
+    if (!level.steps.empty()) {
+        const auto& last = level.steps.back();
+        state.change = RoadChange{last.utc_ms, whole_um(last.um)};
+    }
+    return state;
+}
+
+std::vector<std::optional<std::int64_t>> times_of(const std::vector<const FusionInput*>& passes) {
+    std::vector<std::optional<std::int64_t>> times;
+    times.reserve(passes.size());
+    for (const auto* input : passes) {
+        times.push_back(input->utc_ms);
+    }
+    return times;
+}
+
 } // namespace
 
 SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& config) {
     assert(!passes.empty());
-    const auto all = fused(passes, config);
-    const auto cars = cars_of(passes);
-    const double sd_um = sd_of_mean_um(all, cars, config.common_share);
+    const auto sorted = by_car(passes);
+    const VectorXd values = values_of(sorted);
+    const double middle_um = level_um(values);
+    const VectorXd stated = stated_um(sorted, middle_um);
+    // What is common to all cars cannot be weighed away, yet a pass that is less sure for it is
+    // worth less.
+    const auto weighed = readings_of(sorted,
+                                     values,
+                                     stated,
+                                     middle_um,
+                                     {config.common_share + config.car_share, config.common_share},
+                                     config);
+    auto tail = config.tail;
+    tail.scatter_sd = scatter_um(values, variances_of(weighed));
+    const auto level = road_level(weighed, times_of(sorted), middle_um, tail, config.change);
 
-    auto state = gathered(passes);
-    state.iri_um = whole_um(all.mean_um);
-    state.sd_um = std::max(1, whole_um(sd_um));
-    state.low_um = std::max(0, whole_um(all.mean_um - interval_90 * sd_um));
-    state.high_um = whole_um(all.mean_um + interval_90 * sd_um);
-    state.left_um = side_um(passes, all.votes, &Pass::iri_left_um);
-    state.right_um = side_um(passes, all.votes, &Pass::iri_right_um);
-    state.vehicles = static_cast<std::int32_t>(count_of(cars));
-    if (state.first_seen_ms) {
-        state.trend_um_per_year = trend_um_per_year(passes, all.votes, *state.first_seen_ms);
-    }
+    const auto weights = weights_of(weighed, level.trust);
+    const auto apart =
+        readings_of(sorted, values, stated, middle_um, {config.car_share, 0}, config);
+    const double apart_um =
+        std::sqrt(variance_of(apart, level.influence) + level.change_variance_um2);
+    const double common_um = std::sqrt(config.common_share) * stated.dot(level.influence);
+    const double factor = excess(weighed, level, weights);
+    const double sd_um =
+        std::hypot(factor * apart_um, factor * common_um, config.anchor_relative_sd * level.um);
+    auto state = with_level(gathered(passes), level, sd_um);
+    state.vehicles = static_cast<std::int32_t>(weighed.cars.size());
+    state.left_um =
+        side_um(level.um, side_off_um(sorted, weights, &Pass::iri_left_um, state.change));
+    state.right_um =
+        side_um(level.um, side_off_um(sorted, weights, &Pass::iri_right_um, state.change));
     return state;
 }
 

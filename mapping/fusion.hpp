@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/fusion/road_level.hpp"
 #include "mapping/pass.hpp"
 
 #include <cstdint>
@@ -10,18 +11,34 @@
 
 namespace macadam {
 
+/// How a car reads, found from passes of others over the same roads or over surveyed ones.
+struct CarCalibration {
+    double gain = 1; ///< reading = offset + gain * IRI
+    double offset_um = 0;
+    double relative_sd = 0.1; ///< of what its readings are still off by, alike in all its passes
+    friend bool operator==(const CarCalibration&, const CarCalibration&) = default;
+};
+
 /// A pass with whose it is and when. Passes come in the order of (trip_sha256, occurrence).
 struct FusionInput {
     Pass pass;
     std::string trip_sha256;
     std::int64_t vehicle; ///< any number that tells cars apart
     std::optional<std::int64_t> utc_ms;
+    std::optional<CarCalibration> calibration{}; ///< of the vehicle; nothing: not calibrated
+};
+
+/// When a road became another, most often by being resurfaced.
+struct RoadChange {
+    std::int64_t utc_ms; ///< of the first pass after it
+    IriUm um;            ///< the level after less that before
+    friend bool operator==(const RoadChange&, const RoadChange&) = default;
 };
 
 /// What all passes say about a segment; quantised as the passes are.
 struct SegmentState {
     SegmentKey segment;
-    IriUm iri_um;
+    IriUm iri_um; ///< on the day of the newest pass
     IriUm sd_um;
     IriUm low_um; ///< 90 % interval
     IriUm high_um;
@@ -33,31 +50,39 @@ struct SegmentState {
     std::int32_t vehicles;
     std::optional<std::int64_t> first_seen_ms; ///< UTC
     std::optional<std::int64_t> last_seen_ms;
-    std::optional<IriUm> trend_um_per_year; ///< nothing where passes span less than a year
+    std::optional<IriUm> trend_um_per_year; ///< nothing where passes span no more than a year
+    std::optional<IriUm> trend_sd_um_per_year;
+    std::optional<RoadChange> change; ///< the last one that the passes tell of
     friend bool operator==(const SegmentState&, const SegmentState&) = default;
 };
 
+/// Of what the errors of passes are made. The sd that a pass states is of what is wrong with its
+/// car and with the method; passes differ by more, because no two drives are alike.
 struct FusionConfig {
-    double between_relative_sd = 0.08; ///< from pass to pass of good cars: wander, speed, load
-    double between_sd_mm_per_m = 0.05;
-    double common_share = 0.5; ///< of a pass's variance that every car shares: the same model, the
+    double common_share = 0.5; ///< of the stated variance, alike in all cars: the same model, the
                                ///< same road between the tracks (docs/method.md)
-    double heavy_tail_dof = 4; ///< of the t distribution that spares one bad pass
+    double car_share = 0.5;    ///< of the stated variance, alike in all passes of a car
+    double trip_relative_sd = 0.02;    ///< alike in all passes of a trip: load, tyres, weather
+    double rest_relative_sd = 0.07746; ///< of each pass: wander, speed; with trips together 0.08
+    double rest_sd_mm_per_m = 0.05;
+    double anchor_relative_sd = 0; ///< of all cars together, once they are calibrated
+    TailModel tail{};
+    ChangeModel change{};
 };
 
-/// The state of one segment: a mean weighted by 1 / (sd^2 + between^2) under a t distribution, so
-/// that one broken pass among several hardly counts. How strange a pass is, is judged by the
-/// scatter of all (median absolute deviation) where that is less than what the pass claims.
+/// The state of one segment: the level of a road that changes with time, on the day of the newest
+/// pass, from passes whose errors are in part those of the method, the car and the trip, under a
+/// t distribution, so that one broken car or pass among several hardly counts
+/// (mapping/fusion/road_level.hpp).
 ///
-/// The sd of a pass is its car's (parameters, mounting, tyres) and does not average out over the
-/// passes of that car; the scatter between passes does. So one pass has sqrt(sd^2 + between^2), n
-/// passes of n like cars 1/sqrt(n) of it, and n passes of one car never less than that car's sd.
-/// Where passes scatter more than they claim, sd grows by as much (R. T. Birge, "The calculation of
-/// errors by the method of least squares", Physical Review 40 (1932), p. 207).
+/// What all cars share does not average out, nor over the passes of one car what that car reads
+/// wrong. Where passes scatter more than they claim, sd grows by as much (R. T. Birge, "The
+/// calculation of errors by the method of least squares", Physical Review 40 (1932), p. 207).
 ///
-/// Left and right are means with the weights of the headline. `centre_only` and each flag of
-/// `validity` stay only where every pass has them. The same bytes whatever the order of import,
-/// because the order here is fixed and numbers of vehicles only tell cars apart.
+/// Left and right keep their distance from the headline, as the passes since the last change tell
+/// it. `centre_only` and each flag of `validity` stay only where every pass has them. The same
+/// bytes whatever the order of import, because the order here is fixed and numbers of vehicles
+/// only tell cars apart.
 ///
 /// \param passes  at least one, all of one segment, in the order that FusionInput states.
 SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& config);

@@ -108,6 +108,9 @@ CREATE TABLE roughness (
     first_seen DATETIME,
     last_seen DATETIME,
     trend_per_year DOUBLE,
+    trend_sd DOUBLE,
+    changed DATETIME,
+    change DOUBLE,
     validity TEXT
 );
 )";
@@ -122,6 +125,8 @@ void write_row(Statement& insert, const SegmentRecord& record, const ClassTable&
             values[i] = datetime_text(*record.state->first_seen_ms);
         } else if (fields[i].name == "last_seen" && record.state && record.state->last_seen_ms) {
             values[i] = datetime_text(*record.state->last_seen_ms);
+        } else if (fields[i].name == "changed" && record.state && record.state->change) {
+            values[i] = datetime_text(record.state->change->utc_ms);
         }
         insert.bind_at(static_cast<int>(i) + 2, values[i]);
     }
@@ -141,9 +146,9 @@ std::size_t write_geopackage(const RoadStore& store,
     GeoBox box;
     std::size_t written = 0;
     {
-        auto insert =
-            database.prepare("INSERT INTO roughness VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?,"
-                             " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        auto insert = database.prepare(
+            "INSERT INTO roughness VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?,"
+            " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         written = each(store, filter, progress, [&](const SegmentRecord& record) {
             write_row(insert, record, classes_of(store));
             for (const auto& point : record.segment.line) {

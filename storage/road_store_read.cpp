@@ -186,7 +186,7 @@ std::string state_line(const SegmentState& s) {
     const auto known = [](const std::optional<IriUm>& um) {
         return text_of(um ? std::optional<std::int64_t>{*um} : std::nullopt);
     };
-    return fmt::format("state {} {} {} {} {} {} {} {:d} {} {} {} {} {} {}\n",
+    return fmt::format("state {} {} {} {} {} {} {} {:d} {} {} {} {} {} {} {} {} {}\n",
                        name_of(s.segment),
                        s.iri_um,
                        s.sd_um,
@@ -200,7 +200,10 @@ std::string state_line(const SegmentState& s) {
                        s.vehicles,
                        text_of(s.first_seen_ms),
                        text_of(s.last_seen_ms),
-                       known(s.trend_um_per_year));
+                       known(s.trend_um_per_year),
+                       known(s.trend_sd_um_per_year),
+                       text_of(s.change ? std::optional{s.change->utc_ms} : std::nullopt),
+                       known(s.change ? std::optional{s.change->um} : std::nullopt));
 }
 
 void add_passes(Sha256& hash, Database& database) {

@@ -25,7 +25,8 @@ constexpr std::array fields{
     Field{"class", Type::text, 0},       Field{"passes", Type::integer, 0},
     Field{"vehicles", Type::integer, 0}, Field{"first_seen", Type::text, 0},
     Field{"last_seen", Type::text, 0},   Field{"trend_per_year", Type::real, 3},
-    Field{"validity", Type::text, 0}};
+    Field{"trend_sd", Type::real, 3},    Field{"changed", Type::text, 0},
+    Field{"change", Type::real, 3},      Field{"validity", Type::text, 0}};
 
 using Text = std::optional<std::string>;
 
@@ -56,11 +57,14 @@ std::vector<Text> state_values(const SegmentState& state, const ClassTable& clas
             time_text(state.first_seen_ms),
             time_text(state.last_seen_ms),
             um_text(state.trend_um_per_year),
+            um_text(state.trend_sd_um_per_year),
+            state.change ? time_text(state.change->utc_ms) : std::nullopt,
+            state.change ? um_text(state.change->um) : std::nullopt,
             name_of_validity(state.validity)};
 }
 
 std::vector<Text> values_without_state() {
-    std::vector<Text> values(14);
+    std::vector<Text> values(17);
     values[8] = values[9] = "0"; // passes and vehicles are known: none
     return values;
 }

@@ -36,6 +36,11 @@ std::optional<std::int64_t> unless_absurd(std::int64_t utc_ms) {
     return utc_ms >= first_utc_ms && utc_ms <= last_utc_ms ? std::optional{utc_ms} : std::nullopt;
 }
 
+std::optional<RoadChange> known_change_in(const Statement& row, int column) {
+    const auto utc_ms = known_utc_ms(row, column);
+    return utc_ms ? std::optional{RoadChange{*utc_ms, um_in(row, column + 1)}} : std::nullopt;
+}
+
 constexpr int first_state_column = 8;
 
 SegmentState state_in(const Statement& row, const SegmentKey& segment) {
@@ -48,12 +53,14 @@ SegmentState state_in(const Statement& row, const SegmentKey& segment) {
             .left_um = known_um_in(row, c + 4),
             .right_um = known_um_in(row, c + 5),
             .centre_only = row.text(c + 6) != "MRI",
-            .validity = static_cast<std::uint8_t>(row.integer(c + 12)),
+            .validity = static_cast<std::uint8_t>(row.integer(c + 15)),
             .passes = static_cast<std::int32_t>(row.integer(c + 7)),
             .vehicles = static_cast<std::int32_t>(row.integer(c + 8)),
             .first_seen_ms = known_utc_ms(row, c + 9),
             .last_seen_ms = known_utc_ms(row, c + 10),
-            .trend_um_per_year = known_um_in(row, c + 11)};
+            .trend_um_per_year = known_um_in(row, c + 11),
+            .trend_sd_um_per_year = known_um_in(row, c + 12),
+            .change = known_change_in(row, c + 13)};
 }
 
 } // namespace
@@ -62,7 +69,8 @@ const char* const record_columns =
     "segment.way_id, segment.direction, segment.seq, segment.from_m, segment.to_m, segment.geom,"
     " way.name, way.highway, state.iri, state.iri_sd, state.iri_low, state.iri_high,"
     " state.iri_left, state.iri_right, state.\"index\", state.passes, state.vehicles,"
-    " state.first_seen_ms, state.last_seen_ms, state.trend_per_year, state.flags";
+    " state.first_seen_ms, state.last_seen_ms, state.trend_per_year, state.trend_sd,"
+    " state.changed_ms, state.change, state.flags";
 
 SegmentRecord record_in(const Statement& row) {
     const SegmentKey key{
@@ -74,14 +82,16 @@ SegmentRecord record_in(const Statement& row) {
                 row.is_null(first_state_column) ? std::nullopt : std::optional{state_in(row, key)}};
 }
 
-const char* const insert_state = "INSERT OR REPLACE INTO segment_state VALUES"
-                                 " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+const char* const insert_state =
+    "INSERT OR REPLACE INTO segment_state VALUES"
+    " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
 
 void write_state(Statement& insert,
                  std::int64_t fid,
                  const SegmentState& state,
                  const ClassTable& classes) {
     const double iri = mm_per_m(state.iri_um);
+    const auto changed_ms = state.change ? std::optional{state.change->utc_ms} : std::nullopt;
     insert.run(fid,
                iri,
                mm_per_m(state.sd_um),
@@ -96,9 +106,13 @@ void write_state(Statement& insert,
                known_datetime_text(state.first_seen_ms),
                known_datetime_text(state.last_seen_ms),
                known_mm_per_m(state.trend_um_per_year),
+               known_mm_per_m(state.trend_sd_um_per_year),
+               known_datetime_text(changed_ms),
+               state.change ? std::optional{mm_per_m(state.change->um)} : std::nullopt,
                name_of_validity(state.validity),
                state.first_seen_ms,
                state.last_seen_ms,
+               changed_ms,
                std::int64_t{state.validity});
 }
 

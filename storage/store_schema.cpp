@@ -112,9 +112,13 @@ CREATE TABLE segment_state (
     first_seen DATETIME,
     last_seen DATETIME,
     trend_per_year DOUBLE,
+    trend_sd DOUBLE,
+    changed DATETIME,
+    change DOUBLE,
     validity TEXT NOT NULL,
     first_seen_ms INTEGER,
     last_seen_ms INTEGER,
+    changed_ms INTEGER,
     flags INTEGER NOT NULL
 );
 CREATE TABLE segment_dirty (
@@ -125,7 +129,8 @@ CREATE VIEW roughness AS
            way.highway, segment.direction, segment.from_m, segment.to_m,
            state.iri, state.iri_sd, state.iri_low, state.iri_high, state.iri_left, state.iri_right,
            state."index", state.class, state.passes, state.vehicles, state.first_seen,
-           state.last_seen, state.trend_per_year, state.validity
+           state.last_seen, state.trend_per_year, state.trend_sd, state.changed, state.change,
+           state.validity
     FROM segment_state AS state
     JOIN segment ON segment.fid = state.fid
     JOIN way ON way.way_id = segment.way_id;

@@ -11,12 +11,15 @@ namespace {
 
 constexpr std::int64_t day_ms = 86'400'000;
 
+/// A pass of a trip of its own.
 FusionInput reading(IriUm iri_um, IriUm sd_um, std::int64_t vehicle) {
+    static int trip = 1'000'000;
     FusionInput input{};
     input.pass.segment = {1, true, 0};
     input.pass.iri_um = iri_um;
     input.pass.sd_um = sd_um;
     input.vehicle = vehicle;
+    input.trip_sha256 = std::to_string(++trip);
     return input;
 }
 

@@ -63,7 +63,9 @@ SegmentRecord record() {
                                   .vehicles = 3,
                                   .first_seen_ms = 1'533'226'488'225,
                                   .last_seen_ms = 1'533'226'489'000,
-                                  .trend_um_per_year = -51}};
+                                  .trend_um_per_year = -51,
+                                  .trend_sd_um_per_year = 20,
+                                  .change = RoadChange{1'533'226'488'225, -812}}};
 }
 
 const ClassTable& fhwa() {
@@ -71,15 +73,15 @@ const ClassTable& fhwa() {
 }
 
 TEST(Export, WritesAFeatureInTheWordsOfRfc7946) {
-    EXPECT_EQ(
-        geojson_feature(record(), fhwa()),
-        R"({"type":"Feature","id":"1234-0007","geometry":{"type":"LineString",)"
-        R"("coordinates":[[10.0000000,50.1234568],[-10.0000000,50.1236000]]},"properties":{)"
-        R"("segment":"1234-0007","way_id":1234,"name":"=A, \"B\"","highway":"residential",)"
-        R"("direction":"backward","from_m":140.00,"to_m":160.01,"iri":2.345,"iri_sd":0.300,)"
-        R"("iri_low":1.852,"iri_high":2.839,"iri_left":2.400,"iri_right":null,"index":"MRI",)"
-        R"("class":"fair","passes":5,"vehicles":3,"first_seen":"2018-08-02T16:14:48.225Z",)"
-        R"("last_seen":"2018-08-02T16:14:49Z","trend_per_year":-0.051,"validity":"start_up"}})");
+    EXPECT_EQ(geojson_feature(record(), fhwa()),
+              R"({"type":"Feature","id":"1234-0007","geometry":{"type":"LineString",)"
+              R"("coordinates":[[10.0000000,50.1234568],[-10.0000000,50.1236000]]},"properties":{)"
+              R"("segment":"1234-0007","way_id":1234,"name":"=A, \"B\"","highway":"residential",)"
+              R"("direction":"backward","from_m":140.00,"to_m":160.01,"iri":2.345,"iri_sd":0.300,)"
+              R"("iri_low":1.852,"iri_high":2.839,"iri_left":2.400,"iri_right":null,"index":"MRI",)"
+              R"("class":"fair","passes":5,"vehicles":3,"first_seen":"2018-08-02T16:14:48.225Z",)"
+              R"("last_seen":"2018-08-02T16:14:49Z","trend_per_year":-0.051,"trend_sd":0.020,)"
+              R"("changed":"2018-08-02T16:14:48.225Z","change":-0.812,"validity":"start_up"}})");
 }
 
 TEST(Export, WritesACsvRowWithTheSameValues) {
@@ -88,11 +90,11 @@ TEST(Export, WritesACsvRowWithTheSameValues) {
     EXPECT_EQ(csv_header(),
               "segment,way_id,name,highway,direction,from_m,to_m,iri,iri_sd,iri_low,iri_high,"
               "iri_left,iri_right,index,class,passes,vehicles,first_seen,last_seen,trend_per_year,"
-              "validity,lat_deg,lon_deg");
+              "trend_sd,changed,change,validity,lat_deg,lon_deg");
     EXPECT_EQ(csv_row(even, fhwa()),
               "1234-0007,1234,\"=A, \"\"B\"\"\",residential,backward,140.00,160.01,2.345,0.300,"
               "1.852,2.839,2.400,,MRI,fair,5,3,2018-08-02T16:14:48.225Z,2018-08-02T16:14:49Z,"
-              "-0.051,start_up,50.0010000,10.0000000");
+              "-0.051,0.020,2018-08-02T16:14:48.225Z,-0.812,start_up,50.0010000,10.0000000");
 }
 
 TEST(Export, QuotesWhatASpreadsheetWouldRun) {
@@ -113,7 +115,7 @@ TEST(Export, LeavesUnknownValuesEmpty) {
     }
     EXPECT_EQ(properties["passes"], 0);
     EXPECT_THAT(csv_row(unknown, fhwa()),
-                HasSubstr("1234,,residential,backward,140.00,160.01,,,,,,,,,0,0,,,,,50."));
+                HasSubstr("1234,,residential,backward,140.00,160.01,,,,,,,,,0,0,,,,,,,,50."));
 }
 
 TEST(Export, MakesOneCollectionOfAllSegments) {

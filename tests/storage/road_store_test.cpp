@@ -183,7 +183,7 @@ TEST(RoadStore, DigestsTheTextThatTheDocumentationDescribes) {
                        std::to_string(pass.speed_mmps) + " 20000 990000 0\n";
     text += "state 1+0000 " + std::to_string(state.iri_um) + " " + std::to_string(state.sd_um) +
             " " + std::to_string(state.low_um) + " " + std::to_string(state.high_um) + " " +
-            optional(state.left_um) + " - 0 0 1 1 - - -\n";
+            optional(state.left_um) + " - 0 0 1 1 - - - - - -\n";
     Sha256 hash;
     hash.add(text);
     EXPECT_EQ(store.digest(), hash.hex());
