@@ -5,6 +5,9 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -18,6 +21,10 @@ constexpr double sd_per_median = 5.5;
 constexpr double usual_m = 30; // hardly any position lies farther from its road
 constexpr double best_share = 0.5;
 constexpr double sample_weight = 0.75;
+constexpr double normal_sd_per_median = 1.4826; // of the size of a normal error
+constexpr double least_close_sd_m = 3;          // maps err, too
+constexpr double farthest_lane_m = 20;          // from a road's line
+constexpr double lane_doubt = 8;                // samples that tell as much as not knowing does
 constexpr double drawn_course_sd_rad = 60 * rad_per_deg; // positions wander sideways together
 constexpr double chord_spread = 0.1;     // a way is longer than its chord by so much, more or less
 constexpr double odometer_spread = 0.02; // scale of the odometer and the map's cut corners
@@ -108,11 +115,18 @@ Drawn drawn_between(const Positions& positions, std::size_t from, std::size_t to
 }
 
 /// The nearest road of a sample that may be driven in the direction of its course.
-std::optional<double> nearest_m(const Positions& positions,
-                                std::size_t at,
-                                const RoadNetwork& roads,
-                                RoadPlane& plane,
-                                const MatchConfig& config) {
+struct Beside {
+    double distance_m;
+    double right_m;
+    bool two_way;
+    bool lane_known; ///< right_m is a lane's: the course is known and the road is near
+};
+
+std::optional<Beside> beside(const Positions& positions,
+                             std::size_t at,
+                             const RoadNetwork& roads,
+                             RoadPlane& plane,
+                             const MatchConfig& config) {
     const auto& position = positions.all[at];
     const auto course = drawn_course(positions, at);
     for (const double radius_m :
@@ -120,36 +134,70 @@ std::optional<double> nearest_m(const Positions& positions,
         for (const auto& place : plane.near(position.at, position.place, radius_m)) {
             const bool along = !course || std::cos(course->course_rad - place.course_rad) > 0;
             const bool against = !course || std::cos(course->course_rad - place.course_rad) < 0;
-            if ((along && is_drivable(roads, edge_of(place.link, true))) ||
-                (against && is_drivable(roads, edge_of(place.link, false)))) {
-                return place.distance_m;
+            const bool forward = is_drivable(roads, edge_of(place.link, true));
+            const bool backward = is_drivable(roads, edge_of(place.link, false));
+            if ((along && forward) || (against && backward)) {
+                return Beside{place.distance_m,
+                              along ? place.right_m : -place.right_m,
+                              forward && backward,
+                              course && place.distance_m < farthest_lane_m};
             }
         }
     }
     return {};
 }
 
-} // namespace
+/// \param values  at least one.
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
 
-double road_sd_m(const Positions& positions,
-                 const RoadNetwork& roads,
-                 RoadPlane& plane,
-                 const MatchConfig& config) {
-    const auto& samples = positions.samples;
-    const auto step = std::max<std::size_t>(1, samples.size() / asked_samples);
-    std::vector<double> near_m;
-    for (std::size_t i = 0; i < samples.size(); i += step) {
-        if (const auto found_m = nearest_m(positions, samples[i], roads, plane, config)) {
-            near_m.push_back(*found_m);
+/// Of roads of one kind; few samples say little.
+double lane_m(std::span<const Beside> besides, bool two_way) {
+    std::vector<double> right_m;
+    for (const auto& road : besides) {
+        if (road.lane_known && road.two_way == two_way) {
+            right_m.push_back(road.right_m);
         }
     }
-    if (near_m.empty()) {
-        return config.emission_sd_m;
+    const auto count = static_cast<double>(right_m.size());
+    return right_m.empty() ? 0 : median(std::move(right_m)) * count / (count + lane_doubt);
+}
+
+} // namespace
+
+RoadSpread road_spread(const Positions& positions,
+                       const RoadNetwork& roads,
+                       RoadPlane& plane,
+                       const MatchConfig& config) {
+    const auto& samples = positions.samples;
+    const auto step = std::max<std::size_t>(1, samples.size() / asked_samples);
+    std::vector<Beside> besides;
+    for (std::size_t i = 0; i < samples.size(); i += step) {
+        if (const auto found = beside(positions, samples[i], roads, plane, config)) {
+            besides.push_back(*found);
+        }
     }
-    const auto middle = near_m.begin() + static_cast<std::ptrdiff_t>(near_m.size() / 2);
-    std::nth_element(near_m.begin(), middle, near_m.end());
+    if (besides.empty()) {
+        return {config.emission_sd_m, config.emission_sd_m, 0, 0};
+    }
+    const double oneway_m = lane_m(besides, false);
+    const double two_way_m = lane_m(besides, true);
+    std::vector<double> from_line_m;
+    std::vector<double> from_lane_m;
+    for (const auto& road : besides) {
+        from_line_m.push_back(road.distance_m);
+        from_lane_m.push_back(road.lane_known
+                                  ? std::abs(road.right_m - (road.two_way ? two_way_m : oneway_m))
+                                  : road.distance_m);
+    }
     const double least_m = best_share * config.emission_sd_m;
-    return std::clamp(sd_per_median * *middle, least_m, config.emission_sd_m);
+    return {std::clamp(sd_per_median * median(from_line_m), least_m, config.emission_sd_m),
+            std::max(least_close_sd_m, normal_sd_per_median * median(from_lane_m)),
+            oneway_m,
+            two_way_m};
 }
 
 Evidence evidence_of(const Positions& positions,
@@ -183,7 +231,8 @@ Between between_samples(const Positions& positions,
     const double scale_m = positions.odometer
                                ? config.odometer_scale_m + odometer_spread * travelled_m
                                : config.transition_scale_m + chord_spread * travelled_m;
-    return {travelled_m,
+    return {took_s,
+            travelled_m,
             drawn.length_m,
             scale_m,
             mean_of_two * static_cast<double>(a.own_sd_m) / scale_m,

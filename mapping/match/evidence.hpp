@@ -7,14 +7,20 @@
 
 namespace macadam {
 
-/// The distance at which a trip's positions lie from its roads: receiver, map and lane together,
-/// standard deviation across the road. Learnt from how near to a part of its samples the
-/// nearest roads are that may be driven that way, between half of config.emission_sd_m and all of
-/// it.
-double road_sd_m(const Positions& positions,
-                 const RoadNetwork& roads,
-                 RoadPlane& plane,
-                 const MatchConfig& config);
+/// How a trip's positions lie beside its roads: receiver, map and lane together.
+struct RoadSpread {
+    double sd_m;           ///< across the road, wide enough that no road is lost
+    double close_sd_m;     ///< across the road, about the lane, of a good part of the trip
+    double oneway_lane_m;  ///< right of a oneway road's line; where traffic keeps left, below 0
+    double two_way_lane_m; ///< the same of two-way roads
+};
+
+/// Learnt from a part of the samples and the nearest roads to them that may be driven that way.
+/// The wide sd is between half of config.emission_sd_m and all of it.
+RoadSpread road_spread(const Positions& positions,
+                       const RoadNetwork& roads,
+                       RoadPlane& plane,
+                       const MatchConfig& config);
 
 /// What one sample says of the road under it.
 struct Evidence {
@@ -26,7 +32,7 @@ struct Evidence {
 
 /// The course is the receiver's, or the one that the positions around draw.
 ///
-/// \param road_sd_m  what road_sd_m gave; a position that is worse by itself counts as such.
+/// \param road_sd_m  of RoadSpread; a position that is worse by itself counts as such.
 Evidence evidence_of(const Positions& positions,
                      std::size_t sample,
                      double road_sd_m,
@@ -34,6 +40,7 @@ Evidence evidence_of(const Positions& positions,
 
 /// What joins two samples.
 struct Between {
+    double took_s;
     double travelled_m;
     double drawn_m;    ///< length of the line through the positions
     double scale_m;    ///< of |way - travelled|

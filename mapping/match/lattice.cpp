@@ -10,7 +10,10 @@ namespace macadam {
 namespace {
 
 constexpr double off_nats = 2;        // of a spacing off the network: a road 2 sd away
+constexpr double off_fit_nats = 1;    // and, where some road fits, so much more
 constexpr double off_switch_nats = 6; // leaving the network, and coming back
+constexpr double well_back_nats = 8;  // coming back to a road that fits is so much likelier
+constexpr double sideways_nats = 12;  // and over to a road beside so much less likely
 constexpr float off_end_nats = 3;     // beginning or ending there
 constexpr double hop_nats = 16;       // leaving it and coming back between two samples
 constexpr double gap_nats = 25;       // going on elsewhere: more than any credible detour
@@ -18,6 +21,11 @@ constexpr double beam_nats = 15;      // behind the best by more: not followed
 constexpr std::size_t widest_beam = 12;
 constexpr std::size_t widest_far_beam = 5; // where each needs a long search
 constexpr double far_m = 1000;
+
+constexpr double fit_sds = 2; // a road fits whose lane is not farther from the position
+constexpr double fit_course_sd_rad = 15 * std::numbers::pi / 180;
+constexpr double farthest_fit_m = 20;
+constexpr double fit_without_course = 0.3; // the chance that a road so near leads that way
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -31,15 +39,32 @@ double course_nats(double angle_rad, double sd_rad) {
     return (1 - std::cos(angle_rad)) / (sd_rad * sd_rad);
 }
 
+double fit(const NearPlace& place,
+           double right_m,
+           double course_rad,
+           const Evidence& evidence,
+           double close_sd_m) {
+    if (place.distance_m > farthest_fit_m) {
+        return 0;
+    }
+    const double course =
+        std::isnan(evidence.course_rad)
+            ? fit_without_course
+            : std::exp(-course_nats(evidence.course_rad - course_rad, fit_course_sd_rad));
+    return course * std::exp(-distance_nats(right_m, fit_sds * close_sd_m));
+}
+
 void add_candidates(std::vector<State>& states,
                     const RoadNetwork& roads,
                     const std::vector<NearPlace>& places,
                     const Evidence& evidence,
+                    const RoadSpread& spread,
                     const MatchConfig& config) {
     const auto first = states.size();
     const auto full = [&] {
         return states.size() - first >= static_cast<std::size_t>(config.most_candidates);
     };
+    double best_fit = 0;
     for (const auto& place : places) {
         const double distance = distance_nats(place.distance_m, evidence.sd_m);
         for (const bool forward : {true, false}) {
@@ -52,18 +77,25 @@ void add_candidates(std::vector<State>& states,
                 std::isnan(evidence.course_rad)
                     ? 0
                     : course_nats(evidence.course_rad - course_rad, evidence.course_sd_rad);
+            const double lane_m =
+                is_drivable(roads, reversed(edge)) ? spread.two_way_lane_m : spread.oneway_lane_m;
+            const double right_m = (forward ? place.right_m : -place.right_m) - lane_m;
+            const double road_fit = fit(place, right_m, course_rad, evidence, spread.close_sd_m);
+            best_fit = std::max(best_fit, road_fit);
             const double offset_m = forward ? place.along_m : length_m(roads, edge) - place.along_m;
             states.push_back({{false,
                                edge,
                                offset_m,
                                static_cast<float>(course_rad),
-                               static_cast<float>(evidence.weight * (distance + course))},
+                               static_cast<float>(evidence.weight * (distance + course)),
+                               static_cast<float>(right_m),
+                               static_cast<float>(road_fit)},
                               never,
                               0});
         }
     }
-    states.push_back(
-        {{true, EdgeId{}, 0, 0, static_cast<float>(evidence.weight * off_nats)}, never, 0});
+    const double off = evidence.weight * off_nats + off_fit_nats * best_fit;
+    states.push_back({{true, EdgeId{}, 0, 0, static_cast<float>(off), 0, 0}, never, 0});
 }
 
 /// States of a sample that are worth following, the best first.
@@ -103,7 +135,7 @@ public:
             const Positions& positions,
             const MatchConfig& config)
         : roads_{roads}, plane_{plane}, routes_{routes}, positions_{positions}, config_{config},
-          sd_m_{road_sd_m(positions, roads, plane, config)} {}
+          spread_{road_spread(positions, roads, plane, config)} {}
 
     Lattice build() && {
         for (std::size_t sample = 0; sample < positions_.samples.size(); ++sample) {
@@ -127,7 +159,8 @@ private:
         add_candidates(lattice_.states,
                        roads_,
                        plane_.near(position.at, position.place, config_.search_radius_m),
-                       evidence_of(positions_, sample, sd_m_, config_),
+                       evidence_of(positions_, sample, spread_.sd_m, config_),
+                       spread_,
                        config_);
         lattice_.first_state.push_back(lattice_.states.size());
         if (sample == 0 || sample + 1 == positions_.samples.size()) {
@@ -165,15 +198,20 @@ private:
         for (auto to = static_cast<std::uint32_t>(lattice_.first_state[sample]); to < last; ++to) {
             const auto& target = lattice_.states[to].candidate;
             if (candidate.off_network || target.off_network) {
-                const bool stays = candidate.off_network && target.off_network;
-                const double cost = off_way_nats(between) + (stays ? 0 : off_switch_nats);
+                double cost = off_way_nats(between);
+                if (!candidate.off_network) {
+                    cost += off_switch_nats;
+                } else if (!target.off_network) {
+                    cost += return_nats(from, sample, target, between);
+                }
                 add({from, to, static_cast<float>(std::min(cost, gap_nats)), false});
                 continue;
             }
             const auto passage = passage_of(roads_, *reached, candidate, target, between, config_);
             if (passage) {
-                const double cost =
-                    cost_of(*passage, between) + turn_nats(candidate, target, between);
+                const double cost = cost_of(*passage, between) +
+                                    turn_nats(candidate, target, between) +
+                                    sliding_nats(candidate, target, between, spread_.close_sd_m);
                 if (cost < gap_nats) {
                     add({from, to, static_cast<float>(cost), true});
                 }
@@ -183,6 +221,18 @@ private:
                 add({from, to, static_cast<float>(cost), false});
             }
         }
+    }
+
+    /// Of coming back to the network at `target`, a candidate of `sample`.
+    double return_nats(std::uint32_t from,
+                       std::size_t sample,
+                       const Candidate& target,
+                       const Between& between) const {
+        const double share =
+            excursion_share(lattice_, from, sample - 1, target, positions_, plane_, roads_);
+        return off_switch_nats - share * static_cast<double>(target.fit) * well_back_nats +
+               (1 - share) * sideways_nats +
+               sliding_nats(lattice_.states[from].candidate, target, between, spread_.close_sd_m);
     }
 
     /// A sample stands for a spacing; what was travelled off the network beyond that costs alike.
@@ -207,7 +257,7 @@ private:
     Routes& routes_;
     const Positions& positions_;
     const MatchConfig& config_;
-    double sd_m_;
+    RoadSpread spread_;
     Lattice lattice_;
 };
 

@@ -17,9 +17,11 @@ namespace macadam {
 struct Candidate {
     bool off_network; ///< then edge, offset and course say nothing
     EdgeId edge;
-    double offset_m;  ///< along the edge, in its direction of travel
-    float course_rad; ///< of the edge there, clockwise from north
-    float cost;       ///< -log likelihood of the position
+    double offset_m;   ///< along the edge, in its direction of travel
+    float course_rad;  ///< of the edge there, clockwise from north
+    float cost;        ///< -log likelihood of the position
+    float right_m = 0; ///< of where the trip drives on such a road
+    float fit = 0;     ///< 0 to 1: position and course are those of a car on this road
 };
 
 /// How a car may have come from one candidate to another.
@@ -55,6 +57,12 @@ double cost_of(const Passage& passage, const Between& between);
 /// -log likelihood of what the gyro measured if the car went from one candidate to the other.
 double turn_nats(const Candidate& from, const Candidate& to, const Between& between);
 
+/// -log likelihood of how far beside its road the second place lies, given the first: errors of
+/// receiver and map change slowly, so that a car which seems to have slid sideways is on another
+/// road. From off the network nothing is given. Bounded: maps have steps in them.
+double
+sliding_nats(const Candidate& from, const Candidate& to, const Between& between, double close_sd_m);
+
 /// A step from one state to another of the next sample.
 struct Transition {
     std::uint32_t from; ///< states of the whole lattice
@@ -81,6 +89,19 @@ struct Lattice {
                                          first_state[sample + 1] - first_state[sample]);
     }
 };
+
+/// Whether an excursion off the network was one, 0 to 1, now that it ends on a road: not, if that
+/// road ran beside the car all the while, or if the car came back to the edge it had left as far
+/// along as it had travelled. Then the positions were bad, or the map's line is.
+///
+/// \param state  off the network, at `sample`; of those before, the cheapest chain is looked at.
+double excursion_share(const Lattice& lattice,
+                       std::uint32_t state,
+                       std::size_t sample,
+                       const Candidate& entered,
+                       const Positions& positions,
+                       RoadPlane& plane,
+                       const RoadNetwork& roads);
 
 /// Probability of each state given all positions: the forward-backward recursion, with costs
 /// sharpened, because the lattice is wider than errors are so that it never loses a road.

@@ -32,11 +32,17 @@ OnStep nearest_on(const PointEn& a, const PointEn& b, const PointEn& at) {
     return {fraction, apart_m({a.east_m + fraction * east_m, a.north_m + fraction * north_m}, at)};
 }
 
-NearPlace place_at(LinkId link, const LinePoint& a, const LinePoint& b, const OnStep& on) {
+NearPlace
+place_at(LinkId link, const LinePoint& a, const LinePoint& b, const OnStep& on, const PointEn& at) {
+    const double east_m = b.at.east_m - a.at.east_m;
+    const double north_m = b.at.north_m - a.at.north_m;
+    const double step_m = apart_m(a.at, b.at);
+    const double cross = (at.east_m - a.at.east_m) * north_m - (at.north_m - a.at.north_m) * east_m;
     return {link,
             std::lerp(a.along_m, b.along_m, on.fraction),
             on.distance_m,
-            std::atan2(b.at.east_m - a.at.east_m, b.at.north_m - a.at.north_m)};
+            std::atan2(east_m, north_m),
+            step_m > 0 ? cross / step_m : on.distance_m};
 }
 
 /// The places where the line's distance is at a minimum, with a hill of hairpin_m between two.
@@ -51,7 +57,7 @@ void add_minima(std::vector<NearPlace>& places,
     double farthest_since_m = far_m; // a new minimum lies well below it
     const auto add_best = [&] {
         if (best.distance_m <= radius_m) {
-            places.push_back(place_at(link, line[best_step], line[best_step + 1], best));
+            places.push_back(place_at(link, line[best_step], line[best_step + 1], best, at));
         }
         best = {0, far_m};
     };
@@ -107,11 +113,11 @@ std::span<const LinePoint> RoadPlane::line(LinkId link) {
 
 NearPlace RoadPlane::nearest(LinkId link, const PointEn& at) {
     const auto points = line(link);
-    NearPlace best{link, 0, std::numeric_limits<double>::infinity(), 0};
+    NearPlace best{link, 0, std::numeric_limits<double>::infinity(), 0, 0};
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const auto on = nearest_on(points[i].at, points[i + 1].at, at);
         if (on.distance_m < best.distance_m) {
-            best = place_at(link, points[i], points[i + 1], on);
+            best = place_at(link, points[i], points[i + 1], on, at);
         }
     }
     return best;

@@ -22,6 +22,7 @@ struct NearPlace {
     double along_m;
     double distance_m;
     double course_rad; ///< of the line there, in its way's own direction
+    double right_m;    ///< the position lies so far right of the line, however far it goes on
 };
 
 /// The roads near one trip, in its plane. Links are projected when first asked for, each once.
