@@ -30,9 +30,10 @@ constexpr double chord_spread = 0.1;     // a way is longer than its chord by so
 constexpr double odometer_spread = 0.02; // scale of the odometer and the map's cut corners
 constexpr double standing_mps = 2;       // a mean speed below: the car stood
 constexpr double standing_s = 5;
-constexpr double mean_of_two = 1.13; // of |difference| of two normal errors, in sd of one
-constexpr double least_step_m = 10;  // of the line through positions: less counts noise
-constexpr double dense_m = 60;       // a longer step may hide a detour
+constexpr double error_memory_s = 30; // of the receiver's error: how slowly it changes
+constexpr double mean_of_two = 1.13;  // of |difference| of two normal errors, in sd of one
+constexpr double least_step_m = 10;   // of the line through positions: less counts noise
+constexpr double dense_m = 60;        // a longer step may hide a detour
 
 const Turn unmeasured{0, std::numeric_limits<double>::infinity()};
 
@@ -231,7 +232,7 @@ Between between_samples(const Positions& positions,
     const double scale_m = positions.odometer
                                ? config.odometer_scale_m + odometer_spread * travelled_m
                                : config.transition_scale_m + chord_spread * travelled_m;
-    return {took_s,
+    return {std::exp(-took_s / error_memory_s),
             travelled_m,
             drawn.length_m,
             scale_m,

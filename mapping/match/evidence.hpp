@@ -40,7 +40,7 @@ Evidence evidence_of(const Positions& positions,
 
 /// What joins two samples.
 struct Between {
-    double took_s;
+    double kept; ///< of the receiver's error, 0 to 1
     double travelled_m;
     double drawn_m;    ///< length of the line through the positions
     double scale_m;    ///< of |way - travelled|

@@ -13,6 +13,7 @@ constexpr double off_nats = 2;        // of a spacing off the network: a road 2 
 constexpr double off_fit_nats = 1;    // and, where some road fits, so much more
 constexpr double off_switch_nats = 6; // leaving the network, and coming back
 constexpr double well_back_nats = 8;  // coming back to a road that fits is so much likelier
+constexpr double hopeless_nats = 5;   // behind another way to it by more: not looked at closely
 constexpr double sideways_nats = 12;  // and over to a road beside so much less likely
 constexpr float off_end_nats = 3;     // beginning or ending there
 constexpr double hop_nats = 16;       // leaving it and coming back between two samples
@@ -25,7 +26,7 @@ constexpr double far_m = 1000;
 constexpr double fit_sds = 2; // a road fits whose lane is not farther from the position
 constexpr double fit_course_sd_rad = 15 * std::numbers::pi / 180;
 constexpr double farthest_fit_m = 20;
-constexpr double fit_without_course = 0.3; // the chance that a road so near leads that way
+constexpr double fit_without_course_nats = 1.2; // a road so near may lead another way
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -47,11 +48,10 @@ double fit(const NearPlace& place,
     if (place.distance_m > farthest_fit_m) {
         return 0;
     }
-    const double course =
-        std::isnan(evidence.course_rad)
-            ? fit_without_course
-            : std::exp(-course_nats(evidence.course_rad - course_rad, fit_course_sd_rad));
-    return course * std::exp(-distance_nats(right_m, fit_sds * close_sd_m));
+    const double nats = std::isnan(evidence.course_rad)
+                            ? fit_without_course_nats
+                            : course_nats(evidence.course_rad - course_rad, fit_course_sd_rad);
+    return std::exp(-nats - distance_nats(right_m, fit_sds * close_sd_m));
 }
 
 void add_candidates(std::vector<State>& states,
@@ -202,17 +202,16 @@ private:
                 if (!candidate.off_network) {
                     cost += off_switch_nats;
                 } else if (!target.off_network) {
-                    cost += return_nats(from, sample, target, between);
+                    cost += return_nats(from, sample, to, between);
                 }
                 add({from, to, static_cast<float>(std::min(cost, gap_nats)), false});
                 continue;
             }
             const auto passage = passage_of(roads_, *reached, candidate, target, between, config_);
             if (passage) {
-                const double cost = cost_of(*passage, between) +
-                                    turn_nats(candidate, target, between) +
-                                    sliding_nats(candidate, target, between, spread_.close_sd_m);
+                double cost = cost_of(*passage, between) + turn_nats(candidate, target, between);
                 if (cost < gap_nats) {
+                    cost += sliding_nats(candidate, target, between, spread_.close_sd_m);
                     add({from, to, static_cast<float>(cost), true});
                 }
             }
@@ -223,15 +222,20 @@ private:
         }
     }
 
-    /// Of coming back to the network at `target`, a candidate of `sample`.
+    /// Of coming back to the network at a state of `sample`.
     double return_nats(std::uint32_t from,
                        std::size_t sample,
-                       const Candidate& target,
+                       std::uint32_t to_state,
                        const Between& between) const {
+        const auto& target = lattice_.states[to_state].candidate;
+        const double well = off_switch_nats - static_cast<double>(target.fit) * well_back_nats;
+        const bool hopeless = lattice_.states[from].cost + well + static_cast<double>(target.cost) >
+                              lattice_.states[to_state].cost + hopeless_nats;
         const double share =
-            excursion_share(lattice_, from, sample - 1, target, positions_, plane_, roads_);
-        return off_switch_nats - share * static_cast<double>(target.fit) * well_back_nats +
-               (1 - share) * sideways_nats +
+            hopeless
+                ? 0
+                : excursion_share(lattice_, from, sample - 1, target, positions_, plane_, roads_);
+        return std::lerp(off_switch_nats + sideways_nats, well, share) +
                sliding_nats(lattice_.states[from].candidate, target, between, spread_.close_sd_m);
     }
 

@@ -14,7 +14,6 @@ constexpr double seen_detour_share = 0.2;
 constexpr double seen_detour_sd_m = 22; // of a way beyond the line that dense positions draw
 constexpr double turn_scale_m = 44;     // of what turning round is worth
 constexpr double turn_sd_rad = 0.6;     // of an edge's course at a sample, corners being rounded
-constexpr double error_memory_s = 30;   // of the receiver's error: how slowly it changes
 constexpr double map_step_m = 2;        // by which a map's line shifts from piece to piece
 constexpr double sliding_weight = 0.3;
 constexpr double most_sliding_nats = 4;      // before it is weighed
@@ -105,15 +104,15 @@ double sliding_nats(const Candidate& from,
         return 0;
     }
     // What was beside the road there lies beside it here as far as the two are parallel.
-    const double kept = from.off_network
-                            ? 0
-                            : std::exp(-between.took_s / error_memory_s) *
-                                  std::cos(static_cast<double>(to.course_rad - from.course_rad));
+    const double kept =
+        from.off_network
+            ? 0
+            : between.kept * static_cast<double>(std::cos(to.course_rad - from.course_rad));
     const double slid_m =
         static_cast<double>(to.right_m) - kept * static_cast<double>(from.right_m);
     const double variance = close_sd_m * close_sd_m * (1 - kept * kept) + map_step_m * map_step_m;
     const double nats = slid_m * slid_m / (2 * variance);
-    return sliding_weight * most_sliding_nats * (1 - std::exp(-nats / most_sliding_nats));
+    return sliding_weight * nats / (1 + nats / most_sliding_nats);
 }
 
 } // namespace macadam

@@ -98,7 +98,7 @@ TEST(MatchExcursions, KnowOnWhichSideTheTripDrives) {
 TEST(MatchExcursions, CountASlideToTheSideOnlyOnce) {
     constexpr double sd_m = 3;
     Between between{};
-    between.took_s = 3;
+    between.kept = 0.9;
     Candidate here{};
     Candidate there{};
     here.right_m = 15;
