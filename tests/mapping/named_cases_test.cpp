@@ -171,7 +171,7 @@ TEST(NamedCases, AUTurnWithinAnEdge) {
     auto line = line_through(art, "AB");
     line[1] = between(line[0], line[1], 0.5);
     line.push_back(line[0]);
-    for (const auto sensors : {Sensors::positions}) {
+    for (const auto sensors : all_sensor_sets) {
         SCOPED_TRACE(name_of(sensors));
         const auto trace = match(sensed(line, sensors), art);
         double farthest_m = 0;

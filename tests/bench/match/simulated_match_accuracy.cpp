@@ -73,25 +73,28 @@ Measured measured(const char* what, const Scenario& scenario) {
 
 TEST(SimulatedMatch, WithAllSensorsAndAGoodReceiver) {
     const auto found = measured("all sensors, sigma 3 m", {.sensors = with_all});
-    EXPECT_GT(found.right, 0.97);
-    EXPECT_LT(found.p50_m, 3);
-    EXPECT_LT(found.p95_m, 15);
+    EXPECT_GT(found.right, 0.998);
+    EXPECT_LT(found.p50_m, 1);
+    EXPECT_LT(found.p95_m, 3);
+    EXPECT_LT(found.calibration_error, 0.02);
+    EXPECT_GT(found.sure, 0.965);
+    EXPECT_LT(found.sure_wrong, 0.003);
 }
 
 TEST(SimulatedMatch, WithAllSensorsAndAPoorReceiver) {
     const auto found = measured("all sensors, sigma 10 m", {.sigma_m = 10, .sensors = with_all});
-    EXPECT_GT(found.right, 0.94);
+    EXPECT_GT(found.right, 0.99);
 }
 
 TEST(SimulatedMatch, OfPositionsAlone) {
     const auto found = measured("positions, sigma 3 m", {});
-    EXPECT_GT(found.right, 0.985);
-    EXPECT_LT(found.p95_m, 8);
+    EXPECT_GT(found.right, 0.996);
+    EXPECT_LT(found.p95_m, 6);
 }
 
 TEST(SimulatedMatch, OfPositionsEachFiveSeconds) {
     const auto found = measured("positions, sigma 3 m, each 5 s", {.fix_rate_hz = 0.2});
-    EXPECT_GT(found.right, 0.985);
+    EXPECT_GT(found.right, 0.993);
 }
 
 TEST(SimulatedMatch, FindsALatencyThatIsNotStated) {
@@ -103,15 +106,15 @@ TEST(SimulatedMatch, FindsALatencyThatIsNotStated) {
 TEST(SimulatedMatch, GoesOnThroughOutagesByOdometerAndGyro) {
     const auto found = measured("all sensors, sigma 3 m, outages of 60 s",
                                 {.sensors = with_all, .outages_per_hour = 8});
-    EXPECT_LT(found.outage_p95_m, 20);
+    EXPECT_LT(found.outage_p95_m, 8);
 }
 
 TEST(SimulatedMatch, NoticesRoadsThatTheMapLacks) {
     constexpr double share = 0.05;
     const auto score = off_network_score(world(), {.sensors = with_all}, share, 1);
     std::printf("deleted edges: recall %.3f, precision %.3f\n", score.recall(), score.precision());
-    EXPECT_GT(score.recall(), 0.6);
-    EXPECT_GT(score.precision(), 0.75);
+    EXPECT_GT(score.recall(), 0.8);
+    EXPECT_GT(score.precision(), 0.91);
 }
 
 } // namespace
