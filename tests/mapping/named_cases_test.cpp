@@ -184,6 +184,26 @@ TEST(NamedCases, AUTurnWithinAnEdge) {
     }
 }
 
+TEST(NamedCases, OnTheRoadToTheVeryLastPosition) {
+    const auto art = road_art(R"(
+        A-------------------B-------------------C
+                            |
+                            S
+    )",
+                              20,
+                              {"ABC", "BS"});
+    for (const auto sensors : all_sensor_sets) {
+        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+            SCOPED_TRACE(name_of(sensors) + ", seed " + std::to_string(seed));
+            CarConfig car;
+            car.seed = seed;
+            const auto trace = match(sensed(line_through(art, "A3B5C"), sensors, car), art);
+            EXPECT_EQ(kind_m(trace, PieceKind::gap), 0);
+            EXPECT_EQ(kind_m(trace, PieceKind::off_network), 0);
+        }
+    }
+}
+
 TEST(NamedCases, IntoADeadEndAndBack) {
     const auto art = road_art(R"(
         A---------------------B-----------------------C
