@@ -91,7 +91,8 @@ std::string geojson_feature(const MatchedPiece& piece, const RoadNetwork& roads)
             .add("to_node", cells.to_node)
             .add("direction", std::string{cells.direction})
             .add("from_m", JsonNumber{cells.from_m, 2})
-            .add("to_m", JsonNumber{cells.to_m, 2});
+            .add("to_m", JsonNumber{cells.to_m, 2})
+            .add("offset_sd_m", JsonNumber{piece.offset_sd_m, 2});
         JsonObject line;
         line.add("type", std::string{"LineString"})
             .add("coordinates", JsonRaw{coordinates(line_of_piece(piece, roads))});

@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-// Of positions with a speed sensor, as measured (docs/matching.md).
+// Of positions with a speed sensor, as measured (docs/matching.md): where the match does not say.
 constexpr double usual_place_sd_m = 2.5;
 
 constexpr double longest_silence_m = 20;
@@ -31,7 +31,7 @@ DrivenPart part_of(const MatchedPiece& piece, const DrivenPart& segment, double 
     part.t_enter_s = std::lerp(piece.t_enter_s, piece.t_leave_s, first);
     part.t_leave_s = std::lerp(piece.t_enter_s, piece.t_leave_s, last);
     part.confidence = piece.confidence;
-    part.place_sd_m = usual_place_sd_m;
+    part.place_sd_m = piece.offset_sd_m > 0 ? piece.offset_sd_m : usual_place_sd_m;
     return part;
 }
 

@@ -20,7 +20,7 @@ struct DrivenPart {
     double t_enter_s;
     double t_leave_s;
     double confidence;
-    double place_sd_m;
+    double place_sd_m; ///< of the place along the edge: the match's own, or the usual one
     std::optional<std::uint32_t>
         drive; ///< StripTrace::drive; nothing where the match is too unsure
 };

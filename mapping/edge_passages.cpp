@@ -29,6 +29,7 @@ void append(MatchedPiece& passage, const MatchedPiece& piece) {
     passage.to_travel_m = piece.to_travel_m;
     passage.to_offset_m = std::max(passage.to_offset_m, piece.to_offset_m);
     passage.t_leave_s = piece.t_leave_s;
+    passage.offset_sd_m = std::max(passage.offset_sd_m, piece.offset_sd_m);
 }
 
 } // namespace

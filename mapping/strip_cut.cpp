@@ -81,7 +81,11 @@ StripTrace without_silent_ends(StripTrace trace, const std::vector<Cell>& cells)
     return trace;
 }
 
+/// The mean over the drive's length. In whole decimetres, so that the last bit of a filter, which
+/// is another on another processor, hardly ever shows.
 std::int32_t place_sd_mm(std::span<const DrivenPart> parts) {
+    constexpr double least_sd_dm = 3;  // how a corner is cut and a lane is kept is in no filter
+    constexpr double most_sd_dm = 500; // far beyond what lags can mend
     double sum = 0;
     double length_m = 0;
     for (const auto& part : parts) {
@@ -89,7 +93,8 @@ std::int32_t place_sd_mm(std::span<const DrivenPart> parts) {
         sum += part_m * part.place_sd_m;
         length_m += part_m;
     }
-    return std::max(1, static_cast<std::int32_t>(std::lround(1000 * sum / length_m)));
+    const double sd_dm = std::clamp(10 * sum / length_m, least_sd_dm, most_sd_dm);
+    return 100 * static_cast<std::int32_t>(std::lround(sd_dm));
 }
 
 /// \param told  travel that may be read

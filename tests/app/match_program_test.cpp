@@ -139,6 +139,22 @@ TEST(MatchProgram, WritesOneFeatureForEachRow) {
     EXPECT_THAT(text, HasSubstr("\"LineString\""));
 }
 
+TEST(MatchProgram, SaysInFeaturesHowSureThePlaceIs) {
+    const auto folder = fresh_folder();
+    const auto file = (folder / "match.geojson").string();
+    expect_done(
+        {"match", log_over_three_edges(folder), "--network", three_edges(folder), "-o", file});
+    const auto text = read_file(file);
+    constexpr std::string_view name = "\"offset_sd_m\":";
+    auto at = text.find(name);
+    ASSERT_NE(at, std::string::npos);
+    for (; at != std::string::npos; at = text.find(name, at + 1)) {
+        const double sd_m = std::stod(text.substr(at + name.size()));
+        EXPECT_GT(sd_m, 0.3); // a fix a second that errs by metres, and a speed sensor
+        EXPECT_LT(sd_m, 5);
+    }
+}
+
 TEST(MatchProgram, TakesAGpxTrackWithoutTimesAndSaysSo) {
     const auto run = expect_done({"match", tour, "--network", andorra});
     EXPECT_THAT(run.err, HasSubstr("its points have no times that rise; made up at 10 m/s"));

@@ -51,6 +51,16 @@ TEST(EdgePassages, AreAsSureAsTheirPiecesByLength) {
     EXPECT_NEAR(passages[0].confidence, (30 * 0.5 + 10 * 0.9) / 40, 1e-12);
 }
 
+TEST(EdgePassages, AreAsUnsureOfTheirPlaceAsTheirWorstPiece) {
+    std::vector pieces{on(first, 0, 30, 0), on(first, 30, 40, 30), on(first, 40, 60, 40)};
+    pieces[0].offset_sd_m = 1.2;
+    pieces[1].offset_sd_m = 3.4;
+    pieces[2].offset_sd_m = 0.7;
+    const auto passages = edge_passages(pieces);
+    ASSERT_THAT(passages, SizeIs(1));
+    EXPECT_EQ(passages[0].offset_sd_m, 3.4);
+}
+
 TEST(EdgePassages, AreTwoForAnEdgeThatIsDrivenTwiceInARow) {
     EXPECT_THAT(edge_passages({on(first, 0, 100, 0), on(first, 0, 100, 100)}), SizeIs(2));
 }

@@ -150,6 +150,20 @@ TEST(StripTraces, LeaveOutWhatIsNotSureOfItsRoad) {
     EXPECT_THAT(traces_of(roughness(2000, rising), {}), IsEmpty());
 }
 
+TEST(StripTraces, AreAsSureOfTheirPlaceAsTheMatchWasOnTheMean) {
+    const auto sd_mm = [](double first_sd_m, double last_sd_m) {
+        MatchedTrace matched{piece(there, 0, 0, 100), piece(there, 100, 100, 300)};
+        matched[0].offset_sd_m = first_sd_m;
+        matched[1].offset_sd_m = last_sd_m;
+        return traces_of(roughness(2000, rising), matched).at(0).place_sd_mm;
+    };
+    EXPECT_EQ(sd_mm(6, 2), 3000);       // by length
+    EXPECT_EQ(sd_mm(1.34, 1.34), 1300); // whole decimetres
+    EXPECT_EQ(sd_mm(0.01, 0.01), 300);  // nobody is so sure
+    EXPECT_EQ(sd_mm(1e9, 1e9), 50'000);
+    EXPECT_EQ(sd_mm(0, 0), 2500); // not stated: as usual
+}
+
 TEST(StripTraces, HoldPlacesWithoutRoughnessOpen) {
     auto trace = roughness(150, rising);
     auto later = roughness(100, rising).runs[0];
