@@ -1,13 +1,14 @@
 #include "mapping/strip_trace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
 namespace macadam {
 namespace {
 
-constexpr double step_um = 20;
+constexpr std::int32_t step_um = 20;
 constexpr unsigned mantissa_bits = 5;
 constexpr unsigned steps_in_octave = 1U << mantissa_bits;
 
@@ -27,6 +28,14 @@ RoughnessCode code_below(unsigned steps) {
     const unsigned octave = width > mantissa_bits ? width - mantissa_bits : 0;
     const unsigned within = octave == 0 ? steps : (steps >> (octave - 1)) - steps_in_octave;
     return static_cast<RoughnessCode>(octave * steps_in_octave + within);
+}
+
+constexpr std::array<std::int32_t, no_roughness> um_of_codes() {
+    std::array<std::int32_t, no_roughness> um{};
+    for (std::size_t code = 0; code < um.size(); ++code) {
+        um[code] = static_cast<std::int32_t>(steps_of(static_cast<RoughnessCode>(code))) * step_um;
+    }
+    return um;
 }
 
 } // namespace
@@ -54,9 +63,8 @@ RoughnessCode code_of(double mm_per_m) {
 }
 
 std::optional<std::int32_t> um_of(RoughnessCode roughness) {
-    return roughness == no_roughness
-               ? std::nullopt
-               : std::optional{static_cast<std::int32_t>(steps_of(roughness) * step_um)};
+    static constexpr auto um = um_of_codes();
+    return roughness == no_roughness ? std::nullopt : std::optional{um[roughness]};
 }
 
 } // namespace macadam

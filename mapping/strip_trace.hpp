@@ -46,7 +46,7 @@ struct StripTrace {
     std::int32_t first_m;
     std::vector<RoughnessCode> iri;  ///< the headline; the first and the last cell are known
     std::vector<RoughnessCode> left; ///< of the left track; empty: tracks not observed
-    std::int32_t place_sd_mm;        ///< of the place along the road, > 0
+    std::int32_t place_sd_mm;        ///< of the place along the road, > 0, the mean of the drive
     friend bool operator==(const StripTrace&, const StripTrace&) = default;
 };
 

@@ -82,6 +82,72 @@ Distance apart(const DrivenStrips& driven, const Lags& lags) {
     return distance_of(std::move(distances_m));
 }
 
+/// How far all drives put each metre from where it is.
+Distance off_the_truth(const DrivenStrips& driven, const Lags& lags) {
+    constexpr double border_m = 15;
+    std::vector<double> distances_m;
+    for (double at_m = border_m; at_m < way_m - border_m; at_m += 5) {
+        for (std::size_t i = 0; i < driven.drives.size(); ++i) {
+            const auto metre = static_cast<std::size_t>(at_m + way_begins_m);
+            const double place_m = at_m + driven.drives[i].place_error_m[metre];
+            distances_m.push_back(
+                std::abs((lags.empty() ? place_m : laid_m(driven, lags[i], place_m)) - at_m));
+        }
+    }
+    return distance_of(std::move(distances_m));
+}
+
+/// As if nobody knew how sure the places are.
+DrivenStrips with_usual_sd(DrivenStrips driven) {
+    for (auto& drive : driven.drives) {
+        for (auto& trace : drive.traces) {
+            trace.place_sd_mm = 2500; // what a match counts for that does not say
+        }
+    }
+    return driven;
+}
+
+/// A part of a trace, with what lies 10 m before and behind.
+StripTrace piece_of(const StripTrace& trace, double from_m, double to_m) {
+    const auto cell = [&](double station_m) {
+        return trace.iri.begin() +
+               std::clamp<std::ptrdiff_t>(
+                   std::lround(station_m) - trace.first_m, 0, std::ssize(trace.iri));
+    };
+    auto piece = trace;
+    const auto first = cell(from_m - trace_margin_m);
+    piece.iri = {first, cell(to_m + trace_margin_m)};
+    piece.left.clear();
+    piece.first_m += static_cast<std::int32_t>(first - trace.iri.begin());
+    return piece;
+}
+
+/// As `apart`, where each piece of that length is a street of its own.
+Distance apart_on_streets(const DrivenStrips& driven, double street_m) {
+    std::vector<double> distances_m;
+    constexpr std::size_t strip = 1; // its traces know what lies beside the streets
+    for (double from_m = strip_length_m + 20; from_m + street_m < 2 * strip_length_m - 20;
+         from_m += street_m) {
+        std::vector<StripTrace> traces;
+        for (const auto& drive : driven.drives) {
+            traces.push_back(piece_of(drive.traces[strip], from_m, from_m + street_m));
+        }
+        const auto lags = lags_of(traces, {});
+        for (double at_m = from_m; at_m < from_m + street_m; at_m += 5) {
+            std::vector<double> places_m;
+            for (std::size_t i = 0; i < traces.size(); ++i) {
+                const auto metre = static_cast<std::size_t>(at_m + way_begins_m);
+                const double place_m = at_m + driven.drives[i].place_error_m[metre];
+                places_m.push_back(place_m - lag_m(lags[i], at_m));
+                for (std::size_t j = 0; j < i; ++j) {
+                    distances_m.push_back(std::abs(places_m[i] - places_m[j]));
+                }
+            }
+        }
+    }
+    return distance_of(std::move(distances_m));
+}
+
 /// What all drives read of one segment, as moved by their lags.
 std::vector<FusionInput>
 inputs_of(const DrivenStrips& driven, const Lags& lags, const Segment& segment) {
@@ -211,6 +277,45 @@ TEST(AlignmentAccuracy, OnARoughRoadWithPotholes) {
 TEST(AlignmentAccuracy, OfTwoPasses) {
     EXPECT_LT(score_of({.iri_mm_per_m = 2, .passes = 2, .smoother = true, .seed = 8}).after.p95_m,
               1.2);
+}
+
+TEST(AlignmentAccuracy, OfCarsAndPhones) {
+    const auto driven = driven_strips({.iri_mm_per_m = 2,
+                                       .passes = 8,
+                                       .smoother = true,
+                                       .seed = 9,
+                                       .place_sd_m = 1,
+                                       .phones_place_sd_m = 3});
+    const auto usual = with_usual_sd(driven);
+    const auto tell = [](const char* what, const Distance& apart_m, const Distance& off_m) {
+        std::printf("  %s: apart p50 %.2f m, p95 %.2f m; off the truth p50 %.2f m, p95 %.2f m\n",
+                    what,
+                    apart_m.p50_m,
+                    apart_m.p95_m,
+                    off_m.p50_m,
+                    off_m.p95_m);
+    };
+    std::printf("MRI 2, 4 cars whose places err by 1 m and 4 phones whose by 3 m:\n");
+    tell("as matched", apart(driven, {}), off_the_truth(driven, {}));
+    const auto by_usual = lags_in(usual);
+    const auto by_own = lags_in(driven);
+    tell("all taken for 2.5 m", apart(usual, by_usual), off_the_truth(usual, by_usual));
+    tell("each by its own sd", apart(driven, by_own), off_the_truth(driven, by_own));
+    EXPECT_LT(apart(driven, by_own).p95_m, 1.2); // places that err more change quicker, too
+    EXPECT_LT(off_the_truth(driven, by_own).p95_m, 0.85 * off_the_truth(usual, by_usual).p95_m);
+}
+
+TEST(AlignmentAccuracy, OnStreets) {
+    const auto driven =
+        driven_strips({.iri_mm_per_m = 2, .passes = 8, .smoother = true, .seed = 6});
+    for (const double street_m : {60.0, 90.0, 120.0}) {
+        const auto apart_m = apart_on_streets(driven, street_m);
+        std::printf("MRI 2, 8 passes, streets of %g m: apart p50 %.2f m, p95 %.2f m\n",
+                    street_m,
+                    apart_m.p50_m,
+                    apart_m.p95_m);
+        EXPECT_LT(apart_m.p50_m, 0.6) << street_m; // as matched: 2.3 m
+    }
 }
 
 TEST(AlignmentAccuracy, OfThePublishedFilter) {

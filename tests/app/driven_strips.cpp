@@ -126,7 +126,8 @@ TripLog log_of(const Motion& motion, const ImuReadings& imu, double scale) {
 /// As a matcher would give it, a piece each 10 m, wrong by the place's error.
 MatchedTrace matched_along(const Motion& motion,
                            const Odometer& odometer,
-                           const std::vector<double>& place_error_m) {
+                           const std::vector<double>& place_error_m,
+                           double told_sd_m) {
     struct Knot {
         double t_s;
         double offset_m;
@@ -154,7 +155,8 @@ MatchedTrace matched_along(const Motion& motion,
                            .t_enter_s = knots[i - 1].t_s,
                            .t_leave_s = knots[i].t_s,
                            .confidence = 1,
-                           .reason = ""});
+                           .reason = "",
+                           .offset_sd_m = told_sd_m});
     }
     return matched;
 }
@@ -188,6 +190,7 @@ StripDrive driven(const FleetCarRecipe& car,
                   const RoadSurface& surface,
                   const RoadNetwork& roads,
                   const StripScenario& scenario,
+                  bool phone,
                   std::mt19937_64& random) {
     std::uniform_real_distribution<double> speed_kmh{35, 95};
     std::normal_distribution<double> scale{1, 0.005};
@@ -198,8 +201,10 @@ StripDrive driven(const FleetCarRecipe& car,
     const auto config = config_of(scenario.smoother);
     const auto trace = trace_of(log_of(motion, imu, scale(random)), vehicle, config);
     StripDrive drive;
-    drive.place_error_m = slow_values(scenario.place_sd_m, scenario.place_length_m, random);
-    const auto matched = matched_along(motion, trace.odometer, drive.place_error_m);
+    const double sd_m = phone ? scenario.phones_place_sd_m : scenario.place_sd_m;
+    const double told_sd_m = scenario.phones_place_sd_m > 0 ? sd_m : 0;
+    drive.place_error_m = slow_values(sd_m, scenario.place_length_m, random);
+    const auto matched = matched_along(motion, trace.odometer, drive.place_error_m, told_sd_m);
     drive.passes = cut_passes(trace.roughness, matched, roads, vehicle, config.pass);
     drive.traces = cut_traces(trace.roughness, matched, roads, vehicle, config.pass);
     return drive;
@@ -218,8 +223,9 @@ DrivenStrips driven_strips(const StripScenario& scenario) {
     DrivenStrips strips{.roads = straight_way(), .drives = {}, .true_mri = {}};
     strips.true_mri = true_mri(surface, strips.roads);
     for (std::size_t i = 0; i < scenario.passes; ++i) {
+        const bool phone = scenario.phones_place_sd_m > 0 && i % 2 == 1;
         strips.drives.push_back(
-            driven(cars[i % cars.size()], surface, strips.roads, scenario, random));
+            driven(cars[i % cars.size()], surface, strips.roads, scenario, phone, random));
     }
     return strips;
 }

@@ -16,8 +16,9 @@ struct StripScenario {
     std::uint64_t seed;
     double patches_per_km = 3;
     double potholes_per_km = 0;
-    double place_sd_m = 2;       ///< of where the match puts a trip, ...
-    double place_length_m = 300; ///< ... which changes over this distance
+    double place_sd_m = 2;        ///< of where the match puts a trip, ...
+    double place_length_m = 300;  ///< ... which changes over this distance
+    double phones_place_sd_m = 0; ///< of every second trip, if not 0; then each match says its own
 };
 
 inline constexpr double straight_road_m = 2600;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace macadam {
@@ -233,6 +234,74 @@ TEST(Alignment, NeverGoesBeyondTenMetres) {
             }
         }
     }
+}
+
+TEST(Alignment, OfADriveFartherOffThanItLooksIsNone) {
+    const auto texture = testing::texture(500, 13);
+    const auto with_fourth = [&](double lag_m) {
+        auto traces = read_with(texture, {0, 0, 0});
+        auto fourth = over_strip(lag_m, 104);
+        fourth.place_sd_m = 30; // its place alone would not keep it from the border
+        traces.push_back(read_texture(texture, fourth));
+        return lags(traces);
+    };
+    const auto near = with_fourth(9);
+    EXPECT_EQ(near[3].finding, LagFinding::found);
+    EXPECT_NEAR(
+        mean_lag_m(near[3]), 9, 3 * near_m); // sums hold the datum of four by the sure three
+    for (const double lag : {10.2, -10.2, 10.6}) {
+        const auto far = with_fourth(lag);
+        EXPECT_EQ(far[3].finding, LagFinding::beyond_reach) << lag;
+        EXPECT_TRUE(far[3].lag_cm.empty()) << lag;
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(far[i].finding, LagFinding::found) << lag;
+            EXPECT_NEAR(mean_lag_m(far[i]), 0, near_m) << lag;
+        }
+    }
+}
+
+TEST(Alignment, SaysWhatItFound) {
+    EXPECT_EQ(lags(read_with(testing::texture(500, 14), {0}))[0].finding, LagFinding::alone);
+    const auto found = lags(read_with(testing::texture(500, 14), {0, 3}));
+    EXPECT_EQ(found[0].finding, LagFinding::found);
+    EXPECT_EQ(found[1].finding, LagFinding::found);
+}
+
+/// Without a function of the C library, which may differ in the last bit.
+std::vector<StripTrace> whole_number_traces(const std::vector<int>& lags_m) {
+    std::mt19937 random{15};
+    std::vector<unsigned> texture;
+    for (int i = 0; i < 520; ++i) {
+        texture.push_back(random() % 32);
+    }
+    std::vector<StripTrace> traces;
+    for (const int lag : lags_m) {
+        StripTrace trace{.strip = {1, true, 0},
+                         .drive = 0,
+                         .first_m = 0,
+                         .iri = {},
+                         .left = {},
+                         .place_sd_mm = 2000 + 300 * static_cast<int>(traces.size())};
+        for (int i = 0; i < 480; ++i) {
+            const auto at = texture.begin() + 15 + i - lag;
+            const auto sum = std::accumulate(at, at + 5, 0U) / 2 + random() % 16;
+            trace.iri.push_back(static_cast<RoughnessCode>(60 + sum));
+        }
+        traces.push_back(trace);
+    }
+    return traces;
+}
+
+TEST(Alignment, ComesToTheSameCentimetresOnEveryMachine) {
+    // As they came out on a 64-bit x86 without fused operations. Another processor, compiler or
+    // way of putting sums in vectors must come to the same.
+    const auto found = lags(whole_number_traces({0, 4, -5, 2, -1}));
+    ASSERT_EQ(found.size(), 5U);
+    EXPECT_EQ(found[0].lag_cm,
+              (std::vector<std::int32_t>{-6, -21, -36, -33, -33, -28, -26, -23, -20, -9}));
+    EXPECT_EQ(
+        found[2].lag_cm,
+        (std::vector<std::int32_t>{-519, -515, -501, -522, -515, -497, -511, -515, -501, -529}));
 }
 
 TEST(Alignment, TakesTracesOfAMetre) {
