@@ -2,6 +2,7 @@
 #include "app/estimation_options.hpp"
 #include "app/import_trips.hpp"
 #include "app/interruption.hpp"
+#include "app/laid_words.hpp"
 #include "app/mapping_option.hpp"
 #include "app/printable.hpp"
 #include "app/segment_options.hpp"
@@ -210,6 +211,9 @@ void run_import(const Arguments& arguments, const Console& console) {
                             totals.rejected,
                             counted(totals.passes, "pass"),
                             counted(fused, "segment")));
+    if (const auto words = laid_words(store.laid()); fused > 0 && !words.empty()) {
+        console.say(words);
+    }
     if (totals.left > 0) {
         importing(1, 1); // takes the bar off the line
         throw InputError{fmt::format("interrupted: {} of {} were not looked at; the others are "

@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/laid_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/truth_output.hpp"
 
@@ -17,6 +18,17 @@ namespace {
 
 double share(double part, double whole) {
     return whole > 0 ? part / whole : 0;
+}
+
+std::string json_of(const LaySummary& laid) {
+    JsonObject object;
+    object.add("drives", laid.drives)
+        .add("found", laid.found)
+        .add("beyond_reach", laid.beyond_reach)
+        .add("moved_far", laid.moved_far)
+        .add("middle_lag_m",
+             laid.found > 0 ? json_number(laid.middle_lag_cm / 100.0, 2) : JsonValue{nullptr});
+    return object.text();
 }
 
 /// \param truth  JSON; "" = not asked for
@@ -41,6 +53,7 @@ std::string json_of(const StoreInfo& info, const std::string& digest, const std:
         .add("km", JsonNumber{info.km, 3})
         .add("network_km", JsonNumber{info.network_km, 3})
         .add("classes", JsonRaw{json_array(classes)})
+        .add("laid_on_others", JsonRaw{json_of(info.laid)})
         .add("generation", std::int64_t{info.generation})
         .add("digest", digest);
     if (!truth.empty()) {
@@ -80,6 +93,9 @@ std::string text_of(const StoreInfo& info) {
         text += fmt::format("lateral     {} of the passes from lateral vibration alone, which is "
                             "far less accurate\n",
                             info.lateral_passes);
+    }
+    if (const auto words = laid_words(info.laid); !words.empty()) {
+        text += fmt::format("passes      {}\n", words);
     }
     for (const auto& [name, km] : info.classes) {
         text += fmt::format("{:<12}{:.2f} km, {:.1f} %\n", name, km, 100 * share(km, info.km));

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace macadam {
 namespace {
 
@@ -92,6 +94,26 @@ std::string geojson_of(const std::vector<SegmentRecord>& records, const ClassTab
     return collection.text() + "\n";
 }
 
+std::string lag_words(const PassRecord& record) {
+    if (!record.lag_m) {
+        return "-";
+    }
+    return record.finding == LagFinding::beyond_reach ? fmt::format(">{:g}", trace_margin_m)
+                                                      : fmt::format("{:+.2f}", *record.lag_m);
+}
+
+std::string_view name_of(LagFinding finding) {
+    switch (finding) {
+    case LagFinding::alone:
+        break;
+    case LagFinding::found:
+        return "found";
+    case LagFinding::beyond_reach:
+        return "beyond_reach";
+    }
+    return "alone";
+}
+
 std::string history_table(const std::vector<PassRecord>& passes) {
     auto table = fmt::format("{:<22} {:<16} {:>6} {:>6} {:>6} {:>7} {:>10}  {}\n",
                              "when",
@@ -109,7 +131,7 @@ std::string history_table(const std::vector<PassRecord>& passes) {
                              record.vehicle,
                              pass.iri_um / 1000.0,
                              pass.sd_um / 1000.0,
-                             record.lag_m ? fmt::format("{:+.2f}", *record.lag_m) : "-",
+                             lag_words(record),
                              pass.speed_mmps * 3.6e-3,
                              pass.confidence_ppm / 1e6,
                              record.trip_sha256);
@@ -136,6 +158,9 @@ std::string history_json(const std::vector<PassRecord>& passes) {
             .add("speed_mps", JsonNumber{pass.speed_mmps / 1000.0, 3})
             .add("covered_m", JsonNumber{pass.covered_mm / 1000.0, 3})
             .add("lag_m", record.lag_m ? json_number(*record.lag_m, 2) : JsonValue{nullptr})
+            .add("lag_finding",
+                 record.lag_m ? JsonValue{std::string{name_of(record.finding)}}
+                              : JsonValue{nullptr})
             .add("confidence", JsonNumber{pass.confidence_ppm / 1e6, 3})
             .add("validity", name_of_validity(pass.validity))
             .add("trip", record.trip_sha256);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/common/progress.hpp"
+#include "mapping/alignment.hpp"
 #include "mapping/fusion.hpp"
 #include "mapping/iri_class.hpp"
 #include "mapping/pass.hpp"
@@ -67,6 +68,7 @@ struct PassRecord {
     /// How far behind its own place the road lay that the trip read there, by what others read; as
     /// the fusion takes it. Nothing: the pass has no trace.
     std::optional<double> lag_m{};
+    LagFinding finding = LagFinding::alone; ///< why it is so, or 0
 };
 
 /// What the trips of one car gave, read with one vehicle model by one method.
@@ -109,6 +111,7 @@ struct StoreInfo {
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;
     std::size_t waiting = 0; ///< segments whose new passes are not yet fused
+    LaySummary laid;         ///< of all strips that were fused; the median of the strips' medians
     int generation = 1;
     GeoBox box; ///< of segments with passes; of all if there are none
 };
@@ -182,6 +185,9 @@ public:
 
     /// Segments whose new passes are not yet fused, as StoreInfo::waiting; quick.
     std::size_t waiting() const;
+
+    /// What laying passes on each other found, as StoreInfo::laid; quick.
+    LaySummary laid() const;
 
     /// SHA-256 over passes and states as text: the same content gives the same digest on any
     /// machine (docs/store.md says how the text is made).

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -168,6 +169,24 @@ std::vector<ClassLength> lengths_of(Database& database, const ClassTable& classe
     return lengths;
 }
 
+LaySummary laid_in(Database& database) {
+    auto select = database.prepare("SELECT drives, found, beyond_reach, moved_far, middle_lag_cm"
+                                   " FROM strip_state ORDER BY middle_lag_cm");
+    LaySummary whole;
+    std::vector<std::pair<std::int64_t, std::int64_t>> middles; // found so far, and their lag
+    while (select.step()) {
+        whole.drives += select.integer(0);
+        whole.found += select.integer(1);
+        whole.beyond_reach += select.integer(2);
+        whole.moved_far += select.integer(3);
+        middles.emplace_back(whole.found, select.integer(4));
+    }
+    const auto middle = std::ranges::upper_bound(
+        middles, whole.found / 2, {}, &std::pair<std::int64_t, std::int64_t>::first);
+    whole.middle_lag_cm = middle == middles.end() ? 0 : static_cast<std::int32_t>(middle->second);
+    return whole;
+}
+
 // -------------------------------------------------------------------------------------- digest
 
 std::string text_of(const std::optional<std::int64_t>& value) {
@@ -263,6 +282,7 @@ std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
         record.utc_ms = utc_ms_of(record.utc_ms, record.pass);
         if (const auto* placed = find_trace(*traces, record.trip_sha256, record.pass.drive)) {
             record.lag_m = lag_m(placed->lag, station_m(key.forward, select.real(4)));
+            record.finding = placed->lag.finding;
         }
         passes.push_back(std::move(record));
     }
@@ -290,6 +310,7 @@ StoreInfo RoadStore::info() const {
             .first_seen_ms = known_utc_ms(seen, 0),
             .last_seen_ms = known_utc_ms(seen, 1),
             .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
+            .laid = laid_in(database),
             .generation = 1,
             .box = cover.box};
 }
@@ -321,6 +342,10 @@ std::vector<VehicleUse> RoadStore::vehicle_uses() const {
 
 std::size_t RoadStore::waiting() const {
     return count(impl_->database, "SELECT count(*) FROM segment_dirty");
+}
+
+LaySummary RoadStore::laid() const {
+    return laid_in(impl_->database);
 }
 
 std::string RoadStore::digest() const {

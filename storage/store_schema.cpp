@@ -97,6 +97,14 @@ CREATE TABLE trace (
     PRIMARY KEY (strip, trip, drive)
 ) WITHOUT ROWID;
 CREATE INDEX trace_of_trip ON trace(trip);
+CREATE TABLE strip_state (
+    strip INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
+    drives INTEGER NOT NULL,
+    found INTEGER NOT NULL,
+    beyond_reach INTEGER NOT NULL,
+    moved_far INTEGER NOT NULL,
+    middle_lag_cm INTEGER NOT NULL
+);
 CREATE TABLE segment_state (
     fid INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
     iri DOUBLE NOT NULL,

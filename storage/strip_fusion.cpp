@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,11 +66,15 @@ FusionInput input_in(const Statement& row, std::span<const PlacedTrace> traces) 
 class StripFusion {
 public:
     StripFusion(Database& database, const ClassTable& classes, const FusionConfig& config)
-        : traces_{database}, select_{database.prepare(passes_of_strip())},
-          insert_{database.prepare(insert_state)}, classes_{&classes}, config_{config} {}
+        : traces_{database}, select_{database.prepare(passes_of_strip())}, insert_{database.prepare(
+                                                                               insert_state)},
+          insert_strip_{
+              database.prepare("INSERT OR REPLACE INTO strip_state VALUES (?, ?, ?, ?, ?, ?)")},
+          classes_{&classes}, config_{config} {}
 
     void fuse_strip(std::int64_t strip, std::int64_t segments) {
         const auto traces = traces_.placed(strip);
+        write_summary(strip, traces);
         select_.bind(strip, segments);
         for (bool more = select_.step(); more;) {
             const auto segment = select_.integer(0);
@@ -82,9 +89,25 @@ public:
     }
 
 private:
+    void write_summary(std::int64_t strip, std::span<const PlacedTrace> traces) {
+        if (traces.empty()) {
+            return;
+        }
+        std::vector<LagLine> lines;
+        std::ranges::transform(traces, std::back_inserter(lines), &PlacedTrace::lag);
+        const auto summary = summary_of(lines);
+        insert_strip_.run(strip,
+                          summary.drives,
+                          summary.found,
+                          summary.beyond_reach,
+                          summary.moved_far,
+                          std::int64_t{summary.middle_lag_cm});
+    }
+
     StripTraces traces_;
     Statement select_;
     Statement insert_;
+    Statement insert_strip_;
     const ClassTable* classes_;
     FusionConfig config_;
 };

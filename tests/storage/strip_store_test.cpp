@@ -150,6 +150,27 @@ TEST(StripStore, TellsTheLagOfEachPass) {
     }
 }
 
+TEST(StripStore, TellsHowFarPassesWereMoved) {
+    const auto store = store_of(test_folder() / "a.gpkg", {0, 1, 2, 3, 4, 5});
+    const auto laid = store.laid();
+    EXPECT_EQ(laid.drives, 6 * 4); // two strips in each direction
+    EXPECT_EQ(laid.found, laid.drives);
+    EXPECT_EQ(laid.beyond_reach, 0);
+    // About their mean of 0 the trips lie at 0, 4, -3, 1.5, -5 and 2.5 m: four beyond 2 m.
+    EXPECT_EQ(laid.moved_far, 4 * 4);
+    EXPECT_GE(laid.middle_lag_cm, 250 - 30);
+    EXPECT_LE(laid.middle_lag_cm, 300 + 30);
+    EXPECT_EQ(store.info().laid.found, laid.found);
+    EXPECT_EQ(store.history({1, true, 12})[0].finding, LagFinding::found);
+}
+
+TEST(StripStore, TellsOfNoLagsWhereOneTripDroveAlone) {
+    const auto laid = store_of(test_folder() / "a.gpkg", {1}).laid();
+    EXPECT_EQ(laid.drives, 4);
+    EXPECT_EQ(laid.found, 0);
+    EXPECT_EQ(laid.middle_lag_cm, 0);
+}
+
 TEST(StripStore, KeepsAPassAsItsTripReadIt) {
     const auto store = store_of(test_folder() / "a.gpkg", {0, 1});
     const auto trip = driven(1, lags_m[1], true);
