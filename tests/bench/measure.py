@@ -260,7 +260,8 @@ def part(build, name, note):
 PARTS = {
     "estimation": "The filter as the paper writes it (matrices of any size, covariance at every sample) beside ours, "
                   "and the whole way from vibration to IRI, on 15 minutes to 2 hours at 100 Hz.",
-    "store": "About 1,400 segments out of stores of growing size, and trips of 500 passes added and fused one by one.",
+    "store": "About 1,400 segments out of stores of growing size, trips of 500 passes added and fused one by one, and "
+             "many trips fused at once; `<true>` lays each pass on the others (docs/method.md), `<false>` has no traces to.",
     "render": "The streets of towns of growing size at 2048 x 2048, beside Cairo with casing and round joins. "
               "Ours begins by waking the software renderer, which costs the small towns most.",
 }

@@ -1,6 +1,6 @@
-// What the store costs: adding and fusing passes with and without their traces, laying ever more
-// traces of a strip on each other, and asking for about a thousand segments by place in stores of
-// doubling size.
+// What the store costs: adding and fusing passes with and without their traces, one trip at a time
+// and many at once, laying ever more traces of a strip on each other, and asking for about a
+// thousand segments by place in stores of doubling size.
 
 #include "mapping/alignment.hpp"
 #include "storage/road_store.hpp"
@@ -156,6 +156,32 @@ void ask_by_place(benchmark::State& state) {
     state.counters["segments"] = static_cast<double>(store.info().segments);
 }
 
+constexpr std::size_t passes_a_trip = 500;
+
+/// What trip `number` gives, where trips go on from each other through the town.
+struct TownDrive {
+    std::vector<Pass> passes;
+    std::vector<StripTrace> traces;
+};
+
+TownDrive town_drive(const std::vector<SegmentKey>& keys, int number, bool with_traces) {
+    const auto first = static_cast<std::size_t>(number) * passes_a_trip;
+    std::vector<SegmentKey> driven;
+    for (std::size_t i = 0; i < passes_a_trip; ++i) {
+        driven.push_back(keys[(first + i) % keys.size()]);
+    }
+    TownDrive drive{passes_over(driven), {}};
+    if (with_traces) {
+        drive.traces = traces_over(driven, number);
+        for (std::size_t i = 0, trace = 0; i < drive.passes.size(); ++i) {
+            auto& pass = drive.passes[i];
+            trace += strip_of(pass.segment, 20) != drive.traces[trace].strip ? 1U : 0U;
+            pass.drive = drive.traces[trace].drive;
+        }
+    }
+    return drive;
+}
+
 /// Trips of 500 passes into a town that already has one pass everywhere, fused after each trip;
 /// with_traces: each pass laid on the others.
 template <bool with_traces>
@@ -165,29 +191,56 @@ void add_and_fuse_trips(benchmark::State& state) {
     fs::copy_file(driven_town(side), file, fs::copy_options::overwrite_existing);
     auto store = RoadStore::open(file, RoadStore::Access::write);
     const auto keys = keys_of(testing::made_up_town(side));
-    constexpr std::size_t passes_a_trip = 500;
     static int number = 0;
     for (auto _ : state) {
-        const auto first = static_cast<std::size_t>(number) * passes_a_trip;
-        std::vector<SegmentKey> driven;
-        for (std::size_t i = 0; i < passes_a_trip; ++i) {
-            driven.push_back(keys[(first + i) % keys.size()]);
-        }
         state.PauseTiming();
-        auto passes = passes_over(driven);
-        auto traces = with_traces ? traces_over(driven, number) : std::vector<StripTrace>{};
-        for (std::size_t i = 0, trace = 0; with_traces && i < passes.size(); ++i) {
-            trace += strip_of(passes[i].segment, 20) != traces[trace].strip ? 1U : 0U;
-            passes[i].drive = traces[trace].drive;
-        }
+        const auto drive = town_drive(keys, number, with_traces);
         state.ResumeTiming();
-        store.add_trip(trip_number(++number), passes, traces);
+        store.add_trip(trip_number(++number), drive.passes, drive.traces);
         store.refresh({});
     }
     state.counters["passes/s"] = benchmark::Counter(static_cast<double>(passes_a_trip) *
                                                         static_cast<double>(state.iterations()),
                                                     benchmark::Counter::kIsRate);
     state.counters["segments"] = static_cast<double>(keys.size());
+}
+
+/// A store of a small town with so many trips that nobody fused yet.
+template <bool with_traces>
+const fs::path& waiting_town(int trips) {
+    static std::map<int, fs::path> made;
+    const auto known = made.find(trips);
+    if (known != made.end()) {
+        return known->second;
+    }
+    const auto file =
+        scratch("waiting-" + std::to_string(trips) + (with_traces ? "-traces" : "") + ".gpkg");
+    const auto roads = testing::made_up_town(25);
+    const auto keys = keys_of(roads);
+    auto store = RoadStore::create(file, roads, {});
+    for (int number = 0; number < trips; ++number) {
+        const auto drive = town_drive(keys, number, with_traces);
+        store.add_trip(trip_number(number), drive.passes, drive.traces);
+    }
+    return made.emplace(trips, file).first->second;
+}
+
+/// The fusion of many trips at once; with_traces: each pass laid on the others.
+template <bool with_traces>
+void fuse_trips(benchmark::State& state) {
+    const auto trips = static_cast<int>(state.range(0));
+    const auto file = scratch("fused.gpkg");
+    for (auto _ : state) {
+        state.PauseTiming();
+        fs::copy_file(waiting_town<with_traces>(trips), file, fs::copy_options::overwrite_existing);
+        auto store = RoadStore::open(file, RoadStore::Access::write);
+        state.ResumeTiming();
+        store.refresh({});
+    }
+    state.counters["passes/s"] =
+        benchmark::Counter(static_cast<double>(passes_a_trip) * static_cast<double>(trips) *
+                               static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate);
 }
 
 /// Twice as many traces of 500 m should cost twice as much.
@@ -208,6 +261,8 @@ BENCHMARK(lay_traces)->RangeMultiplier(4)->Range(2, 512)->Unit(benchmark::kMilli
 BENCHMARK(ask_by_place)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_and_fuse_trips<false>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_and_fuse_trips<true>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(fuse_trips<false>)->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(fuse_trips<true>)->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace macadam
