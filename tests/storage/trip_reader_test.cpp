@@ -174,6 +174,20 @@ TEST(TripReader, SaysWhyARowGaveNothing) {
     EXPECT_THAT(trip.acc.t_s, ElementsAre(0, 1));
 }
 
+TEST(TripReader, LosesToAStampOfTheFarFutureThatRowAndNoOther) {
+    constexpr int wild = 1000;
+    std::vector<std::string> rows;
+    for (int i = 0; i < 5000; ++i) {
+        rows.push_back((i == wild ? "4102444800" : std::to_string(0.01 * i)) + ",9.8,20");
+    }
+    const auto trip = read_text(log_of("t_s,acc_z_mps2,speed_mps", rows));
+    EXPECT_EQ(trip.acc.t_s.size(), rows.size() - 1);
+    EXPECT_EQ(trip.speed.t_s.size(), rows.size() - 1);
+    EXPECT_EQ(trip.rows[wild], code(RowReason::time_not_increasing));
+    EXPECT_EQ(std::ranges::count(trip.rows, row_content::acc | row_content::speed),
+              std::ssize(rows) - 1);
+}
+
 TEST(TripReader, RefusesOldTimesSensorBySensor) {
     const auto trip =
         read_text(log_of("t_s,acc_z_mps2,speed_mps", {"0,9.8,", "2,9.8,", "1,9.8,20", "2,,20"}));
