@@ -91,7 +91,12 @@ void write_state(Statement& insert,
                  const SegmentState& state,
                  const ClassTable& classes) {
     const double iri = mm_per_m(state.iri_um);
-    const auto changed_ms = state.change ? std::optional{state.change->utc_ms} : std::nullopt;
+    std::optional<std::int64_t> changed_ms;
+    std::optional<double> change;
+    if (state.change) {
+        changed_ms = state.change->utc_ms;
+        change = mm_per_m(state.change->um);
+    }
     insert.run(fid,
                iri,
                mm_per_m(state.sd_um),
@@ -108,7 +113,7 @@ void write_state(Statement& insert,
                known_mm_per_m(state.trend_um_per_year),
                known_mm_per_m(state.trend_sd_um_per_year),
                known_datetime_text(changed_ms),
-               state.change ? std::optional{mm_per_m(state.change->um)} : std::nullopt,
+               change,
                name_of_validity(state.validity),
                state.first_seen_ms,
                state.last_seen_ms,

@@ -233,6 +233,7 @@ Between between_samples(const Positions& positions,
                                ? config.odometer_scale_m + odometer_spread * travelled_m
                                : config.transition_scale_m + chord_spread * travelled_m;
     return {std::exp(-took_s / error_memory_s),
+            took_s,
             travelled_m,
             drawn.length_m,
             scale_m,

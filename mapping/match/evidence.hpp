@@ -41,6 +41,7 @@ Evidence evidence_of(const Positions& positions,
 /// What joins two samples.
 struct Between {
     double kept; ///< of the receiver's error, 0 to 1
+    double took_s;
     double travelled_m;
     double drawn_m;    ///< length of the line through the positions
     double scale_m;    ///< of |way - travelled|

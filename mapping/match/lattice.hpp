@@ -32,8 +32,9 @@ struct Passage {
         around, ///< over nodes
     };
     Kind kind;
-    double way_m;  ///< a little below 0 where noise sets a car back
-    double turn_m; ///< what turning round was worth
+    double way_m;   ///< a little below 0 where noise sets a car back
+    double turn_m;  ///< what turning round was worth
+    double least_s; ///< that it takes at the speed limits
 };
 
 /// The ways out of `edge` that matter over such a distance.

@@ -25,6 +25,24 @@ double longest_m(const Between& between, const MatchConfig& config) {
     return std::min(config.longest_route_m, (1 + share) * between.travelled_m + detour_m);
 }
 
+// Drivers exceed limits, and maps do not know them all: beyond so many times the limit ...
+constexpr double hurry_from = 1.8;
+constexpr double hurry_sd = 0.8; // ... a sample's worth of way becomes unlikely, ...
+constexpr double most_hurry_nats = 1;
+constexpr double hurry_piece_m = 30; // ... and so does each of the next ones
+constexpr double most_hurry_pieces = 8;
+
+/// What driving the way in that time says against it.
+double hurry_nats(const Passage& passage, const Between& between) {
+    const double over = passage.least_s - hurry_from * between.took_s;
+    if (over <= 0 || between.took_s <= 0) {
+        return 0;
+    }
+    const double sds = over / (hurry_sd * between.took_s);
+    return std::min(most_hurry_nats, sds * sds) *
+           std::clamp(passage.way_m / hurry_piece_m, 1.0, most_hurry_pieces);
+}
+
 /// Round on the edge itself: at the farther of the two places, or beyond it if there was the time.
 Passage turned(double length_m,
                const Candidate& from,
@@ -35,7 +53,8 @@ Passage turned(double length_m,
     const double room_m = 2 * (length_m - std::max(from.offset_m, length_m - to.offset_m));
     return {Passage::Kind::turned,
             std::clamp(between.travelled_m, apart_m, apart_m + room_m),
-            config.u_turn_cost_m};
+            config.u_turn_cost_m,
+            0};
 }
 
 } // namespace
@@ -62,16 +81,21 @@ std::optional<Passage> passage_of(const RoadNetwork& roads,
         }
     };
     const double edge_m = length_m(roads, from.edge);
+    const auto limit_mps = [&](EdgeId edge) { return speed_limit_mps(roads, link_of(edge)); };
     if (from.edge == to.edge && to.offset_m >= from.offset_m - set_back_m) {
-        take({Passage::Kind::along, to.offset_m - from.offset_m, 0});
+        const double way_m = to.offset_m - from.offset_m;
+        take({Passage::Kind::along, way_m, 0, way_m / limit_mps(from.edge)});
     }
     if (to.edge == reversed(from.edge)) {
         take(turned(edge_m, from, to, between, config));
     }
     if (const auto* way = find(reached, to.edge)) {
+        const double rest_m = edge_m - from.offset_m;
         take({Passage::Kind::around,
-              edge_m - from.offset_m + static_cast<double>(way->way_m) + to.offset_m,
-              way->turn_m});
+              rest_m + static_cast<double>(way->way_m) + to.offset_m,
+              way->turn_m,
+              rest_m / limit_mps(from.edge) + static_cast<double>(way->least_s) +
+                  to.offset_m / limit_mps(to.edge)});
     }
     return best;
 }
@@ -82,7 +106,7 @@ double cost_of(const Passage& passage, const Between& between) {
     const double unseen =
         between.dense ? std::max(0.0, passage.way_m - seen_m) / seen_detour_sd_m : 0;
     return std::abs(passage.way_m - between.travelled_m) / between.scale_m + turn_m / turn_scale_m +
-           unseen * unseen / 2;
+           unseen * unseen / 2 + hurry_nats(passage, between);
 }
 
 double turn_nats(const Candidate& from, const Candidate& to, const Between& between) {

@@ -1,11 +1,14 @@
 #include "mapping/match/routes.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace macadam {
 namespace {
 
+constexpr double rad_per_deg = std::numbers::pi / 180;
 constexpr std::size_t first_labels = 1024;
 constexpr double dead_end_share = 0.25; // of the price of a U-turn, where there is no other way
 
@@ -43,8 +46,50 @@ double Routes::turn_m(EdgeId edge) const {
     return dead_end ? dead_end_share * u_turn_cost_m_ : u_turn_cost_m_;
 }
 
-void Routes::leave(EdgeId edge, float way_m, float turn_m_so_far, double longest_m) {
-    if (way_m > longest_m) {
+namespace {
+
+// What a degree is at least, on the ellipsoid; straight lines on this plane are no longer than
+// roads.
+constexpr double north_m_per_deg = 110'574;
+constexpr double east_m_per_deg = 111'319 * 0.99; // at the equator; parallels differ within reach
+
+double apart_m(const GeoPoint& a, const GeoPoint& b, double east_per_deg) {
+    return std::hypot((a.lat_deg - b.lat_deg) * north_m_per_deg,
+                      (a.lon_deg - b.lon_deg) * east_per_deg);
+}
+
+} // namespace
+
+Routes::Goal Routes::goal_of(std::span<const EdgeId> targets) const {
+    GeoBox box;
+    for (const auto target : targets) {
+        box = including(box, place_of(roads_, from_node(roads_, target)));
+    }
+    Goal goal{between({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}, 0.5), 0, 0};
+    goal.east_m_per_deg = east_m_per_deg * std::cos(goal.centre.lat_deg * rad_per_deg);
+    for (const auto target : targets) {
+        const auto at = place_of(roads_, from_node(roads_, target));
+        // The other way round: here what is too long is safe.
+        goal.radius_m =
+            std::max(goal.radius_m, 1.03 * apart_m(at, goal.centre, goal.east_m_per_deg));
+    }
+    return goal;
+}
+
+/// What is left at least between the end of an edge and the nearest target.
+double Routes::left_m(EdgeId edge) const {
+    if (!goal_) {
+        return 0;
+    }
+    const auto at = place_of(roads_, to_node(roads_, edge));
+    return std::max(0.0, apart_m(at, goal_->centre, goal_->east_m_per_deg) - goal_->radius_m);
+}
+
+/// On from the end of an edge.
+void Routes::leave(const Reached& end, double longest_m) {
+    const auto [edge, before, way_m, turn_m_so_far, least_s] = end;
+    const auto left = static_cast<float>(left_m(edge));
+    if (way_m + left > longest_m) {
         return;
     }
     for (const auto next : out_edges(roads_, to_node(roads_, edge))) {
@@ -66,8 +111,8 @@ void Routes::leave(EdgeId edge, float way_m, float turn_m_so_far, double longest
             continue;
         }
         labelled_ += label.search == search_ ? 0 : 1;
-        label = {{next, edge, way_m, turn}, search_, false};
-        waiting_.push_back({way_m + turn, next});
+        label = {{next, edge, way_m, turn, least_s}, search_, false};
+        waiting_.push_back({way_m + turn + left, next});
         std::push_heap(waiting_.begin(), waiting_.end(), dearer);
         if (2 * labelled_ > labels_.size()) {
             grow_labels();
@@ -80,7 +125,8 @@ Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
     ++search_;
     labelled_ = 0;
     waiting_.clear();
-    leave(edge, 0, 0, longest_m);
+    goal_ = targets.empty() ? std::nullopt : std::optional{goal_of(targets)};
+    leave({edge, edge, 0, 0, 0}, longest_m);
     settled_.clear();
     auto missing = targets.size();
     while (!waiting_.empty()) {
@@ -97,9 +143,13 @@ Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
         if (std::binary_search(targets.begin(), targets.end(), next) && --missing == 0) {
             break;
         }
-        leave(next,
-              reached.way_m + static_cast<float>(length_m(roads_, next)),
-              reached.turn_m,
+        const auto edge_m = static_cast<float>(length_m(roads_, next));
+        const auto limit_mps = static_cast<float>(speed_limit_mps(roads_, link_of(next)));
+        leave({next,
+               reached.before,
+               reached.way_m + edge_m,
+               reached.turn_m,
+               reached.least_s + edge_m / limit_mps},
               longest_m);
     }
     std::ranges::sort(settled_, {}, &Reached::edge);

@@ -3,6 +3,7 @@
 #include "mapping/road_network.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -15,6 +16,7 @@ struct Reached {
     EdgeId before; ///< from which it was entered
     float way_m;   ///< between the end of the edge of departure and the beginning of this one
     float turn_m;  ///< what turning round, or where it is forbidden, was worth
+    float least_s; ///< that the way takes at the speed limits
 };
 
 /// Ways between edges on the network, the shortest with U-turns at their price.
@@ -30,8 +32,11 @@ public:
     const std::vector<Reached>& around(EdgeId edge);
     static constexpr double kept_m = 200;
 
-    /// The same up to `longest_m`, ending as soon as all `targets` (in order) are reached. Valid
-    /// until the next call of either.
+    /// The same up to `longest_m`, ending as soon as all `targets` (in order) are reached. What
+    /// cannot lead to them within longest_m, the rest of the way as straight as can be, is not
+    /// looked at, and the rest in the order of how far it is with that: A* (P. E. Hart, N. J.
+    /// Nilsson and B. Raphael, IEEE Transactions on Systems Science and Cybernetics 4 (1968), pp.
+    /// 100-107). No targets: everything. Valid until the next call of either.
     const std::vector<Reached>&
     towards(EdgeId edge, std::span<const EdgeId> targets, double longest_m);
 
@@ -45,17 +50,28 @@ private:
         bool settled;
     };
     struct Waiting {
-        float cost_m;
+        float cost_m; ///< with what is left at least
         EdgeId edge;
     };
 
     const std::vector<Reached>&
     search(EdgeId edge, std::span<const EdgeId> targets, double longest_m);
-    void leave(EdgeId edge, float way_m, float turn_m, double longest_m);
+    void leave(const Reached& end, double longest_m);
+    double left_m(EdgeId edge) const;
     Label& label_of(EdgeId edge);
     void grow_labels();
 
+    /// All targets lie in this circle.
+    struct Goal {
+        GeoPoint centre;
+        double east_m_per_deg;
+        double radius_m;
+    };
+
+    Goal goal_of(std::span<const EdgeId> targets) const;
+
     const RoadNetwork& roads_;
+    std::optional<Goal> goal_; ///< of the present search
     double u_turn_cost_m_;
     std::unordered_map<std::uint32_t, std::vector<Reached>> around_; ///< by EdgeId
     std::vector<Reached> settled_;                                   ///< of the last search
