@@ -96,14 +96,17 @@ TEST(Latency, IsFoundFromPlacesAgainstWheelsAndAgainstTheGyro) {
     for (const double late_s : {0.2, 0.9, 2.1}) {
         for (const auto& trip :
              {bends(late_s, true, false), bends(late_s, false, true), bends(late_s, true, true)}) {
-            EXPECT_NEAR(estimate_gnss_latency_s(trip, heading_of(trip)).value_or(-1), late_s, 0.1);
+            const auto found = find_gnss_latency(trip, heading_of(trip));
+            ASSERT_TRUE(found);
+            EXPECT_NEAR(found->latency_s, late_s, 0.1);
+            EXPECT_LT(found->sd_s, 0.1);
         }
     }
 }
 
 TEST(Latency, IsNotGuessedFromPlacesAlone) {
     const auto trip = bends(0.9, false, false);
-    EXPECT_EQ(estimate_gnss_latency_s(trip, {}), std::nullopt);
+    EXPECT_FALSE(find_gnss_latency(trip, {}));
 }
 
 } // namespace
