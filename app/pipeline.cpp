@@ -198,15 +198,17 @@ void expect_sensors(const TripLog& trip, const std::optional<SensorSet>& sensors
 }
 
 /// By the speeds if they tell it, else by the ways from fix to fix against wheels and gyro.
-std::optional<double> latency_of(const TripLog& trip) {
-    const auto by_speeds = estimate_gnss_latency_s(trip);
-    if (by_speeds || trip.fixes.size() < 2 || (trip.speed.t_s.empty() && trip.gyro.t_s.empty())) {
-        return by_speeds;
+std::optional<FoundLatency> latency_of(const TripLog& trip) {
+    if (const auto by_speeds_s = estimate_gnss_latency_s(trip)) {
+        return FoundLatency{*by_speeds_s, latency_by_speeds_sd_s};
+    }
+    if (trip.fixes.size() < 2 || (trip.speed.t_s.empty() && trip.gyro.t_s.empty())) {
+        return std::nullopt;
     }
     auto use = unused(trip);
     const auto odometer = make_odometer(trip, {}, use);
     const auto mounting = estimate_mounting(trip, odometer);
-    return estimate_gnss_latency_s(trip, make_heading(trip, odometer, mounting));
+    return find_gnss_latency(trip, make_heading(trip, odometer, mounting));
 }
 
 } // namespace
@@ -285,10 +287,11 @@ TripLog with_latency(TripLog trip, std::vector<std::string>& warnings) {
     if (trip.meta.gnss_latency_stated || trip.fixes.empty()) {
         return trip;
     }
-    if (const auto latency_s = latency_of(trip)) {
-        trip.meta.gnss_latency_s = *latency_s;
+    if (const auto found = latency_of(trip)) {
+        trip.meta.gnss_latency_s = found->latency_s;
+        trip.meta.gnss_latency_sd_s = found->sd_s;
         warnings.push_back(
-            fmt::format("gnss_latency_s is not stated; estimated as {:.2f} s", *latency_s));
+            fmt::format("gnss_latency_s is not stated; estimated as {:.2f} s", found->latency_s));
     } else {
         warnings.emplace_back("gnss_latency_s is not stated and could not be found; places may lie "
                               "up to 2 s of driving ahead of the road");

@@ -1,5 +1,7 @@
 #include "estimator/latency.hpp"
 
+#include "estimator/turn_lag.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -17,11 +19,9 @@ constexpr double clear_share = 0.5;     // of the worst lag's deviation: the bes
 
 constexpr double least_chord_m = 8;
 constexpr double longest_chord_s = 6;
+constexpr double least_sd_s = 0.03; // no clock is better known by this
+constexpr double worst_sd_s = 0.4;  // of what is still worth saying
 constexpr float most_apart_mps = 3; // a faulty reading counts no more than this
-constexpr float most_apart_rad = 0.3F;
-constexpr std::size_t neighbours = 8; // chords on either side
-constexpr double credible_nats = 4;
-constexpr double widest_s = 0.4; // about the best lag: no lag farther off may be credible
 
 float median_of(std::vector<float> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -151,59 +151,6 @@ double speed_cost(const std::vector<Chord>& chords,
     return cost_of(std::move(apart_mps), most_apart_mps);
 }
 
-/// The gyro's mean turn so far over a chord (Simpson's rule).
-double mean_turned_rad(const Heading& heading, const Chord& chord, double lag_s) {
-    const double from_s = chord.from_s - lag_s;
-    const double to_s = chord.to_s - lag_s;
-    return (turned_at(heading, from_s) + 4 * turned_at(heading, (from_s + to_s) / 2) +
-            turned_at(heading, to_s)) /
-           6;
-}
-
-/// What each has more than its neighbours on both sides in the mean.
-std::vector<float> apart_from_neighbours(const std::vector<double>& values) {
-    std::vector<double> sums{0};
-    for (const double value : values) {
-        sums.push_back(sums.back() + value);
-    }
-    std::vector<float> apart;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto low = i - std::min(i, neighbours);
-        const auto high = std::min(i + neighbours + 1, values.size());
-        const double mean = (sums[high] - sums[low]) / static_cast<double>(high - low);
-        apart.push_back(static_cast<float>(values[i] - mean));
-    }
-    return apart;
-}
-
-/// Of a lag, by the courses of the chords against the gyro. Where its zero points is unknown and
-/// wanders, so only what is more than in neighbours counts.
-double turn_cost(const std::vector<Chord>& chords, const Heading& heading, double lag_s) {
-    std::vector<float> apart_rad;
-    std::vector<double> zeros_rad; // course less turn, of chords without a silence between
-    double last_s = 0;
-    const auto close = [&] {
-        std::ranges::copy(apart_from_neighbours(zeros_rad), std::back_inserter(apart_rad));
-        zeros_rad.clear();
-    };
-    for (const auto& chord : chords) {
-        if (heading.turned_rad.empty() ||
-            std::isinf(turned(heading, chord.from_s - lag_s, chord.to_s).sd_rad)) {
-            continue;
-        }
-        if (!zeros_rad.empty() && chord.from_s - last_s > longest_chord_s) {
-            close();
-        }
-        const double zero_rad = chord.course_rad - mean_turned_rad(heading, chord, lag_s);
-        const double before_rad = zeros_rad.empty() ? zero_rad : zeros_rad.back();
-        zeros_rad.push_back(before_rad +
-                            std::remainder(zero_rad - before_rad, 2 * std::numbers::pi));
-        last_s = chord.to_s;
-    }
-    close();
-    return cost_of(std::move(apart_rad), most_apart_rad);
-}
-
 /// The vertex of the parabola through the least of the values and its neighbours, as a lag.
 double vertex_s(const std::vector<double>& values) {
     const auto best = std::ranges::min_element(values);
@@ -215,6 +162,24 @@ double vertex_s(const std::vector<double>& values) {
     const double after = *(best + 1);
     const double bend = before - 2 * *best + after;
     return (static_cast<double>(i) + (bend > 0 ? 0.5 * (before - after) / bend : 0)) * lag_step_s;
+}
+
+/// Mean and sd over lags that are as likely as one another before: what little is known draws the
+/// estimate to the middle of them.
+FoundLatency posterior(const std::vector<double>& lags_s, const std::vector<double>& costs) {
+    const double least = std::ranges::min(costs);
+    double sum = 0;
+    double first = 0;
+    double second = 0;
+    for (std::size_t i = 0; i < lags_s.size(); ++i) {
+        const double weight = std::exp(least - costs[i]);
+        sum += weight;
+        first += weight * lags_s[i];
+        second += weight * lags_s[i] * lags_s[i];
+    }
+    const double mean_s = first / sum;
+    const double spread_s = std::sqrt(std::max(0.0, second / sum - mean_s * mean_s));
+    return {mean_s, std::max(spread_s, least_sd_s)};
 }
 
 } // namespace
@@ -234,28 +199,22 @@ std::optional<double> estimate_gnss_latency_s(const TripLog& trip) {
     return vertex_s(deviations);
 }
 
-std::optional<double> estimate_gnss_latency_s(const TripLog& trip, const Heading& heading) {
-    if (const auto by_speeds = estimate_gnss_latency_s(trip)) {
-        return by_speeds;
+std::optional<FoundLatency> find_gnss_latency(const TripLog& trip, const Heading& heading) {
+    if (const auto by_speeds_s = estimate_gnss_latency_s(trip)) {
+        return FoundLatency{*by_speeds_s, latency_by_speeds_sd_s};
     }
     const auto chords = chords_of(trip);
     const auto travel_m = wheel_travel_m(trip.speed);
-    std::vector<double> costs;
+    std::vector<double> lags_s;
     for (int i = 0; i < lags; ++i) {
-        const double lag_s = i * lag_step_s;
-        costs.push_back(
-            speed_cost(chords, trip.speed, travel_m, lag_s - trip.meta.speed_latency_s) +
-            turn_cost(chords, heading, lag_s));
+        lags_s.push_back(i * lag_step_s);
     }
-    const double best_s = vertex_s(costs);
-    const double least = std::ranges::min(costs);
-    for (int i = 0; i < lags; ++i) {
-        const bool credible = costs[static_cast<std::size_t>(i)] < least + credible_nats;
-        if (credible && std::abs(i * lag_step_s - best_s) > widest_s) {
-            return std::nullopt;
-        }
+    auto costs = turn_costs(trip, heading, lags_s);
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+        costs[i] += speed_cost(chords, trip.speed, travel_m, lags_s[i] - trip.meta.speed_latency_s);
     }
-    return best_s;
+    const auto found = posterior(lags_s, costs);
+    return found.sd_s < worst_sd_s ? std::optional{found} : std::nullopt;
 }
 
 } // namespace macadam

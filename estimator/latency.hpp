@@ -16,12 +16,20 @@ namespace macadam {
 /// \returns nothing if the trip lacks either speed, or if the speed changed too little to tell.
 std::optional<double> estimate_gnss_latency_s(const TripLog& trip);
 
+/// Standard deviation of what estimate_gnss_latency_s finds by the speeds; simulated ones err by
+/// less, but receivers smooth theirs.
+inline constexpr double latency_by_speeds_sd_s = 0.1;
+
+struct FoundLatency {
+    double latency_s;
+    double sd_s;
+};
+
 /// The same, and where the speeds do not tell it: the lag at which the ways from fix to fix agree
-/// best with the wheels, in length, and with the gyro (`heading`), in their turns. Both are weighed
-/// by how well they agree.
+/// best with the wheels, in length, and with the gyro (`heading`), in their turns (turn_lag.hpp).
+/// The mean over all lags from 0 to 3 s, each weighed by its likelihood.
 ///
-/// \returns nothing if lags that differ by 0.4 s are about as likely, or the log has neither
-/// sensor.
-std::optional<double> estimate_gnss_latency_s(const TripLog& trip, const Heading& heading);
+/// \returns nothing if its standard deviation is 0.4 s or more, or the log has neither sensor.
+std::optional<FoundLatency> find_gnss_latency(const TripLog& trip, const Heading& heading);
 
 } // namespace macadam

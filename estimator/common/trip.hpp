@@ -57,6 +57,7 @@ struct TripMeta {
     bool frame_stated = false;
     bool gnss_latency_stated = false;
     double gnss_latency_s = 0;
+    double gnss_latency_sd_s = 0; ///< of an estimate; 0: not known
     double speed_latency_s = 0;
     std::optional<double> speed_scale;        ///< true speed = scale * logged speed
     std::map<std::string, std::string> other; ///< every key that is not one of the above

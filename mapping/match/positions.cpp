@@ -183,9 +183,10 @@ double latency_sd_s(const TripLog& trip, const Heading& heading) {
     if (trip.speed.t_s.empty() && heading.turned_rad.empty()) {
         return 0;
     }
-    return trip.meta.gnss_latency_stated  ? stated_s
-           : trip.meta.gnss_latency_s > 0 ? estimated_s
-                                          : anything_s;
+    return trip.meta.gnss_latency_stated     ? stated_s
+           : trip.meta.gnss_latency_sd_s > 0 ? trip.meta.gnss_latency_sd_s
+           : trip.meta.gnss_latency_s > 0    ? estimated_s
+                                             : anything_s;
 }
 
 } // namespace

@@ -43,9 +43,15 @@ TEST(Latency, NeedsBothSpeeds) {
     EXPECT_EQ(estimate_gnss_latency_s(trip), std::nullopt);
 }
 
-/// The same minute along bends, four times; the receiver tells places alone, 0.3 m of noise each.
-TripLog bends(double late_s, bool wheels, bool gyro) {
-    const auto turned_rad = [](double t_s) { return 0.8 * std::sin(0.4 * t_s); };
+/// The same minute along bends, four times; the receiver tells places alone, by default with 0.3 m
+/// of noise each: evenly spread over `spread_m`.
+TripLog bends(double late_s,
+              bool wheels,
+              bool gyro,
+              double spread_m = 1,
+              unsigned noise = 1,
+              double bend_rad = 0.8) {
+    const auto turned_rad = [=](double t_s) { return bend_rad * std::sin(0.4 * t_s); };
     const auto mps = [](double t_s) { return 12 + 4 * std::sin(0.35 * t_s); };
     TripLog trip;
     for (int i = 0; i < 12000; ++i) {
@@ -64,10 +70,9 @@ TripLog bends(double late_s, bool wheels, bool gyro) {
     }
     double east_m = 0;
     double north_m = 0;
-    unsigned noise = 1;
     const auto noise_m = [&] {
         noise = noise * 1664525 + 1013904223;
-        return 1.0 * (noise >> 8) / (1U << 24) - 0.5;
+        return spread_m * ((noise >> 8) / static_cast<double>(1U << 24) - 0.5);
     };
     constexpr int fine = 20; // of a second
     for (int i = 0; i < 240 * fine; ++i) {
@@ -96,14 +101,39 @@ TEST(Latency, IsFoundFromPlacesAgainstWheelsAndAgainstTheGyro) {
     for (const double late_s : {0.2, 0.9, 2.1}) {
         for (const auto& trip :
              {bends(late_s, true, false), bends(late_s, false, true), bends(late_s, true, true)}) {
-            EXPECT_NEAR(estimate_gnss_latency_s(trip, heading_of(trip)).value_or(-1), late_s, 0.1);
+            const auto found = find_gnss_latency(trip, heading_of(trip));
+            ASSERT_TRUE(found);
+            EXPECT_NEAR(found->latency_s, late_s, 0.1);
+            EXPECT_LT(found->sd_s, 0.1);
         }
     }
 }
 
+TEST(Latency, IsToldWithTheErrorThatItHas) {
+    double squares = 0;
+    int count = 0;
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+        const double late_s = 0.2 * seed;
+        const auto trip = bends(late_s, false, true, 12, 7919 * seed); // 3.5 m, new at every fix
+        const auto found = find_gnss_latency(trip, heading_of(trip));
+        ASSERT_TRUE(found) << seed;
+        const double sds = (found->latency_s - late_s) / found->sd_s;
+        squares += sds * sds;
+        ++count;
+    }
+    // Chi-squared of 12 is within 3.6 and 26 of 998 in 1000, when the sds are right.
+    EXPECT_GT(squares / count, 0.3);
+    EXPECT_LT(squares / count, 2.2);
+}
+
+TEST(Latency, IsNotGuessedWhereTheRoadIsStraight) {
+    const auto trip = bends(0.9, false, true, 1, 1, 0);
+    EXPECT_FALSE(find_gnss_latency(trip, heading_of(trip)));
+}
+
 TEST(Latency, IsNotGuessedFromPlacesAlone) {
     const auto trip = bends(0.9, false, false);
-    EXPECT_EQ(estimate_gnss_latency_s(trip, {}), std::nullopt);
+    EXPECT_FALSE(find_gnss_latency(trip, {}));
 }
 
 } // namespace

@@ -120,8 +120,10 @@ Matched matched(TripLog trip, const RoadNetwork& roads, const MatchConfig& confi
     std::optional<double> latency_s = trip.meta.gnss_latency_s;
     if (!trip.meta.gnss_latency_stated) {
         auto unlagged = unused(trip);
-        latency_s = estimate_gnss_latency_s(trip, heading_of(make_odometer(trip, {}, unlagged)));
+        const auto found = find_gnss_latency(trip, heading_of(make_odometer(trip, {}, unlagged)));
+        latency_s = found ? std::optional{found->latency_s} : std::nullopt;
         trip.meta.gnss_latency_s = latency_s.value_or(0);
+        trip.meta.gnss_latency_sd_s = found ? found->sd_s : 0;
     }
     auto use = unused(trip);
     auto odometer = make_odometer(trip, {}, use);

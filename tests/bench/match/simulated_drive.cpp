@@ -126,14 +126,16 @@ std::vector<double> starts_of(const RoadNetwork& roads, const std::vector<EdgeId
 /// curvature is held below what cars can steer, which a turn on the spot exceeds.
 std::vector<double> turned_along(const DrivenPath& path) {
     std::vector<double> turned_rad(path.points.size(), 0.0);
+    double ahead_rad = 0; // of the step that leaves the point; at the point it is half round
     for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
         const auto in = path.plane.metres(path.points[i - 1], path.points[i]);
         const auto out = path.plane.metres(path.points[i], path.points[i + 1]);
         const double turn_rad = std::atan2(in.east_m * out.north_m - in.north_m * out.east_m,
                                            in.east_m * out.east_m + in.north_m * out.north_m);
-        turned_rad[i] = turned_rad[i - 1] + turn_rad;
+        turned_rad[i] = ahead_rad + turn_rad / 2;
+        ahead_rad += turn_rad;
     }
-    turned_rad.back() = turned_rad[turned_rad.size() - 2];
+    turned_rad.back() = ahead_rad;
     return turned_rad;
 }
 
