@@ -136,6 +136,7 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
     add_geometry_functions(database);
     write_store(database, roads, settings, progress);
     database.close();
+    remove_leftovers_of(file);
     whole.commit();
     return open(file, Access::write);
 }
@@ -183,12 +184,11 @@ bool RoadStore::add_trip(const TripRecord& trip,
 }
 
 std::size_t RoadStore::refresh(const FusionConfig& config, const Progress& progress) {
-    auto& database = impl_->database;
-    Transaction all{database, Transaction::Kind::write};
-    const auto strip = segments_in_strip(impl_->settings.segment_length_m);
-    const auto fused = fuse_dirty(database, strip, impl_->classes(), config, progress);
-    all.commit();
-    return fused;
+    return fuse_dirty(impl_->database,
+                      segments_in_strip(impl_->settings.segment_length_m),
+                      impl_->classes(),
+                      config,
+                      progress);
 }
 
 } // namespace macadam
