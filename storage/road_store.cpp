@@ -5,6 +5,7 @@
 #include "storage/road_store_impl.hpp"
 #include "storage/row_reasons.hpp"
 #include "storage/sha256.hpp"
+#include "storage/store_file.hpp"
 #include "storage/strip_fusion.hpp"
 #include "storage/strip_rows.hpp"
 
@@ -20,18 +21,6 @@ void refuse_existing(const std::filesystem::path& file) {
     if (std::filesystem::exists(std::filesystem::symlink_status(file))) {
         throw InputError{
             fmt::format("{}: exists already, expected the name of a new store", file.string())};
-    }
-}
-
-void refuse_missing(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-        throw InputError{fmt::format("{}: no such file, expected a store made by 'macadam init'",
-                                     file.string())};
-    }
-    if (!std::filesystem::is_regular_file(file, ignored)) {
-        throw InputError{
-            fmt::format("{}: is no file, expected a store made by 'macadam init'", file.string())};
     }
 }
 
@@ -142,7 +131,7 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
 }
 
 RoadStore RoadStore::open(const std::filesystem::path& file, Access access) {
-    refuse_missing(file);
+    expect_store_file(file);
     return RoadStore{std::make_unique<Impl>(
         file, access == Access::read ? Database::Access::read : Database::Access::write)};
 }
