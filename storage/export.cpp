@@ -250,6 +250,9 @@ std::size_t export_segments(const RoadStore& store,
     }
     AtomicFile out{file};
     const auto written = write_as(suffix, store, filter, file, out, progress);
+    if (suffix == ".gpkg") {
+        remove_leftovers_of(file);
+    }
     out.commit();
     return written;
 }

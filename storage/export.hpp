@@ -30,7 +30,8 @@ std::vector<std::optional<std::string>> field_values(const SegmentRecord& record
 std::string geojson_feature(const SegmentRecord& record, const ClassTable& classes);
 
 /// A CSV row of the field values and of the middle of the segment (lat_deg, lon_deg), without the
-/// line's end. Quoted where RFC 4180 needs it, and where text begins as a formula would (= + - @).
+/// line's end. Quoted where RFC 4180 needs it, and where text begins as a formula would (= + - @),
+/// which gets an apostrophe before it.
 std::string csv_row(const SegmentRecord& record, const ClassTable& classes);
 std::string csv_header();
 

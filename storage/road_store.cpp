@@ -5,6 +5,7 @@
 #include "storage/road_store_impl.hpp"
 #include "storage/row_reasons.hpp"
 #include "storage/sha256.hpp"
+#include "storage/store_file.hpp"
 #include "storage/strip_fusion.hpp"
 #include "storage/strip_rows.hpp"
 
@@ -20,18 +21,6 @@ void refuse_existing(const std::filesystem::path& file) {
     if (std::filesystem::exists(std::filesystem::symlink_status(file))) {
         throw InputError{
             fmt::format("{}: exists already, expected the name of a new store", file.string())};
-    }
-}
-
-void refuse_missing(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-        throw InputError{fmt::format("{}: no such file, expected a store made by 'macadam init'",
-                                     file.string())};
-    }
-    if (!std::filesystem::is_regular_file(file, ignored)) {
-        throw InputError{
-            fmt::format("{}: is no file, expected a store made by 'macadam init'", file.string())};
     }
 }
 
@@ -136,12 +125,13 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
     add_geometry_functions(database);
     write_store(database, roads, settings, progress);
     database.close();
+    remove_leftovers_of(file);
     whole.commit();
     return open(file, Access::write);
 }
 
 RoadStore RoadStore::open(const std::filesystem::path& file, Access access) {
-    refuse_missing(file);
+    expect_store_file(file);
     return RoadStore{std::make_unique<Impl>(
         file, access == Access::read ? Database::Access::read : Database::Access::write)};
 }
@@ -183,12 +173,11 @@ bool RoadStore::add_trip(const TripRecord& trip,
 }
 
 std::size_t RoadStore::refresh(const FusionConfig& config, const Progress& progress) {
-    auto& database = impl_->database;
-    Transaction all{database, Transaction::Kind::write};
-    const auto strip = segments_in_strip(impl_->settings.segment_length_m);
-    const auto fused = fuse_dirty(database, strip, impl_->classes(), config, progress);
-    all.commit();
-    return fused;
+    return fuse_dirty(impl_->database,
+                      segments_in_strip(impl_->settings.segment_length_m),
+                      impl_->classes(),
+                      config,
+                      progress);
 }
 
 } // namespace macadam

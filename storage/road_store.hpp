@@ -117,7 +117,10 @@ struct StoreInfo {
 };
 
 /// Where the passes of many cars meet: one GeoPackage file (docs/store.md). Each call that writes
-/// is one transaction, all of it or nothing, on disk when it returns.
+/// is one transaction, all of it or nothing, on disk when it returns; only refresh() takes several,
+/// so that others get their turn, and goes on where it was cut off.
+///
+/// Readers see the last commit and neither wait for a writer nor make it wait.
 ///
 /// \throws InputError  from every call, if the file is missing, no store, locked for over 20 s,
 ///                     or cannot be written (the message names the file and the cause).

@@ -14,6 +14,9 @@ struct RoadStore::Impl {
         add_geometry_functions(database);
         check_store(database);
         settings = read_settings(database);
+        if (access == Database::Access::write) { // now that it is known to be ours
+            database.write_beside_readers();
+        }
     }
 
     const ClassTable& classes() const { return *class_table(settings.class_table); }

@@ -86,12 +86,12 @@ JsonValue json_of(const Field& field, const Text& value) {
     return field.type == Type::text ? JsonValue{*value} : JsonValue{JsonRaw{*value}};
 }
 
-/// A spreadsheet would take such text for a formula; quotes leave the data as they are.
+/// A spreadsheet would take such text for a formula, in quotes or not.
 bool looks_like_formula(std::string_view text) {
     return text.find_first_of("=+-@\t\r") == 0;
 }
 
-std::string quoted(std::string_view text) {
+std::string quoted_cell(std::string_view text) {
     std::string cell{"\""};
     for (const char c : text) {
         cell += c == '"' ? "\"\"" : std::string(1, c);
@@ -161,9 +161,12 @@ std::string csv_header() {
 }
 
 std::string csv_text(std::string_view text) {
-    const bool plain =
-        text.find_first_of(",\"\r\n") == std::string_view::npos && !looks_like_formula(text);
-    return plain ? std::string{text} : quoted(text);
+    if (looks_like_formula(text)) {
+        return quoted_cell(
+            fmt::format("'{}", text)); // what spreadsheets themselves begin text with
+    }
+    const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos;
+    return plain ? std::string{text} : quoted_cell(text);
 }
 
 } // namespace macadam

@@ -8,7 +8,18 @@
 namespace macadam {
 namespace {
 
+// Every waiting program asks equally often, so that each finds the pauses between the transactions
+// of another (strip_fusion.cpp); SQLite's own pauses grow to 100 ms.
 constexpr int busy_timeout_ms = 20000;
+constexpr int busy_pause_ms = 5;
+
+int wait_for_turn(void* /*nothing*/, int pauses) {
+    if (pauses >= busy_timeout_ms / busy_pause_ms) {
+        return 0;
+    }
+    sqlite3_sleep(busy_pause_ms);
+    return 1;
+}
 
 std::string cause_of_io_error(sqlite3* database, int code) {
     const bool reads = code == SQLITE_IOERR_READ || code == SQLITE_IOERR_SHORT_READ;
@@ -19,12 +30,21 @@ std::string cause_of_io_error(sqlite3* database, int code) {
                        code);
 }
 
+constexpr const char* unfinished =
+    "holds an import that was cut off, and cannot be written to undo "
+    "it: open it once where it can be written";
+
+/// What only a program that may write can put in order.
+bool is_unfinished(int code) {
+    return code == SQLITE_READONLY_ROLLBACK || code == SQLITE_READONLY_RECOVERY;
+}
+
 std::string cause_of(sqlite3* database, int code) {
     switch (code & 0xff) {
     case SQLITE_FULL:
         return "no space left on the disk, nothing was changed";
     case SQLITE_READONLY:
-        return "cannot be written, it is read-only";
+        return is_unfinished(code) ? unfinished : "cannot be written, it is read-only";
     case SQLITE_CANTOPEN:
         return "cannot be opened";
     case SQLITE_PERM:
@@ -56,17 +76,69 @@ constexpr const char* guarded = "PRAGMA trusted_schema = OFF;"
                                 "PRAGMA foreign_keys = ON;"
                                 "PRAGMA cell_size_check = ON;";
 
+/// EXTRA is FULL, and also syncs the folder when the journal goes: without it a power loss could
+/// bring the journal back and with it undo what was committed.
 const char* settings_for(Database::Access access) {
     switch (access) {
     case Database::Access::read:
         return "PRAGMA query_only = ON";
     case Database::Access::write:
-        return "PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL; PRAGMA secure_delete = ON";
-    case Database::Access::create:
-        return "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
+        return "PRAGMA synchronous = EXTRA; PRAGMA secure_delete = ON";
+    case Database::Access::create: // without any journal is what the defensive mode forbids
+        return "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF;"
                "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -65536";
     }
     return "";
+}
+
+/// Also readers ask for writing: SQLite then falls back to reading where it must, and can undo
+/// what an import that was cut off has left behind where it may.
+sqlite3*
+opened(const std::string& name, Database::Access access, const std::filesystem::path& known_as) {
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
+                      (access == Database::Access::create ? SQLITE_OPEN_CREATE : 0) |
+                      (access == Database::Access::read ? SQLITE_OPEN_URI : 0);
+    sqlite3* database = nullptr;
+    const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
+    try {
+        check(database, known_as, code);
+    } catch (...) {
+        sqlite3_close_v2(database);
+        throw;
+    }
+    sqlite3_busy_handler(database, wait_for_turn, nullptr);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    return database;
+}
+
+/// A store that was copied while it was written is in the mode of a write-ahead log, which cannot
+/// be read without making files beside it. Where none can be made, nobody writes it either.
+bool must_be_taken_as_it_is(sqlite3* database,
+                            const std::filesystem::path& file,
+                            const std::filesystem::path& known_as) {
+    const int code =
+        sqlite3_exec(database, "SELECT 1 FROM sqlite_schema", nullptr, nullptr, nullptr);
+    const bool lacks_files = (code & 0xff) == SQLITE_CANTOPEN ||
+                             ((code & 0xff) == SQLITE_READONLY && !is_unfinished(code));
+    if (!lacks_files) {
+        return false;
+    }
+    auto log = file;
+    log += "-wal";
+    std::error_code ignored;
+    if (std::filesystem::file_size(log, ignored) > 0 && !ignored) {
+        throw InputError{fmt::format("{}: {}", known_as.string(), unfinished)};
+    }
+    return true;
+}
+
+/// The URI of a file that does not change (https://sqlite.org/uri.html, 3).
+std::string as_it_is(const std::string& name) {
+    std::string uri = "file:";
+    for (const char c : name) {
+        uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02x}", c) : std::string{c};
+    }
+    return uri + "?immutable=1";
 }
 
 } // namespace
@@ -167,29 +239,45 @@ std::optional<std::int64_t> Statement::known_integer(int column) const {
 // ------------------------------------------------------------------------------------ Database
 
 void Database::Close::operator()(sqlite3* database) const {
+    if (takes_log_away) { // unless another has the file open, who does it then
+        sqlite3_busy_handler(database, nullptr, nullptr);
+        sqlite3_exec(database, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+    }
     sqlite3_close_v2(database);
 }
 
 Database::Database(const std::filesystem::path& file,
                    Access access,
                    const std::filesystem::path& known_as)
-    : file_{std::make_unique<const std::filesystem::path>(known_as.empty() ? file : known_as)} {
-    // Also readers ask for writing: SQLite then falls back to reading where it must, and can undo
-    // what an import that was cut off has left behind where it may.
-    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
-                      (access == Access::create ? SQLITE_OPEN_CREATE : 0);
-    sqlite3* database = nullptr;
-    const auto name = std::filesystem::absolute(file).string(); // never ":memory:"
-    const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
-    database_.reset(database);
-    check(database, *file_, code);
-    sqlite3_busy_timeout(database, busy_timeout_ms);
-    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    : file_{std::make_unique<const std::filesystem::path>(known_as.empty() ? file : known_as)},
+      database_{nullptr, Close{.takes_log_away = false}} {
+    const auto name = std::filesystem::absolute(file); // never ":memory:"
+    database_.reset(opened(name.string(), access, *file_));
+    if (access == Access::read && must_be_taken_as_it_is(handle(), name, *file_)) {
+        database_.reset(opened(as_it_is(name.string()), access, *file_));
+    }
+    auto* const database = handle();
     if (access == Access::write && sqlite3_db_readonly(database, "main") == 1) {
         check(database, *file_, SQLITE_READONLY);
     }
     run(guarded);
     run(settings_for(access));
+}
+
+void Database::write_beside_readers() {
+    constexpr const char* use_log = "PRAGMA journal_mode = WAL";
+    database_.get_deleter().takes_log_away = true;
+    // Who waits inside SQLite for readers to end lets no others begin: that only as the last
+    // resort.
+    sqlite3_busy_handler(handle(), nullptr, nullptr);
+    int code = SQLITE_BUSY;
+    for (int pauses = 0; (code & 0xff) == SQLITE_BUSY && wait_for_turn(nullptr, pauses); ++pauses) {
+        code = sqlite3_exec(handle(), use_log, nullptr, nullptr, nullptr);
+    }
+    sqlite3_busy_handler(handle(), wait_for_turn, nullptr);
+    if (code != SQLITE_OK) {
+        run(use_log);
+    }
 }
 
 void Database::run(const char* sql) {
@@ -212,6 +300,19 @@ bool Database::in_transaction() const {
 
 void Database::close() {
     database_.reset();
+}
+
+void remove_leftovers_of(const std::filesystem::path& file) {
+    for (const auto* const suffix : {"-journal", "-wal", "-shm"}) {
+        auto leftover = file;
+        leftover += suffix;
+        std::error_code error;
+        std::filesystem::remove(leftover, error);
+        if (error) {
+            throw InputError{
+                fmt::format("{}: cannot be removed: {}", leftover.string(), error.message())};
+        }
+    }
 }
 
 // --------------------------------------------------------------------------------- Transaction

@@ -102,12 +102,18 @@ public:
     enum class Access {
         read,   ///< works on media that cannot be written
         write,  ///< each commit is on disk when it returns
-        create, ///< a new file that nobody sees before it is whole: no journal, no syncs
+        create, ///< a new file that nobody sees before it is whole: no journal on disk, no syncs
     };
     /// `known_as`: what messages call it, where that is not its name.
     Database(const std::filesystem::path& file,
              Access access,
              const std::filesystem::path& known_as = {});
+
+    /// From now on, commits go to a log beside the file ("FILE-wal"): readers go on with the last
+    /// commit and neither they nor the writer wait for each other. When the file is closed, the log
+    /// is brought in and goes away, if nobody else has the file open. Where there can be no such
+    /// log (some network drives), writing goes on without, and each commit waits for the readers.
+    void write_beside_readers();
 
     /// One or more statements without parameters or rows.
     void run(const char* sql);
@@ -127,12 +133,17 @@ public:
 
 private:
     struct Close {
+        bool takes_log_away;
         void operator()(sqlite3* database) const;
     };
     std::unique_ptr<const std::filesystem::path>
         file_; ///< stays where it is: statements point at it
     std::unique_ptr<sqlite3, Close> database_;
 };
+
+/// Removes what another file of that name has left beside it, journal and log: SQLite would bring
+/// them into a new file that takes the name.
+void remove_leftovers_of(const std::filesystem::path& file);
 
 /// All of what is done until commit(), or nothing. A reader sees one moment until its end; within
 /// another transaction it is that one's moment.

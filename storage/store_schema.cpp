@@ -324,6 +324,13 @@ bool has_table(Database& database, std::string_view name) {
     return statement.bind(name).step();
 }
 
+std::string_view what_to_do_with(const std::string& version) {
+    int number = 0;
+    std::from_chars(version.data(), version.data() + version.size(), number);
+    return number > store_version ? "it was made by a newer macadam, which can read it"
+                                  : "make it anew with 'macadam init' and import its trips again";
+}
+
 } // namespace
 
 bool is_line(std::span<const GeoPoint> line) {
@@ -359,21 +366,26 @@ void write_store(Database& database,
 }
 
 void check_store(Database& database) {
-    const auto refuse = [&](std::string_view what) {
+    const auto refuse = [&](std::string_view what, std::string_view is) {
         throw InputError{fmt::format(
-            "{}: {}, expected one made by 'macadam init'", database.file().string(), what)};
+            "{}: {}, expected one made by 'macadam init'{}", database.file().string(), what, is)};
     };
-    if (database.number("PRAGMA application_id") != geopackage_application_id) {
-        refuse("is no store");
+    if (const auto id = database.number("PRAGMA application_id"); id != geopackage_application_id) {
+        refuse("is no store",
+               id == 0 ? "; it is an SQLite database that no application has marked"
+                       : fmt::format("; it is an SQLite database of another application "
+                                     "({:#010x})",
+                                     static_cast<std::uint32_t>(id)));
     }
     if (!has_table(database, "meta") || meta(database, "format") != format_name) {
-        refuse("is a GeoPackage but no Macadam store");
+        refuse("is a GeoPackage but no Macadam store", "");
     }
     if (const auto version = meta(database, "version"); version != std::to_string(store_version)) {
-        throw InputError{fmt::format("{}: is a store of version '{}', expected version {}",
+        throw InputError{fmt::format("{}: is a store of version {}, expected version {}: {}",
                                      database.file().string(),
-                                     version,
-                                     store_version)};
+                                     in_quotes(version),
+                                     store_version,
+                                     what_to_do_with(version))};
     }
 }
 

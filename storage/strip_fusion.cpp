@@ -7,13 +7,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace macadam {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A waiting importer asks for its turn every 5 ms (sqlite.cpp) and gives up after 20 s.
+constexpr std::chrono::milliseconds longest_turn{200};
+constexpr std::chrono::milliseconds pause_between_turns{10};
 
 std::vector<std::int64_t> dirty_strips(Database& database) {
     auto select = database.prepare("SELECT DISTINCT segment.strip FROM segment_dirty AS dirty"
@@ -24,6 +32,10 @@ std::vector<std::int64_t> dirty_strips(Database& database) {
     }
     return strips;
 }
+
+constexpr const char* clean_segments =
+    "DELETE FROM segment_dirty WHERE segment >= ?1 AND segment < ?1 + ?2"
+    " AND (SELECT strip FROM segment WHERE fid = segment_dirty.segment) = ?1";
 
 /// Rows of a strip's segments stand one after the other.
 const std::string& passes_of_strip() {
@@ -65,17 +77,31 @@ FusionInput input_in(const Statement& row, std::span<const PlacedTrace> traces) 
 
 class StripFusion {
 public:
-    StripFusion(Database& database, const ClassTable& classes, const FusionConfig& config)
-        : traces_{database}, select_{database.prepare(passes_of_strip())}, insert_{database.prepare(
-                                                                               insert_state)},
+    StripFusion(Database& database,
+                std::int64_t segments_in_strip,
+                const ClassTable& classes,
+                const FusionConfig& config)
+        : database_{&database}, traces_{database}, clean_{database.prepare(clean_segments)},
+          select_{database.prepare(passes_of_strip())}, insert_{database.prepare(insert_state)},
           insert_strip_{
               database.prepare("INSERT OR REPLACE INTO strip_state VALUES (?, ?, ?, ?, ?, ?)")},
-          classes_{&classes}, config_{config} {}
+          segments_in_strip_{segments_in_strip}, classes_{&classes}, config_{config} {}
 
-    void fuse_strip(std::int64_t strip, std::int64_t segments) {
+    /// \returns how many of its segments were dirty; none if another importer was quicker.
+    std::size_t clean_strip(std::int64_t strip) {
+        clean_.run(strip, segments_in_strip_);
+        const auto cleaned = database_->number("SELECT changes()");
+        if (cleaned > 0) {
+            fuse_strip(strip);
+        }
+        return static_cast<std::size_t>(cleaned);
+    }
+
+private:
+    void fuse_strip(std::int64_t strip) {
         const auto traces = traces_.placed(strip);
         write_summary(strip, traces);
-        select_.bind(strip, segments);
+        select_.bind(strip, segments_in_strip_);
         for (bool more = select_.step(); more;) {
             const auto segment = select_.integer(0);
             std::vector<FusionInput> inputs;
@@ -88,7 +114,6 @@ public:
         select_.reset();
     }
 
-private:
     void write_summary(std::int64_t strip, std::span<const PlacedTrace> traces) {
         if (traces.empty()) {
             return;
@@ -104,10 +129,13 @@ private:
                           std::int64_t{summary.middle_lag_cm});
     }
 
+    Database* database_;
     StripTraces traces_;
+    Statement clean_;
     Statement select_;
     Statement insert_;
     Statement insert_strip_;
+    std::int64_t segments_in_strip_;
     const ClassTable* classes_;
     FusionConfig config_;
 };
@@ -119,24 +147,24 @@ std::size_t fuse_dirty(Database& database,
                        const ClassTable& classes,
                        const FusionConfig& config,
                        const Progress& progress) {
-    constexpr std::size_t report_every = 100;
     const auto strips = dirty_strips(database);
-    StripFusion fusion{database, classes, config};
-    std::int64_t last = 0;
+    StripFusion fusion{database, segments_in_strip, classes, config};
+    std::size_t cleaned = 0;
     std::size_t done = 0;
-    for (; done < strips.size() && !progress.stop.stop_requested(); ++done) {
-        last = strips[done];
-        fusion.fuse_strip(last, segments_in_strip);
-        if (done % report_every == 0) {
-            progress(done, strips.size());
+    while (done < strips.size() && !progress.stop.stop_requested()) {
+        const auto turn_ends = Clock::now() + longest_turn;
+        Transaction turn{database, Transaction::Kind::write};
+        do {
+            cleaned += fusion.clean_strip(strips[done++]);
+        } while (done < strips.size() && Clock::now() < turn_ends &&
+                 !progress.stop.stop_requested());
+        turn.commit();
+        progress(done, strips.size());
+        if (done < strips.size()) {
+            std::this_thread::sleep_for(pause_between_turns);
         }
     }
-    database
-        .prepare("DELETE FROM segment_dirty WHERE coalesce("
-                 "(SELECT strip FROM segment WHERE fid = segment_dirty.segment), 0) <= ?")
-        .run(last);
-    progress(done, strips.size());
-    return static_cast<std::size_t>(database.number("SELECT changes()"));
+    return cleaned;
 }
 
 } // namespace macadam

@@ -10,8 +10,13 @@
 
 namespace macadam {
 
-/// Fuses the strips that hold dirty segments, in the order of their keys, until all are done or
-/// nobody wants more. Every segment of a strip is fused anew, for a new trace may move the others.
+/// Fuses the strips that hold dirty segments, in the order of their keys, until all that there were
+/// at the beginning are done or nobody wants more. Every segment of a strip is fused anew, for a
+/// new trace may move the others.
+///
+/// Some strips at a time are one transaction, with pauses between them: who else wants to write
+/// waits a moment and not until all are done. What comes out does not depend on where they are cut,
+/// since the states of a strip are a function of its own passes.
 ///
 /// \returns  how many dirty segments are clean now
 std::size_t fuse_dirty(Database& database,

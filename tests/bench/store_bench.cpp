@@ -1,6 +1,6 @@
 // What the store costs: adding and fusing passes with and without their traces, one trip at a time
 // and many at once, laying ever more traces of a strip on each other, and asking for about a
-// thousand segments by place in stores of doubling size.
+// thousand segments by place in stores of doubling size; and how long readers take beside a writer.
 
 #include "mapping/alignment.hpp"
 #include "storage/road_store.hpp"
@@ -9,9 +9,13 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <thread>
 
 #include <unistd.h>
 
@@ -243,6 +247,45 @@ void fuse_trips(benchmark::State& state) {
                            benchmark::Counter::kIsRate);
 }
 
+/// How long a reader takes to open a store and ask for about 1,000 segments by place, alone (0) or
+/// while another thread imports trips of 500 passes without a pause (1).
+void read_beside_a_writer(benchmark::State& state) {
+    const auto file = scratch("written.gpkg");
+    const auto& town = driven_town(50);
+    fs::copy_file(town, file, fs::copy_options::overwrite_existing);
+    const auto keys = keys_of(testing::made_up_town(50));
+    SegmentFilter filter;
+    filter.box = middle_of(RoadStore::open(file, RoadStore::Access::read));
+    std::atomic<int> trips = 0;
+    std::jthread writer;
+    if (state.range(0) == 1) {
+        writer = std::jthread{[&](const std::stop_token& stop) {
+            auto store = RoadStore::open(file, RoadStore::Access::write);
+            while (!stop.stop_requested()) {
+                const auto first = static_cast<std::size_t>(trips) * 500 % (keys.size() - 500);
+                const std::vector<SegmentKey> driven{keys.begin() + static_cast<long>(first),
+                                                     keys.begin() + static_cast<long>(first + 500)};
+                store.add_trip(trip_number(20'000 + ++trips), passes_over(driven));
+                store.refresh({});
+            }
+        }};
+    }
+    std::vector<double> times_ms;
+    for (auto _ : state) {
+        const auto begin = std::chrono::steady_clock::now();
+        const auto store = RoadStore::open(file, RoadStore::Access::read);
+        store.visit(filter, [](const SegmentRecord&) {});
+        times_ms.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+                .count());
+    }
+    std::ranges::sort(times_ms);
+    state.counters["p50_ms"] = times_ms[times_ms.size() / 2];
+    state.counters["p99_ms"] = times_ms[times_ms.size() * 99 / 100];
+    state.counters["worst_ms"] = times_ms.back();
+    state.counters["trips"] = trips;
+}
+
 /// Twice as many traces of 500 m should cost twice as much.
 void lay_traces(benchmark::State& state) {
     std::vector<StripTrace> traces;
@@ -259,6 +302,7 @@ void lay_traces(benchmark::State& state) {
 
 BENCHMARK(lay_traces)->RangeMultiplier(4)->Range(2, 512)->Unit(benchmark::kMillisecond);
 BENCHMARK(ask_by_place)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
+BENCHMARK(read_beside_a_writer)->Arg(0)->Arg(1)->Iterations(1000)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_and_fuse_trips<false>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_and_fuse_trips<true>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(fuse_trips<false>)->Arg(50)->Arg(200)->Unit(benchmark::kMillisecond);

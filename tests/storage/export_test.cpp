@@ -92,16 +92,16 @@ TEST(Export, WritesACsvRowWithTheSameValues) {
               "iri_left,iri_right,index,class,passes,vehicles,first_seen,last_seen,trend_per_year,"
               "trend_sd,changed,change,validity,lat_deg,lon_deg");
     EXPECT_EQ(csv_row(even, fhwa()),
-              "1234-0007,1234,\"=A, \"\"B\"\"\",residential,backward,140.00,160.01,2.345,0.300,"
+              "1234-0007,1234,\"'=A, \"\"B\"\"\",residential,backward,140.00,160.01,2.345,0.300,"
               "1.852,2.839,2.400,,MRI,fair,5,3,2018-08-02T16:14:48.225Z,2018-08-02T16:14:49Z,"
               "-0.051,0.020,2018-08-02T16:14:48.225Z,-0.812,start_up,50.0010000,10.0000000");
 }
 
-TEST(Export, QuotesWhatASpreadsheetWouldRun) {
+TEST(Export, MakesTextOfWhatASpreadsheetWouldRun) {
     for (const auto* name : {"=1", "+1", "-1", "@a"}) {
         auto odd = record();
         odd.name = name;
-        EXPECT_THAT(csv_row(odd, fhwa()), HasSubstr(",\"" + std::string{name} + "\","));
+        EXPECT_THAT(csv_row(odd, fhwa()), HasSubstr(",\"'" + std::string{name} + "\","));
     }
 }
 

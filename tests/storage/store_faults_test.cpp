@@ -2,6 +2,7 @@
 
 #include "files.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/export.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/sqlite.hpp"
 #include "store_world.hpp"
@@ -81,11 +82,22 @@ TEST(StoreFaults, OfAFullDiskLeaveNoNewStore) {
     EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
-TEST(StoreFaults, OfAWriterThatDiedAreUndoneByTheNextReader) {
-    const auto file = test_folder() / "a.gpkg";
-    auto store = new_store(file);
+/// A store of two trips that nobody has open.
+struct ClosedStore {
+    std::filesystem::path file;
+    std::string digest;
+};
+
+ClosedStore closed_store() {
+    ClosedStore made{test_folder() / "a.gpkg", ""};
+    auto store = new_store(made.file);
     import_trips(store, 2);
-    const auto before = store.digest();
+    made.digest = store.digest();
+    return made;
+}
+
+TEST(StoreFaults, OfAWriterThatDiedAreUndoneByTheNextReader) {
+    const auto [file, before] = closed_store();
     const auto child = ::fork();
     if (child == 0) {
         Database database{file, Database::Access::write};
@@ -98,6 +110,151 @@ TEST(StoreFaults, OfAWriterThatDiedAreUndoneByTheNextReader) {
     ASSERT_TRUE(std::filesystem::exists(journal += "-journal"));
     EXPECT_EQ(RoadStore::open(file, RoadStore::Access::read).digest(), before);
 }
+
+/// As a killed import: what it committed stands in the log beside the store.
+void add_trip_and_die(const std::filesystem::path& file, int number) {
+    const auto child = ::fork();
+    if (child == 0) {
+        auto store = RoadStore::open(file, RoadStore::Access::write);
+        store.add_trip(trip_record(number), passes_of(number));
+        ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+    ASSERT_GT(std::filesystem::file_size(file.string() + "-wal"), 0U);
+}
+
+TEST(StoreFaults, OfAWriterThatDiedLeaveWhatItCommitted) {
+    const auto [file, before] = closed_store();
+    add_trip_and_die(file, 9);
+    EXPECT_TRUE(RoadStore::open(file, RoadStore::Access::read).knows_trip(trip_record(9).sha256));
+}
+
+TEST(StoreFaults, OfAnOldStoreStayOutOfANewOneOfItsName) {
+    const auto [file, before] = closed_store();
+    add_trip_and_die(file, 9);
+    std::filesystem::remove(file); // and nobody thinks of the log
+    new_store(file);
+    EXPECT_EQ(RoadStore::open(file, RoadStore::Access::read).info().trips, 0U);
+}
+
+TEST(StoreFaults, OfAnOldFileStayOutOfAnExportOfItsName) {
+    const auto [file, before] = closed_store();
+    const auto copy = file.parent_path() / "copy.gpkg";
+    std::filesystem::copy_file(file, copy);
+    add_trip_and_die(copy, 9);
+    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto written = export_segments(store, {}, copy);
+    Database database{copy, Database::Access::write};
+    EXPECT_EQ(database.number("SELECT count(*) FROM roughness"), written);
+    auto check = database.prepare("PRAGMA integrity_check");
+    check.step();
+    EXPECT_EQ(check.text(0), "ok");
+}
+
+// ------------------------------------------------------------------------- who else has it open
+
+std::vector<std::string> names_in(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator{folder}) {
+        names.push_back(entry.path().filename().string());
+    }
+    return names;
+}
+
+TEST(OpenStore, IsOneFileAgainWhenItIsClosed) {
+    const auto [file, before] = closed_store();
+    const auto bytes = [&] {
+        std::ifstream in{file, std::ios::binary};
+        return std::string(std::istreambuf_iterator<char>{in}, {});
+    };
+    EXPECT_THAT(names_in(file.parent_path()), ::testing::ElementsAre("a.gpkg"));
+    // SQLite's file format, 1.3.3: 1 is a rollback journal, which any reader knows.
+    EXPECT_EQ(bytes().substr(18, 2), "\1\1");
+    {
+        auto writer = RoadStore::open(file, RoadStore::Access::write);
+        writer.add_trip(trip_record(9), passes_of(9));
+        EXPECT_EQ(bytes().substr(18, 2), "\2\2");
+    }
+    EXPECT_THAT(names_in(file.parent_path()), ::testing::ElementsAre("a.gpkg"));
+    EXPECT_EQ(bytes().substr(18, 2), "\1\1");
+}
+
+TEST(OpenStore, IsReadAtItsLastCommitWhileItIsWritten) {
+    const auto [file, before] = closed_store();
+    Database writer{file, Database::Access::write};
+    writer.write_beside_readers();
+    const Transaction half{writer, Transaction::Kind::write};
+    writer.run("DELETE FROM pass");
+    EXPECT_EQ(RoadStore::open(file, RoadStore::Access::read).digest(), before);
+}
+
+TEST(OpenStore, IsWrittenWhileItIsRead) {
+    const auto [file, before] = closed_store();
+    auto store = RoadStore::open(file, RoadStore::Access::write);
+    Database reader{file, Database::Access::read};
+    const Transaction moment{reader, Transaction::Kind::read};
+    const auto trips = reader.number("SELECT count(*) FROM trip");
+    EXPECT_TRUE(store.add_trip(trip_record(9), passes_of(9)));
+    EXPECT_EQ(reader.number("SELECT count(*) FROM trip"), trips);
+}
+
+TEST(OpenStore, IsHandedOverByExportAsOneFile) {
+    const auto [file, before] = closed_store();
+    auto writer = RoadStore::open(file, RoadStore::Access::write);
+    writer.add_trip(trip_record(9), passes_of(9));
+    writer.refresh({});
+    const auto folder = file.parent_path() / "out";
+    std::filesystem::create_directory(folder);
+    const auto written =
+        export_segments(RoadStore::open(file, RoadStore::Access::read), {}, folder / "roads.gpkg");
+    EXPECT_EQ(written, 20U);
+    EXPECT_THAT(names_in(folder), ::testing::ElementsAre("roads.gpkg"));
+}
+
+/// Runs it as a user who may not write into the folder of the file; root may write anything.
+template <typename Call>
+void where_nothing_can_be_written(const std::filesystem::path& file, Call call) {
+    namespace fs = std::filesystem;
+    for (const auto& name : names_in(file.parent_path())) {
+        fs::permissions(file.parent_path() / name, fs::perms{0444});
+    }
+    fs::permissions(file.parent_path(), fs::perms{0555});
+    const auto user = ::geteuid();
+    ASSERT_TRUE(user != 0 || ::seteuid(65534) == 0);
+    call();
+    ASSERT_TRUE(user != 0 || ::seteuid(0) == 0);
+    fs::permissions(file.parent_path(), fs::perms{0755});
+}
+
+TEST(OpenStore, CopiedWhileItWasWrittenIsReadOnReadOnlyMedia) {
+    const auto [file, before] = closed_store();
+    const auto folder = file.parent_path() / "what? 100%#1"; // nothing in a name steers SQLite
+    std::filesystem::create_directory(folder);
+    const auto copy = folder / "b.gpkg";
+    {
+        const auto writer = RoadStore::open(file, RoadStore::Access::write);
+        std::filesystem::copy_file(file, copy);
+    }
+    std::string digest;
+    where_nothing_can_be_written(
+        copy, [&] { digest = RoadStore::open(copy, RoadStore::Access::read).digest(); });
+    EXPECT_EQ(digest, before);
+}
+
+TEST(OpenStore, CopiedWithALogButHalfOfItIsRefusedOnReadOnlyMedia) {
+    const auto [file, before] = closed_store();
+    add_trip_and_die(file, 9);
+    std::filesystem::remove(file.string() + "-shm");
+    std::string refusal;
+    where_nothing_can_be_written(file, [&] {
+        refusal = refusal_of([&] { RoadStore::open(file, RoadStore::Access::read); });
+    });
+    EXPECT_THAT(refusal,
+                HasSubstr("a.gpkg: holds an import that was cut off, and cannot be written to undo "
+                          "it: open it once where it can be written"));
+}
+
+// ---------------------------------------------------------------------------- what cannot be used
 
 TEST(StoreFaults, OfReadOnlyMediaStopNoReader) {
     const auto file = test_folder() / "a.gpkg";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -25,6 +26,13 @@ void redirect(const fs::path& file, int to) {
     const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(descriptor, to);
     close(descriptor);
+}
+
+/// A name that no other run has, of this program or of another.
+fs::path own_file(const std::string& kind) {
+    static std::atomic<int> runs = 0;
+    return fs::path{::testing::TempDir()} /
+           ("macadam_" + kind + "_" + std::to_string(getpid()) + "_" + std::to_string(++runs));
 }
 
 [[noreturn]] void become_macadam(const std::vector<std::string>& words,
@@ -51,7 +59,7 @@ Run run(const std::vector<std::string>& words,
         const fs::path& out,
         std::size_t most_file_bytes,
         const std::function<void(pid_t child)>& meanwhile = {}) {
-    const auto err = fs::path{::testing::TempDir()} / ("macadam_err_" + std::to_string(getpid()));
+    const auto err = own_file("err");
     const pid_t child = fork();
     if (child == 0) {
         become_macadam(words, out, err, most_file_bytes);
@@ -69,33 +77,10 @@ Run run(const std::vector<std::string>& words,
     return result;
 }
 
-fs::path out_file() {
-    return fs::path{::testing::TempDir()} / ("macadam_out_" + std::to_string(getpid()));
-}
-
-} // namespace
-
-Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_bytes) {
-    const auto out = out_file();
-    auto result = run(words, out, most_file_bytes);
-    result.out = read_file(out);
-    fs::remove(out);
-    return result;
-}
-
-Run run_macadam_signalled(const std::vector<std::string>& words,
-                          const std::string& words_before,
-                          int signal) {
-    const auto out = out_file();
-    fs::remove(out);
-    return run_macadam_signalled(
-        words, [&] { return read_file(out).find(words_before) != std::string::npos; }, signal);
-}
-
-Run run_macadam_signalled(const std::vector<std::string>& words,
-                          const std::function<bool()>& is_time,
-                          int signal) {
-    const auto out = out_file();
+Run signalled(const std::vector<std::string>& words,
+              const fs::path& out,
+              const std::function<bool()>& is_time,
+              int signal) {
     auto result = run(words, out, 0, [&](pid_t child) {
         constexpr auto pause = std::chrono::milliseconds{2};
         siginfo_t ended{};
@@ -108,6 +93,30 @@ Run run_macadam_signalled(const std::vector<std::string>& words,
     result.out = read_file(out);
     fs::remove(out);
     return result;
+}
+
+} // namespace
+
+Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_bytes) {
+    const auto out = own_file("out");
+    auto result = run(words, out, most_file_bytes);
+    result.out = read_file(out);
+    fs::remove(out);
+    return result;
+}
+
+Run run_macadam_signalled(const std::vector<std::string>& words,
+                          const std::string& words_before,
+                          int signal) {
+    const auto out = own_file("out");
+    return signalled(
+        words, out, [&] { return read_file(out).find(words_before) != std::string::npos; }, signal);
+}
+
+Run run_macadam_signalled(const std::vector<std::string>& words,
+                          const std::function<bool()>& is_time,
+                          int signal) {
+    return signalled(words, own_file("out"), is_time, signal);
 }
 
 Run run_macadam_into(const fs::path& out, const std::vector<std::string>& words) {
