@@ -39,7 +39,7 @@ protected:
         return (folder_ / name).string();
     }
 
-    Run query(std::vector<std::string> words) const {
+    macadam::testing::Run query(std::vector<std::string> words) const {
         words.insert(words.begin(), {"query", store_});
         return run_macadam(words);
     }
