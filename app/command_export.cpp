@@ -1,13 +1,18 @@
 #include "app/commands.hpp"
 #include "app/output_guard.hpp"
+#include "app/period_options.hpp"
+#include "app/section_output.hpp"
 #include "app/segment_options.hpp"
 
+#include "storage/atomic_file.hpp"
 #include "storage/export.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -16,7 +21,23 @@ struct ExportOptions {
     std::filesystem::path store;
     std::filesystem::path output;
     SegmentFilter filter;
+    std::optional<SectionOptions> sections;
 };
+
+/// Sections are reported whole, whatever lies in them, and as text.
+void expect_sections_alone(const ExportOptions& options) {
+    const auto& filter = options.filter;
+    if (filter.box || filter.way_id || !filter.name_part.empty() || !filter.highway.empty() ||
+        !filter.class_name.empty() || !filter.with_state_only) {
+        throw UsageError{"--sections goes with --since, --until and --min-passes, not with what "
+                         "looks for segments"};
+    }
+    if (const auto suffix = options.output.extension(); suffix != ".csv" && suffix != ".geojson") {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv or .geojson "
+                                     "with --sections",
+                                     options.output.string())};
+    }
+}
 
 ExportOptions parse_export(const Arguments& arguments) {
     const auto output = arguments.value("--output");
@@ -28,14 +49,53 @@ ExportOptions parse_export(const Arguments& arguments) {
         throw UsageError{fmt::format(
             "-o is '{}', expected a name that ends in {}", *output, fmt::join(suffixes, ", "))};
     }
-    return {.store = store_file(arguments), .output = *output, .filter = parse_filter(arguments)};
+    ExportOptions options{.store = store_file(arguments),
+                          .output = *output,
+                          .filter = parse_filter(arguments),
+                          .sections = parse_sections(arguments, false)};
+    if (options.sections) {
+        expect_sections_alone(options);
+    }
+    return options;
+}
+
+/// Files that the command reads.
+std::vector<std::filesystem::path> inputs_of(const ExportOptions& options) {
+    std::vector<std::filesystem::path> inputs{options.store};
+    if (options.sections) {
+        inputs.push_back(*options.sections->sections);
+        if (options.sections->exclude) {
+            inputs.push_back(*options.sections->exclude);
+        }
+    }
+    return inputs;
+}
+
+void export_sections(const RoadStore& store, const ExportOptions& options, const Console& console) {
+    AtomicFile file{options.output};
+    SectionWriter writer{options.output.extension() == ".csv" ? "csv" : "geojson",
+                         *class_table(store.settings().class_table),
+                         [&](std::string_view text) { file.write(text); }};
+    const auto total =
+        each_section(store, *options.sections, options.filter, [&](const NamedSection& section) {
+            writer.add(section);
+        });
+    writer.finish();
+    file.commit();
+    console.say(fmt::format(
+        "{}: {}, {}", options.output.string(), counted(writer.count(), "section"), spoken(total)));
 }
 
 void run_export(const Arguments& arguments, const Console& console) {
     const auto options = parse_export(arguments);
-    refuse_to_replace(options.output, {options.store});
+    refuse_to_replace(options.output, inputs_of(options));
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
+    if (options.sections) {
+        export_sections(store, options, console);
+        return;
+    }
     const auto written =
         export_segments(store, options.filter, options.output, console.progress("writing"));
     console.say(fmt::format("{}: {}", options.output.string(), counted(written, "segment")));
@@ -50,6 +110,16 @@ constexpr std::array options{
     bbox_option,
     way_option,
     name_option,
+    highway_option,
+    class_option,
+    least_passes_option,
+    since_option,
+    until_option,
+    sections_option,
+    section_length_option,
+    homogeneous_option,
+    exclude_option,
+    exclude_radius_option,
     all_option};
 
 } // namespace
@@ -57,13 +127,16 @@ constexpr std::array options{
 const Command export_command{
     .name = "export",
     .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage, FlatGeobuf",
-    .about = "One feature a segment and direction, its line in driving direction, with IRI, its 90 "
-             "% interval,\n"
-             "class, passes and linear reference (docs/outputs.md names every column). No trips, "
-             "no cars.\n"
-             "The file appears when it is whole.",
+    .about =
+        "One feature a segment and direction, its line in driving direction, with IRI, its 90 "
+        "% interval,\n"
+        "class, passes and linear reference (docs/outputs.md names every column). No trips, "
+        "no cars.\n"
+        "With --sections: a mean for each of your own sections instead (docs/sections.md). The "
+        "file appears when\nit is whole.",
     .example = "  macadam export roads.gpkg -o roads.geojson\n"
-               "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02",
+               "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02\n"
+               "  macadam export roads.gpkg -o sections.csv --sections routes.csv",
     .operands = operands,
     .options = options,
     .run = run_export};

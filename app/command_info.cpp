@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/info_tables.hpp"
 #include "app/laid_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/truth_output.hpp"
@@ -32,7 +33,10 @@ std::string json_of(const LaySummary& laid) {
 }
 
 /// \param truth  JSON; "" = not asked for
-std::string json_of(const StoreInfo& info, const std::string& digest, const std::string& truth) {
+std::string json_of(const StoreInfo& info,
+                    const InfoTables& tables,
+                    const std::string& digest,
+                    const std::string& truth) {
     const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
     std::vector<std::string> classes;
     for (const auto& [name, km] : info.classes) {
@@ -53,9 +57,9 @@ std::string json_of(const StoreInfo& info, const std::string& digest, const std:
         .add("km", JsonNumber{info.km, 3})
         .add("network_km", JsonNumber{info.network_km, 3})
         .add("classes", JsonRaw{json_array(classes)})
-        .add("laid_on_others", JsonRaw{json_of(info.laid)})
-        .add("generation", std::int64_t{info.generation})
-        .add("digest", digest);
+        .add("laid_on_others", JsonRaw{json_of(info.laid)});
+    add_to(object, tables);
+    object.add("generation", std::int64_t{info.generation}).add("digest", digest);
     if (!truth.empty()) {
         object.add("truth", JsonRaw{truth});
     }
@@ -116,10 +120,11 @@ void run_info(const Arguments& arguments, const Console& console) {
         truth = compared(store, *truth_file);
     }
     const auto info = store.info();
+    const auto tables = info_tables(store);
     if (arguments.flag("--json")) {
-        print(json_of(info, store.digest(), truth ? json_of(*truth) : ""));
+        print(json_of(info, tables, store.digest(), truth ? json_of(*truth) : ""));
     } else {
-        print_words(text_of(info) + (truth ? "\n" + text_of(*truth) : ""));
+        print_words(text_of(info) + text_of(tables) + (truth ? "\n" + text_of(*truth) : ""));
     }
 }
 
@@ -138,7 +143,8 @@ constexpr std::array options{
 const Command info_command{
     .name = "info",
     .summary = "What a store holds: coverage, passes, vehicles, kilometres per class",
-    .about = "Lengths count each direction by itself.",
+    .about = "Lengths count each direction by itself. Classes of roads are those of OpenStreetMap; "
+             "passes count on the\nday on which their trip began.",
     .example = "  macadam info roads.gpkg\n"
                "  macadam info roads.gpkg --digest       has anything changed?\n"
                "  macadam info fleet/roads.gpkg --truth fleet/truth.csv",

@@ -52,6 +52,7 @@ ReportOptions parse_report(const Arguments& arguments) {
             .output = *output,
             .report = {.title = arguments.value("--title").value_or("Road roughness"),
                        .worst = parse_worst(arguments),
+                       .sections = parse_sections(arguments, false),
                        .style = parse_style(arguments)}};
 }
 
@@ -78,6 +79,11 @@ constexpr std::array options{
     Option{"-o,--output", "FILE", "The report, an .html file."},
     Option{"--title", "TEXT", "Over the report.", "Road roughness"},
     Option{"--worst", "N", "How many of the worst stretches to list, each with a map.", "20"},
+    sections_option,
+    section_length_option,
+    homogeneous_option,
+    exclude_option,
+    exclude_radius_option,
     Option{"--classes", "NAME", "fhwa (good, fair, poor) or five.", "the store's"},
     Option{"--left-hand", "", "Traffic keeps left: maps draw each direction on that side."}};
 

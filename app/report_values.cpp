@@ -1,6 +1,7 @@
 #include "app/report_values.hpp"
 
 #include "app/map_scene.hpp"
+#include "app/section_query.hpp"
 #include "app/stretch_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -177,6 +178,19 @@ std::string spoken_reference(const RoadStretch& stretch) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::vector<ReportSection> sections_of(const RoadStore& store, const SectionOptions& options) {
+    std::vector<ReportSection> sections;
+    each_section(store, options, {}, [&](const NamedSection& named) {
+        sections.push_back({.name = named.name,
+                            .from_m = named.from_m,
+                            .to_m = named.to_m,
+                            .excluded_m = named.section.excluded_m,
+                            .open_share = named.section.open_share,
+                            .measured = named.section.measured});
+    });
+    return sections;
+}
+
 void stop_if_wanted(const Progress& progress) {
     if (progress.stop.stop_requested()) {
         throw InputError{"stopped before the report was whole"};
@@ -211,6 +225,9 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     report.stretches = stretches.size();
     for (const auto& stretch : stretches) {
         report.stretches_m += stretch.length_m;
+    }
+    if (config.sections) {
+        report.sections = sections_of(store, *config.sections);
     }
     report.vehicles = vehicles_of(store);
     report.quality = data_quality(survey.measured);

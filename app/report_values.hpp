@@ -1,18 +1,21 @@
 #pragma once
 
+#include "app/section_options.hpp"
 #include "estimator/common/progress.hpp"
 #include "render/map.hpp"
 #include "render/report/report.hpp"
 #include "storage/road_store.hpp"
 
+#include <optional>
 #include <string>
 
 namespace macadam {
 
 struct ReportConfig {
     std::string title;
-    std::size_t worst = 20; ///< stretches to list
-    MapStyle style;         ///< ramp, classes (not null) and side of the traffic
+    std::size_t worst = 20;                   ///< stretches to list
+    std::optional<SectionOptions> sections{}; ///< to list
+    MapStyle style;                           ///< ramp, classes (not null) and side of the traffic
 };
 
 /// All that a report of a store says, with its pictures.

@@ -1,8 +1,26 @@
 #include "app/segment_options.hpp"
 
+#include "app/period_options.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
 
 namespace macadam {
+namespace {
+
+std::int32_t parse_least_passes(const Arguments& arguments) {
+    const auto passes = arguments.integer("--min-passes").value_or(0);
+    if (passes < 0 || passes > std::numeric_limits<std::int32_t>::max()) {
+        throw UsageError{fmt::format("--min-passes is {}, expected 0 or more", passes)};
+    }
+    return static_cast<std::int32_t>(passes);
+}
+
+} // namespace
 
 std::filesystem::path store_file(const Arguments& arguments) {
     const auto& store = arguments.operand("STORE");
@@ -35,7 +53,22 @@ SegmentFilter parse_filter(const Arguments& arguments) {
     filter.way_id = arguments.integer("--way");
     filter.name_part = arguments.value("--name").value_or("");
     filter.with_state_only = !arguments.flag("--all");
+    filter.highway = arguments.value("--highway").value_or("");
+    filter.class_name = arguments.value("--class").value_or("");
+    filter.least_passes = parse_least_passes(arguments);
+    filter.period = parse_period(arguments);
     return filter;
+}
+
+void expect_known_class(const SegmentFilter& filter, const RoadStore& store) {
+    const auto& classes = class_table(store.settings().class_table)->classes;
+    if (!filter.class_name.empty() &&
+        std::ranges::find(classes, filter.class_name, &IriClass::name) == classes.end()) {
+        std::vector<std::string_view> names;
+        std::ranges::transform(classes, std::back_inserter(names), &IriClass::name);
+        throw UsageError{fmt::format(
+            "--class is '{}', expected {}", filter.class_name, fmt::join(names, " or "))};
+    }
 }
 
 void warn_of_waiting(const RoadStore& store,

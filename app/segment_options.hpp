@@ -23,8 +23,19 @@ std::filesystem::path store_file(const Arguments& arguments);
 /// A box from degrees W,S,E,N. \throws UsageError if it is not one.
 GeoBox box_of(const std::vector<double>& degrees);
 
-/// Of --bbox, --way, --name and --all. \throws UsageError for values that do not fit.
+inline constexpr Option highway_option{
+    "--highway", "CLASS", "Only roads of this class of OpenStreetMap, such as residential."};
+inline constexpr Option class_option{
+    "--class", "NAME", "Only segments in this class of roughness, such as poor."};
+inline constexpr Option least_passes_option{
+    "--min-passes", "N", "Only segments with at least so many passes."};
+
+/// Of --bbox, --way, --name, --highway, --class, --min-passes, --since, --until and --all.
+/// \throws UsageError for values that do not fit.
 SegmentFilter parse_filter(const Arguments& arguments);
+
+/// \throws UsageError  if the store's class table has no class of the filter's name.
+void expect_known_class(const SegmentFilter& filter, const RoadStore& store);
 
 /// Says so if an import was cut off before its passes were fused.
 void warn_of_waiting(const RoadStore& store,

@@ -1,5 +1,6 @@
 #include "app/segment_output.hpp"
 
+#include "app/console.hpp"
 #include "app/printable.hpp"
 #include "storage/export.hpp"
 #include "storage/json.hpp"
@@ -12,31 +13,31 @@
 namespace macadam {
 namespace {
 
-std::string table_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
-    std::string table = fmt::format("{:<18} {:<24} {:>17} {:>6} {:>13}  {:<6} {:>6} {:>5}  {}\n",
-                                    "segment",
-                                    "road",
-                                    "from-to m",
-                                    "IRI",
-                                    "90 %",
-                                    "class",
-                                    "passes",
-                                    "cars",
-                                    "last seen");
-    for (const auto& record : records) {
-        const auto& segment = record.segment;
-        const auto road = printable_name(record.name.empty() ? record.highway : record.name);
-        table += fmt::format("{:<18} {:<24.24} {:>8.1f}-{:>8.1f}",
-                             name_of(segment.key),
-                             road,
-                             segment.from_m,
-                             segment.to_m);
-        if (!record.state) {
-            table += "      -             -  (nobody drove it yet)\n";
-            continue;
-        }
-        const auto& state = *record.state;
-        table += fmt::format(" {:>6.2f} {:>5.2f} - {:>5.2f}  {:<6} {:>6} {:>5}  {}\n",
+std::string table_head() {
+    return fmt::format("{:<18} {:<24} {:>17} {:>6} {:>13}  {:<6} {:>6} {:>5}  {}\n",
+                       "segment",
+                       "road",
+                       "from-to m",
+                       "IRI",
+                       "90 %",
+                       "class",
+                       "passes",
+                       "cars",
+                       "last seen");
+}
+
+std::string table_row(const SegmentRecord& record, const ClassTable& classes) {
+    const auto& segment = record.segment;
+    const auto row = fmt::format("{:<18} {:<24.24} {:>8.1f}-{:>8.1f}",
+                                 name_of(segment.key),
+                                 printable_name(record.name.empty() ? record.highway : record.name),
+                                 segment.from_m,
+                                 segment.to_m);
+    if (!record.state) {
+        return row + "      -             -  (no pass)\n";
+    }
+    const auto& state = *record.state;
+    return row + fmt::format(" {:>6.2f} {:>5.2f} - {:>5.2f}  {:<6} {:>6} {:>5}  {}\n",
                              state.iri_um / 1000.0,
                              state.low_um / 1000.0,
                              state.high_um / 1000.0,
@@ -45,8 +46,6 @@ std::string table_of(const std::vector<SegmentRecord>& records, const ClassTable
                              state.vehicles,
                              state.last_seen_ms ? utc_text(*state.last_seen_ms).substr(0, 10)
                                                 : "undated");
-    }
-    return table;
 }
 
 std::string json_object_of(const SegmentRecord& record, const ClassTable& classes) {
@@ -63,35 +62,6 @@ std::string json_object_of(const SegmentRecord& record, const ClassTable& classe
         }
     }
     return object.text();
-}
-
-std::string json_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
-    std::vector<std::string> objects;
-    objects.reserve(records.size());
-    for (const auto& record : records) {
-        objects.push_back(json_object_of(record, classes));
-    }
-    return json_array(objects) + "\n";
-}
-
-std::string csv_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
-    auto csv = csv_header() + "\n";
-    for (const auto& record : records) {
-        csv += csv_row(record, classes) + "\n";
-    }
-    return csv;
-}
-
-std::string geojson_of(const std::vector<SegmentRecord>& records, const ClassTable& classes) {
-    std::vector<std::string> features;
-    features.reserve(records.size());
-    for (const auto& record : records) {
-        features.push_back(geojson_feature(record, classes));
-    }
-    JsonObject collection;
-    collection.add("type", std::string{"FeatureCollection"})
-        .add("features", JsonRaw{json_array(features)});
-    return collection.text() + "\n";
 }
 
 std::string lag_words(const PassRecord& record) {
@@ -114,7 +84,7 @@ std::string_view name_of(LagFinding finding) {
     return "alone";
 }
 
-std::string history_table(const std::vector<PassRecord>& passes) {
+std::string passes_table(const std::vector<PassRecord>& passes) {
     auto table = fmt::format("{:<22} {:<16} {:>6} {:>6} {:>6} {:>7} {:>10}  {}\n",
                              "when",
                              "vehicle",
@@ -139,7 +109,7 @@ std::string history_table(const std::vector<PassRecord>& passes) {
     return table;
 }
 
-std::string history_json(const std::vector<PassRecord>& passes) {
+std::string passes_json(const std::vector<PassRecord>& passes) {
     const auto um = [](std::optional<IriUm> iri_um) {
         return iri_um ? json_number(*iri_um / 1000.0, 3) : JsonValue{nullptr};
     };
@@ -169,22 +139,94 @@ std::string history_json(const std::vector<PassRecord>& passes) {
     return json_array(objects) + "\n";
 }
 
-} // namespace
-
-std::string segments_text(const std::vector<SegmentRecord>& records,
-                          const ClassTable& classes,
-                          std::string_view format) {
-    if (format == "json") {
-        return json_of(records, classes);
+std::string passes_csv(const std::vector<PassRecord>& passes) {
+    const auto um = [](std::optional<IriUm> iri_um) {
+        return iri_um ? fmt::format("{:.3f}", *iri_um / 1000.0) : "";
+    };
+    std::string csv{"segment,utc,vehicle,iri,iri_sd,iri_left,iri_right,hri,speed_mps,covered_m,"
+                    "lag_m,lag_finding,confidence,validity,trip\n"};
+    for (const auto& record : passes) {
+        const auto& pass = record.pass;
+        csv += fmt::format("{},{},{},{},{},{},{},{},{:.3f},{:.3f},{},{},{:.3f},{},{}\n",
+                           csv_text(name_of(pass.segment)),
+                           record.utc_ms ? utc_text(*record.utc_ms) : "",
+                           csv_text(record.vehicle),
+                           um(pass.iri_um),
+                           um(pass.sd_um),
+                           um(pass.iri_left_um),
+                           um(pass.iri_right_um),
+                           um(pass.iri_centre_um),
+                           pass.speed_mmps / 1000.0,
+                           pass.covered_mm / 1000.0,
+                           record.lag_m ? fmt::format("{:.2f}", *record.lag_m) : "",
+                           record.lag_m ? name_of(record.finding) : "",
+                           pass.confidence_ppm / 1e6,
+                           name_of_validity(pass.validity),
+                           record.trip_sha256);
     }
-    if (format == "csv") {
-        return csv_of(records, classes);
-    }
-    return format == "geojson" ? geojson_of(records, classes) : table_of(records, classes);
+    return csv;
 }
 
-std::string history_text(const std::vector<PassRecord>& passes, std::string_view format) {
-    return format == "json" ? history_json(passes) : history_table(passes);
+/// What stands before the first segment, between two, and after the last.
+struct Frame {
+    std::string head;
+    std::string_view separator;
+    std::string_view tail;
+};
+
+Frame frame_of(std::string_view format) {
+    if (format == "json") {
+        return {"[", ",", "]\n"};
+    }
+    if (format == "csv") {
+        return {csv_header() + "\n", "", ""};
+    }
+    return format == "geojson" ? Frame{R"({"type":"FeatureCollection","features":[)", ",", "]}\n"}
+                               : Frame{table_head(), "", ""};
+}
+
+std::string
+text_of(const SegmentRecord& record, const ClassTable& classes, std::string_view format) {
+    if (format == "json") {
+        return json_object_of(record, classes);
+    }
+    if (format == "csv") {
+        return csv_row(record, classes) + "\n";
+    }
+    return format == "geojson" ? geojson_feature(record, classes) : table_row(record, classes);
+}
+
+} // namespace
+
+SegmentPrinter::SegmentPrinter(std::string_view format, const ClassTable& classes)
+    : format_{format}, classes_{&classes} {}
+
+void SegmentPrinter::add(const SegmentRecord& record) {
+    const auto frame = frame_of(format_);
+    print_in(format_, count_++ == 0 ? frame.head : frame.separator);
+    print_in(format_, text_of(record, *classes_, format_));
+}
+
+void SegmentPrinter::finish() {
+    const auto frame = frame_of(format_);
+    if (count_ == 0 && format_ != "table") {
+        print_in(format_, frame.head);
+    }
+    print_in(format_, frame.tail);
+}
+
+std::string passes_text(const std::vector<PassRecord>& passes, std::string_view format) {
+    return format == "json"  ? passes_json(passes)
+           : format == "csv" ? passes_csv(passes)
+                             : passes_table(passes);
+}
+
+void print_in(std::string_view format, std::string_view text) {
+    if (format == "table") {
+        print_words(text);
+    } else {
+        print(text);
+    }
 }
 
 } // namespace macadam

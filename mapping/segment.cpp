@@ -94,4 +94,14 @@ std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge) {
     return segments;
 }
 
+std::vector<GeoPoint> line_on(const RoadNetwork& roads, EdgeId edge, double from_m, double to_m) {
+    const auto link = link_at(roads, edge);
+    if (is_forward(edge)) {
+        return line_between(roads, link, link.from_m + from_m, link.from_m + to_m);
+    }
+    auto line = line_between(roads, link, link.to_m - to_m, link.to_m - from_m);
+    std::reverse(line.begin(), line.end());
+    return line;
+}
+
 } // namespace macadam

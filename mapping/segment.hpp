@@ -26,6 +26,15 @@ struct SegmentKey {
     }
 };
 
+/// Segments of one direction of a way by their numbers: first <= index < past.
+struct SegmentRange {
+    std::int64_t way_id;
+    bool forward;
+    std::uint32_t first;
+    std::uint32_t past;
+    friend bool operator==(const SegmentRange&, const SegmentRange&) = default;
+};
+
 /// "123456+0007" forward, "123456-0007" backward. At least four digits.
 std::string name_of(const SegmentKey& key);
 
@@ -43,5 +52,8 @@ struct Segment {
 
 /// The segments of one edge, in driving direction: equal parts of it.
 std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge);
+
+/// Places along a part of an edge, offsets in its direction of travel; from_m <= to_m, both on it.
+std::vector<GeoPoint> line_on(const RoadNetwork& roads, EdgeId edge, double from_m, double to_m);
 
 } // namespace macadam

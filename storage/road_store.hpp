@@ -48,6 +48,13 @@ struct TripRecord {
     std::map<std::string, std::size_t> row_reasons{}; ///< why the others were not
 };
 
+/// A span of time, ms since 1970 UTC: from <= t < until. Nothing: open on that side.
+struct Period {
+    std::optional<std::int64_t> from_ms;
+    std::optional<std::int64_t> until_ms;
+    friend bool operator==(const Period&, const Period&) = default;
+};
+
 /// Which segments to visit; all conditions hold together.
 struct SegmentFilter {
     std::optional<GeoBox> box;
@@ -56,6 +63,12 @@ struct SegmentFilter {
     std::string name_part;       ///< of the road's name, any case; "" = any
     bool with_state_only = true; ///< false: also those without a pass
     std::size_t worst = 0;       ///< n > 0: only the n with the highest iri, highest first
+
+    std::optional<std::vector<SegmentRange>> ranges{}; ///< only these, in this order
+    std::string highway{};                             ///< OSM's class of the road; "" = any
+    std::string class_name{};       ///< of the store's class table; "" = any, and none
+    std::int32_t least_passes = 0;  ///< more than 0: segments without a pass are left out
+    std::optional<Period> period{}; ///< states of the dated passes of that time alone
 };
 
 /// One pass with where it came from: a line of a segment's history.
@@ -94,6 +107,20 @@ struct OpenImport {
 struct ClassLength {
     std::string name;
     double km;
+};
+
+/// Driven road of one class of OpenStreetMap in one class of roughness.
+struct RoadClassLength {
+    std::string highway; ///< "" where the map has none
+    std::string class_name;
+    double km;
+};
+
+/// What trips that began on one day, UTC, brought.
+struct DayUse {
+    std::string day; ///< "2026-03-01"
+    std::size_t trips;
+    std::size_t passes;
 };
 
 struct StoreInfo {
@@ -171,7 +198,11 @@ public:
     /// new passes.
     std::size_t refresh(const FusionConfig& config, const Progress& progress = {});
 
-    /// In the order of keys (way, forward before backward, index), or worst first.
+    /// In the order of keys (way, forward before backward, index), of the ranges, or worst first.
+    /// All is of one moment.
+    ///
+    /// States of a period are fused from its passes alone, laid on each other by the traces of
+    /// their drives alone: as in a store that knows no other passes.
     void visit(const SegmentFilter& filter,
                const std::function<void(const SegmentRecord&)>& visit) const;
 
@@ -179,6 +210,12 @@ public:
     std::vector<PassRecord> history(const SegmentKey& key) const;
 
     StoreInfo info() const;
+
+    /// Each direction counted; in the order of (highway, class from smooth to rough).
+    std::vector<RoadClassLength> road_class_lengths() const;
+
+    /// Days with a dated trip, in order.
+    std::vector<DayUse> day_uses() const;
 
     /// In the order of (pseudonym, model, method).
     std::vector<VehicleUse> vehicle_uses() const;

@@ -14,100 +14,6 @@
 namespace macadam {
 namespace {
 
-// ------------------------------------------------------------------------------------- filters
-
-/// Whether the straight line from `a` to `b` has a point in the box (Liang and Barsky's clipping).
-bool meets(const GeoBox& box, const GeoPoint& a, const GeoPoint& b) {
-    double enter = 0, leave = 1;
-    const auto cut = [&](double from, double step, double low, double high) {
-        if (step == 0) {
-            return low <= from && from <= high;
-        }
-        const auto [near, far] = std::minmax({(low - from) / step, (high - from) / step});
-        enter = std::max(enter, near);
-        leave = std::min(leave, far);
-        return enter <= leave;
-    };
-    return cut(a.lon_deg, b.lon_deg - a.lon_deg, box.west_deg, box.east_deg) &&
-           cut(a.lat_deg, b.lat_deg - a.lat_deg, box.south_deg, box.north_deg);
-}
-
-bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        if (meets(box, line[i - 1], line[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/// A pattern for LIKE that finds `part` anywhere, with nothing in it a wildcard.
-std::string anywhere(const std::string& part) {
-    std::string pattern{"%"};
-    for (const char c : part) {
-        if (c == '%' || c == '_' || c == '\\') {
-            pattern += '\\';
-        }
-        pattern += c;
-    }
-    return pattern + "%";
-}
-
-/// Only fixed words come together here, never a value: those are bound by name.
-std::string select_of(const SegmentFilter& filter) {
-    auto sql = fmt::format("SELECT {} FROM ", record_columns);
-    sql += filter.box ? "rtree_segment_geom AS place CROSS JOIN segment ON segment.fid = place.id"
-                      : "segment";
-    sql += filter.with_state_only ? " JOIN" : " LEFT JOIN";
-    sql += " segment_state AS state ON state.fid = segment.fid"
-           " JOIN way ON way.way_id = segment.way_id WHERE 1";
-    if (filter.box) {
-        sql += " AND place.maxx >= :west AND place.minx <= :east"
-               " AND place.maxy >= :south AND place.miny <= :north";
-    }
-    if (filter.way_id) {
-        sql += " AND segment.way_id = :way";
-    }
-    if (filter.key) {
-        sql += " AND segment.way_id = :key_way AND segment.direction = :key_direction"
-               " AND segment.seq = :key_seq";
-    }
-    if (!filter.name_part.empty()) {
-        sql += " AND way.name LIKE :name ESCAPE '\\'";
-    }
-    return sql +
-           (filter.worst > 0 ? " ORDER BY state.iri DESC, segment.fid" : " ORDER BY segment.fid");
-}
-
-void bind(Statement& select, const SegmentFilter& filter) {
-    if (filter.box) {
-        select.bind_named(":west", filter.box->west_deg);
-        select.bind_named(":east", filter.box->east_deg);
-        select.bind_named(":south", filter.box->south_deg);
-        select.bind_named(":north", filter.box->north_deg);
-    }
-    if (filter.way_id) {
-        select.bind_named(":way", *filter.way_id);
-    }
-    if (filter.key) {
-        select.bind_named(":key_way", filter.key->way_id);
-        select.bind_named(":key_direction", filter.key->forward ? "forward" : "backward");
-        select.bind_named(":key_seq", std::int64_t{filter.key->index});
-    }
-    if (!filter.name_part.empty()) {
-        select.bind_named(":name", anywhere(filter.name_part));
-    }
-}
-
-void expect_line(const SegmentRecord& record, const Database& database) {
-    if (!is_line(record.segment.line)) {
-        throw InputError{fmt::format("{}: segment '{}' has no line of places on the globe; the "
-                                     "store was changed",
-                                     database.file().string(),
-                                     name_of(record.segment.key))};
-    }
-}
-
 // ---------------------------------------------------------------------------------------- info
 
 std::size_t count(Database& database, const char* sql) {
@@ -240,22 +146,6 @@ void add_passes(Sha256& hash, Database& database) {
 
 } // namespace
 
-void RoadStore::visit(const SegmentFilter& filter,
-                      const std::function<void(const SegmentRecord&)>& visitor) const {
-    Transaction one_moment{impl_->database, Transaction::Kind::read};
-    auto select = impl_->database.prepare(select_of(filter));
-    bind(select, filter);
-    std::size_t visited = 0;
-    while ((filter.worst == 0 || visited < filter.worst) && select.step()) {
-        const auto record = record_in(select);
-        expect_line(record, impl_->database);
-        if (!filter.box || meets(*filter.box, record.segment.line)) {
-            visitor(record);
-            ++visited;
-        }
-    }
-}
-
 std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
     Transaction one_moment{impl_->database, Transaction::Kind::read};
     auto select = impl_->database.prepare(
@@ -353,7 +243,10 @@ std::string RoadStore::digest() const {
     {
         Transaction one_moment{impl_->database, Transaction::Kind::read};
         add_passes(hash, impl_->database);
-        auto select = impl_->database.prepare(select_of({}));
+        auto select = impl_->database.prepare(fmt::format(
+            "SELECT {} FROM segment JOIN segment_state AS state ON state.fid = segment.fid"
+            " JOIN way ON way.way_id = segment.way_id ORDER BY segment.fid",
+            record_columns));
         while (select.step()) {
             hash.add(state_line(*record_in(select).state));
         }

@@ -354,6 +354,7 @@ void write_store(Database& database,
     const auto network_hash = write_ways(database, roads);
     const auto written = write_segments(database, roads, progress);
     database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
+    database.run("CREATE INDEX way_name ON way(name)");
     write_meta(database, roads, settings, network_hash, written);
 
     const auto box = extent_of(roads);

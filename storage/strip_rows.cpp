@@ -62,6 +62,16 @@ bool is_within_a_strip(std::span<const PlacedTrace> traces) {
     return last_m - first_m <= longest_strip_m;
 }
 
+std::vector<PlacedTrace> laid_on_each_other(std::vector<PlacedTrace> traces) {
+    std::vector<StripTrace> all;
+    std::ranges::transform(traces, std::back_inserter(all), &PlacedTrace::trace);
+    auto lags = lags_of(all, {});
+    for (std::size_t i = 0; i < traces.size(); ++i) {
+        traces[i].lag = std::move(lags[i]);
+    }
+    return traces;
+}
+
 } // namespace
 
 void write_traces(Database& database,
@@ -90,6 +100,18 @@ StripTraces::StripTraces(Database& database)
 }
 
 std::vector<PlacedTrace> StripTraces::placed(std::int64_t strip) {
+    return laid_on_each_other(unplaced(strip));
+}
+
+std::vector<PlacedTrace> StripTraces::placed(std::int64_t strip, const DriveSet& drives) {
+    auto traces = unplaced(strip);
+    std::erase_if(traces, [&](const PlacedTrace& placed) {
+        return !drives.contains({placed.trip_sha256, placed.trace.drive});
+    });
+    return laid_on_each_other(std::move(traces));
+}
+
+std::vector<PlacedTrace> StripTraces::unplaced(std::int64_t strip) {
     std::vector<PlacedTrace> traces;
     bool sound = true;
     for (select_.bind(strip); sound && select_.step();) {
@@ -112,12 +134,6 @@ std::vector<PlacedTrace> StripTraces::placed(std::int64_t strip) {
     std::ranges::sort(traces, {}, [](const PlacedTrace& placed) {
         return std::pair<std::string_view, std::uint32_t>{placed.trip_sha256, placed.trace.drive};
     });
-    std::vector<StripTrace> all;
-    std::ranges::transform(traces, std::back_inserter(all), &PlacedTrace::trace);
-    auto lags = lags_of(all, {});
-    for (std::size_t i = 0; i < traces.size(); ++i) {
-        traces[i].lag = std::move(lags[i]);
-    }
     return traces;
 }
 

@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -25,6 +27,9 @@ void write_traces(Database& database,
                   std::span<const StripTrace> traces,
                   std::int64_t segments_in_strip);
 
+/// Which drives: trip hash and drive.
+using DriveSet = std::set<std::pair<std::string, std::uint32_t>>;
+
 /// The traces of strips, each laid on the others of its own.
 class StripTraces {
 public:
@@ -35,7 +40,12 @@ public:
     /// \throws InputError  if a trace is none; the store was changed.
     std::vector<PlacedTrace> placed(std::int64_t strip);
 
+    /// The same of these drives alone, as if there were no others.
+    std::vector<PlacedTrace> placed(std::int64_t strip, const DriveSet& drives);
+
 private:
+    std::vector<PlacedTrace> unplaced(std::int64_t strip);
+
     const Database* database_;
     Statement select_;
 };

@@ -31,6 +31,7 @@ std::string report_html(const Report& report) {
     if (report.summary.all.covered_m > 0) {
         html += worst_section(report);
     }
+    html += own_sections(report);
     html += coverage_section(report);
     html += data_section(report);
     html += method_section(report);

@@ -2,6 +2,7 @@
 
 #include "mapping/data_quality.hpp"
 #include "mapping/iri_class.hpp"
+#include "mapping/measured_road.hpp"
 #include "mapping/network_summary.hpp"
 #include "mapping/worst_stretches.hpp"
 
@@ -26,6 +27,16 @@ struct ReportStretch {
     std::string reference; ///< metres along its ways
     std::string seen;      ///< "2026-03-01 to 2026-04-02"
     ReportPicture map;
+};
+
+/// A section of the reader's own roads.
+struct ReportSection {
+    std::string name;
+    double from_m; ///< stations; they fall where the road is driven against them
+    double to_m;
+    double excluded_m;
+    double open_share; ///< measured length by what is not excluded
+    MeasuredRoad measured;
 };
 
 /// What the trips of one car gave.
@@ -62,6 +73,7 @@ struct Report {
     std::size_t stretches = 0;           ///< poor ones in all
     double stretches_m = 0;              ///< and their length
     std::vector<ReportStretch> worst;    ///< the worst of them, worst first
+    std::vector<ReportSection> sections; ///< none: not asked for
     std::vector<ReportVehicle> vehicles; ///< in the order in which they are listed
     DataQuality quality;
     std::size_t lateral_passes = 0;                 ///< from lateral vibration alone

@@ -11,6 +11,7 @@ std::string head_section(const Report& report); ///< title, period, numbers that
 std::string condition_section(const Report& report);
 std::string map_section(const Report& report);
 std::string worst_section(const Report& report);
+std::string own_sections(const Report& report); ///< "" where none are asked for
 std::string coverage_section(const Report& report);
 std::string data_section(const Report& report);
 std::string method_section(const Report& report); ///< how it was measured, how to read it, limits

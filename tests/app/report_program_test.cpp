@@ -200,6 +200,20 @@ TEST_F(ReportProgram, TakesAnotherBorderOfPoorAndAnotherLeastLength) {
     EXPECT_GT(number(whole, 1, "length_m"), 1000); // all of the road is rougher than nothing
 }
 
+TEST_F(ReportProgram, ListsSectionsOfYourOwnRoads) {
+    const auto table = out("sections.csv");
+    write_file(table, "section,way_id,from_m,to_m\nA & B,1,0,500\nback,1,500,0\n");
+    const auto run = run_macadam({"report", store_, "-o", out("s.html"), "--sections", table});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto html = read_file(out("s.html"));
+    EXPECT_THAT(html, HasSubstr("<h2>Sections</h2>"));
+    EXPECT_THAT(html, HasSubstr("A &amp; B"));
+    const auto rows =
+        rows_of(run_macadam({"query", store_, "--sections", table, "--format", "csv"}).out);
+    EXPECT_THAT(html, HasSubstr(fmt::format(">{:.2f}</td>", number(rows, 1, "iri"))));
+    EXPECT_THAT(report(store_, "plain.html"), Not(HasSubstr("<h2>Sections</h2>")));
+}
+
 TEST_F(ReportProgram, MisusesNothingOfWorstWithoutIt) {
     for (const auto& [words, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"--way", "1", "--min-length", "50"}, "--min-length goes with --worst N"},

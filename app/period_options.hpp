@@ -1,0 +1,22 @@
+#pragma once
+
+#include "app/arguments.hpp"
+#include "storage/road_store.hpp"
+
+#include <optional>
+
+namespace macadam {
+
+inline constexpr Option since_option{
+    "--since",
+    "TIME",
+    "Only what passes from then on say: a day (2026-03-01), a month (2026-03), or a time in UTC "
+    "(2026-03-01T06:00:00Z)."};
+inline constexpr Option until_option{
+    "--until", "TIME", "Only what passes up to then say; a day or month counts with its end."};
+
+/// Of --since and --until; nothing if neither is there.
+/// \throws UsageError  for what is no time, and for an end that is not after the beginning.
+std::optional<Period> parse_period(const Arguments& arguments);
+
+} // namespace macadam

@@ -1,0 +1,84 @@
+#include "mapping/line_match.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/odometer.hpp"
+#include "mapping/line_foot.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace macadam {
+namespace {
+
+constexpr double step_m = 5; // between the fixes of the car that stands for the line
+constexpr double speed_mps = 5;
+constexpr double most_short_m = 30; // of the end of a line that its match may miss, as at junctions
+
+double length_of(std::span<const GeoPoint> line) {
+    double sum_m = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        sum_m += distance_m(line[i - 1], line[i]);
+    }
+    return sum_m;
+}
+
+GnssFix fix_at(const GeoPoint& place, double travel_m) {
+    constexpr auto unknown = std::numeric_limits<float>::quiet_NaN();
+    return {travel_m / speed_mps, place, unknown, unknown, unknown};
+}
+
+/// A car that drives along the line: a fix at least every 5 m, the last at its end.
+TripLog car_along(std::span<const GeoPoint> line) {
+    TripLog trip;
+    double passed_m = 0, next_m = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const double piece_m = distance_m(line[i - 1], line[i]);
+        for (; next_m < passed_m + piece_m; next_m += step_m) {
+            const auto place = between(line[i - 1], line[i], (next_m - passed_m) / piece_m);
+            trip.fixes.push_back(fix_at(place, next_m));
+        }
+        passed_m += piece_m;
+    }
+    trip.fixes.push_back(fix_at(line.back(), passed_m));
+    trip.rows.assign(trip.fixes.size(), row_content::fix);
+    return trip;
+}
+
+/// Positions are sparse, so a match ends a little short of its line: to the foot of the line's own
+/// ends, as far as that is on the same edge.
+FollowedRoad
+reaching_its_ends(const RoadNetwork& roads, FollowedRoad road, std::span<const GeoPoint> line) {
+    const auto foot_m = [&](const FollowedPart& part, const GeoPoint& end) {
+        return std::min(foot_on(line_of(roads, *part.edge), end).along_m,
+                        length_m(roads, *part.edge));
+    };
+    auto& parts = road.parts;
+    if (!parts.empty() && parts.front().edge) {
+        const double begin_m = foot_m(parts.front(), line.front());
+        if (begin_m < parts.front().from_m && parts.front().from_m - begin_m <= most_short_m) {
+            parts.front().from_m = begin_m;
+        }
+    }
+    if (!parts.empty() && parts.back().edge) {
+        const double end_m = foot_m(parts.back(), line.back());
+        if (end_m > parts.back().to_m && end_m - parts.back().to_m <= most_short_m) {
+            parts.back().to_m = end_m;
+        }
+    }
+    return road;
+}
+
+} // namespace
+
+FollowedRoad matched_line(const RoadNetwork& roads, std::span<const GeoPoint> line) {
+    if (line.size() < 2 || !(length_of(line) > 0)) {
+        throw InputError{"a line needs two different places"};
+    }
+    const auto trip = car_along(line);
+    auto use = unused(trip);
+    const auto odometer = make_odometer(trip, {}, use);
+    const MatchConfig config{.spacing_m = step_m}; // lines may be as short as one section
+    return reaching_its_ends(roads, followed(map_match(trip, odometer, roads, config, use)), line);
+}
+
+} // namespace macadam

@@ -1,0 +1,303 @@
+#include "estimator/common/error.hpp"
+#include "storage/fold_case.hpp"
+#include "storage/road_store_impl.hpp"
+#include "storage/segment_row.hpp"
+#include "storage/strip_states.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+/// Whether the straight line from `a` to `b` has a point in the box (Liang and Barsky's clipping).
+bool meets(const GeoBox& box, const GeoPoint& a, const GeoPoint& b) {
+    double enter = 0, leave = 1;
+    const auto cut = [&](double from, double step, double low, double high) {
+        if (step == 0) {
+            return low <= from && from <= high;
+        }
+        const auto [near, far] = std::minmax({(low - from) / step, (high - from) / step});
+        enter = std::max(enter, near);
+        leave = std::min(leave, far);
+        return enter <= leave;
+    };
+    return cut(a.lon_deg, b.lon_deg - a.lon_deg, box.west_deg, box.east_deg) &&
+           cut(a.lat_deg, b.lat_deg - a.lat_deg, box.south_deg, box.north_deg);
+}
+
+bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        if (meets(box, line[i - 1], line[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// ------------------------------------------------------------------------------------ statements
+
+/// What leads to the rows, each by an index of its own.
+enum class Road { range, way, box, all };
+
+Road road_to(const SegmentFilter& filter) {
+    return filter.ranges || filter.key                                   ? Road::range
+           : filter.way_id || (!filter.name_part.empty() && !filter.box) ? Road::way
+           : filter.box                                                  ? Road::box
+                                                                         : Road::all;
+}
+
+/// The joins stand in the order in which they are to be done. Only fixed words come together here,
+/// never a value: those are bound by name.
+std::string select_of(const SegmentFilter& filter) {
+    const auto road = road_to(filter);
+    const auto* const state = filter.with_state_only
+                                  ? " CROSS JOIN segment_state AS state ON state.fid = segment.fid"
+                                  : " LEFT JOIN segment_state AS state ON state.fid = segment.fid";
+    std::string sql = fmt::format("SELECT {} FROM ", record_columns);
+    if (road == Road::all && filter.with_state_only) {
+        sql += "segment_state AS state CROSS JOIN segment ON segment.fid = state.fid";
+    } else if (road == Road::box) {
+        sql += "rtree_segment_geom AS place CROSS JOIN segment ON segment.fid = place.id";
+        sql += state;
+    } else {
+        sql += "segment";
+        sql += state;
+    }
+    sql += " CROSS JOIN way ON way.way_id = segment.way_id WHERE 1";
+    if (road == Road::box) {
+        sql += " AND place.maxx >= :west AND place.minx <= :east"
+               " AND place.maxy >= :south AND place.miny <= :north";
+    }
+    if (road == Road::way) {
+        sql += " AND segment.way_id = :way";
+    }
+    if (road == Road::range) {
+        sql += " AND segment.way_id = :way AND segment.direction = :direction"
+               " AND segment.seq >= :first AND segment.seq < :past";
+    }
+    if (!filter.highway.empty()) {
+        sql += " AND way.highway = :highway";
+    }
+    return sql + " ORDER BY segment.fid";
+}
+
+/// Ways whose name holds the text in any case, in the order of their ids.
+std::vector<std::int64_t> ways_named(Database& database, const std::string& part) {
+    const auto folded_part = case_folded(part);
+    auto select = database.prepare("SELECT name, way_id FROM way WHERE name IS NOT NULL");
+    std::vector<std::int64_t> ways;
+    std::string name;
+    bool holds = false;
+    while (select.step()) {
+        if (auto other = select.text(0); other != name) { // neighbours in the index share names
+            name = std::move(other);
+            holds = case_folded(name).find(folded_part) != std::string::npos;
+        }
+        if (holds) {
+            ways.push_back(select.integer(1));
+        }
+    }
+    std::ranges::sort(ways);
+    return ways;
+}
+
+std::vector<SegmentRange> ranges_of(const SegmentFilter& filter) {
+    if (filter.ranges) {
+        return *filter.ranges;
+    }
+    const auto& [way_id, forward, index] = *filter.key;
+    return {{way_id, forward, index, index + 1}};
+}
+
+/// Runs the statement for each look-up in turn. \param row  is given the statement at each row.
+template <typename Row>
+void each_row(Database& database, const SegmentFilter& filter, const Row& row) {
+    auto select = database.prepare(select_of(filter));
+    const auto run = [&] {
+        while (select.step()) {
+            row(select);
+        }
+        select.reset();
+    };
+    if (!filter.highway.empty()) {
+        select.bind_named(":highway", filter.highway);
+    }
+    switch (road_to(filter)) {
+    case Road::range:
+        for (const auto& range : ranges_of(filter)) {
+            select.bind_named(":way", range.way_id);
+            select.bind_named(":direction", range.forward ? "forward" : "backward");
+            select.bind_named(":first", std::int64_t{range.first});
+            select.bind_named(":past", std::int64_t{range.past});
+            run();
+        }
+        return;
+    case Road::way:
+        for (const auto way :
+             filter.way_id ? std::vector{*filter.way_id} : ways_named(database, filter.name_part)) {
+            select.bind_named(":way", way);
+            run();
+        }
+        return;
+    case Road::box:
+        select.bind_named(":west", filter.box->west_deg);
+        select.bind_named(":east", filter.box->east_deg);
+        select.bind_named(":south", filter.box->south_deg);
+        select.bind_named(":north", filter.box->north_deg);
+        run();
+        return;
+    case Road::all:
+        run();
+    }
+}
+
+// -------------------------------------------------------------------------------------- records
+
+void expect_line(const SegmentRecord& record, const Database& database) {
+    if (!is_line(record.segment.line)) {
+        throw InputError{fmt::format("{}: segment '{}' has no line of places on the globe; the "
+                                     "store was changed",
+                                     database.file().string(),
+                                     name_of(record.segment.key))};
+    }
+}
+
+/// What the passes of a period say of segments, strip by strip.
+class PeriodStates {
+public:
+    PeriodStates(Database& database, double segment_length_m, const Period& period)
+        : states_{database, FusionConfig{}}, find_strip_{database.prepare(
+                                                 "SELECT strip FROM segment WHERE way_id = ?"
+                                                 " AND direction = ? AND seq = ?")},
+          segment_length_m_{segment_length_m}, period_{period} {}
+
+    std::optional<SegmentState> of(const SegmentKey& key) {
+        if (const auto strip = strip_of(key, segment_length_m_); strip != strip_) {
+            strip_ = strip;
+            find_strip_.bind(
+                key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
+            fused_ = find_strip_.step() ? states_.of(find_strip_.integer(0),
+                                                     segments_in_strip(segment_length_m_),
+                                                     period_)
+                                        : std::vector<FusedSegment>{};
+            find_strip_.reset();
+        }
+        const auto found = std::ranges::find(
+            fused_, key, [](const FusedSegment& segment) { return segment.state.segment; });
+        return found == fused_.end() ? std::nullopt : std::optional{found->state};
+    }
+
+private:
+    StripStates states_;
+    Statement find_strip_;
+    double segment_length_m_;
+    Period period_;
+    std::optional<StripKey> strip_;
+    std::vector<FusedSegment> fused_;
+};
+
+/// The conditions that no index serves.
+class Conditions {
+public:
+    Conditions(const SegmentFilter& filter, const ClassTable& classes)
+        : filter_{&filter}, classes_{&classes}, name_part_{case_folded(filter.name_part)} {}
+
+    bool hold_for(const SegmentRecord& record) const {
+        const auto& key = record.segment.key;
+        return (!filter_->with_state_only || record.state) &&
+               (!filter_->box || meets(*filter_->box, record.segment.line)) &&
+               (!filter_->way_id || *filter_->way_id == key.way_id) &&
+               (!filter_->key || *filter_->key == key) &&
+               (name_part_.empty() ||
+                case_folded(record.name).find(name_part_) != std::string::npos) &&
+               passes_of(record) >= filter_->least_passes &&
+               (filter_->class_name.empty() || filter_->class_name == class_of(record));
+    }
+
+private:
+    static std::int32_t passes_of(const SegmentRecord& record) {
+        return record.state ? record.state->passes : 0;
+    }
+    std::string_view class_of(const SegmentRecord& record) const {
+        return record.state
+                   ? classes_->classes[class_index(*classes_, mm_per_m(record.state->iri_um))].name
+                   : std::string_view{};
+    }
+
+    const SegmentFilter* filter_;
+    const ClassTable* classes_;
+    std::string name_part_;
+};
+
+/// The n roughest of what is added, the roughest first; equal ones in the order of their keys.
+class Roughest {
+public:
+    explicit Roughest(std::size_t n) : n_{n} {}
+
+    void add(const SegmentRecord& record) {
+        if (records_.size() == n_ && !rougher(record, records_.front())) {
+            return;
+        }
+        records_.push_back(record);
+        std::ranges::push_heap(records_, rougher);
+        if (records_.size() > n_) {
+            std::ranges::pop_heap(records_, rougher);
+            records_.pop_back();
+        }
+    }
+
+    std::vector<SegmentRecord> sorted() && {
+        std::ranges::sort(records_, rougher);
+        return std::move(records_);
+    }
+
+private:
+    static bool rougher(const SegmentRecord& a, const SegmentRecord& b) {
+        const auto order = [](const SegmentRecord& record) {
+            return std::pair{record.state ? -record.state->iri_um : 1, record.segment.key};
+        };
+        return order(a) < order(b);
+    }
+
+    std::size_t n_;
+    std::vector<SegmentRecord> records_; ///< a heap, the least rough at its front
+};
+
+} // namespace
+
+void RoadStore::visit(const SegmentFilter& filter,
+                      const std::function<void(const SegmentRecord&)>& visitor) const {
+    auto& database = impl_->database;
+    Transaction one_moment{database, Transaction::Kind::read};
+    std::optional<PeriodStates> period;
+    if (filter.period) {
+        period.emplace(database, impl_->settings.segment_length_m, *filter.period);
+    }
+    const Conditions conditions{filter, impl_->classes()};
+    Roughest roughest{filter.worst};
+    each_row(database, filter, [&](const Statement& row) {
+        auto record = record_in(row);
+        expect_line(record, database);
+        if (period) {
+            record.state = period->of(record.segment.key);
+        }
+        if (!conditions.hold_for(record)) {
+            return;
+        }
+        if (filter.worst > 0) {
+            roughest.add(record);
+        } else {
+            visitor(record);
+        }
+    });
+    for (const auto& record : std::move(roughest).sorted()) {
+        visitor(record);
+    }
+}
+
+} // namespace macadam
