@@ -16,6 +16,16 @@ constexpr auto dearer = [](const auto& a, const auto& b) {
     return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
 };
 
+// What a degree is at least, on the ellipsoid; straight lines on this plane are no longer than
+// roads.
+constexpr double north_m_per_deg = 110'574;
+constexpr double east_m_per_deg = 111'319 * 0.99; // at the equator; parallels differ within reach
+
+double apart_m(const GeoPoint& a, const GeoPoint& b, double east_per_deg) {
+    return std::hypot((a.lat_deg - b.lat_deg) * north_m_per_deg,
+                      (a.lon_deg - b.lon_deg) * east_per_deg);
+}
+
 } // namespace
 
 Routes::Routes(const RoadNetwork& roads, double u_turn_cost_m)
@@ -45,20 +55,6 @@ double Routes::turn_m(EdgeId edge) const {
     const bool dead_end = out.size() == 1 && out.front() == reversed(edge);
     return dead_end ? dead_end_share * u_turn_cost_m_ : u_turn_cost_m_;
 }
-
-namespace {
-
-// What a degree is at least, on the ellipsoid; straight lines on this plane are no longer than
-// roads.
-constexpr double north_m_per_deg = 110'574;
-constexpr double east_m_per_deg = 111'319 * 0.99; // at the equator; parallels differ within reach
-
-double apart_m(const GeoPoint& a, const GeoPoint& b, double east_per_deg) {
-    return std::hypot((a.lat_deg - b.lat_deg) * north_m_per_deg,
-                      (a.lon_deg - b.lon_deg) * east_per_deg);
-}
-
-} // namespace
 
 Routes::Goal Routes::goal_of(std::span<const EdgeId> targets) const {
     GeoBox box;
