@@ -170,8 +170,7 @@ constexpr std::array options{
     Option{"--shortest", "", "With --route: the shortest way."},
     Option{"--along",
            "FILE",
-           "The roads that a GPX track or a layer of lines (GeoJSON, GeoPackage, ...) follows, as "
-           "a profile in sections."},
+           "The roads that a GPX track or a layer of lines follows, as a profile in sections."},
     sections_option,
     section_length_option,
     homogeneous_option,

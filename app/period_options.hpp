@@ -10,8 +10,7 @@ namespace macadam {
 inline constexpr Option since_option{
     "--since",
     "TIME",
-    "Only what passes from then on say: a day (2026-03-01), a month (2026-03), or a time in UTC "
-    "(2026-03-01T06:00:00Z)."};
+    "Only what passes from then on say: 2026-03-01, 2026-03 or 2026-03-01T06:00:00Z."};
 inline constexpr Option until_option{
     "--until", "TIME", "Only what passes up to then say; a day or month counts with its end."};
 

@@ -24,8 +24,7 @@ struct SectionOptions {
 inline constexpr Option sections_option{
     "--sections",
     "FILE",
-    "The roads of a table (route or way_id, from_m and to_m, or _km, or _mi) or of a layer of "
-    "lines, a row for each section."};
+    "A table (route or way_id, from_m and to_m, or _km, or _mi) or a layer of lines: a row each."};
 inline constexpr Option section_length_option{
     "--section-length",
     "LENGTH",
@@ -36,8 +35,7 @@ inline constexpr Option homogeneous_option{
 inline constexpr Option exclude_option{
     "--exclude",
     "FILE",
-    "What must not count, such as bridges and works: a table with lat_deg, lon_deg and perhaps "
-    "radius_m, or a layer of lines."};
+    "What must not count, as bridges: a table (lat_deg, lon_deg, perhaps radius_m) or lines."};
 inline constexpr Option exclude_radius_option{
     "--exclude-radius", "METRES", "Around places that state none.", "20"};
 

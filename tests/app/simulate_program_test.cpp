@@ -163,7 +163,7 @@ std::string survey_text(const std::string& exported, const std::string& truth) {
     for (const auto& row : rows_of(exported)) {
         const bool forward = row[4] == "forward";
         const auto line =
-            row[21] + "," + row[22] + "," + row[5] + "," + row[6] + "," + mri.at(row[0]) + "\n";
+            row[24] + "," + row[25] + "," + row[5] + "," + row[6] + "," + mri.at(row[0]) + "\n";
         rows += forward ? line : "";
         backward = forward ? backward : line + backward;
     }
