@@ -203,7 +203,7 @@ void run_import(const Arguments& arguments, const Console& console) {
     auto totals =
         import_trips(store, trips, vehicles, options.pipeline, options.jobs, importing, tell);
     totals.rejected += refused.size();
-    const auto fused = store.refresh({}, console.progress("fusing"));
+    const auto fused = store.refresh(console.progress("fusing"));
 
     console.say(fmt::format("{} imported, {} known, {} rejected; {}, {} fused",
                             counted(totals.imported, "trip"),

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/network_rows.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/row_reasons.hpp"
 #include "storage/sha256.hpp"
@@ -172,11 +173,10 @@ bool RoadStore::add_trip(const TripRecord& trip,
     return true;
 }
 
-std::size_t RoadStore::refresh(const FusionConfig& config, const Progress& progress) {
+std::size_t RoadStore::refresh(const Progress& progress) {
     return fuse_dirty(impl_->database,
                       segments_in_strip(impl_->settings.segment_length_m),
                       impl_->classes(),
-                      config,
                       progress);
 }
 

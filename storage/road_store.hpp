@@ -194,9 +194,9 @@ public:
     void end_import(const std::string& name);
 
     /// Lays the passes of every strip with passes newer than their segments' states on each other
-    /// and fuses them (mapping/alignment.hpp, mapping/fusion.hpp). \returns how many segments had
-    /// new passes.
-    std::size_t refresh(const FusionConfig& config, const Progress& progress = {});
+    /// and fuses them (mapping/alignment.hpp, mapping/fusion.hpp) by the rules of the store's
+    /// generation. \returns how many segments had new passes.
+    std::size_t refresh(const Progress& progress = {});
 
     /// In the order of keys (way, forward before backward, index), of the ranges, or worst first.
     /// All is of one moment.

@@ -1,5 +1,6 @@
 #include "estimator/common/error.hpp"
 #include "storage/fold_case.hpp"
+#include "storage/network_rows.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/strip_states.hpp"
@@ -171,9 +172,9 @@ void expect_line(const SegmentRecord& record, const Database& database) {
 class PeriodStates {
 public:
     PeriodStates(Database& database, double segment_length_m, const Period& period)
-        : states_{database, FusionConfig{}}, find_strip_{database.prepare(
-                                                 "SELECT strip FROM segment WHERE way_id = ?"
-                                                 " AND direction = ? AND seq = ?")},
+        : states_{database}, find_strip_{database.prepare(
+                                 "SELECT strip FROM segment WHERE way_id = ?"
+                                 " AND direction = ? AND seq = ?")},
           segment_length_m_{segment_length_m}, period_{period} {}
 
     std::optional<SegmentState> of(const SegmentKey& key) {

@@ -5,9 +5,7 @@
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 
-#include <span>
 #include <string>
-#include <vector>
 
 namespace macadam {
 
@@ -26,13 +24,10 @@ StoreSettings read_settings(Database& database);
 /// SHA-256 of the ways and all that they say, in hex digits.
 std::string read_network_hash(Database& database);
 
-/// The ways as they were written, in the order of their ids.
-///
-/// \throws InputError  if one is no line on the globe.
-std::vector<Way> read_ways(Database& database);
+/// Counts from 1; one more each time that all numbers were made anew by other rules.
+int read_generation(Database& database);
 
-/// Two or more places, all on the globe. A store can be changed with any tool for SQLite, so its
-/// lines are looked at before anything is made of them.
-bool is_line(std::span<const GeoPoint> line);
+/// \returns the new one.
+int begin_generation(Database& database);
 
 } // namespace macadam

@@ -81,8 +81,12 @@ void write_traces(Database& database,
     auto find = database.prepare("SELECT strip FROM segment WHERE way_id = ? AND direction = ?"
                                  " AND seq BETWEEN ? AND ? LIMIT 1");
     auto insert = database.prepare("INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)");
+    // A trace may move others also where the trip has no pass.
+    auto mark = database.prepare("INSERT OR IGNORE INTO strip_dirty VALUES (?)");
     for (const auto& trace : traces) {
-        insert.run(row_of_strip(find, database, trace.strip, segments_in_strip),
+        const auto strip = row_of_strip(find, database, trace.strip, segments_in_strip);
+        mark.run(strip);
+        insert.run(strip,
                    trip,
                    std::int64_t{trace.drive},
                    std::int64_t{trace.first_m},

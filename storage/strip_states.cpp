@@ -26,14 +26,6 @@ const std::string& passes_of_strip() {
     return sql;
 }
 
-/// A pass as its trip alone has it, and where its segment lies.
-struct StripPass {
-    std::int64_t fid;
-    FusionInput input;
-    double from_m; ///< station: along the way, rising in driving direction
-    double to_m;
-};
-
 StripPass pass_of_strip(const Statement& row) {
     const SegmentKey key{
         row.integer(1), row.text(2) == "forward", static_cast<std::uint32_t>(row.integer(3))};
@@ -43,15 +35,6 @@ StripPass pass_of_strip(const Statement& row) {
             std::move(input),
             station_m(key.forward, row.real(key.forward ? 7 : 8)),
             station_m(key.forward, row.real(key.forward ? 8 : 7))};
-}
-
-std::vector<StripPass> passes_in(Statement& select, std::int64_t strip, std::int64_t segments) {
-    std::vector<StripPass> passes;
-    for (select.bind(strip, segments); select.step();) {
-        passes.push_back(pass_of_strip(select));
-    }
-    select.reset();
-    return passes;
 }
 
 bool is_in(const Period& period, const std::optional<std::int64_t>& utc_ms) {
@@ -101,20 +84,48 @@ std::vector<FusedSegment> fused(const std::vector<StripPass>& passes,
 
 } // namespace
 
-StripStates::StripStates(Database& database, const FusionConfig& config)
-    : traces_{database}, select_{database.prepare(passes_of_strip())}, config_{config} {}
+StripStates::StripStates(Database& database)
+    : traces_{database}, select_{database.prepare(passes_of_strip())}, valid_from_{database},
+      cars_{read_calibrations(database)}, config_{read_fusion_config(database)} {}
+
+std::vector<StripPass> StripStates::valid_passes(std::int64_t strip, std::int64_t segments) {
+    const auto from_ms = valid_from_.of(strip, strip + segments);
+    std::vector<StripPass> passes;
+    for (select_.bind(strip, segments); select_.step();) {
+        auto pass = pass_of_strip(select_);
+        const auto from = from_ms.find(pass.fid);
+        if (from != from_ms.end() && !(pass.input.utc_ms && *pass.input.utc_ms >= from->second)) {
+            continue;
+        }
+        if (const auto car = cars_.find(pass.input.vehicle); car != cars_.end()) {
+            pass.input.calibration = car->second.calibration;
+        }
+        passes.push_back(std::move(pass));
+    }
+    select_.reset();
+    return passes;
+}
+
+std::vector<StripPass> StripStates::passes(std::int64_t strip, std::int64_t segments) {
+    const auto traces = traces_.placed(strip);
+    auto passes = valid_passes(strip, segments);
+    for (auto& pass : passes) {
+        pass.input = in_its_place(pass, traces);
+    }
+    return passes;
+}
 
 FusedStrip StripStates::of(std::int64_t strip, std::int64_t segments_in_strip) {
     const auto traces = traces_.placed(strip);
     FusedStrip all;
     std::ranges::transform(traces, std::back_inserter(all.lags), &PlacedTrace::lag);
-    all.segments = fused(passes_in(select_, strip, segments_in_strip), traces, config_);
+    all.segments = fused(valid_passes(strip, segments_in_strip), traces, config_);
     return all;
 }
 
 std::vector<FusedSegment>
 StripStates::of(std::int64_t strip, std::int64_t segments_in_strip, const Period& period) {
-    auto passes = passes_in(select_, strip, segments_in_strip);
+    auto passes = valid_passes(strip, segments_in_strip);
     std::erase_if(passes, [&](const auto& pass) { return !is_in(period, pass.input.utc_ms); });
     if (passes.empty()) {
         return {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mapping/fusion.hpp"
+#include "storage/fusion_settings.hpp"
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/strip_rows.hpp"
@@ -10,6 +11,14 @@
 #include <vector>
 
 namespace macadam {
+
+/// A pass and where its segment lies.
+struct StripPass {
+    std::int64_t fid; ///< the segment's row
+    FusionInput input;
+    double from_m; ///< station: along the way, rising in driving direction
+    double to_m;
+};
 
 struct FusedSegment {
     std::int64_t fid;
@@ -21,10 +30,11 @@ struct FusedStrip {
     std::vector<FusedSegment> segments; ///< with a pass, in the order of their rows
 };
 
-/// States of the segments of strips, fused from their passes, which are first laid on each other.
+/// States of the segments of strips, fused from their passes, which are first laid on each other,
+/// by the rules that the store has when this is made.
 class StripStates {
 public:
-    StripStates(Database& database, const FusionConfig& config);
+    explicit StripStates(Database& database);
 
     /// \param strip  the row of its first segment.
     FusedStrip of(std::int64_t strip, std::int64_t segments_in_strip);
@@ -33,9 +43,16 @@ public:
     std::vector<FusedSegment>
     of(std::int64_t strip, std::int64_t segments_in_strip, const Period& period);
 
+    /// The passes by themselves, as fusion takes them, moved to where they lie.
+    std::vector<StripPass> passes(std::int64_t strip, std::int64_t segments_in_strip);
+
 private:
+    std::vector<StripPass> valid_passes(std::int64_t strip, std::int64_t segments_in_strip);
+
     StripTraces traces_;
     Statement select_;
+    ValidFrom valid_from_;
+    CarRecords cars_;
     FusionConfig config_;
 };
 

@@ -129,7 +129,7 @@ const fs::path& driven_town(int side) {
     const auto roads = testing::made_up_town(side);
     auto store = RoadStore::create(file, roads, {});
     store.add_trip(trip_number(0), passes_over(keys_of(roads)));
-    store.refresh({});
+    store.refresh();
     return made.emplace(side, file).first->second;
 }
 
@@ -201,7 +201,7 @@ void add_and_fuse_trips(benchmark::State& state) {
         const auto drive = town_drive(keys, number, with_traces);
         state.ResumeTiming();
         store.add_trip(trip_number(++number), drive.passes, drive.traces);
-        store.refresh({});
+        store.refresh();
     }
     state.counters["passes/s"] = benchmark::Counter(static_cast<double>(passes_a_trip) *
                                                         static_cast<double>(state.iterations()),
@@ -239,7 +239,7 @@ void fuse_trips(benchmark::State& state) {
         fs::copy_file(waiting_town<with_traces>(trips), file, fs::copy_options::overwrite_existing);
         auto store = RoadStore::open(file, RoadStore::Access::write);
         state.ResumeTiming();
-        store.refresh({});
+        store.refresh();
     }
     state.counters["passes/s"] =
         benchmark::Counter(static_cast<double>(passes_a_trip) * static_cast<double>(trips) *
@@ -266,7 +266,7 @@ void read_beside_a_writer(benchmark::State& state) {
                 const std::vector<SegmentKey> driven{keys.begin() + static_cast<long>(first),
                                                      keys.begin() + static_cast<long>(first + 500)};
                 store.add_trip(trip_number(20'000 + ++trips), passes_over(driven));
-                store.refresh({});
+                store.refresh();
             }
         }};
     }

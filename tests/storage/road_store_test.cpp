@@ -161,10 +161,10 @@ TEST(RoadStore, GivesOneDigestForEveryOrderOfImport) {
         for (const int number : order) {
             store.add_trip(trip_record(number), passes_of(number));
             if (number % 5 == 0) {
-                store.refresh({});
+                store.refresh();
             }
         }
-        store.refresh({});
+        store.refresh();
         EXPECT_EQ(store.digest(), straight.digest());
     }
 }
@@ -174,7 +174,7 @@ TEST(RoadStore, DigestsTheTextThatTheDocumentationDescribes) {
     auto pass = passes_of(0)[0];
     pass.iri_right_um.reset();
     store.add_trip(trip_record(3), std::vector{pass});
-    store.refresh({});
+    store.refresh();
     const auto optional = [](const auto& value) { return value ? std::to_string(*value) : "-"; };
     const auto state = *records_of(store)[0].state;
     std::string text = "pass 1+0000 " + trip_record(3).sha256 + " 0 " +
@@ -196,7 +196,7 @@ TEST(RoadStore, TakesEachTripOnce) {
     EXPECT_TRUE(store.knows_trip(trip_record(1).sha256));
     EXPECT_FALSE(store.knows_trip(trip_record(3).sha256));
     EXPECT_FALSE(store.add_trip(trip_record(1), passes_of(2)));
-    EXPECT_EQ(store.refresh({}), 0U);
+    EXPECT_EQ(store.refresh(), 0U);
     EXPECT_EQ(store.digest(), before);
     EXPECT_EQ(store.info().trips, 3U);
 }
@@ -211,7 +211,7 @@ TEST(RoadStore, LetsTwoWritersWriteInTurn) {
         (number % 2 == 0 ? one : other).add_trip(trip_record(number), passes_of(number));
     }
     EXPECT_FALSE(other.add_trip(trip_record(0), passes_of(0)));
-    one.refresh({});
+    one.refresh();
     EXPECT_EQ(other.digest(), alone.digest());
 }
 
@@ -219,7 +219,7 @@ TEST(RoadStore, CountsWhatWaitsToBeFused) {
     auto store = new_store(test_folder() / "a.gpkg");
     store.add_trip(trip_record(0), passes_of(0));
     EXPECT_EQ(store.info().waiting, 20U);
-    EXPECT_EQ(store.refresh({}), 20U);
+    EXPECT_EQ(store.refresh(), 20U);
     EXPECT_EQ(store.info().waiting, 0U);
 }
 
@@ -228,7 +228,7 @@ TEST(RoadStore, FusesNoMoreThanIsWanted) {
     store.add_trip(trip_record(0), passes_of(0));
     std::stop_source source;
     source.request_stop();
-    EXPECT_EQ(store.refresh({}, {.report = {}, .stop = source.get_token()}), 0U);
+    EXPECT_EQ(store.refresh({.report = {}, .stop = source.get_token()}), 0U);
     EXPECT_EQ(store.info().waiting, 20U);
 }
 

@@ -202,7 +202,7 @@ TEST(OpenStore, IsHandedOverByExportAsOneFile) {
     const auto [file, before] = closed_store();
     auto writer = RoadStore::open(file, RoadStore::Access::write);
     writer.add_trip(trip_record(9), passes_of(9));
-    writer.refresh({});
+    writer.refresh();
     const auto folder = file.parent_path() / "out";
     std::filesystem::create_directory(folder);
     const auto written =

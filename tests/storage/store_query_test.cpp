@@ -72,7 +72,7 @@ TEST(StoreQuery, AddsUpConditions) {
     import_trips(store, 3);
     const auto trip = passes_of(3);
     store.add_trip(trip_record(3), std::span{trip}.subspan(2, 1));
-    store.refresh({});
+    store.refresh();
     const auto& classes = *class_table("fhwa");
     const auto class_of = [&](const SegmentRecord& record) {
         return record.state
@@ -149,7 +149,7 @@ TEST(StoreQuery, TellsOfAPeriodWhatAStoreOfItsTripsTells) {
     for (const int number : {4, 5, 6}) { // the seventh is undated
         some.add_trip(trip_record(number), passes_of(number));
     }
-    some.refresh({});
+    some.refresh();
 
     SegmentFilter filter;
     filter.period = Period{begin_ms(4), begin_ms(8)};

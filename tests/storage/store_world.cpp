@@ -85,7 +85,7 @@ void import_trips(RoadStore& store, int count) {
     for (int number = 0; number < count; ++number) {
         store.add_trip(trip_record(number), passes_of(number));
     }
-    store.refresh({});
+    store.refresh();
 }
 
 } // namespace macadam::testing

@@ -15,10 +15,10 @@ void import_into(RoadStore& store, int trips, const std::function<void(int)>& ac
             acknowledged(number);
         }
         if (number % 4 == 3) { // some trips are fused while others are still to come
-            store.refresh({});
+            store.refresh();
         }
     }
-    store.refresh({});
+    store.refresh();
     store.end_import("all");
 }
 

@@ -1,0 +1,177 @@
+#include "storage/network_rows.hpp"
+
+#include "estimator/common/error.hpp"
+#include "mapping/strip_trace.hpp"
+#include "storage/geopackage.hpp"
+#include "storage/sha256.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+template <typename Values>
+std::string bytes_of(const Values& values) {
+    std::string bytes;
+    bytes.reserve(values.size() * sizeof(values[0]));
+    for (const auto& value : values) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    }
+    return bytes;
+}
+
+template <typename Value>
+std::vector<Value> values_of(std::string_view bytes) {
+    std::vector<Value> values(bytes.size() / sizeof(Value));
+    if (!values.empty()) {
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Value));
+    }
+    return values;
+}
+
+/// Two doubles, latitude first, and three integers: their own layouts in memory.
+static_assert(sizeof(GeoPoint) == 2 * sizeof(double));
+static_assert(sizeof(TurnRule) == 3 * sizeof(std::int64_t));
+
+std::optional<std::string_view> unless_empty(std::string_view text) {
+    return text.empty() ? std::nullopt : std::optional{text};
+}
+
+/// Of the links [first, last), one way's, in one direction; by their number along the way.
+std::vector<Segment>
+drivable_segments(const RoadNetwork& roads, std::uint32_t first, std::uint32_t last, bool forward) {
+    std::vector<Segment> all;
+    for (auto i = first; i < last; ++i) {
+        const auto edge = edge_of(LinkId{i}, forward);
+        if (is_drivable(roads, edge)) {
+            auto segments = segments_of(roads, edge);
+            all.insert(all.end(),
+                       std::make_move_iterator(segments.begin()),
+                       std::make_move_iterator(segments.end()));
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+    return all;
+}
+
+/// What a network can be built of.
+void expect_sound(const Way& way, const Database& database) {
+    const bool sound = is_line(way.line) && way.line.size() == way.node_ids.size() &&
+                       way.oneway <= Oneway::backward;
+    if (!sound) {
+        throw InputError{fmt::format("{}: way '{}' is no line of places on the globe, each with "
+                                     "its node; the store was changed",
+                                     database.file().string(),
+                                     way.id)};
+    }
+}
+
+} // namespace
+
+bool is_line(std::span<const GeoPoint> line) {
+    return line.size() >= 2 && std::ranges::all_of(line, [](const GeoPoint& at) {
+               return std::abs(at.lat_deg) <= 90 && std::abs(at.lon_deg) <= 180;
+           });
+}
+
+std::string write_ways(Database& database, const RoadNetwork& roads) {
+    auto insert = database.prepare("INSERT INTO way VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    Sha256 hash;
+    for (std::uint32_t i = 0; i < way_count(roads); ++i) {
+        const auto way = way_at(roads, i);
+        const auto node_ids = bytes_of(way.node_ids);
+        const auto points = bytes_of(way.line);
+        const auto turns = bytes_of(way.turns);
+        insert.run(way.id,
+                   unless_empty(way.name),
+                   unless_empty(way.highway),
+                   static_cast<int>(way.oneway),
+                   Blob{node_ids},
+                   Blob{points},
+                   std::int64_t{way.speed_limit_cmps},
+                   Blob{turns});
+        hash.add(fmt::format("{} {} {} {} {} {} {}\n{}\n{}\n",
+                             way.id,
+                             way.name.size(),
+                             way.highway.size(),
+                             static_cast<int>(way.oneway),
+                             way.line.size(),
+                             way.speed_limit_cmps,
+                             way.turns.size(),
+                             way.name,
+                             way.highway));
+        hash.add(node_ids);
+        hash.add(points);
+        hash.add(turns);
+    }
+    return hash.hex();
+}
+
+WrittenSegments
+write_segments(Database& database, const RoadNetwork& roads, const Progress& progress) {
+    auto insert =
+        database.prepare("INSERT INTO segment (geom, segment, way_id, direction, seq, from_m, to_m,"
+                         " strip) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    WrittenSegments written;
+    std::optional<StripKey> strip;
+    std::int64_t first_of_strip = 0; // its row, of those that count from 1
+    const auto count = link_count(roads);
+    for (std::uint32_t first = 0, last = 0; first < count; first = last) {
+        while (last < count &&
+               link_at(roads, LinkId{last}).way == link_at(roads, LinkId{first}).way) {
+            ++last;
+        }
+        for (const bool forward : {true, false}) {
+            for (const auto& segment : drivable_segments(roads, first, last, forward)) {
+                if (const auto key = strip_of(segment.key, roads.segment_length_m); strip != key) {
+                    strip = key;
+                    first_of_strip = written.segments + 1;
+                }
+                insert.run(Blob{geometry_of(segment.line)},
+                           name_of(segment.key),
+                           segment.key.way_id,
+                           forward ? "forward" : "backward",
+                           std::int64_t{segment.key.index},
+                           segment.from_m,
+                           segment.to_m,
+                           first_of_strip);
+                ++written.segments;
+                written.length_m += segment.to_m - segment.from_m;
+            }
+        }
+        progress(last, count);
+        if (progress.stop.stop_requested()) {
+            throw InputError{
+                fmt::format("{}: stopped before it was whole", database.file().string())};
+        }
+    }
+    return written;
+}
+
+std::vector<Way> read_ways(Database& database) {
+    auto select = database.prepare(
+        "SELECT way_id, name, highway, oneway, node_ids, points, speed_limit_cmps, turns"
+        " FROM way ORDER BY way_id");
+    std::vector<Way> ways;
+    while (select.step()) {
+        ways.push_back({.id = select.integer(0),
+                        .name = select.text(1),
+                        .highway = select.text(2),
+                        .oneway = static_cast<Oneway>(select.integer(3)),
+                        .node_ids = values_of<std::int64_t>(select.blob(4)),
+                        .line = values_of<GeoPoint>(select.blob(5)),
+                        .speed_limit_cmps = static_cast<std::uint16_t>(select.integer(6)),
+                        .turns = values_of<TurnRule>(select.blob(7))});
+        expect_sound(ways.back(), database);
+    }
+    return ways;
+}
+
+} // namespace macadam

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "estimator/common/progress.hpp"
+#include "mapping/road_network.hpp"
+#include "storage/sqlite.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+// The roads as rows of a store.
+
+/// Two or more places, all on the globe. A store can be changed with any tool for SQLite, so its
+/// lines are looked at before anything is made of them.
+bool is_line(std::span<const GeoPoint> line);
+
+/// Into table way. \returns SHA-256 of all that was written, in hex digits.
+std::string write_ways(Database& database, const RoadNetwork& roads);
+
+struct WrittenSegments {
+    std::int64_t segments = 0;
+    double length_m = 0; ///< each direction counted
+};
+
+/// Into table segment, in the order of keys, rows from 1.
+///
+/// \throws InputError  if it was asked to stop.
+WrittenSegments
+write_segments(Database& database, const RoadNetwork& roads, const Progress& progress);
+
+/// The ways as they were written, in the order of their ids.
+///
+/// \throws InputError  if one is no line on the globe.
+std::vector<Way> read_ways(Database& database);
+
+} // namespace macadam
