@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 namespace macadam {
@@ -59,19 +58,31 @@ double true_um(const FusionInput& input, double read_um) {
 /// Passes in the order of car, trip and occurrence; cars by their first trip, so that what numbers
 /// they have changes no sum.
 std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
-    std::unordered_map<std::int64_t, std::size_t> cars;
-    std::vector<std::pair<std::size_t, const FusionInput*>> of_cars;
-    of_cars.reserve(passes.size());
-    for (const auto& input : passes) {
-        of_cars.emplace_back(cars.try_emplace(input.vehicle, cars.size()).first->second, &input);
+    struct Place {
+        std::size_t first; ///< pass of the car
+        std::int64_t vehicle;
+        std::size_t pass;
+    };
+    std::vector<Place> places;
+    places.reserve(passes.size());
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        places.push_back({i, passes[i].vehicle, i});
     }
-    std::stable_sort(of_cars.begin(), of_cars.end(), [](const auto& a, const auto& b) {
-        return a.first < b.first;
+    std::ranges::sort(places, {}, [](const Place& place) {
+        return std::pair{place.vehicle, place.pass};
+    });
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        if (places[i].vehicle == places[i - 1].vehicle) {
+            places[i].first = places[i - 1].first;
+        }
+    }
+    std::ranges::sort(places, {}, [](const Place& place) {
+        return std::pair{place.first, place.pass};
     });
     std::vector<const FusionInput*> sorted;
     sorted.reserve(passes.size());
-    for (const auto& [car, input] : of_cars) {
-        sorted.push_back(input);
+    for (const auto& place : places) {
+        sorted.push_back(&passes[place.pass]);
     }
     return sorted;
 }

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -15,13 +18,151 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Takes the part of one effect out: from `m` = V^-1 columns of a block to (V + effect)^-1 columns,
-/// where `loads` = V^-1 times what the effect adds to each reading.
-template <typename Rows, typename Loads, typename Added>
-void take_out(Rows m, const Loads& loads, const Added& added, double precision) {
-    const double known = added.dot(loads);
-    m -= loads * ((added.transpose() * m) / (precision + known)).eval();
+double square(double x) {
+    return x * x;
 }
+
+double precision_in(const Readings& readings, const Trust& trust, Index i) {
+    return trust.of_reading[i] / square(readings.rest_sd[i]);
+}
+
+/// A car with its trips; they are looked up once for all rounds.
+struct CarTrips {
+    Readings::Block readings;
+    std::span<const Readings::Block> trips;
+};
+
+std::vector<CarTrips> cars_of(const Readings& readings) {
+    std::vector<CarTrips> cars;
+    cars.reserve(readings.cars.size());
+    for (auto trip = readings.trips.begin(); const auto& car : readings.cars) {
+        const auto first = trip;
+        while (trip != readings.trips.end() && trip->first < car.first + car.count) {
+            ++trip;
+        }
+        cars.push_back({car, {first, trip}});
+    }
+    return cars;
+}
+
+// ---------------------------------------------------------------------------- normal equations
+
+/// Adds weight * row * row^T to the lower triangle of a matrix. Much of a row is 0: what happened
+/// before the reading.
+template <typename Row>
+void add_square(MatrixXd& matrix, const Row& row, double weight) {
+    const auto size = matrix.rows();
+    for (Index column = 0; column < size; ++column) {
+        if (const double factor = weight * row[column]; factor != 0) {
+            double* const to = &matrix(0, column);
+            for (Index i = column; i < size; ++i) {
+                to[i] += factor * row[i];
+            }
+        }
+    }
+}
+
+/// The normal equations of a mean and its readings, which take trust for trust.
+///
+/// What the readings of a car or a trip have in common is taken out by the identity of Sherman and
+/// Morrison, so that the inverse of their covariance is never needed but in sums over readings.
+class NormalEquations {
+public:
+    NormalEquations(const Readings& readings, const MeanModel& mean)
+        : readings_{&readings}, mean_{&mean}, cars_{cars_of(readings)},
+          rows_(readings.values.size(), mean.columns.cols() + 1), sums_(rows_.cols(), rows_.cols()),
+          of_trip_(rows_.cols()), of_car_(rows_.cols()), solver_{mean.columns.cols()} {
+        rows_.leftCols(mean.columns.cols()) = mean.columns;
+        rows_.rightCols<1>() = readings.values;
+    }
+
+    const std::vector<CarTrips>& cars() const { return cars_; }
+
+    const VectorXd& solve(const Trust& trust) {
+        sums_.setZero();
+        for (Index i = 0; const auto& car : cars_) {
+            add_car(car, trust, trust.of_car[i++]);
+        }
+        const auto count = mean_->columns.cols();
+        sums_.diagonal().head(count) += mean_->precisions;
+        solver_.compute(sums_.topLeftCorner(count, count));
+        coefficients_ = sums_.row(count).head(count).transpose();
+        solver_.solveInPlace(coefficients_);
+        return coefficients_;
+    }
+
+    /// As they were solved last.
+    MeanFit fit() const {
+        const auto count = mean_->columns.cols();
+        return {coefficients_, solver_.solve(MatrixXd::Identity(count, count))};
+    }
+
+private:
+    auto row(Index reading) const { return rows_.row(reading); }
+
+    /// What a reading weighs that is alone in its trip.
+    double alone(Index reading, const Trust& trust) const {
+        const double precision = precision_in(*readings_, trust, reading);
+        return precision / (1 + precision * square(readings_->trip_sd));
+    }
+
+    void add_car(const CarTrips& car, const Trust& trust, double of_car) {
+        const auto& sd = readings_->car_sd;
+        if (car.readings.count == 1) {
+            const auto i = car.readings.first;
+            const double precision = alone(i, trust);
+            add_square(sums_, row(i), precision / (1 + precision * square(sd[i]) / of_car));
+            return;
+        }
+        of_car_.setZero();
+        double loaded = 0;
+        for (const auto& trip : car.trips) {
+            loaded += trip.count == 1 ? add_alone(trip.first, trust) : add_trip(trip, trust);
+        }
+        add_square(sums_, of_car_, -1 / (of_car + loaded));
+    }
+
+    /// \returns  of the car's part in the reading the squared sd, by its weight
+    double add_alone(Index i, const Trust& trust) {
+        const double precision = alone(i, trust);
+        const double load = precision * readings_->car_sd[i];
+        add_square(sums_, row(i), precision);
+        of_car_ += load * row(i).transpose();
+        return load * readings_->car_sd[i];
+    }
+
+    double add_trip(const Readings::Block& trip, const Trust& trust) {
+        of_trip_.setZero();
+        double whole = 0, loads = 0, loaded = 0;
+        for (Index i = trip.first; i < trip.first + trip.count; ++i) {
+            const double precision = precision_in(*readings_, trust, i);
+            const double load = precision * readings_->car_sd[i];
+            add_square(sums_, row(i), precision);
+            of_trip_ += precision * row(i).transpose();
+            of_car_ += load * row(i).transpose();
+            whole += precision;
+            loads += load;
+            loaded += load * readings_->car_sd[i];
+        }
+        const double variance = square(readings_->trip_sd);
+        const double alike = variance / (1 + whole * variance);
+        add_square(sums_, of_trip_, -alike);
+        of_car_ -= alike * loads * of_trip_;
+        return loaded - alike * square(loads);
+    }
+
+    const Readings* readings_;
+    const MeanModel* mean_;
+    std::vector<CarTrips> cars_;
+    MeanColumns rows_; ///< of the columns and then the value
+    MatrixXd sums_;    ///< lower triangle of rows^T * V^-1 * rows
+    VectorXd of_trip_;
+    VectorXd of_car_;
+    VectorXd coefficients_;
+    Eigen::LDLT<MatrixXd> solver_;
+};
+
+// --------------------------------------------------------------------------------------- trust
 
 /// What the readings of a car have in common beside the mean, and how sure that is.
 struct CarOff {
@@ -30,32 +171,20 @@ struct CarOff {
     double noise_variance; ///< of what the mean of its readings has of trips and rests
 };
 
-double precision_in(const Readings& readings, const Trust& trust, Index i) {
-    return trust.of_reading[i] / (readings.rest_sd[i] * readings.rest_sd[i]);
-}
-
-std::ptrdiff_t trips_of(const Readings& readings, const Readings::Block& car) {
-    const auto before = [&](Index end) {
-        return std::ranges::lower_bound(readings.trips, end, {}, &Readings::Block::first);
-    };
-    return before(car.first + car.count) - before(car.first);
-}
-
 CarOff car_off(const Readings& readings,
                const Trust& trust,
                const VectorXd& residuals,
-               const Readings::Block& car) {
+               const CarTrips& car) {
     double precision = 0, sum = 0, own = 0;
-    for (Index i = car.first; i < car.first + car.count; ++i) {
+    const auto& [first, count] = car.readings;
+    for (Index i = first; i < first + count; ++i) {
         const double weight = precision_in(readings, trust, i);
         precision += weight;
         sum += weight * residuals[i];
         own += weight * readings.car_sd[i] * readings.car_sd[i];
     }
-    const auto trips = trips_of(readings, car);
-    return {sum / precision,
-            own / precision,
-            1 / precision + readings.trip_sd * readings.trip_sd / static_cast<double>(trips)};
+    const auto trips = static_cast<double>(car.trips.size());
+    return {sum / precision, own / precision, 1 / precision + square(readings.trip_sd) / trips};
 }
 
 double trusted(double squared_sds, double dof) {
@@ -68,33 +197,63 @@ double surprise(double squared_sds, double dof, double scale) {
     return scale * (dof + 1) / 2 * std::log1p(squared_sds / dof);
 }
 
-struct Judged {
-    Trust trust;
-    double misfit;
+/// What a car is judged by.
+struct CarJudgement {
+    CarOff off;
+    double seen;        ///< variance of its mean, as far as the readings scatter like that
+    double squared_sds; ///< that its mean is off
 };
 
+CarJudgement judgement_of(const Readings& readings,
+                          const Trust& trust,
+                          const VectorXd& residuals,
+                          const TailModel& tail,
+                          const CarTrips& car) {
+    const auto off = car_off(readings, trust, residuals, car);
+    const double seen = std::min(off.own_variance, square(tail.scatter_sd)) + off.noise_variance;
+    return {off, seen, square(off.off) / seen};
+}
+
+double squared_rest(const Readings& readings, double residual, const CarOff& off, Index i) {
+    return square((residual - off.off) / readings.rest_sd[i]);
+}
+
 /// How far each car and each reading is to be believed that is off the mean by so much.
-Judged judged(const Readings& readings,
-              const Trust& before,
-              const VectorXd& residuals,
-              const TailModel& tail) {
-    Judged next{before, 0};
-    for (std::size_t c = 0; c < readings.cars.size(); ++c) {
-        const auto& car = readings.cars[c];
-        const auto [off, own, noise] = car_off(readings, before, residuals, car);
-        const double seen = std::min(own, tail.scatter_sd * tail.scatter_sd) + noise;
-        const double sds2 = off * off / seen;
-        next.misfit += surprise(sds2, tail.dof, seen / (own + noise));
+void judge(Trust& next,
+           const Trust& before,
+           const Readings& readings,
+           const std::vector<CarTrips>& cars,
+           const VectorXd& residuals,
+           const TailModel& tail) {
+    for (Index c = 0; const auto& car : cars) {
+        const auto [off, seen, sds2] = judgement_of(readings, before, residuals, tail, car);
+        const double own = off.own_variance, noise = off.noise_variance;
         // Of the mean of its readings as a whole: a car of one pass is that pass.
         const double widened = (own + noise) / trusted(sds2, tail.dof) - noise;
-        next.trust.of_car[static_cast<Index>(c)] = own > 0 ? own / widened : 1;
-        for (Index i = car.first; car.count > 1 && i < car.first + car.count; ++i) {
-            const double rest2 = std::pow((residuals[i] - off) / readings.rest_sd[i], 2);
-            next.trust.of_reading[i] = trusted(rest2, tail.dof);
-            next.misfit += surprise(rest2, tail.dof, 1);
+        next.of_car[c++] = own > 0 ? own / widened : 1;
+        const auto& [first, count] = car.readings;
+        for (Index i = first; count > 1 && i < first + count; ++i) {
+            next.of_reading[i] = trusted(squared_rest(readings, residuals[i], off, i), tail.dof);
         }
     }
-    return next;
+}
+
+/// -log likelihood of readings that are off the mean by so much, but for a constant.
+double misfit_of(const Trust& trust,
+                 const Readings& readings,
+                 const std::vector<CarTrips>& cars,
+                 const VectorXd& residuals,
+                 const TailModel& tail) {
+    double misfit = 0;
+    for (const auto& car : cars) {
+        const auto [off, seen, sds2] = judgement_of(readings, trust, residuals, tail, car);
+        misfit += surprise(sds2, tail.dof, seen / (off.own_variance + off.noise_variance));
+        const auto& [first, count] = car.readings;
+        for (Index i = first; count > 1 && i < first + count; ++i) {
+            misfit += surprise(squared_rest(readings, residuals[i], off, i), tail.dof, 1);
+        }
+    }
+    return misfit;
 }
 
 } // namespace
@@ -104,37 +263,30 @@ Trust full_trust(const Readings& readings) {
             VectorXd::Ones(static_cast<Index>(readings.cars.size()))};
 }
 
-MatrixXd without_errors(const Readings& readings, const Trust& trust, const MatrixXd& columns) {
+VectorXd without_errors(const Readings& readings, const Trust& trust, VectorXd column) {
     const VectorXd precision = trust.of_reading.cwiseQuotient(readings.rest_sd.cwiseAbs2());
-    MatrixXd m = precision.asDiagonal() * columns;
     VectorXd loads = precision.cwiseProduct(readings.car_sd);
-    if (readings.trip_sd > 0) {
-        const double of_trip = 1 / (readings.trip_sd * readings.trip_sd);
-        for (const auto& [first, count] : readings.trips) {
-            const VectorXd alike = precision.segment(first, count);
-            const VectorXd ones = VectorXd::Ones(count);
-            take_out(m.middleRows(first, count), alike, ones, of_trip);
-            take_out(loads.middleRows(first, count), alike, ones, of_trip);
-        }
+    column = column.cwiseProduct(precision).eval();
+    const double variance = square(readings.trip_sd);
+    for (const auto& [first, count] : readings.trips) {
+        const auto alike = precision.segment(first, count);
+        const double share = variance / (1 + variance * alike.sum());
+        column.segment(first, count) -= share * column.segment(first, count).sum() * alike;
+        loads.segment(first, count) -= share * loads.segment(first, count).sum() * alike;
     }
     for (Index i = 0; const auto& [first, count] : readings.cars) {
-        take_out(m.middleRows(first, count),
-                 loads.segment(first, count),
-                 readings.car_sd.segment(first, count),
-                 trust.of_car[i++]);
+        const auto sd = readings.car_sd.segment(first, count);
+        const auto load = loads.segment(first, count);
+        const double off = sd.dot(column.segment(first, count));
+        column.segment(first, count) -= off / (trust.of_car[i++] + sd.dot(load)) * load;
     }
-    return m;
+    return column;
 }
 
 MeanFit fit_mean(const Readings& readings, const MeanModel& mean, const Trust& trust) {
-    MeanFit fit;
-    fit.weighed = without_errors(readings, trust, mean.columns);
-    MatrixXd normal = mean.columns.transpose() * fit.weighed;
-    normal.diagonal() += mean.precisions;
-    const auto count = normal.rows();
-    fit.inverse = normal.ldlt().solve(MatrixXd::Identity(count, count));
-    fit.coefficients = fit.inverse * (fit.weighed.transpose() * readings.values);
-    return fit;
+    NormalEquations equations{readings, mean};
+    equations.solve(trust);
+    return equations.fit();
 }
 
 RobustFit fit_robustly(const Readings& readings,
@@ -142,27 +294,34 @@ RobustFit fit_robustly(const Readings& readings,
                        const TailModel& tail,
                        const VectorXd& start) {
     const double enough = settled * readings.rest_sd.minCoeff();
-    auto now = judged(readings, full_trust(readings), readings.values - start, tail);
-    MeanFit fit;
+    NormalEquations equations{readings, mean};
+    const auto& cars = equations.cars();
+    auto trust = full_trust(readings);
+    auto next = trust;
     VectorXd before = start;
+    VectorXd residuals = readings.values - start;
+    judge(next, trust, readings, cars, residuals, tail);
     for (int round = 0; round < most_rounds; ++round) {
-        fit = fit_mean(readings, mean, now.trust);
-        const VectorXd expected = mean.columns * fit.coefficients;
-        auto next = judged(readings, now.trust, readings.values - expected, tail);
-        const double moved = (expected - before).cwiseAbs().maxCoeff();
-        now.misfit = next.misfit;
-        if (moved < enough) {
+        std::swap(trust, next);
+        const VectorXd expected = mean.columns * equations.solve(trust);
+        residuals = readings.values - expected;
+        if ((expected - before).cwiseAbs().maxCoeff() < enough) {
             break;
         }
-        now.trust = std::move(next.trust);
+        judge(next, trust, readings, cars, residuals, tail);
         before = expected;
     }
+    auto fit = equations.fit();
     const double known = mean.precisions.dot(fit.coefficients.cwiseAbs2()) / 2;
-    return {std::move(fit), std::move(now.trust), now.misfit + known};
+    return {std::move(fit), trust, misfit_of(trust, readings, cars, residuals, tail) + known};
 }
 
-VectorXd influence_on(const MeanFit& fit, Index coefficient) {
-    return fit.weighed * fit.inverse.col(coefficient);
+VectorXd influence_on(const Readings& readings,
+                      const MeanModel& mean,
+                      const Trust& trust,
+                      const MeanFit& fit,
+                      Index coefficient) {
+    return without_errors(readings, trust, mean.columns * fit.inverse.col(coefficient));
 }
 
 double variance_of(const Readings& readings, const VectorXd& influence) {

@@ -25,9 +25,12 @@ struct Readings {
     std::vector<Block> trips;
 };
 
+/// One row for each reading, one column for each coefficient; a reading's values stand together.
+using MeanColumns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// What changes the readings alike for all cars.
 struct MeanModel {
-    Eigen::MatrixXd columns;    ///< one row for each reading, one column for each coefficient
+    MeanColumns columns;
     Eigen::VectorXd precisions; ///< 1 / variance about 0 of each coefficient; 0 = anything
 };
 
@@ -48,7 +51,6 @@ struct Trust {
 struct MeanFit {
     Eigen::VectorXd coefficients;
     Eigen::MatrixXd inverse; ///< of the normal equations' matrix
-    Eigen::MatrixXd weighed; ///< the columns by the inverse of the errors' covariance
 };
 
 /// By generalised least squares. \param trust  of no more than there are readings and cars.
@@ -73,15 +75,20 @@ RobustFit fit_robustly(const Readings& readings,
                        const TailModel& tail,
                        const Eigen::VectorXd& start);
 
-/// How much of each reading is in a coefficient, which is the sum of influence times reading.
-Eigen::VectorXd influence_on(const MeanFit& fit, Eigen::Index coefficient);
+/// How much of each reading is in a coefficient of their fit, which is the sum of influence times
+/// reading.
+Eigen::VectorXd influence_on(const Readings& readings,
+                             const MeanModel& mean,
+                             const Trust& trust,
+                             const MeanFit& fit,
+                             Eigen::Index coefficient);
 
 /// Of what is that sum, by the sds that the readings claim.
 double variance_of(const Readings& readings, const Eigen::VectorXd& influence);
 
 /// By the inverse of the readings' covariance as far as they are trusted.
-Eigen::MatrixXd
-without_errors(const Readings& readings, const Trust& trust, const Eigen::MatrixXd& columns);
+Eigen::VectorXd
+without_errors(const Readings& readings, const Trust& trust, Eigen::VectorXd column);
 
 /// All trusted alike.
 Trust full_trust(const Readings& readings);

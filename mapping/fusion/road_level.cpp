@@ -159,9 +159,9 @@ std::optional<double> likeliest_step(const Problem& problem, const MeanModel& me
             continue;
         }
         const VectorXd column = step_column(problem.ages, years);
-        const VectorXd known = fit.weighed.transpose() * column;
-        const double own = column.dot(without_errors(readings, trust, column).col(0)) -
-                           known.dot(fit.inverse * known);
+        const VectorXd weighed = without_errors(readings, trust, column);
+        const VectorXd known = mean.columns.transpose() * weighed;
+        const double own = column.dot(weighed) - known.dot(fit.inverse * known);
         const double gain = own > 1e-12 ? std::pow(column.dot(off), 2) / own : 0;
         if (gain > most) {
             most = gain;
@@ -180,7 +180,8 @@ bool are_real(const Problem& problem, const Trial& trial) {
 /// Step after step, as long as each makes the readings so much likelier.
 Trial with_steps(const Problem& problem) {
     auto best = trial_of(problem, {});
-    if (!has_slope(problem.ages) || !is_worth_a_look(problem)) {
+    const bool can_be_supported = problem.readings.values.size() >= 2 * least_beside;
+    if (!can_be_supported || !has_slope(problem.ages) || !is_worth_a_look(problem)) {
         return best;
     }
     while (best.step_years.size() < most_steps) {
@@ -208,7 +209,8 @@ std::optional<Trend> trend_of(const Problem& problem, const Trial& trial) {
     auto mean = trial.mean;
     mean.precisions[slope_column] = 0;
     const auto fit = fit_mean(problem.readings, mean, trial.robust.trust);
-    const VectorXd influence = influence_on(fit, slope_column);
+    const VectorXd influence =
+        influence_on(problem.readings, mean, trial.robust.trust, fit, slope_column);
     const double known = mean.precisions.dot(fit.inverse.col(slope_column).cwiseAbs2());
     return Trend{fit.coefficients[slope_column],
                  std::sqrt(variance_of(problem.readings, influence) + known)};
@@ -237,7 +239,7 @@ RoadLevel road_level(const Readings& readings,
     auto trial = with_steps(problem);
     const auto& fit = trial.robust.fit;
     return {.um = fit.coefficients[level_column],
-            .influence = influence_on(fit, level_column),
+            .influence = influence_on(readings, trial.mean, trial.robust.trust, fit, level_column),
             .change_variance_um2 =
                 trial.mean.precisions.dot(fit.inverse.col(level_column).cwiseAbs2()),
             .trust = trial.robust.trust,

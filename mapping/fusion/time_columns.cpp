@@ -31,7 +31,8 @@ std::vector<int> walk_of(const Ages& ages, double step_years) {
 }
 
 /// What a column has for undated readings: the mean of those with a date.
-void fill_undated(Eigen::Ref<VectorXd> column, const Ages& ages) {
+template <typename Column>
+void fill_undated(Column& column, const Ages& ages) {
     double sum = 0;
     int dated = 0;
     for (Index i = 0; i < column.size(); ++i) {
@@ -47,44 +48,64 @@ void fill_undated(Eigen::Ref<VectorXd> column, const Ages& ages) {
     }
 }
 
-template <typename Value>
-VectorXd column_of(const Ages& ages, const Value& value) {
-    VectorXd column(static_cast<Index>(ages.years.size()));
-    for (Index i = 0; i < column.size(); ++i) {
-        const double years = ages.years[static_cast<std::size_t>(i)];
-        column[i] = std::isnan(years) ? 0 : value(years);
-    }
-    fill_undated(column, ages);
-    return column;
-}
+/// Fills the columns of a model one after the other.
+class Columns {
+public:
+    Columns(MeanModel& model, const Ages& ages) : model_{&model}, ages_{&ages} {}
 
-struct Term {
-    VectorXd column;
-    double precision;
+    /// Of what is in every reading.
+    void add_level() {
+        model_->columns.col(next_).setOnes();
+        model_->precisions[next_++] = 0;
+    }
+
+    /// \param value  what the column has for a reading that is so many years old.
+    template <typename Value>
+    void add(double precision, const Value& value) {
+        auto column = model_->columns.col(next_);
+        for (Index i = 0; i < column.size(); ++i) {
+            const double years = ages_->years[static_cast<std::size_t>(i)];
+            column[i] = std::isnan(years) ? 0 : value(years);
+        }
+        fill_undated(column, *ages_);
+        model_->precisions[next_++] = precision;
+    }
+
+private:
+    MeanModel* model_;
+    const Ages* ages_;
+    Index next_ = 0;
 };
 
 double precision_of(double sd) {
     return 1 / (sd * sd);
 }
 
-void add_season(std::vector<Term>& terms, const Ages& ages, double sd_um) {
-    const double newest_years = static_cast<double>(ages.newest_ms) / ms_per_year;
-    const auto turn = [&](double years) { return 2 * std::numbers::pi * (newest_years - years); };
-    terms.push_back({column_of(ages, [&](double years) { return std::cos(turn(years)); }),
-                     precision_of(sd_um)});
-    terms.push_back({column_of(ages, [&](double years) { return std::sin(turn(years)); }),
-                     precision_of(sd_um)});
+double step_value(double years, double step_years) {
+    return years > step_years ? -1.0 : 0.0;
 }
 
-void add_walk(std::vector<Term>& terms, const Ages& ages, double sd_um_per_root_year) {
-    const double step_years = std::max(month_years, ages.span_years / most_walk_steps);
-    const auto bins = walk_of(ages, step_years);
+void add_season(Columns& columns, const Ages& ages, double sd_um) {
+    const double newest_years = static_cast<double>(ages.newest_ms) / ms_per_year;
+    const auto turn = [&](double years) { return 2 * std::numbers::pi * (newest_years - years); };
+    columns.add(precision_of(sd_um), [&](double years) { return std::cos(turn(years)); });
+    columns.add(precision_of(sd_um), [&](double years) { return std::sin(turn(years)); });
+}
+
+double walk_step_years(const Ages& ages) {
+    return std::max(month_years, ages.span_years / most_walk_steps);
+}
+
+void add_walk(Columns& columns,
+              const Ages& ages,
+              const std::vector<int>& bins,
+              double sd_um_per_root_year) {
+    const double step_years = walk_step_years(ages);
     for (std::size_t i = 1; i < bins.size(); ++i) {
         const double gap_years = step_years * (bins[i] - bins[i - 1]);
         const double from_years = step_years * bins[i];
-        terms.push_back(
-            {column_of(ages, [&](double years) { return years >= from_years ? -1.0 : 0.0; }),
-             precision_of(sd_um_per_root_year) / gap_years});
+        columns.add(precision_of(sd_um_per_root_year) / gap_years,
+                    [&](double years) { return years >= from_years ? -1.0 : 0.0; });
     }
 }
 
@@ -113,32 +134,34 @@ bool has_slope(const Ages& ages) {
 }
 
 VectorXd step_column(const Ages& ages, double step_years) {
-    return column_of(ages, [&](double years) { return years > step_years ? -1.0 : 0.0; });
+    MeanModel model{MeanColumns(static_cast<Index>(ages.years.size()), 1), VectorXd(1)};
+    Columns{model, ages}.add(0, [&](double years) { return step_value(years, step_years); });
+    return model.columns.col(0);
 }
 
 MeanModel mean_model(const Ages& ages,
                      double level_um,
                      const ChangeModel& change,
                      std::span<const double> step_years) {
-    const auto count = static_cast<Index>(ages.years.size());
-    std::vector<Term> terms{{VectorXd::Ones(count), 0}};
-    if (has_slope(ages)) {
-        terms.push_back({column_of(ages, [](double years) { return -years; }),
-                         precision_of(std::hypot(change.slope_sd_per_year * level_um,
-                                                 change.slope_sd_um_per_year))});
-        add_walk(terms, ages, change.walk_sd_per_root_year * level_um);
+    const bool sloped = has_slope(ages);
+    const bool seasoned = ages.span_years > season_from_years;
+    const auto bins = sloped ? walk_of(ages, walk_step_years(ages)) : std::vector<int>{};
+    const auto count = 1 + bins.size() + (seasoned ? 2U : 0U) + step_years.size();
+    MeanModel model{MeanColumns(static_cast<Index>(ages.years.size()), static_cast<Index>(count)),
+                    VectorXd(static_cast<Index>(count))};
+    Columns columns{model, ages};
+    columns.add_level();
+    if (sloped) { // one column beside those between the bins
+        columns.add(precision_of(std::hypot(change.slope_sd_per_year * level_um,
+                                            change.slope_sd_um_per_year)),
+                    [](double years) { return -years; });
+        add_walk(columns, ages, bins, change.walk_sd_per_root_year * level_um);
     }
-    if (ages.span_years > season_from_years) {
-        add_season(terms, ages, change.season_sd * level_um);
+    if (seasoned) {
+        add_season(columns, ages, change.season_sd * level_um);
     }
-    for (const double years : step_years) {
-        terms.push_back({step_column(ages, years), 0});
-    }
-    MeanModel model{{count, static_cast<Index>(terms.size())},
-                    VectorXd(static_cast<Index>(terms.size()))};
-    for (Index i = 0; const auto& term : terms) {
-        model.columns.col(i) = term.column;
-        model.precisions[i++] = term.precision;
+    for (const double step : step_years) {
+        columns.add(0, [&](double years) { return step_value(years, step); });
     }
     return model;
 }

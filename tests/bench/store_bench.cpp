@@ -283,7 +283,7 @@ void read_beside_a_writer(benchmark::State& state) {
     state.counters["p50_ms"] = times_ms[times_ms.size() / 2];
     state.counters["p99_ms"] = times_ms[times_ms.size() * 99 / 100];
     state.counters["worst_ms"] = times_ms.back();
-    state.counters["trips"] = trips;
+    state.counters["trips"] = trips.load();
 }
 
 /// Twice as many traces of 500 m should cost twice as much.
