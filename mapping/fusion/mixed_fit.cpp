@@ -26,24 +26,52 @@ double precision_in(const Readings& readings, const Trust& trust, Index i) {
     return trust.of_reading[i] / square(readings.rest_sd[i]);
 }
 
-/// A car with its trips; they are looked up once for all rounds.
-struct CarTrips {
-    Readings::Block readings;
-    std::span<const Readings::Block> trips;
+/// Readings of a car that one trip's part is in, or one reading that no trip's is in.
+struct Run {
+    Index first, count;
+    double trip_variance;
 };
 
-std::vector<CarTrips> cars_of(const Readings& readings) {
-    std::vector<CarTrips> cars;
-    cars.reserve(readings.cars.size());
-    for (auto trip = readings.trips.begin(); const auto& car : readings.cars) {
-        const auto first = trip;
-        while (trip != readings.trips.end() && trip->first < car.first + car.count) {
-            ++trip;
+/// A car with its runs; they are looked up once for all rounds.
+struct CarRuns {
+    Readings::Block readings;
+    std::span<const Run> runs;
+    Index trips;
+};
+
+class Cars {
+public:
+    explicit Cars(const Readings& readings) {
+        runs_.reserve(static_cast<std::size_t>(readings.values.size())); // spans point into it
+        cars_.reserve(readings.cars.size());
+        auto trip = readings.trips.begin();
+        for (const auto& [first, count] : readings.cars) {
+            CarRuns car{{first, count}, {}, 0};
+            const auto before = runs_.size();
+            for (auto i = first; i < first + count; i += runs_.back().count) {
+                if (trip != readings.trips.end() && trip->first == i) {
+                    runs_.push_back({i, trip->count, square(readings.trip_sd)});
+                    ++car.trips;
+                    ++trip;
+                } else {
+                    runs_.push_back({i, 1, 0});
+                }
+            }
+            car.runs = std::span{runs_}.subspan(before);
+            cars_.push_back(car);
         }
-        cars.push_back({car, {first, trip}});
     }
-    return cars;
-}
+
+    Cars(const Cars&) = delete;
+    Cars& operator=(const Cars&) = delete;
+
+    auto begin() const { return cars_.begin(); }
+    auto end() const { return cars_.end(); }
+
+private:
+    std::vector<Run> runs_;
+    std::vector<CarRuns> cars_;
+};
 
 // ---------------------------------------------------------------------------- normal equations
 
@@ -69,14 +97,14 @@ void add_square(MatrixXd& matrix, const Row& row, double weight) {
 class NormalEquations {
 public:
     NormalEquations(const Readings& readings, const MeanModel& mean)
-        : readings_{&readings}, mean_{&mean}, cars_{cars_of(readings)},
+        : readings_{&readings}, mean_{&mean}, cars_{readings},
           rows_(readings.values.size(), mean.columns.cols() + 1), sums_(rows_.cols(), rows_.cols()),
           of_trip_(rows_.cols()), of_car_(rows_.cols()), solver_{mean.columns.cols()} {
         rows_.leftCols(mean.columns.cols()) = mean.columns;
         rows_.rightCols<1>() = readings.values;
     }
 
-    const std::vector<CarTrips>& cars() const { return cars_; }
+    const Cars& cars() const { return cars_; }
 
     const VectorXd& solve(const Trust& trust) {
         sums_.setZero();
@@ -100,38 +128,39 @@ public:
 private:
     auto row(Index reading) const { return rows_.row(reading); }
 
-    /// What a reading weighs that is alone in its trip.
-    double alone(Index reading, const Trust& trust) const {
-        const double precision = precision_in(*readings_, trust, reading);
-        return precision / (1 + precision * square(readings_->trip_sd));
+    /// What a reading weighs that is alone in its run.
+    double alone(const Run& run, const Trust& trust) const {
+        const double precision = precision_in(*readings_, trust, run.first);
+        return precision / (1 + precision * run.trip_variance);
     }
 
-    void add_car(const CarTrips& car, const Trust& trust, double of_car) {
+    void add_car(const CarRuns& car, const Trust& trust, double of_car) {
         const auto& sd = readings_->car_sd;
         if (car.readings.count == 1) {
             const auto i = car.readings.first;
-            const double precision = alone(i, trust);
+            const double precision = alone(car.runs.front(), trust);
             add_square(sums_, row(i), precision / (1 + precision * square(sd[i]) / of_car));
             return;
         }
         of_car_.setZero();
         double loaded = 0;
-        for (const auto& trip : car.trips) {
-            loaded += trip.count == 1 ? add_alone(trip.first, trust) : add_trip(trip, trust);
+        for (const auto& run : car.runs) {
+            loaded += run.count == 1 ? add_alone(run, trust) : add_trip(run, trust);
         }
         add_square(sums_, of_car_, -1 / (of_car + loaded));
     }
 
     /// \returns  of the car's part in the reading the squared sd, by its weight
-    double add_alone(Index i, const Trust& trust) {
-        const double precision = alone(i, trust);
+    double add_alone(const Run& run, const Trust& trust) {
+        const auto i = run.first;
+        const double precision = alone(run, trust);
         const double load = precision * readings_->car_sd[i];
         add_square(sums_, row(i), precision);
         of_car_ += load * row(i).transpose();
         return load * readings_->car_sd[i];
     }
 
-    double add_trip(const Readings::Block& trip, const Trust& trust) {
+    double add_trip(const Run& trip, const Trust& trust) {
         of_trip_.setZero();
         double whole = 0, loads = 0, loaded = 0;
         for (Index i = trip.first; i < trip.first + trip.count; ++i) {
@@ -144,8 +173,7 @@ private:
             loads += load;
             loaded += load * readings_->car_sd[i];
         }
-        const double variance = square(readings_->trip_sd);
-        const double alike = variance / (1 + whole * variance);
+        const double alike = trip.trip_variance / (1 + whole * trip.trip_variance);
         add_square(sums_, of_trip_, -alike);
         of_car_ -= alike * loads * of_trip_;
         return loaded - alike * square(loads);
@@ -153,7 +181,7 @@ private:
 
     const Readings* readings_;
     const MeanModel* mean_;
-    std::vector<CarTrips> cars_;
+    Cars cars_;
     MeanColumns rows_; ///< of the columns and then the value
     MatrixXd sums_;    ///< lower triangle of rows^T * V^-1 * rows
     VectorXd of_trip_;
@@ -174,7 +202,7 @@ struct CarOff {
 CarOff car_off(const Readings& readings,
                const Trust& trust,
                const VectorXd& residuals,
-               const CarTrips& car) {
+               const CarRuns& car) {
     double precision = 0, sum = 0, own = 0;
     const auto& [first, count] = car.readings;
     for (Index i = first; i < first + count; ++i) {
@@ -183,8 +211,9 @@ CarOff car_off(const Readings& readings,
         sum += weight * residuals[i];
         own += weight * readings.car_sd[i] * readings.car_sd[i];
     }
-    const auto trips = static_cast<double>(car.trips.size());
-    return {sum / precision, own / precision, 1 / precision + square(readings.trip_sd) / trips};
+    const double of_trips =
+        car.trips > 0 ? square(readings.trip_sd) / static_cast<double>(car.trips) : 0;
+    return {sum / precision, own / precision, 1 / precision + of_trips};
 }
 
 double trusted(double squared_sds, double dof) {
@@ -208,7 +237,7 @@ CarJudgement judgement_of(const Readings& readings,
                           const Trust& trust,
                           const VectorXd& residuals,
                           const TailModel& tail,
-                          const CarTrips& car) {
+                          const CarRuns& car) {
     const auto off = car_off(readings, trust, residuals, car);
     const double seen = std::min(off.own_variance, square(tail.scatter_sd)) + off.noise_variance;
     return {off, seen, square(off.off) / seen};
@@ -222,7 +251,7 @@ double squared_rest(const Readings& readings, double residual, const CarOff& off
 void judge(Trust& next,
            const Trust& before,
            const Readings& readings,
-           const std::vector<CarTrips>& cars,
+           const Cars& cars,
            const VectorXd& residuals,
            const TailModel& tail) {
     for (Index c = 0; const auto& car : cars) {
@@ -241,7 +270,7 @@ void judge(Trust& next,
 /// -log likelihood of readings that are off the mean by so much, but for a constant.
 double misfit_of(const Trust& trust,
                  const Readings& readings,
-                 const std::vector<CarTrips>& cars,
+                 const Cars& cars,
                  const VectorXd& residuals,
                  const TailModel& tail) {
     double misfit = 0;

@@ -22,7 +22,7 @@ struct Readings {
     Eigen::VectorXd rest_sd; ///< > 0
     double trip_sd;
     std::vector<Block> cars;
-    std::vector<Block> trips;
+    std::vector<Block> trips; ///< readings in none have no part of a trip
 };
 
 /// One row for each reading, one column for each coefficient; a reading's values stand together.
