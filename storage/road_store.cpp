@@ -3,12 +3,12 @@
 #include "estimator/common/error.hpp"
 #include "storage/atomic_file.hpp"
 #include "storage/network_rows.hpp"
+#include "storage/pass_writer.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/row_reasons.hpp"
 #include "storage/sha256.hpp"
 #include "storage/store_file.hpp"
 #include "storage/strip_fusion.hpp"
-#include "storage/strip_rows.hpp"
 
 #include <fmt/format.h>
 
@@ -60,49 +60,6 @@ std::int64_t write_trip(Database& database, const TripRecord& trip) {
              static_cast<std::int64_t>(trip.rows_read),
              static_cast<std::int64_t>(trip.rows_used));
     return database.number("SELECT last_insert_rowid()");
-}
-
-std::int64_t row_of_segment(Statement& find, const Database& database, const SegmentKey& key) {
-    find.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
-    if (!find.step()) {
-        throw InputError{
-            fmt::format("{}: has no segment '{}', expected passes over its own network",
-                        database.file().string(),
-                        name_of(key))};
-    }
-    return find.integer(0);
-}
-
-template <typename Integer>
-std::optional<std::int64_t> whole(const std::optional<Integer>& number) {
-    return number ? std::optional<std::int64_t>{*number} : std::nullopt;
-}
-
-void write_passes(Database& database, std::int64_t trip, std::span<const Pass> passes) {
-    auto find =
-        database.prepare("SELECT fid FROM segment WHERE way_id = ? AND direction = ? AND seq = ?");
-    auto insert =
-        database.prepare("INSERT INTO pass VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-    auto mark = database.prepare("INSERT OR IGNORE INTO segment_dirty VALUES (?)");
-    for (const auto& pass : passes) {
-        const auto segment = row_of_segment(find, database, pass.segment);
-        insert.run(segment,
-                   trip,
-                   std::int64_t{pass.occurrence},
-                   whole(pass.iri_left_um),
-                   whole(pass.iri_right_um),
-                   whole(pass.iri_centre_um),
-                   std::int64_t{pass.iri_um},
-                   std::int64_t{pass.sd_um},
-                   pass.centre_only,
-                   std::int64_t{pass.validity},
-                   std::int64_t{pass.speed_mmps},
-                   std::int64_t{pass.covered_mm},
-                   std::int64_t{pass.confidence_ppm},
-                   pass.t_ms,
-                   whole(pass.drive));
-        mark.run(segment);
-    }
 }
 
 bool has_trip(Database& database, const std::string& sha256) {
@@ -160,17 +117,25 @@ bool RoadStore::knows_trip(const std::string& sha256) const {
 bool RoadStore::add_trip(const TripRecord& trip,
                          std::span<const Pass> passes,
                          std::span<const StripTrace> traces) {
+    const NewTrip one{&trip, passes, traces};
+    return add_trips({&one, 1}).front();
+}
+
+std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
     auto& database = impl_->database;
     Transaction all{database, Transaction::Kind::write};
-    if (has_trip(database, trip.sha256)) {
-        return false;
+    PassWriter writer{database, segments_in_strip(impl_->settings.segment_length_m)};
+    std::vector<bool> added;
+    for (const auto& [trip, passes, traces] : trips) {
+        added.push_back(!has_trip(database, trip->sha256));
+        if (added.back()) {
+            const auto row = write_trip(database, *trip);
+            write_row_reasons(database, row, trip->row_reasons);
+            writer.write(row, passes, traces);
+        }
     }
-    const auto row = write_trip(database, trip);
-    write_row_reasons(database, row, trip.row_reasons);
-    write_passes(database, row, passes);
-    write_traces(database, row, traces, segments_in_strip(impl_->settings.segment_length_m));
     all.commit();
-    return true;
+    return added;
 }
 
 std::size_t RoadStore::refresh(const Progress& progress) {

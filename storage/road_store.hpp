@@ -48,6 +48,13 @@ struct TripRecord {
     std::map<std::string, std::size_t> row_reasons{}; ///< why the others were not
 };
 
+/// A trip with all that it says of the roads.
+struct NewTrip {
+    const TripRecord* trip;
+    std::span<const Pass> passes;
+    std::span<const StripTrace> traces;
+};
+
 /// A span of time, ms since 1970 UTC: from <= t < until. Nothing: open on that side.
 struct Period {
     std::optional<std::int64_t> from_ms;
@@ -184,6 +191,10 @@ public:
     bool add_trip(const TripRecord& trip,
                   std::span<const Pass> passes,
                   std::span<const StripTrace> traces = {});
+
+    /// Many at once, which is quicker: all of them or, if one fails, none. \returns for each
+    /// whether it is new.
+    std::vector<bool> add_trips(std::span<const NewTrip> trips);
 
     /// Notes that an import has begun; `name` stands for what was asked, so that the same request
     /// finds its note again. \returns what an import of that name has done that began and did not

@@ -294,6 +294,10 @@ std::int64_t Database::number(const char* sql) {
     return statement.integer(0);
 }
 
+std::int64_t Database::changes() const {
+    return sqlite3_changes64(handle());
+}
+
 bool Database::in_transaction() const {
     return sqlite3_get_autocommit(handle()) == 0;
 }

@@ -124,6 +124,9 @@ public:
 
     std::int64_t number(const char* sql);
 
+    /// Rows that the last statement inserted, changed or deleted.
+    std::int64_t changes() const;
+
     bool in_transaction() const;
     /// As messages call it.
     const std::filesystem::path& file() const { return *file_; }

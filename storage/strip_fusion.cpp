@@ -77,9 +77,9 @@ public:
     /// \returns how many of its segments were dirty; none if another importer was quicker.
     std::size_t clean_strip(std::int64_t strip) {
         clean_.run(strip, segments_in_strip_);
-        const auto cleaned = database_->number("SELECT changes()");
+        const auto cleaned = database_->changes();
         clean_strip_.run(strip);
-        if (cleaned > 0 || database_->number("SELECT changes()") > 0) {
+        if (cleaned > 0 || database_->changes() > 0) {
             write(strip, states_.of(strip, segments_in_strip_));
         }
         return static_cast<std::size_t>(cleaned);

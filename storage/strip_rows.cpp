@@ -11,30 +11,8 @@
 namespace macadam {
 namespace {
 
-std::string_view bytes_of(const std::vector<RoughnessCode>& codes) {
-    return {reinterpret_cast<const char*>(codes.data()), codes.size()};
-}
-
 std::vector<RoughnessCode> codes_in(std::string_view bytes) {
     return {bytes.begin(), bytes.end()};
-}
-
-std::int64_t row_of_strip(Statement& find,
-                          const Database& database,
-                          const StripKey& key,
-                          std::int64_t segments_in_strip) {
-    const auto first = key.number * segments_in_strip;
-    find.bind(
-        key.way_id, key.forward ? "forward" : "backward", first, first + segments_in_strip - 1);
-    if (!find.step()) {
-        throw InputError{fmt::format("{}: has no strip {} of way '{}' {}, expected traces over its "
-                                     "own network",
-                                     database.file().string(),
-                                     key.number,
-                                     key.way_id,
-                                     key.forward ? "forward" : "backward")};
-    }
-    return find.integer(0);
 }
 
 // Far more than any strip has; a store can be changed with any tool for SQLite.
@@ -73,28 +51,6 @@ std::vector<PlacedTrace> laid_on_each_other(std::vector<PlacedTrace> traces) {
 }
 
 } // namespace
-
-void write_traces(Database& database,
-                  std::int64_t trip,
-                  std::span<const StripTrace> traces,
-                  std::int64_t segments_in_strip) {
-    auto find = database.prepare("SELECT strip FROM segment WHERE way_id = ? AND direction = ?"
-                                 " AND seq BETWEEN ? AND ? LIMIT 1");
-    auto insert = database.prepare("INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)");
-    // A trace may move others also where the trip has no pass.
-    auto mark = database.prepare("INSERT OR IGNORE INTO strip_dirty VALUES (?)");
-    for (const auto& trace : traces) {
-        const auto strip = row_of_strip(find, database, trace.strip, segments_in_strip);
-        mark.run(strip);
-        insert.run(strip,
-                   trip,
-                   std::int64_t{trace.drive},
-                   std::int64_t{trace.first_m},
-                   std::int64_t{trace.place_sd_mm},
-                   Blob{bytes_of(trace.iri)},
-                   trace.left.empty() ? std::nullopt : std::optional{Blob{bytes_of(trace.left)}});
-    }
-}
 
 StripTraces::StripTraces(Database& database)
     : database_{&database}, select_{database.prepare(

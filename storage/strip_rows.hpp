@@ -21,12 +21,6 @@ struct PlacedTrace {
     LagLine lag;
 };
 
-/// \throws InputError  for a strip that the store does not have.
-void write_traces(Database& database,
-                  std::int64_t trip,
-                  std::span<const StripTrace> traces,
-                  std::int64_t segments_in_strip);
-
 /// Which drives: trip hash and drive.
 using DriveSet = std::set<std::pair<std::string, std::uint32_t>>;
 

@@ -4,6 +4,7 @@
 #include "storage/fusion_settings.hpp"
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
+#include "storage/strip_passes.hpp"
 #include "storage/strip_rows.hpp"
 
 #include <cstdint>
@@ -11,14 +12,6 @@
 #include <vector>
 
 namespace macadam {
-
-/// A pass and where its segment lies.
-struct StripPass {
-    std::int64_t fid; ///< the segment's row
-    FusionInput input;
-    double from_m; ///< station: along the way, rising in driving direction
-    double to_m;
-};
 
 struct FusedSegment {
     std::int64_t fid;
@@ -50,7 +43,7 @@ private:
     std::vector<StripPass> valid_passes(std::int64_t strip, std::int64_t segments_in_strip);
 
     StripTraces traces_;
-    Statement select_;
+    StripPasses passes_;
     ValidFrom valid_from_;
     CarRecords cars_;
     FusionConfig config_;

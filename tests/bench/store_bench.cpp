@@ -247,6 +247,56 @@ void fuse_trips(benchmark::State& state) {
                            benchmark::Counter::kIsRate);
 }
 
+constexpr int trips_in_batch = 1000;
+
+/// A batch of trips that nobody added yet.
+struct Batch {
+    std::vector<TripRecord> records;
+    std::vector<TownDrive> drives;
+    std::vector<NewTrip> trips; ///< of these
+};
+
+const Batch& batch_over(const std::vector<SegmentKey>& keys, bool with_traces) {
+    static std::map<std::pair<std::size_t, bool>, Batch> made;
+    auto& batch = made[{keys.size(), with_traces}];
+    if (batch.trips.empty()) {
+        for (int number = 0; number < trips_in_batch; ++number) {
+            batch.records.push_back(trip_number(50'000 + number));
+            batch.drives.push_back(town_drive(keys, number, with_traces));
+        }
+        for (std::size_t i = 0; i < batch.records.size(); ++i) {
+            const auto& drive = batch.drives[i];
+            batch.trips.push_back({&batch.records[i], drive.passes, drive.traces});
+        }
+    }
+    return batch;
+}
+
+void count_passes(benchmark::State& state, double passes) {
+    state.counters["passes/s"] = benchmark::Counter(
+        passes * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+/// 1,000 trips of 500 passes at once into a town that has one pass everywhere. with_state: with
+/// their traces, and fused; else the rows of passes alone.
+template <bool with_state>
+void add_batch(benchmark::State& state) {
+    const auto side = static_cast<int>(state.range(0));
+    const auto file = scratch("batch-" + std::to_string(side) + ".gpkg");
+    const auto& batch = batch_over(keys_of(testing::made_up_town(side)), with_state);
+    for (auto _ : state) {
+        state.PauseTiming();
+        fs::copy_file(driven_town(side), file, fs::copy_options::overwrite_existing);
+        auto store = RoadStore::open(file, RoadStore::Access::write);
+        state.ResumeTiming();
+        store.add_trips(batch.trips);
+        if (with_state) {
+            store.refresh();
+        }
+    }
+    count_passes(state, static_cast<double>(passes_a_trip) * trips_in_batch);
+}
+
 /// How long a reader takes to open a store and ask for about 1,000 segments by place, alone (0) or
 /// while another thread imports trips of 500 passes without a pause (1).
 void read_beside_a_writer(benchmark::State& state) {
@@ -305,6 +355,8 @@ BENCHMARK(ask_by_place)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::k
 BENCHMARK(read_beside_a_writer)->Arg(0)->Arg(1)->Iterations(1000)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_and_fuse_trips<false>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_and_fuse_trips<true>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(add_batch<false>)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(add_batch<true>)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(fuse_trips<false>)->Arg(50)->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(fuse_trips<true>)->Arg(50)->Arg(200)->Unit(benchmark::kMillisecond);
 

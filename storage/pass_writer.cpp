@@ -1,0 +1,77 @@
+#include "storage/pass_writer.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+template <typename Integer>
+std::optional<std::int64_t> whole(const std::optional<Integer>& number) {
+    return number ? std::optional<std::int64_t>{*number} : std::nullopt;
+}
+
+std::string_view bytes_of(const std::vector<RoughnessCode>& codes) {
+    return {reinterpret_cast<const char*>(codes.data()), codes.size()};
+}
+
+} // namespace
+
+PassWriter::PassWriter(Database& database, std::int64_t segments_in_strip)
+    : segments_{database, segments_in_strip},
+      add_pass_{database.prepare(
+          "INSERT INTO pass VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")},
+      add_trace_{database.prepare("INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)")},
+      mark_segment_{database.prepare("INSERT OR IGNORE INTO segment_dirty VALUES (?)")},
+      mark_strip_{database.prepare("INSERT OR IGNORE INTO strip_dirty VALUES (?)")} {}
+
+void PassWriter::write(std::int64_t trip,
+                       std::span<const Pass> passes,
+                       std::span<const StripTrace> traces) {
+    for (const auto& pass : passes) {
+        const auto segment = segments_.row_of(pass.segment);
+        write_pass(segment, trip, pass);
+        if (marked_segments_.insert(segment).second) {
+            mark_segment_.run(segment);
+        }
+    }
+    for (const auto& trace : traces) {
+        const auto strip = segments_.row_of(trace.strip);
+        write_trace(strip, trip, trace);
+        // A trace may move others also where the trip has no pass.
+        if (marked_strips_.insert(strip).second) {
+            mark_strip_.run(strip);
+        }
+    }
+}
+
+void PassWriter::write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass) {
+    add_pass_.run(segment,
+                  trip,
+                  std::int64_t{pass.occurrence},
+                  whole(pass.iri_left_um),
+                  whole(pass.iri_right_um),
+                  whole(pass.iri_centre_um),
+                  std::int64_t{pass.iri_um},
+                  std::int64_t{pass.sd_um},
+                  pass.centre_only,
+                  std::int64_t{pass.validity},
+                  std::int64_t{pass.speed_mmps},
+                  std::int64_t{pass.covered_mm},
+                  std::int64_t{pass.confidence_ppm},
+                  pass.t_ms,
+                  whole(pass.drive));
+}
+
+void PassWriter::write_trace(std::int64_t strip, std::int64_t trip, const StripTrace& trace) {
+    add_trace_.run(strip,
+                   trip,
+                   std::int64_t{trace.drive},
+                   std::int64_t{trace.first_m},
+                   std::int64_t{trace.place_sd_mm},
+                   Blob{bytes_of(trace.iri)},
+                   trace.left.empty() ? std::nullopt : std::optional{Blob{bytes_of(trace.left)}});
+}
+
+} // namespace macadam

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "mapping/pass.hpp"
+#include "mapping/strip_trace.hpp"
+#include "storage/sqlite.hpp"
+#include "storage/strip_segments.hpp"
+
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+
+namespace macadam {
+
+/// Writes passes and traces of trips, and marks their segments and strips as not fused yet. For
+/// one transaction: what it has looked up may change between two.
+class PassWriter {
+public:
+    PassWriter(Database& database, std::int64_t segments_in_strip);
+
+    /// \param trip  its row.
+    /// \throws InputError  for a segment or a strip that the store does not have.
+    void write(std::int64_t trip, std::span<const Pass> passes, std::span<const StripTrace> traces);
+
+private:
+    void write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass);
+    void write_trace(std::int64_t strip, std::int64_t trip, const StripTrace& trace);
+
+    StripSegments segments_;
+    Statement add_pass_;
+    Statement add_trace_;
+    Statement mark_segment_;
+    Statement mark_strip_;
+    std::unordered_set<std::int64_t> marked_segments_; ///< rows
+    std::unordered_set<std::int64_t> marked_strips_;   ///< rows
+};
+
+} // namespace macadam

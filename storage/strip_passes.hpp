@@ -1,0 +1,54 @@
+#pragma once
+
+#include "mapping/fusion.hpp"
+#include "storage/sqlite.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace macadam {
+
+/// A pass and where its segment lies.
+struct StripPass {
+    std::int64_t fid; ///< the segment's row
+    FusionInput input;
+    double from_m; ///< station: along the way, rising in driving direction
+    double to_m;
+};
+
+/// Reads the passes of strips. For one transaction: trips that it has seen are not read again.
+class StripPasses {
+public:
+    explicit StripPasses(Database& database);
+
+    /// In the order of (row of the segment, trip hash, occurrence), none calibrated.
+    /// \param strip  the row of its first segment.
+    std::vector<StripPass> of(std::int64_t strip, std::int64_t segments_in_strip);
+
+private:
+    struct Trip {
+        std::string sha256;
+        std::int64_t vehicle;
+        std::optional<std::int64_t> t0_utc_ms;
+    };
+    struct Place {
+        std::int64_t fid;
+        SegmentKey key;
+        double from_m;
+        double to_m;
+    };
+
+    const Trip* trip(std::int64_t row);
+    std::vector<Place> places_of(std::int64_t strip, std::int64_t segments_in_strip);
+    std::optional<StripPass> pass_at(const Place& place);
+
+    Statement select_trip_;
+    Statement select_places_;
+    Statement select_passes_;
+    std::unordered_map<std::int64_t, Trip> trips_;
+};
+
+} // namespace macadam
