@@ -121,6 +121,17 @@ std::string geometry_of(std::span<const GeoPoint> line) {
     return bytes;
 }
 
+std::optional<GeoBox> box_of_geometry(std::string_view geometry) {
+    const auto west = limit(geometry, 0);
+    if (!west) {
+        return std::nullopt;
+    }
+    const auto at = [&](std::size_t n) {
+        return number_at<double>(geometry, header_bytes + n * sizeof(double));
+    };
+    return GeoBox{.west_deg = *west, .south_deg = at(2), .east_deg = at(1), .north_deg = at(3)};
+}
+
 std::vector<GeoPoint> line_of_geometry(std::string_view geometry) {
     constexpr std::size_t head = header_bytes + envelope_bytes;
     if (!is_ours(geometry) || number_at<std::uint32_t>(geometry, head + 1) != wkb_line_string) {

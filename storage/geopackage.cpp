@@ -1,8 +1,11 @@
 #include "storage/geopackage.hpp"
 
+#include "storage/packed_rtree.hpp"
+
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -62,9 +65,6 @@ INSERT INTO gpkg_spatial_ref_sys VALUES
 // these triggers; another wording would not be one that readers know.
 constexpr const char* index_tables = R"(
 CREATE VIRTUAL TABLE rtree_{0}_geom USING rtree(id, minx, maxx, miny, maxy);
-INSERT INTO rtree_{0}_geom
-    SELECT fid, ST_MinX(geom), ST_MaxX(geom), ST_MinY(geom), ST_MaxY(geom)
-    FROM {0} WHERE geom NOT NULL AND NOT ST_IsEmpty(geom);
 CREATE TRIGGER rtree_{0}_geom_insert AFTER INSERT ON {0}
     WHEN (new.geom NOT NULL AND NOT ST_IsEmpty(NEW.geom))
 BEGIN
@@ -131,6 +131,14 @@ void list_features(Database& database, const FeatureLayer& layer) {
 
 void index_features(Database& database, std::string_view table) {
     database.run(fmt::format(fmt::runtime(index_tables), table));
+    PackedRtree boxes;
+    auto select = database.prepare(fmt::format("SELECT fid, geom FROM {} ORDER BY fid", table));
+    while (select.step()) {
+        if (const auto box = box_of_geometry(select.blob(1))) {
+            boxes.add(select.integer(0), *box);
+        }
+    }
+    std::move(boxes).write_to(database, fmt::format("rtree_{}_geom", table));
 }
 
 } // namespace macadam

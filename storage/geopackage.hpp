@@ -5,6 +5,7 @@
 #include "storage/sqlite.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ void make_geopackage(Database& database);
 void list_features(Database& database, const FeatureLayer& layer);
 
 /// Fills an R-tree for the table's `geom`, whose key is `fid`, and adds the triggers that keep it.
+/// Of a database that is being created.
 void index_features(Database& database, std::string_view table);
 
 /// The functions that these triggers call: ST_IsEmpty, ST_MinX, ST_MaxX, ST_MinY, ST_MaxY.
@@ -41,6 +43,9 @@ void add_default_style(Database& database, std::string_view table, const ClassTa
 
 /// A line as GeoPackageBinary with its envelope, little endian.
 std::string geometry_of(std::span<const GeoPoint> line);
+
+/// Its envelope; nothing if it is empty or none.
+std::optional<GeoBox> box_of_geometry(std::string_view geometry);
 
 /// The line of such a value. Empty if it is none.
 std::vector<GeoPoint> line_of_geometry(std::string_view geometry);

@@ -84,7 +84,7 @@ const char* settings_for(Database::Access access) {
         return "PRAGMA query_only = ON";
     case Database::Access::write:
         return "PRAGMA synchronous = EXTRA; PRAGMA secure_delete = ON";
-    case Database::Access::create: // without any journal is what the defensive mode forbids
+    case Database::Access::create:
         return "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF;"
                "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -65536";
     }
@@ -107,7 +107,9 @@ opened(const std::string& name, Database::Access access, const std::filesystem::
         throw;
     }
     sqlite3_busy_handler(database, wait_for_turn, nullptr);
-    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    // What we make ourselves needs no defence, and its R-tree is written node by node.
+    const int defensive = access == Database::Access::create ? 0 : 1;
+    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, defensive, nullptr);
     return database;
 }
 

@@ -3,6 +3,7 @@
 // thousand segments by place in stores of doubling size; and how long readers take beside a writer.
 
 #include "mapping/alignment.hpp"
+#include "storage/geopackage.hpp"
 #include "storage/road_store.hpp"
 #include "support/texture.hpp"
 #include "support/town.hpp"
@@ -297,6 +298,53 @@ void add_batch(benchmark::State& state) {
     count_passes(state, static_cast<double>(passes_a_trip) * trips_in_batch);
 }
 
+/// A store for a town's network; the peer is the insertion of the same rows under the triggers that
+/// keep a GeoPackage's R-tree.
+void make_store(benchmark::State& state) {
+    const auto side = static_cast<int>(state.range(0));
+    const auto roads = testing::made_up_town(side);
+    const auto file = scratch("made.gpkg");
+    std::size_t segments = 0;
+    for (auto _ : state) {
+        fs::remove(file);
+        segments = RoadStore::create(file, roads, {}).info().segments;
+    }
+    state.counters["segments/s"] =
+        benchmark::Counter(static_cast<double>(segments) * static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate);
+    state.counters["bytes/segment"] =
+        static_cast<double>(fs::file_size(file)) / static_cast<double>(segments);
+}
+
+void insert_under_triggers(benchmark::State& state) {
+    const auto side = static_cast<int>(state.range(0));
+    const auto from = scratch("made.gpkg");
+    if (!fs::exists(from)) {
+        RoadStore::create(from, testing::made_up_town(side), {});
+    }
+    std::int64_t segments = 0;
+    for (auto _ : state) {
+        const auto file = scratch("triggered.gpkg");
+        fs::remove(file);
+        Database database{file, Database::Access::create};
+        add_geometry_functions(database);
+        database.prepare("ATTACH ? AS made").run(from.string());
+        Transaction all{database, Transaction::Kind::write};
+        make_geopackage(database);
+        database.run("CREATE TABLE segment (fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,"
+                     " geom LINESTRING, segment TEXT NOT NULL, way_id INTEGER NOT NULL,"
+                     " direction TEXT NOT NULL, seq INTEGER NOT NULL, from_m DOUBLE NOT NULL,"
+                     " to_m DOUBLE NOT NULL, strip INTEGER NOT NULL)");
+        index_features(database, "segment");
+        database.run("INSERT INTO segment SELECT * FROM made.segment");
+        all.commit();
+        segments = database.number("SELECT count(*) FROM segment");
+    }
+    state.counters["segments/s"] =
+        benchmark::Counter(static_cast<double>(segments) * static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate);
+}
+
 /// How long a reader takes to open a store and ask for about 1,000 segments by place, alone (0) or
 /// while another thread imports trips of 500 passes without a pause (1).
 void read_beside_a_writer(benchmark::State& state) {
@@ -351,6 +399,8 @@ void lay_traces(benchmark::State& state) {
 }
 
 BENCHMARK(lay_traces)->RangeMultiplier(4)->Range(2, 512)->Unit(benchmark::kMillisecond);
+BENCHMARK(make_store)->Arg(200)->Unit(benchmark::kMillisecond);
+BENCHMARK(insert_under_triggers)->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(ask_by_place)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(read_beside_a_writer)->Arg(0)->Arg(1)->Iterations(1000)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_and_fuse_trips<false>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
