@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/strip_trace.hpp"
+#include "storage/bulk_insert.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/sha256.hpp"
 
@@ -116,9 +117,7 @@ std::string write_ways(Database& database, const RoadNetwork& roads) {
 
 WrittenSegments
 write_segments(Database& database, const RoadNetwork& roads, const Progress& progress) {
-    auto insert =
-        database.prepare("INSERT INTO segment (geom, segment, way_id, direction, seq, from_m, to_m,"
-                         " strip) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    BulkInsert insert{database, "INSERT INTO segment", 9};
     WrittenSegments written;
     std::optional<StripKey> strip;
     std::int64_t first_of_strip = 0; // its row, of those that count from 1
@@ -130,11 +129,13 @@ write_segments(Database& database, const RoadNetwork& roads, const Progress& pro
         }
         for (const bool forward : {true, false}) {
             for (const auto& segment : drivable_segments(roads, first, last, forward)) {
+                const auto row = ++written.segments;
                 if (const auto key = strip_of(segment.key, roads.segment_length_m); strip != key) {
                     strip = key;
-                    first_of_strip = written.segments + 1;
+                    first_of_strip = row;
                 }
-                insert.run(Blob{geometry_of(segment.line)},
+                insert.add(row,
+                           Blob{geometry_of(segment.line)},
                            name_of(segment.key),
                            segment.key.way_id,
                            forward ? "forward" : "backward",
@@ -142,7 +143,6 @@ write_segments(Database& database, const RoadNetwork& roads, const Progress& pro
                            segment.from_m,
                            segment.to_m,
                            first_of_strip);
-                ++written.segments;
                 written.length_m += segment.to_m - segment.from_m;
             }
         }
@@ -152,6 +152,7 @@ write_segments(Database& database, const RoadNetwork& roads, const Progress& pro
                 fmt::format("{}: stopped before it was whole", database.file().string())};
         }
     }
+    insert.flush();
     return written;
 }
 

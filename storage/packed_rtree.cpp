@@ -1,5 +1,7 @@
 #include "storage/packed_rtree.hpp"
 
+#include "storage/bulk_insert.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -127,13 +129,11 @@ public:
     Packing(Database& database, std::string_view rtree, std::span<const std::int64_t> ids)
         : add_node_{database.prepare(
               fmt::format("INSERT OR REPLACE INTO {}_node VALUES (?, ?)", rtree))},
-          add_row_{database.prepare(
-              fmt::format("INSERT INTO {}_rowid (rowid, nodeno) VALUES (?, ?)", rtree))},
-          add_parent_{database.prepare(fmt::format("INSERT INTO {}_parent VALUES (?, ?)", rtree))},
-          below_{0, ids}, node_bytes_{static_cast<std::size_t>(database.number(
-                              fmt::format(
-                                  "SELECT length(data) FROM {}_node WHERE nodeno = {}", rtree, root)
-                                  .c_str()))} {}
+          add_row_{database, fmt::format("INSERT INTO {}_rowid", rtree), 2},
+          add_parent_{database, fmt::format("INSERT INTO {}_parent", rtree), 2}, below_{0, ids},
+          node_bytes_{static_cast<std::size_t>(database.number(
+              fmt::format("SELECT length(data) FROM {}_node WHERE nodeno = {}", rtree, root)
+                  .c_str()))} {}
 
     void write(std::vector<Cell> cells) {
         const auto most = (node_bytes_ - head_bytes) / cell_bytes;
@@ -171,13 +171,14 @@ private:
     void write_parents(const std::vector<std::uint32_t>& parents) {
         auto& add = below_.rows.empty() ? add_parent_ : add_row_;
         for (std::size_t i = 0; i < parents.size(); ++i) {
-            add.run(below_.id_of(i), std::int64_t{parents[i]});
+            add.add(below_.id_of(i), std::int64_t{parents[i]});
         }
+        add.flush();
     }
 
     Statement add_node_;
-    Statement add_row_;
-    Statement add_parent_;
+    BulkInsert add_row_;
+    BulkInsert add_parent_;
     Below below_;
     std::size_t node_bytes_;
     std::int64_t next_ = std::int64_t{root} + 1;

@@ -19,12 +19,10 @@ std::string_view bytes_of(const std::vector<RoughnessCode>& codes) {
 } // namespace
 
 PassWriter::PassWriter(Database& database, std::int64_t segments_in_strip)
-    : segments_{database, segments_in_strip},
-      add_pass_{database.prepare(
-          "INSERT INTO pass VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")},
+    : segments_{database, segments_in_strip}, add_pass_{database, "INSERT INTO pass", 15},
       add_trace_{database.prepare("INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)")},
-      mark_segment_{database.prepare("INSERT OR IGNORE INTO segment_dirty VALUES (?)")},
-      mark_strip_{database.prepare("INSERT OR IGNORE INTO strip_dirty VALUES (?)")} {}
+      mark_segment_{database, "INSERT OR IGNORE INTO segment_dirty", 1},
+      mark_strip_{database, "INSERT OR IGNORE INTO strip_dirty", 1} {}
 
 void PassWriter::write(std::int64_t trip,
                        std::span<const Pass> passes,
@@ -33,7 +31,7 @@ void PassWriter::write(std::int64_t trip,
         const auto segment = segments_.row_of(pass.segment);
         write_pass(segment, trip, pass);
         if (marked_segments_.insert(segment).second) {
-            mark_segment_.run(segment);
+            mark_segment_.add(segment);
         }
     }
     for (const auto& trace : traces) {
@@ -41,13 +39,19 @@ void PassWriter::write(std::int64_t trip,
         write_trace(strip, trip, trace);
         // A trace may move others also where the trip has no pass.
         if (marked_strips_.insert(strip).second) {
-            mark_strip_.run(strip);
+            mark_strip_.add(strip);
         }
     }
 }
 
+void PassWriter::flush() {
+    add_pass_.flush();
+    mark_segment_.flush();
+    mark_strip_.flush();
+}
+
 void PassWriter::write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass) {
-    add_pass_.run(segment,
+    add_pass_.add(segment,
                   trip,
                   std::int64_t{pass.occurrence},
                   whole(pass.iri_left_um),

@@ -2,6 +2,7 @@
 
 #include "mapping/pass.hpp"
 #include "mapping/strip_trace.hpp"
+#include "storage/bulk_insert.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/strip_segments.hpp"
 
@@ -21,15 +22,18 @@ public:
     /// \throws InputError  for a segment or a strip that the store does not have.
     void write(std::int64_t trip, std::span<const Pass> passes, std::span<const StripTrace> traces);
 
+    /// To be called before the commit: rows of passes wait to be written together.
+    void flush();
+
 private:
     void write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass);
     void write_trace(std::int64_t strip, std::int64_t trip, const StripTrace& trace);
 
     StripSegments segments_;
-    Statement add_pass_;
+    BulkInsert add_pass_;
     Statement add_trace_;
-    Statement mark_segment_;
-    Statement mark_strip_;
+    BulkInsert mark_segment_;
+    BulkInsert mark_strip_;
     std::unordered_set<std::int64_t> marked_segments_; ///< rows
     std::unordered_set<std::int64_t> marked_strips_;   ///< rows
 };

@@ -123,6 +123,7 @@ bool RoadStore::add_trip(const TripRecord& trip,
 
 std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
     auto& database = impl_->database;
+    const UncheckedKeys keys_are_looked_up{database};
     Transaction all{database, Transaction::Kind::write};
     PassWriter writer{database, segments_in_strip(impl_->settings.segment_length_m)};
     std::vector<bool> added;
@@ -134,6 +135,7 @@ std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
             writer.write(row, passes, traces);
         }
     }
+    writer.flush();
     all.commit();
     return added;
 }

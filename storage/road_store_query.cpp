@@ -62,17 +62,13 @@ std::string select_of(const SegmentFilter& filter) {
     std::string sql = fmt::format("SELECT {} FROM ", record_columns);
     if (road == Road::all && filter.with_state_only) {
         sql += "segment_state AS state CROSS JOIN segment ON segment.fid = state.fid";
-    } else if (road == Road::box) {
-        sql += "rtree_segment_geom AS place CROSS JOIN segment ON segment.fid = place.id";
-        sql += state;
     } else {
         sql += "segment";
         sql += state;
     }
     sql += " CROSS JOIN way ON way.way_id = segment.way_id WHERE 1";
     if (road == Road::box) {
-        sql += " AND place.maxx >= :west AND place.minx <= :east"
-               " AND place.maxy >= :south AND place.miny <= :north";
+        sql += " AND segment.fid >= :first AND segment.fid <= :last";
     }
     if (road == Road::way) {
         sql += " AND segment.way_id = :way";
@@ -105,6 +101,31 @@ std::vector<std::int64_t> ways_named(Database& database, const std::string& part
     }
     std::ranges::sort(ways);
     return ways;
+}
+
+/// Rows that stand one after the other.
+struct RowRange {
+    std::int64_t first;
+    std::int64_t last;
+};
+
+/// Rows of segments that may meet the box, in order: SQLite would sort them with all their columns.
+std::vector<RowRange> rows_near(Database& database, const GeoBox& box) {
+    auto select = database.prepare("SELECT id FROM rtree_segment_geom WHERE maxx >= ?"
+                                   " AND minx <= ? AND maxy >= ? AND miny <= ?");
+    std::vector<std::int64_t> rows;
+    for (select.bind(box.west_deg, box.east_deg, box.south_deg, box.north_deg); select.step();) {
+        rows.push_back(select.integer(0));
+    }
+    std::ranges::sort(rows);
+    std::vector<RowRange> ranges;
+    for (const auto row : rows) {
+        if (ranges.empty() || row != ranges.back().last + 1) {
+            ranges.push_back({row, row});
+        }
+        ranges.back().last = row;
+    }
+    return ranges;
 }
 
 std::vector<SegmentRange> ranges_of(const SegmentFilter& filter) {
@@ -146,11 +167,11 @@ void each_row(Database& database, const SegmentFilter& filter, const Row& row) {
         }
         return;
     case Road::box:
-        select.bind_named(":west", filter.box->west_deg);
-        select.bind_named(":east", filter.box->east_deg);
-        select.bind_named(":south", filter.box->south_deg);
-        select.bind_named(":north", filter.box->north_deg);
-        run();
+        for (const auto& [first, last] : rows_near(database, *filter.box)) {
+            select.bind_named(":first", first);
+            select.bind_named(":last", last);
+            run();
+        }
         return;
     case Road::all:
         run();

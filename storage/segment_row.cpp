@@ -82,11 +82,9 @@ SegmentRecord record_in(const Statement& row) {
                 row.is_null(first_state_column) ? std::nullopt : std::optional{state_in(row, key)}};
 }
 
-const char* const insert_state =
-    "INSERT OR REPLACE INTO segment_state VALUES"
-    " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+const char* const insert_state = "INSERT OR REPLACE INTO segment_state";
 
-void write_state(Statement& insert,
+void write_state(BulkInsert& insert,
                  std::int64_t fid,
                  const SegmentState& state,
                  const ClassTable& classes) {
@@ -97,7 +95,7 @@ void write_state(Statement& insert,
         changed_ms = state.change->utc_ms;
         change = mm_per_m(state.change->um);
     }
-    insert.run(fid,
+    insert.add(fid,
                iri,
                mm_per_m(state.sd_um),
                mm_per_m(state.low_um),

@@ -3,6 +3,7 @@
 #include "mapping/fusion.hpp"
 #include "mapping/iri_class.hpp"
 #include "mapping/pass.hpp"
+#include "storage/bulk_insert.hpp"
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 
@@ -20,7 +21,8 @@ extern const char* const record_columns;
 SegmentRecord record_in(const Statement& row);
 
 extern const char* const insert_state;
-void write_state(Statement& insert,
+inline constexpr int state_column_count = 22;
+void write_state(BulkInsert& insert,
                  std::int64_t fid,
                  const SegmentState& state,
                  const ClassTable& classes);

@@ -81,11 +81,11 @@ constexpr const char* guarded = "PRAGMA trusted_schema = OFF;"
 const char* settings_for(Database::Access access) {
     switch (access) {
     case Database::Access::read:
-        return "PRAGMA query_only = ON";
+        return "PRAGMA query_only = ON; PRAGMA cache_size = -32768";
     case Database::Access::write:
-        return "PRAGMA synchronous = EXTRA; PRAGMA secure_delete = ON";
+        return "PRAGMA synchronous = EXTRA; PRAGMA secure_delete = ON; PRAGMA cache_size = -65536";
     case Database::Access::create:
-        return "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF;"
+        return "PRAGMA foreign_keys = OFF; PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF;"
                "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -65536";
     }
     return "";
@@ -319,6 +319,16 @@ void remove_leftovers_of(const std::filesystem::path& file) {
                 fmt::format("{}: cannot be removed: {}", leftover.string(), error.message())};
         }
     }
+}
+
+// ------------------------------------------------------------------------------- UncheckedKeys
+
+UncheckedKeys::UncheckedKeys(Database& database) : database_{&database} {
+    database.run("PRAGMA foreign_keys = OFF");
+}
+
+UncheckedKeys::~UncheckedKeys() {
+    sqlite3_exec(database_->handle(), "PRAGMA foreign_keys = ON", nullptr, nullptr, nullptr);
 }
 
 // --------------------------------------------------------------------------------- Transaction

@@ -148,6 +148,19 @@ private:
 /// them into a new file that takes the name.
 void remove_leftovers_of(const std::filesystem::path& file);
 
+/// Foreign keys are not checked while this lives: where all keys are looked up before rows are
+/// written, SQLite would look them up again. Without effect if it begins in a transaction.
+class UncheckedKeys {
+public:
+    explicit UncheckedKeys(Database& database);
+    UncheckedKeys(const UncheckedKeys&) = delete;
+    UncheckedKeys& operator=(const UncheckedKeys&) = delete;
+    ~UncheckedKeys();
+
+private:
+    Database* database_;
+};
+
 /// All of what is done until commit(), or nothing. A reader sees one moment until its end; within
 /// another transaction it is that one's moment.
 class Transaction {

@@ -66,9 +66,11 @@ public:
                 std::optional<std::int64_t> audit)
         : database_{&database}, states_{database}, clean_{database.prepare(clean_segments)},
           clean_strip_{database.prepare("DELETE FROM strip_dirty WHERE strip = ?")},
-          select_{database.prepare(states_of_strip)}, insert_{database.prepare(insert_state)},
+          select_{database.prepare(states_of_strip)}, insert_{database,
+                                                              insert_state,
+                                                              state_column_count},
           remove_{database.prepare("DELETE FROM segment_state WHERE fid = ?")},
-          note_{database.prepare("INSERT OR REPLACE INTO state_change VALUES (?, ?, ?, ?, ?)")},
+          note_{database, "INSERT OR REPLACE INTO state_change", 5},
           insert_strip_{
               database.prepare("INSERT OR REPLACE INTO strip_state VALUES (?, ?, ?, ?, ?, ?)")},
           remove_strip_{database.prepare("DELETE FROM strip_state WHERE strip = ?")},
@@ -83,6 +85,12 @@ public:
             write(strip, states_.of(strip, segments_in_strip_));
         }
         return static_cast<std::size_t>(cleaned);
+    }
+
+    /// To be called before the commit: rows wait to be written together.
+    void flush() {
+        insert_.flush();
+        note_.flush();
     }
 
     /// The row under which changes were noted, if there were any.
@@ -127,7 +135,7 @@ private:
         const auto known = [&](IriUm Number::*value) {
             return now ? std::optional<std::int64_t>{(*now).*value} : std::nullopt;
         };
-        note_.run(
+        note_.add(
             fid, *audit_, known(&Number::iri_um), known(&Number::sd_um), now ? now->passes : 0);
     }
 
@@ -145,9 +153,9 @@ private:
     Statement clean_;
     Statement clean_strip_;
     Statement select_;
-    Statement insert_;
+    BulkInsert insert_;
     Statement remove_;
-    Statement note_;
+    BulkInsert note_;
     Statement insert_strip_;
     Statement remove_strip_;
     std::int64_t segments_in_strip_;
@@ -161,6 +169,7 @@ std::size_t fuse_dirty(Database& database,
                        std::int64_t segments_in_strip,
                        const ClassTable& classes,
                        const Progress& progress) {
+    const UncheckedKeys rows_are_those_read{database};
     const auto strips = dirty_strips(database);
     std::optional<std::int64_t> audit;
     std::size_t cleaned = 0;
@@ -173,6 +182,7 @@ std::size_t fuse_dirty(Database& database,
             cleaned += fusion.clean_strip(strips[done++]);
         } while (done < strips.size() && Clock::now() < turn_ends &&
                  !progress.stop.stop_requested());
+        fusion.flush();
         audit = fusion.audit();
         turn.commit();
         progress(done, strips.size());
@@ -199,6 +209,7 @@ std::size_t fuse_dirty_at_once(Database& database,
         cleaned += fusion.clean_strip(strips[done++]);
         progress(done, strips.size());
     }
+    fusion.flush();
     return cleaned;
 }
 
