@@ -1,14 +1,14 @@
+#include "app/asked_trips.hpp"
 #include "app/commands.hpp"
 #include "app/estimation_options.hpp"
 #include "app/import_trips.hpp"
 #include "app/interruption.hpp"
 #include "app/laid_words.hpp"
 #include "app/mapping_option.hpp"
-#include "app/printable.hpp"
 #include "app/segment_options.hpp"
+#include "app/trip_outcome_output.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/json.hpp"
 #include "storage/sha256.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +25,7 @@ struct ImportOptions {
     std::vector<std::filesystem::path> paths;
     std::size_t jobs;
     bool json;
+    bool take_back;
     PipelineConfig pipeline;
     std::shared_ptr<const TripMapping> mapping;
 };
@@ -53,113 +54,9 @@ ImportOptions parse_import(const Arguments& arguments) {
             .paths = {paths.begin(), paths.end()},
             .jobs = static_cast<std::size_t>(jobs),
             .json = arguments.flag("--json"),
+            .take_back = arguments.flag("--take-back"),
             .pipeline = config_of(arguments),
             .mapping = mapping_of(arguments)};
-}
-
-std::string reasons_json(const RowCount& rows) {
-    JsonObject reasons;
-    for (const auto& [reason, count] : rows.reasons) {
-        reasons.add(reason, static_cast<std::int64_t>(count));
-    }
-    return reasons.text();
-}
-
-std::string json_line(const TripOutcome& outcome) {
-    const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-    const auto& trip = outcome.trip;
-    JsonObject line;
-    line.add("file", outcome.file)
-        .add("trip_id", outcome.trip_id)
-        .add("sha256", outcome.sha256)
-        .add("result", std::string{name_of(outcome.result)})
-        .add("rows_read", whole(trip.rows.read))
-        .add("rows_used", whole(trip.rows.used))
-        .add("rows_rejected", whole(trip.rows.rejected))
-        .add("reasons", JsonRaw{reasons_json(trip.rows)})
-        .add("distance_m", JsonNumber{trip.distance_m, 1})
-        .add("matched_m", JsonNumber{trip.matched_m, 1})
-        .add("passes", whole(trip.passes.size()))
-        .add("vehicle", outcome.vehicle)
-        .add("warnings", JsonRaw{json_string_array(trip.warnings)});
-    if (!outcome.error.empty()) {
-        line.add("error", outcome.error);
-    }
-    return line.text() + "\n";
-}
-
-std::string spoken(const RowCount& rows) {
-    auto words = fmt::format("{} rows, {} used", rows.read, rows.used);
-    std::string_view before = ", rejected: ";
-    for (const auto& [reason, count] : rows.reasons) {
-        words += fmt::format("{}{} {}", before, count, reason);
-        before = ", ";
-    }
-    return words;
-}
-
-std::string notes(const std::vector<std::string>& warnings) {
-    std::string lines;
-    for (const auto& warning : warnings) {
-        lines += fmt::format("          note: {}\n", printable_name(warning));
-    }
-    return lines;
-}
-
-std::string text_lines(const TripOutcome& outcome) {
-    if (outcome.result == TripOutcome::Result::rejected) {
-        return fmt::format("rejected  {}\n", printable_name(outcome.error));
-    }
-    const auto& trip = outcome.trip;
-    if (outcome.result == TripOutcome::Result::known) {
-        return fmt::format("known     {}\n", printable_name(outcome.file)) + notes(trip.warnings);
-    }
-    const auto lines =
-        fmt::format("imported  {}: {}; {:.2f} km driven, {:.2f} km on the network; car '{}'\n"
-                    "          {}\n",
-                    printable_name(outcome.file),
-                    counted(trip.passes.size(), "pass"),
-                    trip.distance_m / 1000,
-                    trip.matched_m / 1000,
-                    printable_name(outcome.vehicle),
-                    spoken(trip.rows));
-    return lines + notes(trip.warnings);
-}
-
-/// The trips of the paths, and the paths that are none, as rejected.
-struct Found {
-    std::vector<TripSource> trips;
-    std::vector<TripOutcome> refused;
-};
-
-Found trips_in(const std::vector<std::filesystem::path>& paths,
-               const std::shared_ptr<const TripMapping>& mapping,
-               const Console& console) {
-    Found all;
-    for (const auto& path : paths) {
-        TripSearch found;
-        try {
-            found = find_trips(path, mapping);
-        } catch (const InputError& error) {
-            TripOutcome outcome;
-            outcome.file = path.string();
-            outcome.error = error.what();
-            all.refused.push_back(std::move(outcome));
-            continue;
-        }
-        if (found.trips.empty()) {
-            console.warn(fmt::format(
-                "{}: holds no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst, *.rawlog), nor "
-                "an export of phyphox or Sensor Logger",
-                path.string()));
-        }
-        if (found.other_files > 0) {
-            console.say(
-                fmt::format("{}: {} other files were not read", path.string(), found.other_files));
-        }
-        all.trips.insert(all.trips.end(), found.trips.begin(), found.trips.end());
-    }
-    return all;
 }
 
 /// The same paths, asked for from wherever, have the same name.
@@ -182,26 +79,24 @@ void run_import(const Arguments& arguments, const Console& console) {
     const auto options = parse_import(arguments);
     VehicleChoice vehicles{arguments};
     auto store = RoadStore::open(options.store, RoadStore::Access::write);
-    const auto [trips, refused] = trips_in(options.paths, options.mapping, console);
+    const auto [trips, refused] = asked_trips(options.paths, options.mapping, console);
     const auto name = name_of_import(options.paths);
     if (const auto earlier = store.begin_import(name, trips.size())) {
         console.say(spoken(*earlier));
     }
     const Interruption interruption;
 
-    const auto tell = [&](const TripOutcome& outcome) {
-        if (options.json) {
-            print(json_line(outcome));
-        } else {
-            print_words(text_lines(outcome));
-        }
-        flush_results();
-    };
+    const auto tell = [&](const TripOutcome& outcome) { tell_of(outcome, options.json); };
     std::ranges::for_each(refused, tell);
     auto importing = console.progress("importing");
     importing.stop = interruption.stop();
-    auto totals =
-        import_trips(store, trips, vehicles, options.pipeline, options.jobs, importing, tell);
+    auto totals = import_trips(store,
+                               trips,
+                               vehicles,
+                               options.pipeline,
+                               {options.jobs, options.take_back},
+                               importing,
+                               tell);
     totals.rejected += refused.size();
     const auto fused = store.refresh(console.progress("fusing"));
 
@@ -252,6 +147,7 @@ constexpr std::array options{
     channels_option,
     no_filters_option,
     rate_option,
+    Option{"--take-back", "", "Let trips in again that 'macadam forget' took out."},
     Option{"--json", "", "One JSON object a trip on standard output, one a line."}};
 
 } // namespace

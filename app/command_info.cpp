@@ -1,3 +1,4 @@
+#include "app/audit_output.hpp"
 #include "app/commands.hpp"
 #include "app/info_tables.hpp"
 #include "app/laid_words.hpp"
@@ -115,6 +116,11 @@ void run_info(const Arguments& arguments, const Console& console) {
         print(store.digest() + "\n");
         return;
     }
+    if (arguments.flag("--audit")) {
+        const auto entries = store.audit();
+        arguments.flag("--json") ? print(json_of(entries)) : print_words(text_of(entries));
+        return;
+    }
     std::optional<TruthComparison> truth;
     if (const auto truth_file = arguments.value("--truth")) {
         truth = compared(store, *truth_file);
@@ -134,6 +140,7 @@ constexpr std::array options{
     Option{"--truth",
            "FILE.csv",
            "How near the truth is: a truth.csv of 'macadam simulate' or of a profiler."},
+    Option{"--audit", "", "What was done to the store that changed numbers, and when."},
     Option{"--digest",
            "",
            "Only the digest: 64 hex digits, the same for the same content on any machine."}};

@@ -1,3 +1,4 @@
+#include "app/audit_output.hpp"
 #include "app/commands.hpp"
 #include "app/month_history.hpp"
 #include "app/near_search.hpp"
@@ -129,6 +130,8 @@ void run_query(const Arguments& arguments, const Console& console) {
         print_sections(store, options, console);
     } else if (options.passes) {
         print_in(options.format, passes_text(store.history(*options.filter.key), options.format));
+    } else if (options.changes) {
+        print_in(options.format, changes_text(store.changes(*options.filter.key), options.format));
     } else if (options.history) {
         print_history(store, options, console);
     } else if (options.worst.count > 0 && !options.worst.single_segments) {
@@ -179,6 +182,7 @@ constexpr std::array options{
     all_option,
     Option{"--history", "", "Month by month: what the passes of each say of all that is found."},
     Option{"--passes", "", "With --segment: every pass over it, one by one."},
+    Option{"--changes", "", "With --segment: when its number changed, and why."},
     Option{"--format", "NAME", "table, json, csv or geojson.", "table"},
     Option{"--json", "", "The same as --format json."}};
 

@@ -42,6 +42,10 @@ std::string described(const Option& option) {
 std::span<const Command> commands() {
     static const std::array table{init_command,
                                   import_command,
+                                  calibrate_command,
+                                  reprocess_command,
+                                  valid_from_command,
+                                  forget_command,
                                   query_command,
                                   export_command,
                                   render_command,

@@ -38,18 +38,22 @@ std::string help_of_all();
 /// Splits the words by the command's table (and --quiet, which every command takes) and runs it.
 void run(const Command& command, std::vector<std::string> words);
 
-extern const Command init_command;     // app/command_init.cpp
-extern const Command identify_command; // app/command_identify.cpp
-extern const Command import_command;   // app/command_import.cpp
-extern const Command query_command;    // app/command_query.cpp
-extern const Command export_command;   // app/command_export.cpp
-extern const Command render_command;   // app/command_render.cpp
-extern const Command report_command;   // app/command_report.cpp
-extern const Command info_command;     // app/command_info.cpp
-extern const Command iri_command;      // app/command_iri.cpp
-extern const Command trace_command;    // app/command_trace.cpp
-extern const Command match_command;    // app/command_match.cpp
-extern const Command convert_command;  // app/command_convert.cpp
-extern const Command simulate_command; // app/command_simulate.cpp
+extern const Command init_command;       // app/command_init.cpp
+extern const Command identify_command;   // app/command_identify.cpp
+extern const Command import_command;     // app/command_import.cpp
+extern const Command calibrate_command;  // app/command_calibrate.cpp
+extern const Command reprocess_command;  // app/command_reprocess.cpp
+extern const Command valid_from_command; // app/command_valid_from.cpp
+extern const Command forget_command;     // app/command_forget.cpp
+extern const Command query_command;      // app/command_query.cpp
+extern const Command export_command;     // app/command_export.cpp
+extern const Command render_command;     // app/command_render.cpp
+extern const Command report_command;     // app/command_report.cpp
+extern const Command info_command;       // app/command_info.cpp
+extern const Command iri_command;        // app/command_iri.cpp
+extern const Command trace_command;      // app/command_trace.cpp
+extern const Command match_command;      // app/command_match.cpp
+extern const Command convert_command;    // app/command_convert.cpp
+extern const Command simulate_command;   // app/command_simulate.cpp
 
 } // namespace macadam

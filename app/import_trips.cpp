@@ -156,30 +156,25 @@ private:
     std::vector<std::jthread> workers_; // last: they stop before what they use goes
 };
 
-} // namespace
+/// What a trip is worked out for. Both are called with the store in use by nobody else.
+struct Purpose {
+    using Result = TripOutcome::Result;
+    /// Why nothing is to be done, if so, with what is to be said of it.
+    std::function<std::optional<std::pair<Result, std::vector<std::string>>>(const std::string&)>
+        leave;
+    std::function<Result(const TripOutcome&)> take;
+};
 
-std::string_view name_of(TripOutcome::Result result) {
-    switch (result) {
-    case TripOutcome::Result::imported:
-        return "imported";
-    case TripOutcome::Result::known:
-        return "known";
-    case TripOutcome::Result::rejected:
-        break;
-    }
-    return "rejected";
-}
-
-ImportTotals import_trips(RoadStore& store,
-                          const std::vector<TripSource>& trips,
-                          VehicleChoice& vehicles,
-                          const PipelineConfig& config,
-                          std::size_t jobs,
-                          const Progress& progress,
-                          const std::function<void(const TripOutcome&)>& tell) {
-    const auto roads = kept_roads(store);
+ImportTotals work_on(const Purpose& purpose,
+                     const RoadNetwork& roads,
+                     const std::vector<TripSource>& trips,
+                     VehicleChoice& vehicles,
+                     const PipelineConfig& config,
+                     std::size_t jobs,
+                     const Progress& progress,
+                     const std::function<void(const TripOutcome&)>& tell) {
+    using Result = TripOutcome::Result;
     std::mutex store_in_use;
-
     const auto work = [&](std::size_t number) {
         TripOutcome outcome;
         outcome.file = trips[number].name();
@@ -191,9 +186,9 @@ ImportTotals import_trips(RoadStore& store,
         }
         {
             const std::scoped_lock lock{store_in_use};
-            if (store.knows_trip(outcome.sha256)) {
-                outcome.result = TripOutcome::Result::known;
-                outcome.trip.warnings = spoken_known(config);
+            if (auto left = purpose.leave(outcome.sha256)) {
+                outcome.result = left->first;
+                outcome.trip.warnings = std::move(left->second);
                 return outcome;
             }
         }
@@ -208,25 +203,106 @@ ImportTotals import_trips(RoadStore& store,
             break;
         }
         auto outcome = workshop.take(i);
-        if (progress.stop.stop_requested() && outcome.result == TripOutcome::Result::rejected) {
+        if (progress.stop.stop_requested() && outcome.result == Result::rejected) {
             totals.left = trips.size() - i; // rejected only for being stopped, it may be
             break;
         }
-        if (outcome.result == TripOutcome::Result::imported) {
+        if (outcome.result == Result::imported) {
             const std::scoped_lock lock{store_in_use};
-            if (!store.add_trip(outcome.record, outcome.trip.passes, outcome.trip.traces)) {
-                outcome.result = TripOutcome::Result::known; // twice in one call
-            }
+            outcome.result = purpose.take(outcome);
         }
-        totals.imported += outcome.result == TripOutcome::Result::imported ? 1U : 0U;
-        totals.known += outcome.result == TripOutcome::Result::known ? 1U : 0U;
-        totals.rejected += outcome.result == TripOutcome::Result::rejected ? 1U : 0U;
-        totals.passes +=
-            outcome.result == TripOutcome::Result::imported ? outcome.trip.passes.size() : 0U;
+        const bool is_taken =
+            outcome.result == Result::imported || outcome.result == Result::reprocessed;
+        const bool is_rejected = outcome.result == Result::rejected;
+        totals.imported += is_taken ? 1U : 0U;
+        totals.rejected += is_rejected ? 1U : 0U;
+        totals.known += !is_taken && !is_rejected ? 1U : 0U;
+        totals.passes += is_taken ? outcome.trip.passes.size() : 0U;
         tell(outcome);
         progress(i + 1, trips.size());
     }
     return totals;
+}
+
+} // namespace
+
+std::string_view name_of(TripOutcome::Result result) {
+    switch (result) {
+    case TripOutcome::Result::imported:
+        return "imported";
+    case TripOutcome::Result::known:
+        return "known";
+    case TripOutcome::Result::reprocessed:
+        return "reprocessed";
+    case TripOutcome::Result::unknown:
+        return "unknown";
+    case TripOutcome::Result::rejected:
+        break;
+    }
+    return "rejected";
+}
+
+ImportTotals import_trips(RoadStore& store,
+                          const std::vector<TripSource>& trips,
+                          VehicleChoice& vehicles,
+                          const PipelineConfig& config,
+                          const ImportWork& work,
+                          const Progress& progress,
+                          const std::function<void(const TripOutcome&)>& tell) {
+    using Result = TripOutcome::Result;
+    const auto roads = kept_roads(store);
+    const Purpose purpose{
+        .leave = [&](const std::string& sha256)
+            -> std::optional<std::pair<Result, std::vector<std::string>>> {
+            if (store.knows_trip(sha256)) {
+                return std::pair{Result::known, spoken_known(config)};
+            }
+            if (!work.take_back && store.has_forgotten(sha256)) {
+                return std::pair{
+                    Result::known,
+                    std::vector<std::string>{
+                        "was forgotten on request and stays out; --take-back lets it in again"}};
+            }
+            return std::nullopt;
+        },
+        .take =
+            [&](const TripOutcome& outcome) {
+                if (work.take_back) {
+                    store.take_back(outcome.record.sha256);
+                }
+                const bool is_new =
+                    store.add_trip(outcome.record, outcome.trip.passes, outcome.trip.traces);
+                return is_new ? Result::imported : Result::known; // twice in one call
+            }};
+    return work_on(purpose, roads, trips, vehicles, config, work.jobs, progress, tell);
+}
+
+ImportTotals rework_trips(RoadStore& store,
+                          const std::vector<TripSource>& trips,
+                          VehicleChoice& vehicles,
+                          const PipelineConfig& config,
+                          std::size_t jobs,
+                          const Progress& progress,
+                          const std::function<void(const TripOutcome&)>& tell) {
+    using Result = TripOutcome::Result;
+    const auto roads = kept_roads(store);
+    const Purpose purpose{
+        .leave = [&](const std::string& sha256)
+            -> std::optional<std::pair<Result, std::vector<std::string>>> {
+            if (store.knows_trip(sha256)) {
+                return std::nullopt;
+            }
+            return std::pair{
+                Result::unknown,
+                std::vector<std::string>{"is not in the store: 'macadam import' brings it in"}};
+        },
+        .take =
+            [&](const TripOutcome& outcome) {
+                const bool is_kept =
+                    store.stage_trip(outcome.record, outcome.trip.passes, outcome.trip.traces);
+                return is_kept ? Result::reprocessed : Result::unknown;
+            }};
+    return work_on(purpose, roads, trips, vehicles, config, jobs, progress, tell);
 }
 
 } // namespace macadam

@@ -14,7 +14,7 @@ namespace macadam {
 
 /// What became of one trip.
 struct TripOutcome {
-    enum class Result { imported, known, rejected };
+    enum class Result { imported, known, rejected, reprocessed, unknown };
     std::string file;
     std::string trip_id;
     std::string sha256;
@@ -29,11 +29,16 @@ struct TripOutcome {
 std::string_view name_of(TripOutcome::Result result);
 
 struct ImportTotals {
-    std::size_t imported = 0;
-    std::size_t known = 0;
+    std::size_t imported = 0; ///< or reprocessed
+    std::size_t known = 0;    ///< or unknown: left as they are
     std::size_t rejected = 0;
     std::size_t passes = 0;
     std::size_t left = 0; ///< not looked at: progress.stop was requested before
+};
+
+struct ImportWork {
+    std::size_t jobs = 1;
+    bool take_back = false; ///< also trips that were forgotten
 };
 
 /// Brings trips into a store: read and estimated by `jobs` threads, written by this one in the
@@ -41,6 +46,16 @@ struct ImportTotals {
 /// the others; an error of the store itself is thrown and leaves the trips before it in place.
 /// When a stop is requested, the trip at hand is finished or dropped and the rest is left.
 ImportTotals import_trips(RoadStore& store,
+                          const std::vector<TripSource>& trips,
+                          VehicleChoice& vehicles,
+                          const PipelineConfig& config,
+                          const ImportWork& work,
+                          const Progress& progress,
+                          const std::function<void(const TripOutcome&)>& tell);
+
+/// Works trips of the store out anew in the same way, and lays them aside in it
+/// (RoadStore::stage_trip). Trips that it does not have are unknown.
+ImportTotals rework_trips(RoadStore& store,
                           const std::vector<TripSource>& trips,
                           VehicleChoice& vehicles,
                           const PipelineConfig& config,

@@ -63,6 +63,9 @@ std::vector<CarInfo> cars_of(const RoadStore& store) {
         car.km += use.km;
         passes += use.passes;
     }
+    for (const auto& car : store.calibrated_cars()) {
+        by_name[car.vehicle].calibration = car.calibration;
+    }
     std::vector<CarInfo> cars;
     for (auto& [name, car] : by_name) {
         car.share = share(static_cast<double>(car.passes), static_cast<double>(passes));
@@ -89,17 +92,29 @@ std::string road_class_lines(const std::vector<RoadClassInfo>& infos) {
     return text;
 }
 
+std::string calibration_words(const CarInfo& car) {
+    if (!car.calibration) {
+        return {};
+    }
+    const auto& [gain, offset_um, relative_sd] = *car.calibration;
+    return fmt::format("  reads {:.3f} IRI {:+.2f} mm/m, within {:.1f} %",
+                       gain,
+                       offset_um / 1000,
+                       100 * relative_sd);
+}
+
 std::string car_lines(const std::vector<CarInfo>& cars) {
     auto text =
         fmt::format("\n{:<18} {:>6} {:>9} {:>7} {:>9}\n", "car", "trips", "passes", "share", "km");
     for (std::size_t i = 0; i < std::min(cars.size(), most_rows); ++i) {
         const auto& car = cars[i];
-        text += fmt::format("{:<18} {:>6} {:>9} {:>5.1f} % {:>9.1f}\n",
+        text += fmt::format("{:<18} {:>6} {:>9} {:>5.1f} % {:>9.1f}{}\n",
                             car.vehicle,
                             car.trips,
                             car.passes,
                             100 * car.share,
-                            car.km);
+                            car.km,
+                            calibration_words(car));
     }
     return cars.size() > most_rows ? text + fmt::format("and {} more\n", cars.size() - most_rows)
                                    : text;
@@ -143,6 +158,13 @@ std::string json_of(const CarInfo& car) {
         .add("passes", static_cast<std::int64_t>(car.passes))
         .add("share", JsonNumber{car.share, 4})
         .add("km", JsonNumber{car.km, 3});
+    if (const auto& calibration = car.calibration) {
+        object.add("gain", JsonNumber{calibration->gain, 4})
+            .add("offset_mm_per_m", JsonNumber{calibration->offset_um / 1000, 3})
+            .add("relative_sd", JsonNumber{calibration->relative_sd, 4});
+    } else {
+        object.add("gain", nullptr).add("offset_mm_per_m", nullptr).add("relative_sd", nullptr);
+    }
     return object.text();
 }
 

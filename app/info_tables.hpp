@@ -4,6 +4,7 @@
 #include "storage/road_store.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct CarInfo {
     std::size_t passes = 0;
     double share = 0; ///< of all passes
     double km = 0;
+    std::optional<CarCalibration> calibration{}; ///< nothing: not calibrated
 };
 
 /// What `info` says of a store beyond its sums.

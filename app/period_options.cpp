@@ -73,4 +73,8 @@ std::optional<Period> parse_period(const Arguments& arguments) {
     return period.from_ms || period.until_ms ? std::optional{period} : std::nullopt;
 }
 
+std::optional<std::int64_t> parse_begin(const Arguments& arguments, std::string_view name) {
+    return parse_border(arguments, name, false);
+}
+
 } // namespace macadam

@@ -3,7 +3,9 @@
 #include "app/arguments.hpp"
 #include "storage/road_store.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace macadam {
 
@@ -17,5 +19,9 @@ inline constexpr Option until_option{
 /// Of --since and --until; nothing if neither is there.
 /// \throws UsageError  for what is no time, and for an end that is not after the beginning.
 std::optional<Period> parse_period(const Arguments& arguments);
+
+/// The beginning of the day, month or time that an option names, ms since 1970 UTC; nothing if it
+/// is not there. \throws UsageError  for what is no time.
+std::optional<std::int64_t> parse_begin(const Arguments& arguments, std::string_view name);
 
 } // namespace macadam

@@ -62,15 +62,6 @@ std::optional<NearOptions> parse_near(const Arguments& arguments) {
     return near;
 }
 
-std::optional<SegmentKey> parse_key(const Arguments& arguments) {
-    const auto key = arguments.value("--segment");
-    try {
-        return key ? std::optional{parse_segment_key(*key)} : std::nullopt;
-    } catch (const InputError& error) {
-        throw UsageError{fmt::format("--segment: {}", error.what())};
-    }
-}
-
 bool asks_for_segments(const QueryOptions& options) {
     const auto& filter = options.filter;
     return options.near || filter.box || filter.way_id || filter.key || !filter.name_part.empty() ||
@@ -80,7 +71,7 @@ bool asks_for_segments(const QueryOptions& options) {
 /// Sections are reported whole, whatever lies in them.
 void expect_sections_alone(const QueryOptions& options) {
     if (asks_for_segments(options) || !options.filter.with_state_only || options.history ||
-        options.passes) {
+        options.passes || options.changes) {
         throw UsageError{"--route, --along and --sections go with --since, --until and "
                          "--min-passes, not with what looks for segments"};
     }
@@ -101,6 +92,10 @@ void expect_sense(const QueryOptions& options) {
     }
     if (options.passes && options.filter.period) {
         throw UsageError{"--passes lists all passes, expected no --since or --until"};
+    }
+    if (options.changes && (!options.filter.key || options.passes || options.history ||
+                            options.filter.period || options.format == "geojson")) {
+        throw UsageError{"--changes goes with --segment KEY alone, as table, json or csv"};
     }
     if (options.history && (options.passes || options.worst.count > 0)) {
         throw UsageError{
@@ -134,6 +129,7 @@ QueryOptions parse_query(const Arguments& arguments) {
                          .format = arguments.choice("--format", formats),
                          .history = arguments.flag("--history"),
                          .passes = arguments.flag("--passes"),
+                         .changes = arguments.flag("--changes"),
                          .worst = parse_worst(arguments)};
     if (arguments.flag("--json")) {
         options.format = "json";

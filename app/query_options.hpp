@@ -34,6 +34,7 @@ struct QueryOptions {
     std::string format;
     bool history; ///< by month
     bool passes;  ///< each of one segment
+    bool changes; ///< of one segment's number
     WorstOptions worst;
 };
 

@@ -2,6 +2,8 @@
 
 #include "app/period_options.hpp"
 
+#include "estimator/common/error.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -58,6 +60,15 @@ SegmentFilter parse_filter(const Arguments& arguments) {
     filter.least_passes = parse_least_passes(arguments);
     filter.period = parse_period(arguments);
     return filter;
+}
+
+std::optional<SegmentKey> parse_key(const Arguments& arguments) {
+    const auto key = arguments.value("--segment");
+    try {
+        return key ? std::optional{parse_segment_key(*key)} : std::nullopt;
+    } catch (const InputError& error) {
+        throw UsageError{fmt::format("--segment: {}", error.what())};
+    }
 }
 
 void expect_known_class(const SegmentFilter& filter, const RoadStore& store) {

@@ -34,6 +34,9 @@ inline constexpr Option least_passes_option{
 /// \throws UsageError for values that do not fit.
 SegmentFilter parse_filter(const Arguments& arguments);
 
+/// Of --segment. \throws UsageError  for what is no key.
+std::optional<SegmentKey> parse_key(const Arguments& arguments);
+
 /// \throws UsageError  if the store's class table has no class of the filter's name.
 void expect_known_class(const SegmentFilter& filter, const RoadStore& store);
 

@@ -18,9 +18,12 @@ std::string_view bytes_of(const std::vector<RoughnessCode>& codes) {
 
 } // namespace
 
-PassWriter::PassWriter(Database& database, std::int64_t segments_in_strip)
-    : segments_{database, segments_in_strip}, add_pass_{database, "INSERT INTO pass", 15},
-      add_trace_{database.prepare("INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)")},
+PassWriter::PassWriter(Database& database, std::int64_t segments_in_strip, Destination destination)
+    : marks_{destination == Destination::kept}, segments_{database, segments_in_strip},
+      add_pass_{database, marks_ ? "INSERT INTO pass" : "INSERT INTO staged_pass", 15},
+      add_trace_{database.prepare(marks_
+                                      ? "INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)"
+                                      : "INSERT INTO staged_trace VALUES (?, ?, ?, ?, ?, ?, ?)")},
       mark_segment_{database, "INSERT OR IGNORE INTO segment_dirty", 1},
       mark_strip_{database, "INSERT OR IGNORE INTO strip_dirty", 1} {}
 
@@ -30,7 +33,7 @@ void PassWriter::write(std::int64_t trip,
     for (const auto& pass : passes) {
         const auto segment = segments_.row_of(pass.segment);
         write_pass(segment, trip, pass);
-        if (marked_segments_.insert(segment).second) {
+        if (marks_ && marked_segments_.insert(segment).second) {
             mark_segment_.add(segment);
         }
     }
@@ -38,7 +41,7 @@ void PassWriter::write(std::int64_t trip,
         const auto strip = segments_.row_of(trace.strip);
         write_trace(strip, trip, trace);
         // A trace may move others also where the trip has no pass.
-        if (marked_strips_.insert(strip).second) {
+        if (marks_ && marked_strips_.insert(strip).second) {
             mark_strip_.add(strip);
         }
     }

@@ -12,11 +12,17 @@
 
 namespace macadam {
 
-/// Writes passes and traces of trips, and marks their segments and strips as not fused yet. For
-/// one transaction: what it has looked up may change between two.
+/// Where passes and traces of trips are written.
+enum class Destination {
+    kept,  ///< in the store
+    staged ///< aside, in temporary tables of the connection (storage/road_store_reprocess.cpp)
+};
+
+/// Writes passes and traces of trips, and, where they are to be kept, marks their segments and
+/// strips as not fused yet. For one transaction: what it has looked up may change between two.
 class PassWriter {
 public:
-    PassWriter(Database& database, std::int64_t segments_in_strip);
+    PassWriter(Database& database, std::int64_t segments_in_strip, Destination destination);
 
     /// \param trip  its row.
     /// \throws InputError  for a segment or a strip that the store does not have.
@@ -29,6 +35,7 @@ private:
     void write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass);
     void write_trace(std::int64_t strip, std::int64_t trip, const StripTrace& trace);
 
+    bool marks_;
     StripSegments segments_;
     BulkInsert add_pass_;
     Statement add_trace_;

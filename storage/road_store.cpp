@@ -2,11 +2,12 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/forgotten_trips.hpp"
 #include "storage/network_rows.hpp"
 #include "storage/pass_writer.hpp"
+#include "storage/pseudonym.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/row_reasons.hpp"
-#include "storage/sha256.hpp"
 #include "storage/store_file.hpp"
 #include "storage/strip_fusion.hpp"
 
@@ -23,16 +24,6 @@ void refuse_existing(const std::filesystem::path& file) {
         throw InputError{
             fmt::format("{}: exists already, expected the name of a new store", file.string())};
     }
-}
-
-/// A name that tells cars apart without naming them.
-std::string pseudonym_of(const std::string& vehicle_id) {
-    if (vehicle_id.empty()) {
-        return "unknown";
-    }
-    Sha256 hash;
-    hash.add(vehicle_id);
-    return "v-" + hash.hex().substr(0, 12);
 }
 
 std::int64_t row_of_vehicle(Database& database, const std::string& pseudonym) {
@@ -125,10 +116,11 @@ std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
     auto& database = impl_->database;
     const UncheckedKeys keys_are_looked_up{database};
     Transaction all{database, Transaction::Kind::write};
-    PassWriter writer{database, segments_in_strip(impl_->settings.segment_length_m)};
+    PassWriter writer{
+        database, segments_in_strip(impl_->settings.segment_length_m), Destination::kept};
     std::vector<bool> added;
     for (const auto& [trip, passes, traces] : trips) {
-        added.push_back(!has_trip(database, trip->sha256));
+        added.push_back(!has_trip(database, trip->sha256) && !is_forgotten(database, trip->sha256));
         if (added.back()) {
             const auto row = write_trip(database, *trip);
             write_row_reasons(database, row, trip->row_reasons);

@@ -8,6 +8,7 @@
 #include "mapping/road_network.hpp"
 #include "mapping/segment_record.hpp"
 #include "mapping/strip_trace.hpp"
+#include "storage/store_upkeep.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -187,7 +188,7 @@ public:
 
     bool knows_trip(const std::string& sha256) const;
 
-    /// \returns false, and changes nothing, if the trip is already there.
+    /// \returns false, and changes nothing, if the trip is already there, or was forgotten.
     bool add_trip(const TripRecord& trip,
                   std::span<const Pass> passes,
                   std::span<const StripTrace> traces = {});
@@ -208,6 +209,56 @@ public:
     /// and fuses them (mapping/alignment.hpp, mapping/fusion.hpp) by the rules of the store's
     /// generation. \returns how many segments had new passes.
     std::size_t refresh(const Progress& progress = {});
+
+    /// Finds how the cars read from what they read of the same roads, and of what their errors are
+    /// made; with `keep` begins a generation with these rules and fuses all passes by them, in one
+    /// transaction: readers see the numbers of before until all are made.
+    CalibrationReport calibrate(bool keep, const Progress& progress = {});
+
+    /// Lays aside what a trip of the store says now that it was worked out anew; nobody sees it
+    /// before take_staged(), and it goes with this object. \returns false if there is no such trip.
+    bool stage_trip(const TripRecord& trip,
+                    std::span<const Pass> passes,
+                    std::span<const StripTrace> traces);
+
+    /// Begins a generation with the trips that were laid aside in place of what they said before,
+    /// and the others as they were, in one transaction. Cars that were calibrated are calibrated
+    /// anew from the trips that they were calibrated from. \param how  for the audit.
+    Reprocessed take_staged(std::string_view how, const Progress& progress = {});
+
+    /// Takes trips and all that came of them out, in one transaction: passes, states, notes of
+    /// numbers that they changed. What is left is what a store holds that never saw them; if cars
+    /// were calibrated from them, they are calibrated anew from the others. Of each trip a mark is
+    /// left by which it is known again (docs/store.md). Bytes are overwritten.
+    ///
+    /// \throws InputError  if there is no trip or vehicle of a name; nothing is changed.
+    Forgotten forget(const ForgetRequest& request, const Progress& progress = {});
+
+    /// Whether the trip was here and was forgotten; add_trip() leaves it out.
+    bool has_forgotten(const std::string& sha256) const;
+
+    /// Lets a forgotten trip in again.
+    void take_back(const std::string& sha256);
+
+    /// From that time on, ms since 1970 UTC, passes speak of these segments; older ones, and
+    /// undated ones, are of a road that is no more. Nothing: all do. Fuses them, in one
+    /// transaction. \returns how many of them the store has.
+    std::size_t set_valid_from(std::span<const SegmentKey> segments,
+                               const std::optional<std::int64_t>& from_ms,
+                               std::string_view reason,
+                               const Progress& progress = {});
+
+    /// In the order of keys.
+    std::vector<ValidSince> valid_since() const;
+
+    /// All that was done that changed numbers, oldest first.
+    std::vector<AuditEntry> audit() const;
+
+    /// When and why the number of a segment changed, oldest first.
+    std::vector<NumberChange> changes(const SegmentKey& key) const;
+
+    /// How cars of the store are calibrated: by pseudonym, only those that are.
+    std::vector<CalibratedCar> calibrated_cars() const;
 
     /// In the order of keys (way, forward before backward, index), of the ranges, or worst first.
     /// All is of one moment.

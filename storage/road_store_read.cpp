@@ -201,7 +201,7 @@ StoreInfo RoadStore::info() const {
             .last_seen_ms = known_utc_ms(seen, 1),
             .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
             .laid = laid_in(database),
-            .generation = 1,
+            .generation = read_generation(database),
             .box = cover.box};
 }
 

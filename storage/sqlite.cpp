@@ -282,6 +282,17 @@ void Database::write_beside_readers() {
     }
 }
 
+bool Database::bring_log_in() {
+    sqlite3_busy_handler(handle(), nullptr, nullptr); // readers may take as long as they like
+    const int code =
+        sqlite3_wal_checkpoint_v2(handle(), "main", SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
+    sqlite3_busy_handler(handle(), wait_for_turn, nullptr);
+    if ((code & 0xff) != SQLITE_BUSY) {
+        check(handle(), *file_, code);
+    }
+    return code == SQLITE_OK;
+}
+
 void Database::run(const char* sql) {
     check(handle(), *file_, sqlite3_exec(handle(), sql, nullptr, nullptr, nullptr));
 }

@@ -116,6 +116,10 @@ public:
     void write_beside_readers();
 
     /// One or more statements without parameters or rows.
+    /// Brings all commits of the log into the file and empties it, now. \returns false if somebody
+    /// reads what is in it: the last one to close the file does it then.
+    bool bring_log_in();
+
     void run(const char* sql);
     void run(const std::string& sql) { run(sql.c_str()); }
 

@@ -113,6 +113,17 @@ CREATE TABLE segment_state (
 CREATE TABLE segment_dirty (
     segment INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid)
 );
+CREATE TABLE row_reason (
+    trip INTEGER NOT NULL REFERENCES trip(id),
+    reason TEXT NOT NULL,
+    rows INTEGER NOT NULL,
+    PRIMARY KEY (trip, reason)
+) WITHOUT ROWID;
+CREATE TABLE import_note (
+    name TEXT PRIMARY KEY NOT NULL,
+    asked INTEGER NOT NULL,
+    trips_before INTEGER NOT NULL
+) WITHOUT ROWID;
 CREATE TABLE strip_dirty (
     strip INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid)
 );

@@ -62,12 +62,14 @@ StripStates::StripStates(Database& database)
       cars_{read_calibrations(database)}, config_{read_fusion_config(database)} {}
 
 std::vector<StripPass> StripStates::valid_passes(std::int64_t strip, std::int64_t segments) {
-    const auto from_ms = valid_from_.of(strip, strip + segments);
     auto passes = passes_.of(strip, segments);
-    std::erase_if(passes, [&](const StripPass& pass) {
-        const auto from = from_ms.find(pass.fid);
-        return from != from_ms.end() && !(pass.input.utc_ms && *pass.input.utc_ms >= from->second);
-    });
+    if (const auto since_ms = valid_from_.of(strip, strip + segments); !since_ms.empty()) {
+        std::erase_if(passes, [&](const StripPass& pass) {
+            const auto since = since_ms.find(pass.fid);
+            return since != since_ms.end() &&
+                   !(pass.input.utc_ms && *pass.input.utc_ms >= since->second);
+        });
+    }
     for (auto& pass : passes) {
         if (const auto car = cars_.find(pass.input.vehicle); car != cars_.end()) {
             pass.input.calibration = car->second.calibration;
@@ -76,9 +78,13 @@ std::vector<StripPass> StripStates::valid_passes(std::int64_t strip, std::int64_
     return passes;
 }
 
-std::vector<StripPass> StripStates::passes(std::int64_t strip, std::int64_t segments) {
-    const auto traces = traces_.placed(strip);
-    auto passes = valid_passes(strip, segments);
+std::vector<StripPass> StripStates::readings(std::int64_t strip,
+                                             std::int64_t segments,
+                                             const std::unordered_set<std::string>& trips) {
+    auto passes = passes_.of(strip, segments);
+    std::erase_if(passes,
+                  [&](const auto& pass) { return !trips.contains(pass.input.trip_sha256); });
+    const auto traces = traces_.placed(strip, drives_of(passes));
     for (auto& pass : passes) {
         put_in_its_place(pass, traces);
     }

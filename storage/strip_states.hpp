@@ -9,6 +9,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace macadam {
@@ -36,8 +38,11 @@ public:
     std::vector<FusedSegment>
     of(std::int64_t strip, std::int64_t segments_in_strip, const Period& period);
 
-    /// The passes by themselves, as fusion takes them, moved to where they lie.
-    std::vector<StripPass> passes(std::int64_t strip, std::int64_t segments_in_strip);
+    /// The passes of these trips, by hash, where they lie among each other; as they were read,
+    /// whatever is known of their cars, and also those of a road that is no more.
+    std::vector<StripPass> readings(std::int64_t strip,
+                                    std::int64_t segments_in_strip,
+                                    const std::unordered_set<std::string>& trips);
 
 private:
     std::vector<StripPass> valid_passes(std::int64_t strip, std::int64_t segments_in_strip);

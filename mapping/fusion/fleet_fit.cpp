@@ -1,0 +1,273 @@
+#include "mapping/fusion/fleet_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr double dof = 4;          // of Student's t, as in TailModel
+constexpr double least_gain = 0.1; // of car and trip together: far below any car
+constexpr double trips_of_prior = 5;
+constexpr double trip_counts_from = 20; // readings, so that its mean says something of the trip
+
+double square(double x) {
+    return x * x;
+}
+
+} // namespace
+
+FleetFit::FleetFit(const std::vector<FleetReading>& readings,
+                   const std::vector<std::optional<double>>& known,
+                   const FleetPrior& prior)
+    : cars(known.size()), trip_sd{prior.trip_sd}, rest_sd{prior.rest_sd}, readings_{&readings},
+      known_{&known}, prior_{prior}, trust_(readings.size(), 1), leverage_(readings.size(), 0) {
+    std::uint32_t trips = 0;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        if (i == 0 || readings[i].place != readings[i - 1].place) {
+            first_of_place_.push_back(i);
+        }
+        trips = std::max(trips, readings[i].trip + 1);
+    }
+    first_of_place_.push_back(readings.size());
+    level_um_.resize(place_count(), 0);
+    trips_.resize(trips);
+    for (const auto& reading : readings) {
+        trips_[reading.trip].car = reading.car;
+        ++trips_[reading.trip].readings;
+    }
+    fit_levels();
+}
+
+double FleetFit::settle() {
+    std::vector<Car> before = cars;
+    fit_levels();
+    hold_against_known();
+    sum_trips();
+    fit_cars();
+    centre_cars();
+    trust_readings();
+    double moved = 0;
+    for (std::size_t car = 0; car < cars.size(); ++car) {
+        moved = std::max({moved,
+                          std::abs(cars[car].gain - before[car].gain),
+                          std::abs(cars[car].offset_um - before[car].offset_um) / middle_um_});
+    }
+    return moved;
+}
+
+/// Of a reading by itself, relative to the level of its place.
+double FleetFit::variance_of(std::size_t reading) const {
+    const auto& [place, car, trip, read_um] = (*readings_)[reading];
+    if (const auto& sd = (*known_)[car]) {
+        return square(*sd);
+    }
+    return square(rest_sd) + square(prior_.rest_sd_um / std::max(1.0, level_um_[place]));
+}
+
+/// Of a reading over the level, but for the offset.
+double FleetFit::expected(std::size_t reading) const {
+    const auto& [place, car, trip, read_um] = (*readings_)[reading];
+    return std::max(least_gain, cars[car].gain + trips_[trip].error);
+}
+
+void FleetFit::fit_levels() {
+    std::vector<double> levels;
+    for (std::size_t at = 0; at + 1 < first_of_place_.size(); ++at) {
+        const auto place = at;
+        double whole = 0, sum = 0;
+        for (auto i = first_of_place_[at]; i < first_of_place_[at + 1]; ++i) {
+            const auto& reading = (*readings_)[i];
+            const double level = (reading.read_um - cars[reading.car].offset_um) / expected(i);
+            leverage_[i] = trust_[i] / (level_um_[place] > 0 ? variance_of(i) : 1);
+            whole += leverage_[i];
+            sum += leverage_[i] * level;
+        }
+        for (auto i = first_of_place_[at]; i < first_of_place_[at + 1]; ++i) {
+            leverage_[i] /= whole;
+        }
+        level_um_[place] = std::max(1.0, sum / whole);
+        levels.push_back(level_um_[place]);
+    }
+    middle_um_ = std::max(1.0, median_of(std::move(levels)));
+}
+
+/// Moves all levels, and with them the gains, to where the known cars have them: in turns with the
+/// rest it would take as many rounds as there are places without one.
+void FleetFit::hold_against_known() {
+    double whole = 0, sum = 0, square_sum = 0, least_variance = 0;
+    for (std::size_t i = 0; i < readings_->size(); ++i) {
+        const auto& reading = (*readings_)[i];
+        const auto& sd = (*known_)[reading.car];
+        if (sd && leverage_[i] < 1) {
+            // The level of the others alone.
+            const double level =
+                (level_um_[reading.place] - leverage_[i] * reading.read_um) / (1 - leverage_[i]);
+            const double off = reading.read_um / std::max(1.0, level) - 1;
+            const double weight = trust_[i] / square(*sd);
+            whole += weight;
+            sum += weight * off;
+            square_sum += weight * weight * square(off);
+            least_variance = std::max(least_variance, square(*sd));
+        }
+    }
+    if (whole <= 0) {
+        return;
+    }
+    const double off = sum / whole;
+    for (std::size_t car = 0; car < cars.size(); ++car) {
+        if (!(*known_)[car]) {
+            cars[car].gain /= 1 + off;
+        }
+    }
+    for (auto& level_um : level_um_) {
+        level_um *= 1 + off;
+    }
+    // A survey is off by the same share all along: its own sd does not average out.
+    known_sd = std::sqrt(least_variance + square_sum / square(whole));
+}
+
+void FleetFit::sum_trips() {
+    for (auto& trip : trips_) {
+        trip.w = trip.wz = trip.wzz = trip.wr = trip.wzr = 0;
+    }
+    for (std::size_t i = 0; i < readings_->size(); ++i) {
+        const auto& reading = (*readings_)[i];
+        auto& trip = trips_[reading.trip];
+        const double z = 1 / level_um_[reading.place];
+        const double r = reading.read_um * z - 1;
+        const double w = trust_[i] / variance_of(i);
+        trip.w += w;
+        trip.wz += w * z;
+        trip.wzz += w * z * z;
+        trip.wr += w * r;
+        trip.wzr += w * z * r;
+    }
+}
+
+/// Normal equations of gain error and offset, the trips' errors integrated out.
+void FleetFit::fit_cars() {
+    struct Normal {
+        double gg, ga, aa, g, a;
+    };
+    std::vector<Normal> normals(
+        cars.size(), {1 / square(prior_.gain_sd), 0, 1 / square(prior_.offset_sd_um), 0, 0});
+    const double precision = 1 / square(trip_sd);
+    for (const auto& trip : trips_) {
+        auto& normal = normals[trip.car];
+        const double k = 1 / (trip.w + precision);
+        normal.gg += trip.w - trip.w * trip.w * k;
+        normal.ga += trip.wz - trip.w * trip.wz * k;
+        normal.aa += trip.wzz - trip.wz * trip.wz * k;
+        normal.g += trip.wr - trip.w * trip.wr * k;
+        normal.a += trip.wzr - trip.wz * trip.wr * k;
+    }
+    const double z = 1 / middle_um_;
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        if ((*known_)[i]) {
+            continue;
+        }
+        const auto& [gg, ga, aa, g, a] = normals[i];
+        const double determinant = gg * aa - ga * ga;
+        auto& car = cars[i];
+        car.gain = 1 + (g * aa - a * ga) / determinant;
+        car.offset_um = (a * gg - g * ga) / determinant;
+        car.variance_at_middle = (aa - 2 * ga * z + gg * z * z) / determinant;
+    }
+    for (auto& trip : trips_) {
+        const auto& car = cars[trip.car];
+        trip.error = (*known_)[trip.car]
+                         ? 0
+                         : (trip.wr - (car.gain - 1) * trip.w - car.offset_um * trip.wz) /
+                               (trip.w + precision);
+    }
+}
+
+/// Without a known car, the mean of all is taken to be right: one that is far off counts little.
+void FleetFit::centre_cars() {
+    const double z = 1 / middle_um_;
+    double whole = 0, gain = 0, offset_um = 0;
+    for (auto& car : cars) {
+        car.error_at_middle = car.gain - 1 + car.offset_um * z;
+        const double variance = square(prior_.car_sd) + car.variance_at_middle;
+        const double weight = (dof + 1) / (dof + square(car.error_at_middle) / variance) / variance;
+        whole += weight;
+        gain += weight * car.gain;
+        offset_um += weight * car.offset_um;
+    }
+    if (known_sd || whole <= 0) {
+        return;
+    }
+    for (auto& car : cars) {
+        car.gain /= gain / whole;
+        car.offset_um -= offset_um / whole;
+        car.error_at_middle = car.gain - 1 + car.offset_um * z;
+    }
+}
+
+void FleetFit::trust_readings() {
+    for (std::size_t i = 0; i < readings_->size(); ++i) {
+        const auto& reading = (*readings_)[i];
+        const double off =
+            (reading.read_um - cars[reading.car].offset_um) / level_um_[reading.place] -
+            expected(i);
+        trust_[i] = (dof + 1) / (dof + square(off) / variance_of(i));
+    }
+}
+
+void FleetFit::take_spread() {
+    std::vector<double> off;
+    for (std::size_t i = 0; i < readings_->size(); ++i) {
+        const auto& reading = (*readings_)[i];
+        // Half its place's weight: what is left is not what it reads wrong.
+        if (!(*known_)[reading.car] && leverage_[i] < 0.5) {
+            off.push_back(std::abs((reading.read_um - cars[reading.car].offset_um) /
+                                       level_um_[reading.place] -
+                                   expected(i)) /
+                          std::sqrt(1 - leverage_[i]));
+        }
+    }
+    if (!off.empty()) {
+        const double whole = square(sd_over_mad_of_normal * median_of(std::move(off)));
+        const double beside = square(prior_.rest_sd_um / middle_um_);
+        rest_sd = std::sqrt(std::max(whole - beside, whole / 100));
+    }
+
+    std::vector<std::size_t> trips_of_car(cars.size(), 0);
+    for (const auto& trip : trips_) {
+        trips_of_car[trip.car] += trip.readings >= trip_counts_from ? 1 : 0;
+    }
+    std::vector<double> errors;
+    double sampling = 0, used = 0, cars_used = 0;
+    for (const auto& trip : trips_) {
+        if (trip.readings >= trip_counts_from && trips_of_car[trip.car] > 1 &&
+            !(*known_)[trip.car]) {
+            const auto& car = cars[trip.car];
+            const double mean =
+                (trip.wr - (car.gain - 1) * trip.w - car.offset_um * trip.wz) / trip.w;
+            errors.push_back(std::abs(mean));
+            sampling += 1 / trip.w;
+            used += 1;
+            cars_used += 1 / static_cast<double>(trips_of_car[trip.car]);
+        }
+    }
+    if (used > cars_used) {
+        const double seen = square(sd_over_mad_of_normal * median_of(std::move(errors))) * used /
+                                (used - cars_used) -
+                            sampling / used;
+        trip_sd = std::sqrt(
+            (trips_of_prior * square(prior_.trip_sd) + (used - cars_used) * std::max(0.0, seen)) /
+            (trips_of_prior + used - cars_used));
+    }
+}
+
+double median_of(std::vector<double> values) {
+    if (values.empty()) {
+        return 0;
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+} // namespace macadam

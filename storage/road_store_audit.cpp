@@ -1,0 +1,116 @@
+#include "storage/audit.hpp"
+#include "storage/road_store_impl.hpp"
+#include "storage/segment_row.hpp"
+#include "storage/strip_fusion.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+AuditEntry entry_in(const Statement& row) {
+    return {.id = row.integer(0),
+            .at = row.text(1),
+            .generation = static_cast<int>(row.integer(2)),
+            .what = row.text(3),
+            .detail = row.text(4),
+            .segments = static_cast<std::size_t>(row.integer(5))};
+}
+
+constexpr const char* find_segment =
+    "SELECT fid FROM segment WHERE way_id = ? AND direction = ? AND seq = ?";
+
+} // namespace
+
+std::vector<AuditEntry> RoadStore::audit() const {
+    auto select = impl_->database.prepare(
+        "SELECT audit.id, at, generation, what, detail, count(state_change.segment) FROM audit"
+        " LEFT JOIN state_change ON state_change.audit = audit.id GROUP BY audit.id ORDER BY 1");
+    std::vector<AuditEntry> entries;
+    while (select.step()) {
+        entries.push_back(entry_in(select));
+    }
+    return entries;
+}
+
+std::vector<NumberChange> RoadStore::changes(const SegmentKey& key) const {
+    auto select = impl_->database.prepare(
+        "SELECT audit.id, at, generation, what, detail, 1, iri_um, sd_um, passes FROM segment"
+        " CROSS JOIN state_change ON state_change.segment = segment.fid"
+        " CROSS JOIN audit ON audit.id = state_change.audit"
+        " WHERE way_id = ? AND direction = ? AND seq = ? ORDER BY audit.id");
+    select.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
+    std::vector<NumberChange> changes;
+    const auto known_um = [&](int column) {
+        const auto um = select.known_integer(column);
+        return um ? std::optional{static_cast<IriUm>(*um)} : std::nullopt;
+    };
+    while (select.step()) {
+        changes.push_back({entry_in(select), known_um(6), known_um(7), select.integer(8)});
+    }
+    return changes;
+}
+
+std::size_t RoadStore::set_valid_from(std::span<const SegmentKey> segments,
+                                      const std::optional<std::int64_t>& from_ms,
+                                      std::string_view reason,
+                                      const Progress& progress) {
+    auto& database = impl_->database;
+    Transaction all{database, Transaction::Kind::write};
+    auto find = database.prepare(find_segment);
+    auto insert = database.prepare("INSERT OR REPLACE INTO valid_from VALUES (?, ?)");
+    auto remove = database.prepare("DELETE FROM valid_from WHERE segment = ?");
+    auto mark = database.prepare("INSERT OR IGNORE INTO segment_dirty VALUES (?)");
+    const auto audit = add_audit(
+        database,
+        "valid-from",
+        fmt::format("{} segments {}{}{}",
+                    segments.size(),
+                    from_ms ? "from " + datetime_text(*from_ms) : std::string{"from any day"},
+                    reason.empty() ? "" : ": ",
+                    reason));
+    std::size_t found = 0;
+    for (const auto& key : segments) {
+        find.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
+        if (!find.step()) {
+            continue;
+        }
+        const auto row = find.integer(0);
+        if (from_ms) {
+            insert.run(row, *from_ms);
+        } else {
+            remove.run(row);
+        }
+        mark.run(row);
+        ++found;
+    }
+    fuse_dirty_at_once(database,
+                       segments_in_strip(impl_->settings.segment_length_m),
+                       impl_->classes(),
+                       audit,
+                       progress);
+    all.commit();
+    return found;
+}
+
+std::vector<ValidSince> RoadStore::valid_since() const {
+    auto select = impl_->database.prepare(
+        "SELECT way_id, direction, seq, from_ms FROM valid_from"
+        " CROSS JOIN segment ON segment.fid = valid_from.segment ORDER BY segment.fid");
+    std::vector<ValidSince> all;
+    while (select.step()) {
+        all.push_back({{select.integer(0),
+                        select.text(1) == "forward",
+                        static_cast<std::uint32_t>(select.integer(2))},
+                       select.integer(3)});
+    }
+    return all;
+}
+
+} // namespace macadam

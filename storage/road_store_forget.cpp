@@ -1,0 +1,202 @@
+#include "estimator/common/error.hpp"
+#include "storage/audit.hpp"
+#include "storage/forgotten_trips.hpp"
+#include "storage/fusion_settings.hpp"
+#include "storage/pseudonym.hpp"
+#include "storage/road_store_impl.hpp"
+#include "storage/store_calibration.hpp"
+#include "storage/strip_fusion.hpp"
+#include "storage/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+struct KeptTrip {
+    std::string sha256;
+    bool calibrates;
+};
+using KeptTrips = std::map<std::int64_t, KeptTrip>; ///< by row of table trip
+
+constexpr std::size_t hash_digits = 64;
+
+/// Adds what is found to `trips`. \throws InputError if nothing is.
+void find_trips(Database& database, const std::string& name, KeptTrips& trips) {
+    auto select = database.prepare("SELECT id, sha256, calibrates FROM trip"
+                                   " WHERE trip_id = ?1 OR file_name = ?1 OR sha256 = ?1");
+    select.bind(name);
+    bool found = false;
+    while (select.step()) {
+        found = true;
+        trips[select.integer(0)] = {select.text(1), select.integer(2) != 0};
+    }
+    if (!found) {
+        throw InputError{
+            fmt::format("{}: has no trip {}, expected a trip_id, the name of its file or the {} "
+                        "hex digits of its SHA-256",
+                        database.file().string(),
+                        in_quotes(name),
+                        hash_digits)};
+    }
+}
+
+void find_trips_of(Database& database, const std::string& vehicle, KeptTrips& trips) {
+    auto select = database.prepare(
+        "SELECT trip.id, sha256, calibrates FROM trip"
+        " JOIN vehicle ON vehicle.id = trip.vehicle WHERE pseudonym = ?1 OR pseudonym = ?2");
+    select.bind(vehicle, pseudonym_of(vehicle));
+    bool found = false;
+    while (select.step()) {
+        found = true;
+        trips[select.integer(0)] = {select.text(1), select.integer(2) != 0};
+    }
+    if (!found) {
+        throw InputError{fmt::format("{}: has no trip of vehicle {}, expected a vehicle_id or a "
+                                     "pseudonym as 'macadam info' tells them",
+                                     database.file().string(),
+                                     in_quotes(vehicle))};
+    }
+}
+
+void mark_segments(Database& database, std::int64_t trip) {
+    for (const char* const sql :
+         {"INSERT OR IGNORE INTO segment_dirty SELECT segment FROM pass WHERE trip = ?",
+          "INSERT OR IGNORE INTO strip_dirty SELECT strip FROM trace WHERE trip = ?"}) {
+        database.prepare(sql).run(trip);
+    }
+}
+
+void erase(Database& database, std::int64_t trip) {
+    for (const char* const sql : {"DELETE FROM pass WHERE trip = ?",
+                                  "DELETE FROM trace WHERE trip = ?",
+                                  "DELETE FROM row_reason WHERE trip = ?",
+                                  "DELETE FROM trip WHERE id = ?"}) {
+        database.prepare(sql).run(trip);
+    }
+}
+
+/// What was noted of the numbers would tell what the trips read; and trips that move others along
+/// the road change the numbers of the whole strip.
+constexpr const char* erase_changes =
+    "DELETE FROM state_change WHERE segment IN (SELECT segment.fid FROM"
+    " (SELECT strip FROM strip_dirty UNION SELECT of.strip FROM segment_dirty AS dirty"
+    " CROSS JOIN segment AS of ON of.fid = dirty.segment) AS dirty CROSS JOIN segment"
+    " ON segment.fid >= dirty.strip AND segment.fid < dirty.strip + ?"
+    " AND segment.strip = dirty.strip)";
+
+constexpr const char* erase_cars_without_trips =
+    "DELETE FROM calibration WHERE vehicle NOT IN (SELECT vehicle FROM trip);"
+    "DELETE FROM vehicle WHERE id NOT IN (SELECT vehicle FROM trip)";
+
+std::set<std::int64_t> segments_of(Database& database, const KeptTrips& trips) {
+    auto select = database.prepare("SELECT segment FROM pass WHERE trip = ?");
+    std::set<std::int64_t> segments;
+    for (const auto& [row, trip] : trips) {
+        for (select.bind(row); select.step();) {
+            segments.insert(select.integer(0));
+        }
+    }
+    return segments;
+}
+
+KeptTrips trips_of(Database& database, const ForgetRequest& request) {
+    KeptTrips trips;
+    for (const auto& name : request.trips) {
+        find_trips(database, name, trips);
+    }
+    for (const auto& vehicle : request.vehicles) {
+        find_trips_of(database, vehicle, trips);
+    }
+    return trips;
+}
+
+} // namespace
+
+Forgotten RoadStore::forget(const ForgetRequest& request, const Progress& progress) {
+    auto& database = impl_->database;
+    const auto in_strip = segments_in_strip(impl_->settings.segment_length_m);
+    Transaction all{database, Transaction::Kind::write};
+    const auto trips = trips_of(database, request);
+    Forgotten forgotten{.trips = trips.size(), .segments = segments_of(database, trips).size()};
+    for (const auto& [row, trip] : trips) {
+        mark_segments(database, row);
+        forgotten.calibrated = forgotten.calibrated || trip.calibrates;
+    }
+    database.prepare(erase_changes).run(std::int64_t{in_strip});
+    auto passes = database.prepare("SELECT count(*) FROM pass WHERE trip = ?");
+    for (const auto& [row, trip] : trips) {
+        passes.bind(row).step();
+        forgotten.passes += static_cast<std::size_t>(passes.integer(0));
+        erase(database, row);
+        mark_forgotten(database, trip.sha256);
+    }
+    passes.reset();
+    database.run(erase_cars_without_trips);
+    if (forgotten.calibrated) {
+        const auto basis = CalibrationBasis::same;
+        take_calibration(database, find_calibration(database, in_strip, basis, progress), basis);
+    }
+    const auto audit =
+        add_audit(database,
+                  "forget",
+                  fmt::format("trips: {}{}",
+                              forgotten.trips,
+                              forgotten.calibrated ? "; cars calibrated without them" : ""));
+    fuse_dirty_at_once(database, in_strip, impl_->classes(), audit, progress);
+    all.commit();
+    forgotten.log_is_clean = database.bring_log_in();
+    return forgotten;
+}
+
+bool RoadStore::has_forgotten(const std::string& sha256) const {
+    return is_forgotten(impl_->database, sha256);
+}
+
+void RoadStore::take_back(const std::string& sha256) {
+    unmark_forgotten(impl_->database, sha256);
+}
+
+CalibrationReport RoadStore::calibrate(bool keep, const Progress& progress) {
+    auto& database = impl_->database;
+    const auto in_strip = segments_in_strip(impl_->settings.segment_length_m);
+    constexpr auto basis = CalibrationBasis::all;
+    Transaction all{database, keep ? Transaction::Kind::write : Transaction::Kind::read};
+    auto report = find_calibration(database, in_strip, basis, progress);
+    if (keep) {
+        take_calibration(database, report, basis);
+        report.generation = read_generation(database);
+        const auto cars = std::ranges::count_if(
+            report.cars, [](const auto& car) { return car.calibration.has_value(); });
+        const auto audit = add_audit(
+            database, "calibrate", fmt::format("cars: {} of {}", cars, report.cars.size()));
+        fuse_dirty_at_once(database, in_strip, impl_->classes(), audit, progress);
+        all.commit();
+    }
+    return report;
+}
+
+std::vector<CalibratedCar> RoadStore::calibrated_cars() const {
+    const auto records = read_calibrations(impl_->database);
+    auto select = impl_->database.prepare("SELECT id, pseudonym FROM vehicle ORDER BY pseudonym");
+    std::vector<CalibratedCar> cars;
+    while (select.step()) {
+        if (const auto found = records.find(select.integer(0)); found != records.end()) {
+            const auto& [calibration, trips, passes] = found->second;
+            cars.push_back({found->first,
+                            select.text(1),
+                            static_cast<std::size_t>(trips),
+                            static_cast<std::size_t>(passes),
+                            calibration});
+        }
+    }
+    return cars;
+}
+
+} // namespace macadam

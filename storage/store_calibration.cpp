@@ -1,0 +1,222 @@
+#include "storage/store_calibration.hpp"
+
+#include "estimator/common/error.hpp"
+#include "mapping/fleet_calibration.hpp"
+#include "storage/fusion_settings.hpp"
+#include "storage/segment_row.hpp"
+#include "storage/store_schema.hpp"
+#include "storage/strip_states.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+// A road is taken for the same within a year: it gets rougher by some percent, all cars alike.
+constexpr std::int64_t window_ms = 31'557'600'000;
+constexpr std::int64_t undated = -1;
+
+// Far more than two numbers a car need; they take 80 MB.
+constexpr std::int64_t most_readings = 2'000'000;
+
+constexpr std::uint8_t unsure = validity::too_slow | validity::start_up | validity::lateral_alone;
+
+struct Car {
+    std::int64_t row;
+    std::string pseudonym;
+    std::size_t trips = 0;
+};
+
+struct Fleet {
+    std::vector<Car> cars; ///< by pseudonym
+    std::unordered_map<std::int64_t, std::uint32_t> number_of_car;
+    std::unordered_map<std::string, std::uint32_t> number_of_trip; ///< by hash
+    std::unordered_set<std::string> trips;                         ///< hashes of the basis
+    std::int64_t newest_ms = std::numeric_limits<std::int64_t>::min();
+};
+
+/// Trips without a vehicle_id are of no car that could be calibrated.
+Fleet fleet_of(Database& database, CalibrationBasis basis) {
+    Fleet fleet;
+    auto cars = database.prepare(
+        "SELECT id, pseudonym FROM vehicle WHERE pseudonym <> 'unknown' ORDER BY pseudonym");
+    while (cars.step()) {
+        fleet.number_of_car[cars.integer(0)] = static_cast<std::uint32_t>(fleet.cars.size());
+        fleet.cars.push_back({cars.integer(0), cars.text(1)});
+    }
+    auto trips = database.prepare("SELECT sha256, vehicle, t0_utc_ms FROM trip"
+                                  " WHERE ?1 OR calibrates ORDER BY sha256");
+    trips.bind(basis == CalibrationBasis::all);
+    while (trips.step()) {
+        const auto car = fleet.number_of_car.find(trips.integer(1));
+        if (car == fleet.number_of_car.end()) {
+            continue;
+        }
+        ++fleet.cars[car->second].trips;
+        const auto number = static_cast<std::uint32_t>(fleet.number_of_trip.size());
+        fleet.number_of_trip[trips.text(0)] = number;
+        fleet.trips.insert(trips.text(0));
+        if (const auto utc_ms = known_utc_ms(trips, 2)) {
+            fleet.newest_ms = std::max(fleet.newest_ms, *utc_ms);
+        }
+    }
+    return fleet;
+}
+
+/// Where there are so many passes that some must do: every n-th strip that has any.
+std::vector<std::int64_t> sampled_strips(Database& database, CalibrationBasis basis) {
+    const bool of_all = basis == CalibrationBasis::all;
+    auto count = database.prepare("SELECT count(*) FROM trip CROSS JOIN pass ON pass.trip = trip.id"
+                                  " WHERE ?1 OR trip.calibrates");
+    count.bind(of_all).step();
+    const auto step = 1 + (count.integer(0) - 1) / most_readings;
+    auto select = database.prepare(
+        "SELECT DISTINCT segment.strip FROM segment WHERE EXISTS (SELECT 1 FROM pass"
+        " CROSS JOIN trip ON trip.id = pass.trip WHERE pass.segment = segment.fid"
+        " AND (?1 OR trip.calibrates)) ORDER BY 1");
+    select.bind(of_all);
+    std::vector<std::int64_t> strips;
+    for (std::int64_t i = 0; select.step(); ++i) {
+        if (i % step == 0) {
+            strips.push_back(select.integer(0));
+        }
+    }
+    return strips;
+}
+
+struct Readings {
+    std::vector<FleetReading> all; ///< in the order of places
+    double stated_square = 0;      ///< sum of the relative variances that passes state
+};
+
+/// Adds what the passes of a strip read.
+void add(Readings& readings,
+         const std::vector<StripPass>& passes,
+         const Fleet& fleet,
+         std::uint32_t& places) {
+    struct Placed {
+        std::int64_t fid, window;
+        FleetReading reading;
+    };
+    std::vector<Placed> placed;
+    for (const auto& [fid, input, from_m, to_m] : passes) {
+        if ((input.pass.validity & unsure) != 0 || input.pass.iri_um <= 0) {
+            continue;
+        }
+        const auto window = input.utc_ms && *input.utc_ms <= fleet.newest_ms
+                                ? (fleet.newest_ms - *input.utc_ms) / window_ms
+                                : undated;
+        placed.push_back({fid,
+                          input.utc_ms ? std::max<std::int64_t>(0, window) : undated,
+                          {.place = 0,
+                           .car = fleet.number_of_car.at(input.vehicle),
+                           .trip = fleet.number_of_trip.at(input.trip_sha256),
+                           .read_um = static_cast<double>(input.pass.iri_um)}});
+        readings.stated_square +=
+            std::pow(static_cast<double>(input.pass.sd_um) / input.pass.iri_um, 2);
+    }
+    std::ranges::stable_sort(placed, [](const Placed& a, const Placed& b) {
+        return std::pair{a.fid, a.window} < std::pair{b.fid, b.window};
+    });
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        if (i > 0 &&
+            (placed[i].fid != placed[i - 1].fid || placed[i].window != placed[i - 1].window)) {
+            ++places;
+        }
+        placed[i].reading.place = places;
+        readings.all.push_back(placed[i].reading);
+    }
+    places += placed.empty() ? 0 : 1;
+}
+
+Readings readings_of(Database& database,
+                     std::int64_t segments_in_strip,
+                     const Fleet& fleet,
+                     CalibrationBasis basis,
+                     const Progress& progress) {
+    StripStates states{database};
+    const auto strips = sampled_strips(database, basis);
+    Readings readings;
+    std::uint32_t places = 0;
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+        if (progress.stop.stop_requested()) {
+            throw InputError{
+                fmt::format("{}: interrupted; the store is as it was", database.file().string())};
+        }
+        add(readings, states.readings(strips[i], segments_in_strip, fleet.trips), fleet, places);
+        progress(i + 1, strips.size());
+    }
+    return readings;
+}
+
+FusionConfig components_of(const FleetCalibration& found, double stated_variance) {
+    FusionConfig config;
+    config.trip_relative_sd = found.trip_sd;
+    config.rest_relative_sd = found.rest_sd;
+    config.anchor_relative_sd = found.anchor_sd;
+    if (stated_variance > 0) {
+        config.car_share = found.car_sd * found.car_sd / stated_variance;
+    }
+    return config;
+}
+
+} // namespace
+
+CalibrationReport find_calibration(Database& database,
+                                   std::int64_t segments_in_strip,
+                                   CalibrationBasis basis,
+                                   const Progress& progress) {
+    const auto fleet = fleet_of(database, basis);
+    const auto readings = readings_of(database, segments_in_strip, fleet, basis, progress);
+    const std::vector<std::optional<double>> known(fleet.cars.size());
+    const auto found = calibrate_fleet(readings.all, known, {});
+    const auto count = static_cast<double>(std::max<std::size_t>(1, readings.all.size()));
+
+    CalibrationReport report{.generation = read_generation(database),
+                             .cars = {},
+                             .components = {},
+                             .car_relative_sd = found.car_sd,
+                             .readings = readings.all.size(),
+                             .places = found.places};
+    bool any = false;
+    for (std::size_t i = 0; i < fleet.cars.size(); ++i) {
+        const auto& [row, pseudonym, trips] = fleet.cars[i];
+        report.cars.push_back({row, pseudonym, trips, found.shared[i], found.cars[i]});
+        any = any || found.cars[i].has_value();
+    }
+    if (any) {
+        report.components = components_of(found, readings.stated_square / count);
+    }
+    return report;
+}
+
+void take_calibration(Database& database,
+                      const CalibrationReport& calibration,
+                      CalibrationBasis basis) {
+    begin_generation(database);
+    CarRecords records;
+    for (const auto& car : calibration.cars) {
+        if (car.calibration) {
+            records[car.row] = {*car.calibration,
+                                static_cast<std::int64_t>(car.trips),
+                                static_cast<std::int64_t>(car.shared)};
+        }
+    }
+    write_calibrations(database, records);
+    write_fusion_config(database, calibration.components);
+    if (basis == CalibrationBasis::all) {
+        database.run("UPDATE trip SET calibrates = 1 WHERE NOT calibrates");
+    }
+    database.run("INSERT OR IGNORE INTO strip_dirty SELECT DISTINCT segment.strip FROM segment"
+                 " WHERE EXISTS (SELECT 1 FROM pass WHERE pass.segment = segment.fid)");
+}
+
+} // namespace macadam
