@@ -30,8 +30,10 @@ constexpr const char* find_segment =
 
 std::vector<AuditEntry> RoadStore::audit() const {
     auto select = impl_->database.prepare(
-        "SELECT audit.id, at, generation, what, detail, count(state_change.segment) FROM audit"
-        " LEFT JOIN state_change ON state_change.audit = audit.id GROUP BY audit.id ORDER BY 1");
+        "SELECT audit.id, at, generation, what, detail, ifnull(changed.segments, 0) FROM audit"
+        " LEFT JOIN (SELECT audit, count(*) AS segments FROM state_change GROUP BY audit) AS "
+        "changed"
+        " ON changed.audit = audit.id ORDER BY 1");
     std::vector<AuditEntry> entries;
     while (select.step()) {
         entries.push_back(entry_in(select));
