@@ -106,7 +106,7 @@ void import_known(RoadStore& store, const ImportOptions& options, const Console&
 }
 
 void fuse_new(RoadStore& store, const Console& console) {
-    const auto fused = store.refresh({}, console.progress("fusing"));
+    const auto fused = store.refresh(console.progress("fusing"));
     console.say(fmt::format("{} fused", counted(fused, "segment")));
 }
 

@@ -24,11 +24,11 @@ std::vector<SegmentRecord> cut_to(const ControlSection& section,
 }
 
 double student_t_975(double degrees_of_freedom) {
-    // The expansion about the normal point z is off by 6 % for 2 degrees of freedom, and by less
-    // than 0.1 % from 5 on; below that stand the values of the tables.
-    constexpr std::array<double, 3> tabled{4.3027, 3.1824, 2.7764}; // 2, 3, 4
-    if (degrees_of_freedom < 5) {
-        const auto i = static_cast<std::size_t>(std::clamp(degrees_of_freedom, 2.0, 4.0)) - 2;
+    // The expansion about the normal point z (Abramowitz and Stegun, 26.7.5) is off by 4 % for 2
+    // degrees of freedom, and by less than 0.1 % from 6 on; below that stand the tables' values.
+    constexpr std::array<double, 4> tabled{4.3027, 3.1824, 2.7764, 2.5706}; // 2 to 5
+    if (degrees_of_freedom < 6) {
+        const auto i = static_cast<std::size_t>(std::clamp(degrees_of_freedom, 2.0, 5.0)) - 2;
         return tabled[i];
     }
     const double n = degrees_of_freedom;

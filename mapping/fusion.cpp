@@ -45,10 +45,6 @@ double weighted_median(std::vector<Weighed> values) {
     return values.back().value_um;
 }
 
-double square(double x) {
-    return x * x;
-}
-
 /// Linear in IRI; a pass read by a calibrated car as it would have been by a good one.
 double true_um(const FusionInput& input, double read_um) {
     return input.calibration
