@@ -173,8 +173,7 @@ constexpr std::array operands{
     store_operand,
     Operand{
         "PATH",
-        "Trip logs, phones' exports, folders of them (to any depth), or archives (.zip, .tar.gz). "
-        "Not needed with --reference or --control.",
+        "Trip logs, phones' exports, folders of them (to any depth), or archives (.zip, .tar.gz).",
         true,
         "",
         true}};
@@ -214,7 +213,9 @@ const Command import_command{
              "name or\n"
              "compression, is 'known' and changes nothing. A trip that cannot be used is "
              "'rejected' with its\n"
-             "reason and does not stop the others; the exit status is then 1.",
+             "reason and does not stop the others; the exit status is then 1.\n"
+             "--reference and --control bring what is known of roads from elsewhere; PATH is not "
+             "needed with them.",
     .example =
         "  macadam import roads.gpkg trips/                     every log under trips/\n"
         "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"

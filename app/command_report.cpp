@@ -123,8 +123,7 @@ constexpr std::array options{
     Option{"-o,--output", "FILE", "The report, an .html file."},
     Option{"--against-reference",
            "",
-           "How near the cars alone come to reference surveys and control sections: -o FILE.html, "
-           ".json or .csv, or a table on standard output."},
+           "How near the cars come to surveys: -o FILE.html, .json or .csv, or a table."},
     Option{"--title", "TEXT", "Over the report.", "Road roughness"},
     Option{"--worst", "N", "How many of the worst stretches to list, each with a map.", "20"},
     sections_option,

@@ -92,8 +92,9 @@ constexpr const char* erase_changes =
     " AND segment.strip = dirty.strip)";
 
 constexpr const char* erase_cars_without_trips =
-    "DELETE FROM calibration WHERE vehicle NOT IN (SELECT vehicle FROM trip);"
-    "DELETE FROM vehicle WHERE id NOT IN (SELECT vehicle FROM trip)";
+    "DELETE FROM calibration WHERE vehicle NOT IN"
+    " (SELECT vehicle FROM trip WHERE vehicle IS NOT NULL);"
+    "DELETE FROM vehicle WHERE id NOT IN (SELECT vehicle FROM trip WHERE vehicle IS NOT NULL)";
 
 std::set<std::int64_t> segments_of(Database& database, const KeptTrips& trips) {
     auto select = database.prepare("SELECT segment FROM pass WHERE trip = ?");
