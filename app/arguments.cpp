@@ -56,6 +56,10 @@ void distribute(std::span<const Operand> operands,
             words[std::string{operands[i].name}] = {std::string{operands[i].fallback}};
             continue;
         }
+        if (i >= given.size() && operands[i].optional) {
+            words[std::string{operands[i].name}] = {};
+            continue;
+        }
         if (i >= given.size()) {
             throw UsageError{fmt::format("{} is missing", operands[i].name)};
         }

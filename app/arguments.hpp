@@ -31,6 +31,7 @@ struct Operand {
     std::string_view help;
     bool many = false;           ///< one or more; only the last operand may be
     std::string_view fallback{}; ///< the word where it may be left out, as the last operand may
+    bool optional = false;       ///< may be left out: then there is none
 };
 
 /// The words after the command's name, sorted by a command's table. Values are text until a command

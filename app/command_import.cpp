@@ -1,6 +1,7 @@
 #include "app/asked_trips.hpp"
 #include "app/commands.hpp"
 #include "app/estimation_options.hpp"
+#include "app/import_references.hpp"
 #include "app/import_trips.hpp"
 #include "app/interruption.hpp"
 #include "app/laid_words.hpp"
@@ -9,6 +10,8 @@
 #include "app/trip_outcome_output.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/control_reader.hpp"
+#include "storage/network_file.hpp"
 #include "storage/sha256.hpp"
 
 #include <fmt/format.h>
@@ -28,6 +31,7 @@ struct ImportOptions {
     bool take_back;
     PipelineConfig pipeline;
     std::shared_ptr<const TripMapping> mapping;
+    KnownRoughness known;
 };
 
 constexpr std::int64_t most_jobs = 256;
@@ -50,13 +54,18 @@ ImportOptions parse_import(const Arguments& arguments) {
         throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, most_jobs)};
     }
     const auto& paths = arguments.operands("PATH");
+    auto known = parse_known_roughness(arguments);
+    if (paths.empty() && !known.survey && !known.control) {
+        throw UsageError{"PATH is missing"};
+    }
     return {.store = store_file(arguments),
             .paths = {paths.begin(), paths.end()},
             .jobs = static_cast<std::size_t>(jobs),
             .json = arguments.flag("--json"),
             .take_back = arguments.flag("--take-back"),
             .pipeline = config_of(arguments),
-            .mapping = mapping_of(arguments)};
+            .mapping = mapping_of(arguments),
+            .known = std::move(known)};
 }
 
 /// The same paths, asked for from wherever, have the same name.
@@ -75,10 +84,43 @@ std::string spoken(const OpenImport& earlier) {
                        counted(earlier.trips_added, "trip"));
 }
 
+void import_known(RoadStore& store, const ImportOptions& options, const Console& console) {
+    const auto& known = options.known;
+    const auto roads = kept_roads(store);
+    if (known.survey) {
+        const auto outcome = import_survey(store, roads, known);
+        if (options.json) {
+            print(json_line(outcome));
+        } else {
+            print_words(text_lines(outcome));
+        }
+        flush_results();
+    }
+    if (known.control) {
+        const auto sections = read_control_sections(*known.control, roads, known.mm_per_m_of_one);
+        store.put_control_sections(sections);
+        console.say(fmt::format("{}: {} kept; 'macadam info' watches the cars by them",
+                                known.control->string(),
+                                counted(sections.size(), "control section")));
+    }
+}
+
+void fuse_new(RoadStore& store, const Console& console) {
+    const auto fused = store.refresh(console.progress("fusing"));
+    console.say(fmt::format("{} fused", counted(fused, "segment")));
+}
+
 void run_import(const Arguments& arguments, const Console& console) {
     const auto options = parse_import(arguments);
     VehicleChoice vehicles{arguments};
     auto store = RoadStore::open(options.store, RoadStore::Access::write);
+    if (options.known.survey || options.known.control) {
+        import_known(store, options, console);
+    }
+    if (options.paths.empty()) {
+        fuse_new(store, console);
+        return;
+    }
     const auto [trips, refused] = asked_trips(options.paths, options.mapping, console);
     const auto name = name_of_import(options.paths);
     if (const auto earlier = store.begin_import(name, trips.size())) {
@@ -132,6 +174,8 @@ constexpr std::array operands{
     Operand{
         "PATH",
         "Trip logs, phones' exports, folders of them (to any depth), or archives (.zip, .tar.gz).",
+        true,
+        "",
         true}};
 
 constexpr std::array options{
@@ -148,6 +192,12 @@ constexpr std::array options{
     no_filters_option,
     rate_option,
     Option{"--take-back", "", "Let trips in again that 'macadam forget' took out."},
+    reference_option,
+    accuracy_option,
+    reference_date_option,
+    reference_name_option,
+    control_option,
+    known_unit_option,
     Option{"--json", "", "One JSON object a trip on standard output, one a line."}};
 
 } // namespace
@@ -163,10 +213,14 @@ const Command import_command{
              "name or\n"
              "compression, is 'known' and changes nothing. A trip that cannot be used is "
              "'rejected' with its\n"
-             "reason and does not stop the others; the exit status is then 1.",
-    .example = "  macadam import roads.gpkg trips/                     every log under trips/\n"
-               "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"
-               "  macadam import roads.gpkg trips/ --jobs 2 --json > import.jsonl",
+             "reason and does not stop the others; the exit status is then 1.\n"
+             "--reference and --control bring what is known of roads from elsewhere; PATH is not "
+             "needed with them.",
+    .example =
+        "  macadam import roads.gpkg trips/                     every log under trips/\n"
+        "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"
+        "  macadam import roads.gpkg trips/ --jobs 2 --json > import.jsonl\n"
+        "  macadam import roads.gpkg --reference laser.csv --date 2026-03-01   (docs/reference.md)",
     .operands = operands,
     .options = options,
     .run = run_import};

@@ -1,5 +1,6 @@
 #include "app/audit_output.hpp"
 #include "app/commands.hpp"
+#include "app/control_watch.hpp"
 #include "app/info_tables.hpp"
 #include "app/laid_words.hpp"
 #include "app/segment_options.hpp"
@@ -33,9 +34,16 @@ std::string json_of(const LaySummary& laid) {
     return object.text();
 }
 
+/// What a store knows of its roads from elsewhere.
+struct KnownRoads {
+    std::vector<SurveyUse> surveys;
+    std::vector<WatchedSection> controls;
+};
+
 /// \param truth  JSON; "" = not asked for
 std::string json_of(const StoreInfo& info,
                     const InfoTables& tables,
+                    const KnownRoads& known,
                     const std::string& digest,
                     const std::string& truth) {
     const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
@@ -60,6 +68,8 @@ std::string json_of(const StoreInfo& info,
         .add("classes", JsonRaw{json_array(classes)})
         .add("laid_on_others", JsonRaw{json_of(info.laid)});
     add_to(object, tables);
+    object.add("surveys", JsonRaw{json_of(known.surveys)})
+        .add("control_sections", JsonRaw{json_of(known.controls)});
     object.add("generation", std::int64_t{info.generation}).add("digest", digest);
     if (!truth.empty()) {
         object.add("truth", JsonRaw{truth});
@@ -127,10 +137,12 @@ void run_info(const Arguments& arguments, const Console& console) {
     }
     const auto info = store.info();
     const auto tables = info_tables(store);
+    const KnownRoads known{store.surveys(), watched_sections(store)};
     if (arguments.flag("--json")) {
-        print(json_of(info, tables, store.digest(), truth ? json_of(*truth) : ""));
+        print(json_of(info, tables, known, store.digest(), truth ? json_of(*truth) : ""));
     } else {
-        print_words(text_of(info) + text_of(tables) + (truth ? "\n" + text_of(*truth) : ""));
+        print_words(text_of(info) + text_of(tables) + text_of(known.surveys) +
+                    text_of(known.controls) + (truth ? "\n" + text_of(*truth) : ""));
     }
 }
 

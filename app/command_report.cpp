@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/output_guard.hpp"
+#include "app/reference_report.hpp"
 #include "app/report_values.hpp"
 #include "app/segment_options.hpp"
 
@@ -56,7 +57,50 @@ ReportOptions parse_report(const Arguments& arguments) {
                        .style = parse_style(arguments)}};
 }
 
+/// What the options of the report for people say nothing of.
+void refuse_beside_references(const Arguments& arguments) {
+    for (const auto* const option : {"--worst", "--sections", "--classes"}) {
+        if (arguments.value(option)) {
+            throw UsageError{fmt::format("{} and --against-reference exclude one another", option)};
+        }
+    }
+}
+
+std::string text_for(const ReferenceReport& report, std::string_view ending) {
+    return ending == ".html"   ? reference_html(report)
+           : ending == ".json" ? reference_json(report)
+                               : reference_csv(report);
+}
+
+void report_against_reference(const Arguments& arguments, const Console& console) {
+    refuse_beside_references(arguments);
+    const std::filesystem::path output = arguments.value("--output").value_or("");
+    const auto ending = output.extension().string();
+    if (!output.empty() && ending != ".html" && ending != ".json" && ending != ".csv") {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .html, .json or "
+                                     ".csv",
+                                     output.string())};
+    }
+    const auto file = store_file(arguments);
+    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    warn_of_waiting(store, file, console);
+    const auto report = reference_report(
+        store, arguments.value("--title").value_or("Cars beside reference surveys"));
+    if (output.empty()) {
+        print_words(reference_text(report));
+        return;
+    }
+    refuse_to_replace(output, {file});
+    AtomicFile written{output};
+    written.write(text_for(report, ending));
+    written.commit();
+}
+
 void run_report(const Arguments& arguments, const Console& console) {
+    if (arguments.flag("--against-reference")) {
+        report_against_reference(arguments, console);
+        return;
+    }
     auto options = parse_report(arguments);
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     refuse_to_replace(options.output, {options.store});
@@ -77,6 +121,9 @@ void run_report(const Arguments& arguments, const Console& console) {
 constexpr std::array operands{store_operand};
 constexpr std::array options{
     Option{"-o,--output", "FILE", "The report, an .html file."},
+    Option{"--against-reference",
+           "",
+           "How near the cars come to surveys: -o FILE.html, .json or .csv, or a table."},
     Option{"--title", "TEXT", "Over the report.", "Road roughness"},
     Option{"--worst", "N", "How many of the worst stretches to list, each with a map.", "20"},
     sections_option,
@@ -95,7 +142,8 @@ const Command report_command{
     .about = "One HTML file that needs nothing else: it opens in any browser, on a phone too, and "
              "prints on A4. The same\nstore gives the same bytes.",
     .example = "  macadam report roads.gpkg -o report.html --title \"Spring survey 2026\"\n"
-               "  macadam report roads.gpkg -o report.html --worst 50 --classes five",
+               "  macadam report roads.gpkg -o report.html --worst 50 --classes five\n"
+               "  macadam report roads.gpkg --against-reference -o reference.html",
     .operands = operands,
     .options = options,
     .run = run_report};

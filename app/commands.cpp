@@ -68,7 +68,8 @@ const Command* command_named(std::string_view name) {
 std::string usage_of(const Command& command) {
     auto usage = fmt::format("macadam {}", command.name);
     for (const auto& operand : command.operands) {
-        usage += fmt::format(" {}{}", operand.name, operand.many ? "..." : "");
+        const auto words = fmt::format("{}{}", operand.name, operand.many ? "..." : "");
+        usage += operand.optional ? fmt::format(" [{}]", words) : " " + words;
     }
     return usage + " [OPTION...]";
 }

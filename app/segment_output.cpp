@@ -96,15 +96,16 @@ std::string passes_table(const std::vector<PassRecord>& passes) {
                              "trip");
     for (const auto& record : passes) {
         const auto& pass = record.pass;
-        table += fmt::format("{:<22} {:<16} {:>6.2f} {:>6.2f} {:>6} {:>7.1f} {:>10.2f}  {:.12}\n",
+        table += fmt::format("{:<22} {:<16} {:>6.2f} {:>6.2f} {:>6} {:>7.1f} {:>10.2f}  {}\n",
                              record.utc_ms ? utc_text(*record.utc_ms / 1000 * 1000) : "undated",
-                             record.vehicle,
+                             record.reference ? "reference" : record.vehicle,
                              pass.iri_um / 1000.0,
                              pass.sd_um / 1000.0,
                              lag_words(record),
                              pass.speed_mmps * 3.6e-3,
                              pass.confidence_ppm / 1e6,
-                             record.trip_sha256);
+                             record.reference ? printable_name(*record.reference)
+                                              : record.trip_sha256.substr(0, 12));
     }
     return table;
 }
@@ -119,7 +120,8 @@ std::string passes_json(const std::vector<PassRecord>& passes) {
         JsonObject object;
         object.add("segment", name_of(pass.segment))
             .add("utc", record.utc_ms ? JsonValue{utc_text(*record.utc_ms)} : JsonValue{nullptr})
-            .add("vehicle", record.vehicle)
+            .add("vehicle", record.reference ? JsonValue{nullptr} : JsonValue{record.vehicle})
+            .add("reference", record.reference ? JsonValue{*record.reference} : JsonValue{nullptr})
             .add("iri", um(pass.iri_um))
             .add("iri_sd", um(pass.sd_um))
             .add("iri_left", um(pass.iri_left_um))
@@ -144,10 +146,10 @@ std::string passes_csv(const std::vector<PassRecord>& passes) {
         return iri_um ? fmt::format("{:.3f}", *iri_um / 1000.0) : "";
     };
     std::string csv{"segment,utc,vehicle,iri,iri_sd,iri_left,iri_right,hri,speed_mps,covered_m,"
-                    "lag_m,lag_finding,confidence,validity,trip\n"};
+                    "lag_m,lag_finding,confidence,validity,trip,reference\n"};
     for (const auto& record : passes) {
         const auto& pass = record.pass;
-        csv += fmt::format("{},{},{},{},{},{},{},{},{:.3f},{:.3f},{},{},{:.3f},{},{}\n",
+        csv += fmt::format("{},{},{},{},{},{},{},{},{:.3f},{:.3f},{},{},{:.3f},{},{},{}\n",
                            csv_text(name_of(pass.segment)),
                            record.utc_ms ? utc_text(*record.utc_ms) : "",
                            csv_text(record.vehicle),
@@ -162,7 +164,8 @@ std::string passes_csv(const std::vector<PassRecord>& passes) {
                            record.lag_m ? name_of(record.finding) : "",
                            pass.confidence_ppm / 1e6,
                            name_of_validity(pass.validity),
-                           record.trip_sha256);
+                           record.trip_sha256,
+                           csv_text(record.reference.value_or("")));
     }
     return csv;
 }

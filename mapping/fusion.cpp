@@ -13,6 +13,7 @@ constexpr double um_per_mm = 1000;
 constexpr double interval_90 = 1.645;  // two-sided, normal distribution
 constexpr double sd_over_mad = 1.4826; // normal distribution
 constexpr double claims = 6;           // readings that scatter as claimed, known beforehand
+constexpr double survey_share = 0.5;   // of a reference's variance: alike in all its rows on a road
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -42,10 +43,6 @@ double weighted_median(std::vector<Weighed> values) {
         }
     }
     return values.back().value_um;
-}
-
-double square(double x) {
-    return x * x;
 }
 
 /// Linear in IRI; a pass read by a calibrated car as it would have been by a good one.
@@ -128,6 +125,16 @@ VectorXd stated_um(const std::vector<const FusionInput*>& passes, double level_u
     return stated;
 }
 
+/// With 0 for references.
+VectorXd of_cars_alone(const std::vector<const FusionInput*>& passes, VectorXd values) {
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        if (passes[i]->reference) {
+            values[static_cast<Index>(i)] = 0;
+        }
+    }
+    return values;
+}
+
 /// Of the stated variance, in the car's part of a reading.
 struct Shares {
     double car;    ///< of a car that is not calibrated
@@ -154,19 +161,33 @@ Readings readings_of(const std::vector<const FusionInput*>& passes,
                       .trip_sd = config.trip_relative_sd * level_um,
                       .cars = runs_of(passes, same_car),
                       .trips = runs_of(passes, same_trip)};
+    const auto input = [&](Index i) { return passes[static_cast<std::size_t>(i)]; };
     for (Index i = 0; i < values.size(); ++i) {
-        if (const auto& calibration = passes[static_cast<std::size_t>(i)]->calibration) {
+        if (const auto& calibration = input(i)->calibration) {
             readings.car_sd[i] = std::hypot(calibration->relative_sd * level_um,
                                             std::sqrt(shares.common) * stated[i]);
         }
+        if (input(i)->reference) {
+            readings.car_sd[i] = std::sqrt(survey_share) * stated[i];
+            readings.rest_sd[i] = std::sqrt(1 - survey_share) * stated[i];
+        }
     }
+    std::erase_if(readings.trips, [&](const auto& trip) { return input(trip.first)->reference; });
     return readings;
+}
+
+VectorXd trip_variances(const Readings& readings) {
+    VectorXd variances = VectorXd::Zero(readings.values.size());
+    for (const auto& [first, count] : readings.trips) {
+        variances.segment(first, count).setConstant(readings.trip_sd * readings.trip_sd);
+    }
+    return variances;
 }
 
 /// Of each reading by itself, without what all cars share.
 VectorXd variances_of(const Readings& readings) {
     return readings.car_sd.array().square() + readings.rest_sd.array().square() +
-           square(readings.trip_sd);
+           trip_variances(readings).array();
 }
 
 double scatter_um(const VectorXd& values, const VectorXd& variances) {
@@ -183,8 +204,8 @@ double scatter_um(const VectorXd& values, const VectorXd& variances) {
 
 /// 1 / variance of each reading by itself, as far as it and its car are trusted.
 VectorXd weights_of(const Readings& readings, const Trust& trust) {
-    VectorXd variances =
-        readings.rest_sd.array().square() / trust.of_reading.array() + square(readings.trip_sd);
+    VectorXd variances = readings.rest_sd.array().square() / trust.of_reading.array() +
+                         trip_variances(readings).array();
     for (Index i = 0; const auto& [first, count] : readings.cars) {
         variances.segment(first, count).array() +=
             readings.car_sd.segment(first, count).array().square() / trust.of_car[i++];
@@ -234,11 +255,11 @@ std::optional<IriUm> side_um(double level_um, const std::optional<double>& off_u
 SegmentState gathered(std::span<const FusionInput> passes) {
     SegmentState state{};
     state.segment = passes.front().pass.segment;
-    state.passes = static_cast<std::int32_t>(passes.size());
     state.centre_only = true;
     state.validity = 0xff;
     for (const auto& input : passes) {
         const auto& utc_ms = input.utc_ms;
+        state.passes += input.reference ? 0 : 1;
         state.centre_only = state.centre_only && input.pass.centre_only;
         state.validity &= input.pass.validity;
         if (utc_ms) {
@@ -265,6 +286,21 @@ SegmentState with_level(SegmentState state, const RoadLevel& level, double sd_um
     return state;
 }
 
+/// What all cars together may read wrong, of each reading. \param stated  0 for references.
+VectorXd common_sd(const VectorXd& stated, double level_um, const FusionConfig& config) {
+    return stated.unaryExpr([&](double stated_um) {
+        return stated_um > 0 ? std::hypot(std::sqrt(config.common_share) * stated_um,
+                                          config.anchor_relative_sd * level_um)
+                             : 0.0;
+    });
+}
+
+std::int32_t cars_in(const std::vector<const FusionInput*>& passes, const Readings& readings) {
+    return static_cast<std::int32_t>(std::ranges::count_if(readings.cars, [&](const auto& car) {
+        return !passes[static_cast<std::size_t>(car.first)]->reference;
+    }));
+}
+
 std::vector<std::optional<std::int64_t>> times_of(const std::vector<const FusionInput*>& passes) {
     std::vector<std::optional<std::int64_t>> times;
     times.reserve(passes.size());
@@ -282,14 +318,21 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const VectorXd values = values_of(sorted);
     const double middle_um = level_um(values);
     const VectorXd stated = stated_um(sorted, middle_um);
+    const VectorXd of_cars = of_cars_alone(sorted, stated);
+    const bool beside_references = of_cars.maxCoeff() > 0 && of_cars.minCoeff() <= 0;
     // What is common to all cars cannot be weighed away, yet a pass that is less sure for it is
-    // worth less.
-    const auto weighed = readings_of(sorted,
-                                     values,
-                                     stated,
-                                     middle_um,
-                                     {config.common_share + config.car_share, config.common_share},
-                                     config);
+    // worth less; beside references it is estimated.
+    auto weighed = readings_of(
+        sorted,
+        values,
+        stated,
+        middle_um,
+        beside_references ? Shares{config.car_share, 0}
+                          : Shares{config.common_share + config.car_share, config.common_share},
+        config);
+    if (beside_references) {
+        weighed.common_sd = common_sd(of_cars, middle_um, config);
+    }
     auto tail = config.tail;
     tail.scatter_sd = scatter_um(values, variances_of(weighed));
     const auto level = road_level(weighed, times_of(sorted), middle_um, tail, config.change);
@@ -297,14 +340,17 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const auto weights = weights_of(weighed, level.trust);
     const auto apart =
         readings_of(sorted, values, stated, middle_um, {config.car_share, 0}, config);
-    const double apart_um =
-        std::sqrt(variance_of(apart, level.influence) + level.change_variance_um2);
-    const double common_um = std::sqrt(config.common_share) * stated.dot(level.influence);
+    const VectorXd cars_part = of_cars_alone(sorted, level.influence);
+    const double apart_um = std::sqrt(variance_of(apart, cars_part) + level.change_variance_um2);
+    const double common_um =
+        beside_references ? 0 : std::sqrt(config.common_share) * of_cars.dot(level.influence);
+    const double anchor_um = of_cars.minCoeff() > 0 ? config.anchor_relative_sd * level.um : 0;
     const double factor = excess(weighed, level, weights);
-    const double sd_um =
-        std::hypot(factor * apart_um, factor * common_um, config.anchor_relative_sd * level.um);
-    auto state = with_level(gathered(passes), level, sd_um);
-    state.vehicles = static_cast<std::int32_t>(weighed.cars.size());
+    const double cars_um = std::hypot(factor * apart_um, factor * common_um, anchor_um);
+    const double references_um =
+        std::sqrt(variance_of(apart, VectorXd{level.influence - cars_part}));
+    auto state = with_level(gathered(passes), level, std::hypot(cars_um, references_um));
+    state.vehicles = cars_in(sorted, weighed);
     state.left_um =
         side_um(level.um, side_off_um(sorted, weights, &Pass::iri_left_um, state.change));
     state.right_um =

@@ -23,9 +23,11 @@ struct CarCalibration {
 struct FusionInput {
     Pass pass;
     std::string trip_sha256;
-    std::int64_t vehicle; ///< any number that tells cars apart
+    std::int64_t vehicle; ///< any number that tells cars, and surveys, apart
     std::optional<std::int64_t> utc_ms;
     std::optional<CarCalibration> calibration{}; ///< of the vehicle; nothing: not calibrated
+    bool reference = false; ///< of a survey with better instruments: pass.sd_um is all that is
+                            ///< wrong with it, and none of it is shared with any car
 };
 
 /// When a road became another, most often by being resurfaced.
@@ -46,9 +48,9 @@ struct SegmentState {
     std::optional<IriUm> right_um;
     bool centre_only;
     std::uint8_t validity;
-    std::int32_t passes;
-    std::int32_t vehicles;
-    std::optional<std::int64_t> first_seen_ms; ///< UTC
+    std::int32_t passes;                       ///< of cars; 0 where references alone tell
+    std::int32_t vehicles;                     ///< cars
+    std::optional<std::int64_t> first_seen_ms; ///< UTC, references included
     std::optional<std::int64_t> last_seen_ms;
     std::optional<IriUm> trend_um_per_year; ///< nothing where passes span no more than a year
     std::optional<IriUm> trend_sd_um_per_year;
@@ -78,6 +80,10 @@ struct FusionConfig {
 /// What all cars share does not average out, nor over the passes of one car what that car reads
 /// wrong. Where passes scatter more than they claim, sd grows by as much (R. T. Birge, "The
 /// calculation of errors by the method of least squares", Physical Review 40 (1932), p. 207).
+///
+/// A reference shares none of that: where one stands beside cars, what all cars read wrong alike is
+/// itself estimated from their difference, so that many cars do not outvote it. It is down-weighted
+/// like a broken car where the others tell of another road.
 ///
 /// Left and right keep their distance from the headline, as the passes since the last change tell
 /// it. `centre_only` and each flag of `validity` stay only where every pass has them. The same

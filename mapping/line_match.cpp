@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/odometer.hpp"
+#include "mapping/driven_part.hpp"
 #include "mapping/line_foot.hpp"
 
 #include <algorithm>
@@ -68,9 +69,7 @@ reaching_its_ends(const RoadNetwork& roads, FollowedRoad road, std::span<const G
     return road;
 }
 
-} // namespace
-
-FollowedRoad matched_line(const RoadNetwork& roads, std::span<const GeoPoint> line) {
+MatchedTrace match_of(const RoadNetwork& roads, std::span<const GeoPoint> line) {
     if (line.size() < 2 || !(length_of(line) > 0)) {
         throw InputError{"a line needs two different places"};
     }
@@ -78,7 +77,29 @@ FollowedRoad matched_line(const RoadNetwork& roads, std::span<const GeoPoint> li
     auto use = unused(trip);
     const auto odometer = make_odometer(trip, {}, use);
     const MatchConfig config{.spacing_m = step_m}; // lines may be as short as one section
-    return reaching_its_ends(roads, followed(map_match(trip, odometer, roads, config, use)), line);
+    return map_match(trip, odometer, roads, config, use);
+}
+
+} // namespace
+
+FollowedRoad matched_line(const RoadNetwork& roads, std::span<const GeoPoint> line) {
+    return reaching_its_ends(roads, followed(match_of(roads, line)), line);
+}
+
+std::vector<LinePart> line_parts(const RoadNetwork& roads, std::span<const GeoPoint> line) {
+    std::vector<LinePart> parts;
+    for (const auto& part : driven_parts(match_of(roads, line), roads, 0)) {
+        if (part.t_leave_s > part.t_enter_s) {
+            parts.push_back({.segment = part.segment,
+                             .segment_m = part.segment_m,
+                             .from_station_m = part.from_station_m,
+                             .to_station_m = part.to_station_m,
+                             .from_line_m = part.t_enter_s * speed_mps,
+                             .to_line_m = part.t_leave_s * speed_mps,
+                             .confidence = part.confidence});
+        }
+    }
+    return parts;
 }
 
 } // namespace macadam

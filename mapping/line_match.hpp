@@ -3,6 +3,7 @@
 #include "mapping/followed_road.hpp"
 
 #include <span>
+#include <vector>
 
 namespace macadam {
 
@@ -12,5 +13,20 @@ namespace macadam {
 ///
 /// \param line  two places or more, not all one. \throws InputError  otherwise.
 FollowedRoad matched_line(const RoadNetwork& roads, std::span<const GeoPoint> line);
+
+/// What of a drawn line lies on one segment.
+struct LinePart {
+    SegmentKey segment;
+    double segment_m;      ///< the segment's length
+    double from_station_m; ///< along the way (station_m), rising
+    double to_station_m;
+    double from_line_m; ///< along the drawn line, from_line_m < to_line_m
+    double to_line_m;
+    double confidence; ///< of the match, 0..1
+};
+
+/// The same match on the line's own ruler, cut at the borders of segments, in the order of the
+/// line. \throws InputError  as matched_line.
+std::vector<LinePart> line_parts(const RoadNetwork& roads, std::span<const GeoPoint> line);
 
 } // namespace macadam

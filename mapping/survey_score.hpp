@@ -11,7 +11,7 @@ namespace macadam {
 struct SurveyPair {
     double survey;
     double trip;
-    double low; ///< of the trip's 90 % interval
+    double low; ///< of the trip's 90 % interval; NaN: not known
     double high;
 };
 
@@ -31,6 +31,12 @@ struct SurveyScore {
 };
 
 SurveyScore score_of(std::span<const SurveyPair> pairs);
+
+/// From each edge up to below the next; those without pieces are left out.
+///
+/// \param edges_mm_per_m  of the survey's IRI, rising.
+std::vector<SurveyScore> scores_by_level(std::span<const SurveyPair> pairs,
+                                         std::span<const double> edges_mm_per_m);
 
 /// In the bands of the paper's table III, 0, 2, 4, 6 and 12 mm/m, and above; those without pieces
 /// are left out.

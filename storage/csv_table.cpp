@@ -95,6 +95,7 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
         table.rows.push_back(std::move(cells));
         table.places.push_back(lines.where());
     }
+    table.sha256 = lines.sha256();
     return table;
 }
 

@@ -45,6 +45,7 @@ struct CsvTable {
     std::string where; ///< "file:1", of the header
     std::vector<std::vector<std::string>> rows;
     std::vector<std::string> places; ///< "file:line" of each row
+    std::string sha256;              ///< of the decompressed text
 
     bool has(std::string_view column) const;
     CsvRow row(std::size_t i) const { return {header, rows[i], places[i]}; }

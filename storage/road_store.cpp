@@ -34,11 +34,17 @@ std::int64_t row_of_vehicle(Database& database, const std::string& pseudonym) {
 }
 
 std::int64_t write_trip(Database& database, const TripRecord& trip) {
-    const auto vehicle = row_of_vehicle(database, pseudonym_of(trip.vehicle_id));
+    std::optional<std::int64_t> vehicle, reference_ppm, reference_row_mm;
+    if (trip.reference) {
+        reference_ppm = trip.reference->relative_sd_ppm;
+        reference_row_mm = trip.reference->row_mm;
+    } else {
+        vehicle = row_of_vehicle(database, pseudonym_of(trip.vehicle_id));
+    }
     database
         .prepare("INSERT INTO trip (sha256, trip_id, vehicle, file_name, t0_utc_ms, vehicle_model,"
-                 " method, distance_mm, matched_mm, rows_read, rows_used)"
-                 " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+                 " method, distance_mm, matched_mm, rows_read, rows_used, reference_ppm,"
+                 " reference_row_mm) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .run(trip.sha256,
              trip.trip_id,
              vehicle,
@@ -49,7 +55,9 @@ std::int64_t write_trip(Database& database, const TripRecord& trip) {
              trip.distance_mm,
              trip.matched_mm,
              static_cast<std::int64_t>(trip.rows_read),
-             static_cast<std::int64_t>(trip.rows_used));
+             static_cast<std::int64_t>(trip.rows_used),
+             reference_ppm,
+             reference_row_mm);
     return database.number("SELECT last_insert_rowid()");
 }
 

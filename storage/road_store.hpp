@@ -2,6 +2,7 @@
 
 #include "estimator/common/progress.hpp"
 #include "mapping/alignment.hpp"
+#include "mapping/control_section.hpp"
 #include "mapping/fusion.hpp"
 #include "mapping/iri_class.hpp"
 #include "mapping/pass.hpp"
@@ -33,6 +34,12 @@ struct StoreSettings {
 /// Instead of a model's name: the user's own, whose name would tell the car.
 inline constexpr std::string_view own_file_model = "own file";
 
+/// That a trip is none, but a survey with better instruments.
+struct ReferenceNote {
+    std::int32_t relative_sd_ppm; ///< its stated accuracy, of what it reads
+    std::int32_t row_mm;          ///< the median length of its rows
+};
+
 /// What the store keeps of a trip: no positions, no log.
 struct TripRecord {
     std::string sha256; ///< unique
@@ -47,6 +54,9 @@ struct TripRecord {
     std::size_t rows_read = 0;
     std::size_t rows_used = 0;
     std::map<std::string, std::size_t> row_reasons{}; ///< why the others were not
+
+    std::optional<ReferenceNote> reference{}; ///< of a survey: trip_id is its name, t0_utc_ms its
+                                              ///< day, and there is no vehicle
 };
 
 /// A trip with all that it says of the roads.
@@ -77,14 +87,16 @@ struct SegmentFilter {
     std::string class_name{};       ///< of the store's class table; "" = any, and none
     std::int32_t least_passes = 0;  ///< more than 0: segments without a pass are left out
     std::optional<Period> period{}; ///< states of the dated passes of that time alone
+    bool cars_alone = false;        ///< states of cars' passes alone, without references
 };
 
 /// One pass with where it came from: a line of a segment's history.
 struct PassRecord {
     Pass pass;
     std::string trip_sha256;
-    std::string vehicle; ///< pseudonym
+    std::string vehicle; ///< pseudonym; "" of a reference
     std::optional<std::int64_t> utc_ms;
+    std::optional<std::string> reference{}; ///< name of the survey, if it is one
 
     /// How far behind its own place the road lay that the trip read there, by what others read; as
     /// the fusion takes it. Nothing: the pass has no trace.
@@ -104,6 +116,29 @@ struct VehicleUse {
     double matched_km = 0;
     std::size_t rows_read = 0;
     std::size_t rows_used = 0;
+};
+
+/// A reference survey that the store holds.
+struct SurveyUse {
+    std::string name;
+    std::string file_name;
+    std::string sha256;
+    std::optional<std::int64_t> utc_ms; ///< the day on which it was measured
+    double relative_sd = 0;             ///< its stated accuracy
+    double row_m = 0;                   ///< the median length of its rows
+    std::size_t rows_read = 0;
+    std::size_t rows_used = 0;
+    std::size_t passes = 0; ///< of segments
+    double km = 0;          ///< of these segments
+    double alone_km = 0;    ///< of them, without a pass of any car
+};
+
+/// What a survey says of a segment.
+struct ReferenceReading {
+    Segment segment;
+    std::string highway;
+    Pass pass;
+    std::size_t survey; ///< of surveys()
 };
 
 /// An import that began and did not end.
@@ -133,15 +168,15 @@ struct DayUse {
 
 struct StoreInfo {
     StoreSettings settings;
-    std::size_t trips = 0;
+    std::size_t trips = 0; ///< of cars, as all counts of trips and passes
     std::size_t undated_trips = 0;
     std::size_t passes = 0;
     std::size_t lateral_passes = 0;    ///< of them, from lateral vibration alone
     std::vector<std::string> vehicles; ///< pseudonyms, in byte order
     std::size_t segments = 0;
-    std::size_t segments_with_passes = 0;
-    double km = 0;         ///< of segments with passes
-    double network_km = 0; ///< of all segments, each direction counted
+    std::size_t segments_with_passes = 0; ///< of cars or references
+    double km = 0;                        ///< of segments with passes
+    double network_km = 0;                ///< of all segments, each direction counted
     std::vector<ClassLength> classes;
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;
@@ -284,6 +319,18 @@ public:
 
     /// Why rows of the trips' logs entered no estimate; trips of version 0.1 did not tell.
     std::map<std::string, std::size_t> row_reasons() const;
+
+    /// Reference surveys, in the order of (name, hash).
+    std::vector<SurveyUse> surveys() const;
+
+    /// In the order of (segment, survey, occurrence). Lines of segments are left out.
+    std::vector<ReferenceReading> reference_readings() const;
+
+    /// Keeps stretches of known roughness; those of the same name are replaced.
+    void put_control_sections(std::span<const ControlSection> sections);
+
+    /// In the order of their names.
+    std::vector<ControlSection> control_sections() const;
 
     /// Segments whose new passes are not yet fused, as StoreInfo::waiting; quick.
     std::size_t waiting() const;

@@ -189,14 +189,14 @@ void expect_line(const SegmentRecord& record, const Database& database) {
     }
 }
 
-/// What the passes of a period say of segments, strip by strip.
-class PeriodStates {
+/// What some of the passes say of segments, strip by strip.
+class ChosenStates {
 public:
-    PeriodStates(Database& database, double segment_length_m, const Period& period)
+    ChosenStates(Database& database, double segment_length_m, const PassChoice& choice)
         : states_{database}, find_strip_{database.prepare(
                                  "SELECT strip FROM segment WHERE way_id = ?"
                                  " AND direction = ? AND seq = ?")},
-          segment_length_m_{segment_length_m}, period_{period} {}
+          segment_length_m_{segment_length_m}, choice_{choice} {}
 
     std::optional<SegmentState> of(const SegmentKey& key) {
         if (const auto strip = strip_of(key, segment_length_m_); strip != strip_) {
@@ -205,7 +205,7 @@ public:
                 key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
             fused_ = find_strip_.step() ? states_.of(find_strip_.integer(0),
                                                      segments_in_strip(segment_length_m_),
-                                                     period_)
+                                                     choice_)
                                         : std::vector<FusedSegment>{};
             find_strip_.reset();
         }
@@ -218,7 +218,7 @@ private:
     StripStates states_;
     Statement find_strip_;
     double segment_length_m_;
-    Period period_;
+    PassChoice choice_;
     std::optional<StripKey> strip_;
     std::vector<FusedSegment> fused_;
 };
@@ -296,17 +296,19 @@ void RoadStore::visit(const SegmentFilter& filter,
                       const std::function<void(const SegmentRecord&)>& visitor) const {
     auto& database = impl_->database;
     Transaction one_moment{database, Transaction::Kind::read};
-    std::optional<PeriodStates> period;
-    if (filter.period) {
-        period.emplace(database, impl_->settings.segment_length_m, *filter.period);
+    std::optional<ChosenStates> chosen;
+    if (filter.period || filter.cars_alone) {
+        chosen.emplace(database,
+                       impl_->settings.segment_length_m,
+                       PassChoice{filter.period, filter.cars_alone});
     }
     const Conditions conditions{filter, impl_->classes()};
     Roughest roughest{filter.worst};
     each_row(database, filter, [&](const Statement& row) {
         auto record = record_in(row);
         expect_line(record, database);
-        if (period) {
-            record.state = period->of(record.segment.key);
+        if (chosen) {
+            record.state = chosen->of(record.segment.key);
         }
         if (!conditions.hold_for(record)) {
             return;

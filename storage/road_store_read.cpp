@@ -133,14 +133,16 @@ std::string state_line(const SegmentState& s) {
 
 void add_passes(Sha256& hash, Database& database) {
     auto select =
-        database.prepare(fmt::format("SELECT segment.segment, trip.sha256, {} FROM pass"
+        database.prepare(fmt::format("SELECT segment.segment, trip.sha256,"
+                                     " trip.reference_ppm IS NOT NULL, {} FROM pass"
                                      " CROSS JOIN segment ON segment.fid = pass.segment"
                                      " CROSS JOIN trip ON trip.id = pass.trip"
                                      " ORDER BY pass.segment, trip.sha256, pass.occurrence",
                                      pass_columns));
     while (select.step()) {
-        hash.add(fmt::format("pass {} {}", select.text(0), select.text(1)) +
-                 columns_from(select, 2, 2 + digest_column_count));
+        const auto* const kind = select.integer(2) != 0 ? "reference" : "pass";
+        hash.add(fmt::format("{} {} {}", kind, select.text(0), select.text(1)) +
+                 columns_from(select, 3, 3 + digest_column_count));
     }
 }
 
@@ -150,10 +152,11 @@ std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
     Transaction one_moment{impl_->database, Transaction::Kind::read};
     auto select = impl_->database.prepare(
         fmt::format("SELECT trip.sha256, vehicle.pseudonym, trip.t0_utc_ms, segment.strip,"
-                    " (segment.from_m + segment.to_m) / 2, {} FROM segment"
+                    " (segment.from_m + segment.to_m) / 2, trip.reference_ppm, trip.trip_id,"
+                    " {} FROM segment"
                     " CROSS JOIN pass ON pass.segment = segment.fid"
                     " CROSS JOIN trip ON trip.id = pass.trip"
-                    " CROSS JOIN vehicle ON vehicle.id = trip.vehicle"
+                    " LEFT JOIN vehicle ON vehicle.id = trip.vehicle"
                     " WHERE segment.way_id = ? AND segment.direction = ? AND segment.seq = ?"
                     " ORDER BY trip.sha256, pass.occurrence",
                     pass_columns));
@@ -164,11 +167,11 @@ std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
         if (!traces) {
             traces = StripTraces{impl_->database}.placed(select.integer(3));
         }
-        PassRecord record{pass_in(select, 5, key),
-                          select.text(0),
-                          select.text(1),
-                          known_utc_ms(select, 2),
-                          std::nullopt};
+        PassRecord record{
+            pass_in(select, 7, key), select.text(0), select.text(1), known_utc_ms(select, 2)};
+        if (!select.is_null(5)) {
+            record.reference = select.text(6);
+        }
         record.utc_ms = utc_ms_of(record.utc_ms, record.pass);
         if (const auto* placed = find_trace(*traces, record.trip_sha256, record.pass.drive)) {
             record.lag_m = lag_m(placed->lag, station_m(key.forward, select.real(4)));
@@ -186,9 +189,14 @@ StoreInfo RoadStore::info() const {
     auto seen = database.prepare("SELECT min(first_seen_ms), max(last_seen_ms) FROM segment_state");
     seen.step();
     return {.settings = impl_->settings,
-            .trips = count(database, "SELECT count(*) FROM trip"),
-            .undated_trips = count(database, "SELECT count(*) FROM trip WHERE t0_utc_ms IS NULL"),
-            .passes = count(database, "SELECT count(*) FROM pass"),
+            .trips = count(database, "SELECT count(*) FROM trip WHERE reference_ppm IS NULL"),
+            .undated_trips = count(database,
+                                   "SELECT count(*) FROM trip WHERE t0_utc_ms IS NULL"
+                                   " AND reference_ppm IS NULL"),
+            .passes = count(database, "SELECT count(*) FROM pass") -
+                      count(database,
+                            "SELECT count(*) FROM trip CROSS JOIN pass ON pass.trip = trip.id"
+                            " WHERE trip.reference_ppm IS NOT NULL"),
             .lateral_passes = count_with(database, validity::lateral_alone),
             .vehicles = pseudonyms(database),
             .segments = static_cast<std::size_t>(real_meta(database, "segments")),

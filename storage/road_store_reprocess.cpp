@@ -126,8 +126,9 @@ Reprocessed RoadStore::take_staged(std::string_view how, const Progress& progres
     database.run("DELETE FROM staged_trip WHERE sha256 NOT IN (SELECT sha256 FROM trip)");
     Reprocessed done{.generation = 0};
     done.trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM staged_trip"));
-    done.others =
-        static_cast<std::size_t>(database.number("SELECT count(*) FROM trip")) - done.trips;
+    done.others = static_cast<std::size_t>(
+                      database.number("SELECT count(*) FROM trip WHERE reference_ppm IS NULL")) -
+                  done.trips;
     done.calibrated = database.number("SELECT count(*) FROM trip WHERE calibrates") > 0;
     database.run(swap_trips);
     if (done.calibrated) {

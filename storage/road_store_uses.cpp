@@ -36,7 +36,7 @@ std::vector<RoadClassLength> RoadStore::road_class_lengths() const {
 std::vector<DayUse> RoadStore::day_uses() const {
     auto select = impl_->database.prepare(
         "SELECT t0_utc_ms, (SELECT count(*) FROM pass WHERE pass.trip = trip.id) FROM trip"
-        " WHERE t0_utc_ms IS NOT NULL");
+        " WHERE t0_utc_ms IS NOT NULL AND reference_ppm IS NULL");
     std::map<std::string, DayUse> days;
     while (select.step()) {
         if (const auto utc_ms = known_utc_ms(select, 0)) {

@@ -28,7 +28,9 @@ std::map<std::string, std::size_t> RoadStore::row_reasons() const {
     std::map<std::string, std::size_t> reasons;
     if (is_kept(impl_->database)) {
         auto select =
-            impl_->database.prepare("SELECT reason, sum(rows) FROM row_reason GROUP BY reason");
+            impl_->database.prepare("SELECT reason, sum(rows) FROM row_reason WHERE trip NOT IN"
+                                    " (SELECT id FROM trip WHERE reference_ppm IS NOT NULL)"
+                                    " GROUP BY reason");
         while (select.step()) {
             reasons[select.text(0)] = static_cast<std::size_t>(select.integer(1));
         }

@@ -5,6 +5,7 @@
 #include "storage/foreign/gpx_reader.hpp"
 #include "storage/network_reader.hpp"
 #include "storage/osm_reader.hpp"
+#include "storage/row_values.hpp"
 #include "storage/text.hpp"
 #include "storage/trip_reader.hpp"
 
@@ -55,19 +56,6 @@ const Unit* unit_of(const CsvTable& table) {
     return found;
 }
 
-std::optional<bool> direction_of(const CsvRow& row) {
-    const auto text = row.text("direction");
-    if (text.empty()) {
-        return std::nullopt;
-    }
-    if (text != "forward" && text != "backward") {
-        throw InputError{fmt::format("{}: direction is {}, expected forward, backward or nothing",
-                                     row.where(),
-                                     in_quotes(text))};
-    }
-    return text == "forward";
-}
-
 /// "Main Street 1.2-3.4", in the file's own numbers.
 std::string name_of(const CsvRow& row, const Unit* unit) {
     if (auto name = row.text("section"); !name.empty()) {
@@ -84,7 +72,7 @@ SectionReference reference_in(const CsvRow& row, const Unit* unit) {
                                .name = name_of(row, unit),
                                .route = row.text("route"),
                                .way_id = row.whole("way_id"),
-                               .forward = direction_of(row)};
+                               .forward = direction_in(row)};
     if (reference.route.empty() == !reference.way_id) {
         throw InputError{fmt::format("{}: has {} a route {} a way_id, expected one of them",
                                      row.where(),

@@ -37,7 +37,7 @@ CREATE TABLE trip (
     id INTEGER PRIMARY KEY,
     sha256 TEXT NOT NULL UNIQUE,
     trip_id TEXT NOT NULL,
-    vehicle INTEGER NOT NULL REFERENCES vehicle(id),
+    vehicle INTEGER REFERENCES vehicle(id),
     file_name TEXT NOT NULL,
     t0_utc_ms INTEGER,
     vehicle_model TEXT NOT NULL,
@@ -46,7 +46,9 @@ CREATE TABLE trip (
     matched_mm INTEGER NOT NULL,
     rows_read INTEGER NOT NULL,
     rows_used INTEGER NOT NULL,
-    calibrates INTEGER NOT NULL DEFAULT 0
+    calibrates INTEGER NOT NULL DEFAULT 0,
+    reference_ppm INTEGER,
+    reference_row_mm INTEGER
 );
 CREATE TABLE pass (
     segment INTEGER NOT NULL REFERENCES segment(fid),
@@ -110,6 +112,16 @@ CREATE TABLE segment_state (
     changed_ms INTEGER,
     flags INTEGER NOT NULL
 );
+CREATE TABLE control_section (
+    name TEXT PRIMARY KEY NOT NULL,
+    way_id INTEGER NOT NULL REFERENCES way(way_id),
+    direction TEXT NOT NULL,
+    from_mm INTEGER NOT NULL,
+    to_mm INTEGER NOT NULL,
+    iri_um INTEGER NOT NULL,
+    sd_um INTEGER NOT NULL,
+    utc_ms INTEGER
+) WITHOUT ROWID;
 CREATE TABLE segment_dirty (
     segment INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid)
 );

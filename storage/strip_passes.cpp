@@ -13,7 +13,8 @@
 namespace macadam {
 
 StripPasses::StripPasses(Database& database)
-    : select_trip_{database.prepare("SELECT sha256, vehicle, t0_utc_ms FROM trip WHERE id = ?")},
+    : select_trip_{database.prepare("SELECT sha256, vehicle, t0_utc_ms, reference_ppm"
+                                    " FROM trip WHERE id = ?")},
       // Rows of a strip's segments stand one after the other.
       select_places_{
           database.prepare("SELECT fid, way_id, direction, seq, from_m, to_m FROM segment"
@@ -74,6 +75,7 @@ std::optional<StripPass> StripPasses::pass_at(const Place& place) {
                    place.from_m,
                    place.to_m};
     pass.input.utc_ms = utc_ms_of(of->t0_utc_ms, pass.input.pass);
+    pass.input.reference = of->reference;
     return pass;
 }
 
@@ -83,11 +85,13 @@ const StripPasses::Trip* StripPasses::trip(std::int64_t row) {
     }
     const Trip* found = nullptr;
     if (select_trip_.bind(row).step()) {
+        const bool reference = !select_trip_.is_null(3);
         found = &trips_
                      .emplace(row,
                               Trip{select_trip_.text(0),
-                                   select_trip_.integer(1),
-                                   known_utc_ms(select_trip_, 2)})
+                                   reference ? -row : select_trip_.integer(1),
+                                   known_utc_ms(select_trip_, 2),
+                                   reference})
                      .first->second;
     }
     select_trip_.reset();

@@ -31,8 +31,9 @@ public:
 private:
     struct Trip {
         std::string sha256;
-        std::int64_t vehicle;
+        std::int64_t vehicle; ///< of a reference none: below 0, where no car's is
         std::optional<std::int64_t> t0_utc_ms;
+        bool reference;
     };
     struct Place {
         std::int64_t fid;

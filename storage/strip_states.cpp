@@ -14,6 +14,11 @@ bool is_in(const Period& period, const std::optional<std::int64_t>& utc_ms) {
            !(period.until_ms && *utc_ms >= *period.until_ms);
 }
 
+bool is_chosen(const PassChoice& choice, const FusionInput& input) {
+    return !(choice.cars_alone && input.reference) &&
+           (!choice.period || is_in(*choice.period, input.utc_ms));
+}
+
 DriveSet drives_of(const std::vector<StripPass>& passes) {
     DriveSet drives;
     for (const auto& [fid, input, from_m, to_m] : passes) {
@@ -100,9 +105,9 @@ FusedStrip StripStates::of(std::int64_t strip, std::int64_t segments_in_strip) {
 }
 
 std::vector<FusedSegment>
-StripStates::of(std::int64_t strip, std::int64_t segments_in_strip, const Period& period) {
+StripStates::of(std::int64_t strip, std::int64_t segments_in_strip, const PassChoice& choice) {
     auto passes = valid_passes(strip, segments_in_strip);
-    std::erase_if(passes, [&](const auto& pass) { return !is_in(period, pass.input.utc_ms); });
+    std::erase_if(passes, [&](const auto& pass) { return !is_chosen(choice, pass.input); });
     if (passes.empty()) {
         return {};
     }

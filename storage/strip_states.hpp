@@ -25,6 +25,12 @@ struct FusedStrip {
     std::vector<FusedSegment> segments; ///< with a pass, in the order of their rows
 };
 
+/// Which passes a state is fused from.
+struct PassChoice {
+    std::optional<Period> period; ///< those with a date in it
+    bool cars_alone;              ///< those of references are left out
+};
+
 /// States of the segments of strips, fused from their passes, which are first laid on each other,
 /// by the rules that the store has when this is made.
 class StripStates {
@@ -34,9 +40,9 @@ public:
     /// \param strip  the row of its first segment.
     FusedStrip of(std::int64_t strip, std::int64_t segments_in_strip);
 
-    /// Its segments from the dated passes of a period alone, as if there were no others.
+    /// Its segments from some passes alone, as if there were no others.
     std::vector<FusedSegment>
-    of(std::int64_t strip, std::int64_t segments_in_strip, const Period& period);
+    of(std::int64_t strip, std::int64_t segments_in_strip, const PassChoice& choice);
 
     /// The passes of these trips, by hash, where they lie among each other; as they were read,
     /// whatever is known of their cars, and also those of a road that is no more.

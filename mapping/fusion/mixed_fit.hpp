@@ -23,6 +23,10 @@ struct Readings {
     double trip_sd;
     std::vector<Block> cars;
     std::vector<Block> trips; ///< readings in none have no part of a trip
+
+    /// What all cars read wrong alike, at one standard deviation, where other readings (0) tell it
+    /// apart from the road; as many as values, or none: not told apart.
+    Eigen::VectorXd common_sd{};
 };
 
 /// One row for each reading, one column for each coefficient; a reading's values stand together.

@@ -65,8 +65,23 @@ struct Problem {
     const ChangeModel& change;
 };
 
+/// With a column of what all cars read wrong alike, before those of the steps.
+MeanModel with_common(const MeanModel& mean, const VectorXd& common_sd, std::size_t steps) {
+    const auto last = static_cast<Index>(steps);
+    const auto first = mean.columns.cols() - last;
+    MeanModel wider;
+    wider.columns.resize(mean.columns.rows(), first + 1 + last);
+    wider.columns << mean.columns.leftCols(first), common_sd, mean.columns.rightCols(last);
+    wider.precisions.resize(first + 1 + last);
+    wider.precisions << mean.precisions.head(first), 1.0, mean.precisions.tail(last);
+    return wider;
+}
+
 Trial trial_of(const Problem& problem, std::vector<double> step_years) {
     auto mean = mean_model(problem.ages, problem.level_um, problem.change, step_years);
+    if (const auto& common_sd = problem.readings.common_sd; common_sd.size() > 0) {
+        mean = with_common(mean, common_sd, step_years.size());
+    }
     auto robust = fit_robustly(problem.readings,
                                mean,
                                problem.tail,

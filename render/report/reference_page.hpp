@@ -1,0 +1,61 @@
+#pragma once
+
+#include "mapping/control_section.hpp"
+#include "mapping/reference_comparison.hpp"
+#include "mapping/road_mean.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// A reference survey, and how near the cars come to it over pieces of 100 m.
+struct ComparedSurvey {
+    std::string name;
+    std::string day; ///< "2026-03-01", "" = not known
+    double relative_sd;
+    double row_m;
+    std::size_t segments;
+    double km;
+    double alone_km; ///< where no car has been
+    SurveyScore score;
+};
+
+/// How near the cars come to the references, at one length of the pieces.
+struct ComparedPieces {
+    std::vector<ReferencePair> pairs;
+    ReferenceScores headline;
+    ReferenceScores left; ///< without pieces where no track is known to both
+    ReferenceScores right;
+};
+
+/// A control section, what is known of it and what the cars say.
+struct ComparedControl {
+    std::string name;
+    double known;
+    RoadMean cars; ///< length_m 0: no pass yet
+    double off;
+    double off_sd;
+    std::size_t months;
+    std::optional<Drift> drift;
+};
+
+/// What the cars alone say beside what references say, as plain values.
+struct ReferenceReport {
+    std::string title;
+    double segment_length_m = 20;
+    std::vector<ComparedSurvey> surveys;
+    std::string passes_span;     ///< "2026-01-03 to 2026-05-11", "" = not dated
+    std::string references_span; ///< likewise
+    std::string gap;             ///< what lies between them, a sentence; "" = not known
+    ComparedPieces segments;     ///< of surveys whose rows are not much longer
+    ComparedPieces hundreds;
+    std::vector<ComparedControl> controls;
+};
+
+/// One HTML page that needs nothing else, like report_html. The same values give the same bytes.
+std::string reference_html(const ReferenceReport& report);
+
+} // namespace macadam
