@@ -1,6 +1,7 @@
 #include "mapping/change/claims.hpp"
 
 #include "mapping/change/same_roads.hpp"
+#include "mapping/change/segment_heirs.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -69,21 +70,13 @@ std::vector<Quarrel> quarrels_in(const std::vector<FollowedWay>& ways, double mo
     return quarrels;
 }
 
-std::optional<std::uint32_t> number_of_way(const RoadNetwork& roads, std::int64_t id) {
-    const auto past = roads.ways.begin() + way_count(roads);
-    const auto found = std::ranges::lower_bound(roads.ways.begin(), past, id, {}, &PackedWay::id);
-    return found != past && found->id == id
-               ? std::optional{static_cast<std::uint32_t>(found - roads.ways.begin())}
-               : std::nullopt;
-}
-
 std::set<EdgeId> edges_in(const RoadNetwork& roads, const Quarrel& quarrel) {
     constexpr double least_m = 1;
     const auto& part = quarrel.first.part;
     const double from_m = part.forward ? quarrel.from_station_m : -quarrel.to_station_m;
     const double to_m = part.forward ? quarrel.to_station_m : -quarrel.from_station_m;
     std::set<EdgeId> edges;
-    const auto way = way_at(roads, *number_of_way(roads, part.way_id));
+    const auto way = way_at(roads, *way_numbered(roads, part.way_id));
     for (auto i = way.first_link; i < way.past_link; ++i) {
         const auto link = link_at(roads, LinkId{i});
         if (std::min(link.to_m, to_m) - std::max(link.from_m, from_m) > least_m) {
