@@ -44,9 +44,8 @@ public:
 
     template <typename Integer>
     Integer whole(Integer Pass::*value) const {
-        return static_cast<Integer>(std::llround(of([&](const CarriedPiece& piece) {
-            return static_cast<double>(piece.pass->*value);
-        })));
+        return static_cast<Integer>(std::llround(of(
+            [&](const CarriedPiece& piece) { return static_cast<double>(piece.pass->*value); })));
     }
 
     /// Nothing where one of them has none.

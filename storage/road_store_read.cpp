@@ -136,8 +136,9 @@ void add_passes(Sha256& hash, Database& database) {
         database.prepare(fmt::format("SELECT segment.segment, trip.sha256, {} FROM pass"
                                      " CROSS JOIN segment ON segment.fid = pass.segment"
                                      " CROSS JOIN trip ON trip.id = pass.trip"
-                                     " ORDER BY pass.segment, trip.sha256, pass.occurrence",
-                                     pass_columns));
+                                     " ORDER BY {}, trip.sha256, pass.occurrence",
+                                     pass_columns,
+                                     are_rows_in_order(database) ? "pass.segment" : order_of_keys));
     while (select.step()) {
         hash.add(fmt::format("pass {} {}", select.text(0), select.text(1)) +
                  columns_from(select, 2, 2 + digest_column_count));
@@ -245,8 +246,9 @@ std::string RoadStore::digest() const {
         add_passes(hash, impl_->database);
         auto select = impl_->database.prepare(fmt::format(
             "SELECT {} FROM segment JOIN segment_state AS state ON state.fid = segment.fid"
-            " JOIN way ON way.way_id = segment.way_id ORDER BY segment.fid",
-            record_columns));
+            " JOIN way ON way.way_id = segment.way_id ORDER BY {}",
+            record_columns,
+            are_rows_in_order(impl_->database) ? "segment.fid" : order_of_keys));
         while (select.step()) {
             hash.add(state_line(*record_in(select).state));
         }

@@ -50,8 +50,7 @@ std::vector<StripPieces> pieces_by_strip(const std::vector<Pass>& passes,
     for (const auto& pass : passes) {
         const auto whole = stations_of(heirs.before(), pass.segment);
         for (const auto& heir : heirs.of(pass.segment)) {
-            const double share =
-                std::min(1.0, pass.covered_mm / mm_per_m / length_m(*whole));
+            const double share = std::min(1.0, pass.covered_mm / mm_per_m / length_m(*whole));
             const double late_m = middle_m(heir.before_m) - middle_m(*whole);
             by_strip[key_of(strip_of(heir.after, segment_length_m))].push_back(
                 {&pass,
@@ -76,8 +75,7 @@ std::vector<CarriedDrive> drives_of(const StripPieces& pieces) {
     std::uint32_t next = 0;
     for (const auto& piece : pieces) {
         if (drives.empty() || !goes_on(drives.back().pieces.back(), piece)) {
-            drives.push_back(
-                {piece.pass->drive ? std::optional{next++} : std::nullopt, {}});
+            drives.push_back({piece.pass->drive ? std::optional{next++} : std::nullopt, {}});
         }
         drives.back().pieces.push_back(piece);
     }

@@ -89,9 +89,8 @@ void take_known(StripTrace& trace, const std::vector<Cell>& cells) {
 
 } // namespace
 
-std::optional<StripTrace> trace_of(const CarriedDrive& drive,
-                                   const std::vector<StripTrace>& old,
-                                   double segment_length_m) {
+std::optional<StripTrace>
+trace_of(const CarriedDrive& drive, const std::vector<StripTrace>& old, double segment_length_m) {
     const auto pieces = traced_pieces(drive, old);
     if (pieces.empty() || !drive.number) {
         return std::nullopt;
@@ -105,9 +104,8 @@ std::optional<StripTrace> trace_of(const CarriedDrive& drive,
     std::vector<Cell> cells;
     for (auto metre = first; metre < past; ++metre) {
         const double middle_m = metre + 0.5;
-        const auto nearest = std::ranges::min_element(pieces, {}, [&](const TracedPiece& piece) {
-            return off_m(piece.after_m, middle_m);
-        });
+        const auto nearest = std::ranges::min_element(
+            pieces, {}, [&](const TracedPiece& piece) { return off_m(piece.after_m, middle_m); });
         cells.push_back(cell_at(*nearest, middle_m));
     }
     StripTrace trace{.strip = strip_of(drive.pieces.front().heir.after, segment_length_m),

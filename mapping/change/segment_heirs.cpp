@@ -76,8 +76,8 @@ StationRange shared(const StationRange& a, const StationRange& b) {
 
 /// A range of one side of a piece of road, on its other side.
 StationRange over(const StationRange& range, const DirectedPart& here, const DirectedPart& there) {
-    const double scale = (there.to_station_m - there.from_station_m) /
-                         (here.to_station_m - here.from_station_m);
+    const double scale =
+        (there.to_station_m - there.from_station_m) / (here.to_station_m - here.from_station_m);
     const auto at = [&](double station_m) {
         return there.from_station_m + scale * (station_m - here.from_station_m);
     };
@@ -179,8 +179,8 @@ std::optional<MovedStrip> SegmentHeirs::moved(const StripKey& before) const {
         }
         const MovedStrip to{strip_of(heir->after, segment_length_m),
                             heir->after_m.from_m - heir->before_m.from_m};
-        if (strip && (strip->strip != to.strip ||
-                      std::abs(strip->shift_m - to.shift_m) > unchanged_m)) {
+        if (strip &&
+            (strip->strip != to.strip || std::abs(strip->shift_m - to.shift_m) > unchanged_m)) {
             return std::nullopt;
         }
         strip = strip ? strip : to;
