@@ -143,7 +143,7 @@ MovedPasses move_readings(Database& database, const SegmentHeirs& heirs, const P
     const double segment_length_m = heirs.before().segment_length_m;
     const auto trips = trips_on_old_segments(database);
     OldReadings old{database, segment_length_m};
-    PassWriter writer{database, segments_in_strip(segment_length_m)};
+    PassWriter writer{database, segments_in_strip(segment_length_m), Destination::kept};
     MovedPasses moved;
     std::size_t done = 0;
     for (const auto trip : trips) {
@@ -155,6 +155,7 @@ MovedPasses move_readings(Database& database, const SegmentHeirs& heirs, const P
         progress(++done, trips.size());
         expect_to_go_on(database, progress);
     }
+    writer.flush();
     return moved;
 }
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <tuple>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -119,6 +119,61 @@ bool run_alike(const Vector& a, const Vector& b, double least_cosine) {
     return product > 0 && product * product >= least_cosine * least_cosine * dot(a, a) * dot(b, b);
 }
 
+/// Forward, backward: which direction of a step runs one of the sample's courses.
+struct Runs {
+    bool forward;
+    bool backward;
+};
+
+Runs runs_of(const PlacedSample& sample, const LineStep& step, double least_cosine) {
+    const Vector back{-step.step.east_m, -step.step.north_m};
+    Runs runs{false, false};
+    for (const auto& course : sample.courses) {
+        runs.forward = runs.forward || run_alike(course, step.step, least_cosine);
+        runs.backward = runs.backward || run_alike(course, back, least_cosine);
+    }
+    return runs;
+}
+
+/// By chords: for bends that have few points in one of the networks.
+Runs runs_around(const PlacedSample& sample, const Vector& chord, double least_cosine) {
+    const auto& course = sample.courses[0];
+    return {run_alike(course, chord, least_cosine),
+            run_alike(course, {-chord.east_m, -chord.north_m}, least_cosine)};
+}
+
+/// Of one edge the nearest place counts.
+void take(std::vector<NearPlaceOnEdge>& places, const NearPlaceOnEdge& place) {
+    const auto same = std::ranges::find(places, place.edge, &NearPlaceOnEdge::edge);
+    if (same == places.end()) {
+        places.push_back(place);
+    } else if (place.across_m < same->across_m) {
+        *same = place;
+    }
+}
+
+/// Where the perpendicular from a sample meets a step.
+struct Foot {
+    double along_m; ///< the way
+    double across_m;
+};
+
+Foot foot_on(const LineStep& step, const PointEn& at) {
+    const auto to_sample = at - step.from;
+    const double share = std::clamp(dot(to_sample, step.step) / step.squared_m2, 0.0, 1.0);
+    return {step.along_m + share * step.length_m,
+            std::hypot(to_sample.east_m - share * step.step.east_m,
+                       to_sample.north_m - share * step.step.north_m)};
+}
+
+std::vector<NearPlaceOnEdge> nearest_first(std::vector<NearPlaceOnEdge> places) {
+    std::ranges::sort(places, {}, [](const NearPlaceOnEdge& place) {
+        return std::tuple{place.across_m, place.edge};
+    });
+    places.resize(std::min(places.size(), most_places));
+    return places;
+}
+
 } // namespace
 
 GeoPoint place_along(const WayView& way, double along_m) {
@@ -141,67 +196,35 @@ NearRoads::around(std::span<const RoadSample> samples) const {
     const SmallPlane plane{samples.front().at};
     const auto steps =
         steps_in(*roads_, *left_out_, box_around(samples, config_.farthest_m), plane);
-
-    const auto runs_course = [&](const PlacedSample& sample, const LineStep& step, double along_m) {
-        const auto alike = [&](const Vector& course) {
-            return run_alike(course, step.step, least_cosine_);
-        };
-        const auto against = [&](const Vector& course) {
-            return run_alike({-course.east_m, -course.north_m}, step.step, least_cosine_);
-        };
-        std::array<bool, 2> runs{std::ranges::any_of(sample.courses, alike),
-                                 std::ranges::any_of(sample.courses, against)};
-        if (!runs[0] && !runs[1]) { // at a bend that has few points in one of the networks
-            const auto way = way_of(*roads_, LinkId{step.link});
-            const auto chord = plane(place_along(way, along_m + half_chord_m)) -
-                               plane(place_along(way, along_m - half_chord_m));
-            const auto& course = sample.courses[0];
-            runs = {run_alike(course, chord, least_cosine_),
-                    run_alike({-course.east_m, -course.north_m}, chord, least_cosine_)};
-        }
-        return runs;
-    };
-
-    const auto places_of = [&](const PlacedSample& sample) {
-        std::vector<NearPlaceOnEdge> places;
-        const auto take = [&](EdgeId edge, double along_m, double across_m) {
-            const auto link = link_at(*roads_, edge);
-            const double offset_m = is_forward(edge) ? along_m - link.from_m : link.to_m - along_m;
-            const auto same = std::ranges::find(places, edge, &NearPlaceOnEdge::edge);
-            if (same == places.end()) {
-                places.push_back({edge, offset_m, across_m});
-            } else if (across_m < same->across_m) {
-                *same = {edge, offset_m, across_m};
-            }
-        };
-        for (const auto& step : steps) {
-            const auto to_sample = sample.at - step.from;
-            const double share = std::clamp(dot(to_sample, step.step) / step.squared_m2, 0.0, 1.0);
-            const double across_m = std::hypot(to_sample.east_m - share * step.step.east_m,
-                                               to_sample.north_m - share * step.step.north_m);
-            if (!(across_m <= config_.farthest_m)) {
-                continue;
-            }
-            const double along_m = step.along_m + share * step.length_m;
-            const auto runs = runs_course(sample, step, along_m);
-            for (const bool forward : {true, false}) {
-                const auto edge = edge_of(LinkId{step.link}, forward);
-                if (runs[forward ? 0 : 1] && is_drivable(*roads_, edge)) {
-                    take(edge, along_m, across_m);
-                }
-            }
-        }
-        std::ranges::sort(places, {}, [](const NearPlaceOnEdge& place) {
-            return std::tuple{place.across_m, place.edge};
-        });
-        places.resize(std::min(places.size(), most_places));
-        return places;
-    };
-
     std::vector<std::vector<NearPlaceOnEdge>> around;
     around.reserve(samples.size());
-    for (const auto& sample : samples) {
-        around.push_back(places_of(placed(sample, plane)));
+    for (const auto& each : samples) {
+        const auto sample = placed(each, plane);
+        std::vector<NearPlaceOnEdge> places;
+        for (const auto& step : steps) {
+            const auto foot = foot_on(step, sample.at);
+            if (!(foot.across_m <= config_.farthest_m)) {
+                continue;
+            }
+            const auto link = link_at(*roads_, LinkId{step.link});
+            auto runs = runs_of(sample, step, least_cosine_);
+            if (!runs.forward && !runs.backward) {
+                const auto way = way_at(*roads_, link.way);
+                runs = runs_around(sample,
+                                   plane(place_along(way, foot.along_m + half_chord_m)) -
+                                       plane(place_along(way, foot.along_m - half_chord_m)),
+                                   least_cosine_);
+            }
+            if (runs.forward && link.forward) {
+                take(places,
+                     {edge_of(LinkId{step.link}, true), foot.along_m - link.from_m, foot.across_m});
+            }
+            if (runs.backward && link.backward) {
+                take(places,
+                     {edge_of(LinkId{step.link}, false), link.to_m - foot.along_m, foot.across_m});
+            }
+        }
+        around.push_back(nearest_first(std::move(places)));
     }
     return around;
 }

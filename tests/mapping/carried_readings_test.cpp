@@ -226,7 +226,8 @@ std::vector<Way> with_new_junction(const std::vector<Way>& ways) {
 }
 
 /// By brute force: what the old passes say of each centimetre of the new segment.
-double mean_over(const std::vector<Pass>& old, const RoadNetwork& roads, const StationRange& range) {
+double
+mean_over(const std::vector<Pass>& old, const RoadNetwork& roads, const StationRange& range) {
     double sum = 0;
     int count = 0;
     for (const auto& pass : old) {
