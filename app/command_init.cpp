@@ -1,7 +1,10 @@
 #include "app/commands.hpp"
+#include "app/interruption.hpp"
+#include "app/network_update_output.hpp"
 #include "app/output_guard.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/network_change.hpp"
 #include "mapping/trace_network.hpp"
 #include "storage/network_file.hpp"
 #include "storage/network_reader.hpp"
@@ -22,10 +25,12 @@ constexpr double most_segment_m = 1000;
 struct InitOptions {
     std::filesystem::path store;
     std::optional<std::filesystem::path> network;
-    std::vector<std::filesystem::path> trips; ///< to trace a network from
+    std::optional<std::filesystem::path> update; ///< a newer network for a store that is there
+    std::vector<std::filesystem::path> trips;    ///< to trace a network from
     LayerColumns columns;
     std::string attribution;
     double segment_length_m;
+    bool json;
 };
 
 InitOptions parse_init(const Arguments& arguments) {
@@ -38,8 +43,17 @@ InitOptions parse_init(const Arguments& arguments) {
     options.network = arguments.value("--network");
     const auto trips = arguments.values("--trace");
     options.trips.assign(trips.begin(), trips.end());
-    if (options.network.has_value() == !trips.empty()) {
-        throw UsageError{"expected either --network FILE or --trace TRIP..."};
+    options.update = arguments.value("--update");
+    const int sources = (options.network ? 1 : 0) + (options.update ? 1 : 0) + !trips.empty();
+    if (sources != 1) {
+        throw UsageError{"expected either --network FILE, --trace TRIP... or --update FILE"};
+    }
+    options.json = arguments.flag("--json");
+    if (options.json && !options.update) {
+        throw UsageError{"--json is only for --update, which reports what has become of the roads"};
+    }
+    if (options.update && arguments.number("--segment-length")) {
+        throw UsageError{"--segment-length cannot be changed by --update: the store's stays"};
     }
     options.segment_length_m = arguments.number("--segment-length", RoadNetwork{}.segment_length_m);
     if (!(options.segment_length_m >= least_segment_m &&
@@ -88,25 +102,32 @@ std::vector<Way> traced_ways(const std::vector<std::filesystem::path>& paths,
     return ways;
 }
 
-void run_init(const Arguments& arguments, const Console& console) {
-    const auto options = parse_init(arguments);
-    if (options.network && options.network->extension() == ".gpkg" && is_store(*options.network)) {
+void refuse_store(const std::filesystem::path& network) {
+    if (network.extension() == ".gpkg" && is_store(network)) {
         throw InputError{fmt::format("{}: is a store, expected the map that it was made from",
-                                     options.network->string())};
+                                     network.string())};
     }
+}
+
+NetworkSource source_of(const std::filesystem::path& network, const std::string& attribution) {
+    return {network.filename().string(),
+            attribution.empty() && is_osm(network) ? "© OpenStreetMap contributors (ODbL)"
+                                                   : attribution};
+}
+
+void make_store(const InitOptions& options, const Console& console) {
     auto ways =
         options.network
             ? read_network(*options.network, options.columns, console.progress("reading roads"))
             : traced_ways(options.trips, console);
 
+    const auto source = options.network
+                            ? source_of(*options.network, options.attribution)
+                            : NetworkSource{"traced from the trips", options.attribution};
     StoreSettings settings;
     settings.segment_length_m = options.segment_length_m;
-    settings.network_source = options.network ? options.network->filename().string()
-                                              : std::string{"traced from the trips"};
-    settings.attribution = options.attribution;
-    if (settings.attribution.empty() && options.network && is_osm(*options.network)) {
-        settings.attribution = "© OpenStreetMap contributors (ODbL)";
-    }
+    settings.network_source = source.name;
+    settings.attribution = source.attribution;
     const auto roads = build_network(std::move(ways), options.segment_length_m);
     const auto store =
         RoadStore::create(options.store, roads, settings, console.progress("writing segments"));
@@ -122,14 +143,67 @@ void run_init(const Arguments& arguments, const Console& console) {
                             info.network_km));
 }
 
+void expect_to_go_on(const Progress& progress, const std::filesystem::path& store) {
+    if (progress.stop.stop_requested()) {
+        throw InputError{fmt::format("{}: interrupted; the store is as it was", store.string())};
+    }
+}
+
+void update_store(const InitOptions& options, const Console& console) {
+    const Interruption interruption;
+    const auto told = [&](const char* label) {
+        auto progress = console.progress(label);
+        progress.stop = interruption.stop();
+        return progress;
+    };
+    auto store = RoadStore::open(options.store, RoadStore::Access::write);
+    const auto before = kept_roads(store);
+    const auto after = build_network(
+        read_network(*options.update, options.columns, console.progress("reading roads")),
+        store.settings().segment_length_m);
+
+    const auto comparing = told("comparing roads");
+    const auto change = change_between(before, after, {}, comparing);
+    expect_to_go_on(comparing, options.store);
+    const auto update = store.update_network(before,
+                                             after,
+                                             change,
+                                             source_of(*options.update, options.attribution),
+                                             told("carrying passes"));
+    keep_roads(store, after);
+    if (options.json) {
+        print(json_of(update));
+    } else {
+        print_words(text_of(update));
+    }
+}
+
+void run_init(const Arguments& arguments, const Console& console) {
+    const auto options = parse_init(arguments);
+    if (const auto& network = options.update ? options.update : options.network) {
+        refuse_store(*network);
+    }
+    if (options.update) {
+        update_store(options, console);
+    } else {
+        make_store(options, console);
+    }
+}
+
 constexpr std::array operands{
-    Operand{"STORE", "The store to make, a .gpkg file that does not exist yet."}};
+    Operand{"STORE",
+            "The store to make, a .gpkg file that does not exist yet; with --update one that "
+            "does."}};
 
 constexpr std::array options{
     Option{"--network",
            "FILE",
            "The roads: .osm.pbf, .osm, or any line layer that GDAL reads (.gpkg, .shp, .geojson, "
            "...)."},
+    Option{"--update",
+           "FILE",
+           "A newer map of the same area for a store that is there: passes go to where its roads "
+           "are the same."},
     Option{"--trace",
            "TRIP",
            "Where there is no map: draw the roads from these trips (logs, .gpx).",
@@ -149,7 +223,9 @@ constexpr std::array options{
     Option{"--attribution",
            "TEXT",
            "Whom pictures of these roads must name.",
-           "OpenStreetMap for OSM files"}};
+           "OpenStreetMap for OSM files"},
+    Option{
+        "--json", "", "With --update: what has become of roads and passes, as one JSON object."}};
 
 } // namespace
 
@@ -163,7 +239,8 @@ const Command init_command{
     .example =
         "  macadam init roads.gpkg --network town.osm.pbf\n"
         "  macadam init roads.gpkg --network roads.shp --id-column LINK_ID --oneway-column ONEWAY\n"
-        "  macadam init roads.gpkg --trace trips/               no map at hand",
+        "  macadam init roads.gpkg --trace trips/               no map at hand\n"
+        "  macadam init roads.gpkg --update town-2027.osm.pbf   the map has changed",
     .operands = operands,
     .options = options,
     .run = run_init};

@@ -65,6 +65,11 @@ INSERT INTO gpkg_spatial_ref_sys VALUES
 // these triggers; another wording would not be one that readers know.
 constexpr const char* index_tables = R"(
 CREATE VIRTUAL TABLE rtree_{0}_geom USING rtree(id, minx, maxx, miny, maxy);
+INSERT INTO gpkg_extensions VALUES (
+    '{0}', 'geom', 'gpkg_rtree_index', 'http://www.geopackage.org/spec131/#extension_rtree',
+    'write-only');
+)";
+constexpr const char* index_triggers = R"(
 CREATE TRIGGER rtree_{0}_geom_insert AFTER INSERT ON {0}
     WHEN (new.geom NOT NULL AND NOT ST_IsEmpty(NEW.geom))
 BEGIN
@@ -98,9 +103,14 @@ CREATE TRIGGER rtree_{0}_geom_delete AFTER DELETE ON {0} WHEN old.geom NOT NULL
 BEGIN
     DELETE FROM rtree_{0}_geom WHERE id = OLD.fid;
 END;
-INSERT INTO gpkg_extensions VALUES (
-    '{0}', 'geom', 'gpkg_rtree_index', 'http://www.geopackage.org/spec131/#extension_rtree',
-    'write-only');
+)";
+constexpr const char* no_index_triggers = R"(
+DROP TRIGGER IF EXISTS rtree_{0}_geom_insert;
+DROP TRIGGER IF EXISTS rtree_{0}_geom_update1;
+DROP TRIGGER IF EXISTS rtree_{0}_geom_update2;
+DROP TRIGGER IF EXISTS rtree_{0}_geom_update3;
+DROP TRIGGER IF EXISTS rtree_{0}_geom_update4;
+DROP TRIGGER IF EXISTS rtree_{0}_geom_delete;
 )";
 
 } // namespace
@@ -129,8 +139,17 @@ void list_features(Database& database, const FeatureLayer& layer) {
         .run(layer.table);
 }
 
+void add_index_triggers(Database& database, std::string_view table) {
+    database.run(fmt::format(fmt::runtime(index_triggers), table));
+}
+
+void remove_index_triggers(Database& database, std::string_view table) {
+    database.run(fmt::format(fmt::runtime(no_index_triggers), table));
+}
+
 void index_features(Database& database, std::string_view table) {
     database.run(fmt::format(fmt::runtime(index_tables), table));
+    add_index_triggers(database, table);
     PackedRtree boxes;
     auto select = database.prepare(fmt::format("SELECT fid, geom FROM {} ORDER BY fid", table));
     while (select.step()) {

@@ -35,6 +35,11 @@ void list_features(Database& database, const FeatureLayer& layer);
 /// Of a database that is being created.
 void index_features(Database& database, std::string_view table);
 
+/// Those triggers alone. A database that may be anybody's lets no trigger write an R-tree, so who
+/// changes rows takes them away, keeps the R-tree himself, and puts them back.
+void add_index_triggers(Database& database, std::string_view table);
+void remove_index_triggers(Database& database, std::string_view table);
+
 /// The functions that these triggers call: ST_IsEmpty, ST_MinX, ST_MaxX, ST_MinY, ST_MaxY.
 void add_geometry_functions(Database& database);
 

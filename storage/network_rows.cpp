@@ -45,6 +45,34 @@ std::optional<std::string_view> unless_empty(std::string_view text) {
     return text.empty() ? std::nullopt : std::optional{text};
 }
 
+constexpr const char* insert_way = "INSERT INTO way VALUES (?, ?, ?, ?, ?, ?, ?, ?)";
+
+void write_way(Statement& insert, const WayView& way) {
+    const auto node_ids = bytes_of(way.node_ids);
+    const auto points = bytes_of(way.line);
+    const auto turns = bytes_of(way.turns);
+    insert.run(way.id,
+               unless_empty(way.name),
+               unless_empty(way.highway),
+               static_cast<int>(way.oneway),
+               Blob{node_ids},
+               Blob{points},
+               std::int64_t{way.speed_limit_cmps},
+               Blob{turns});
+}
+
+bool says_the_same(const WayView& a, const WayView& b) {
+    return a.name == b.name && a.highway == b.highway && a.oneway == b.oneway &&
+           a.speed_limit_cmps == b.speed_limit_cmps && std::ranges::equal(a.node_ids, b.node_ids) &&
+           std::ranges::equal(a.line.base(), b.line.base()) && std::ranges::equal(a.turns, b.turns);
+}
+
+/// The first row of table segment that was never used.
+std::int64_t first_free_row(Database& database) {
+    return 1 + database.number("SELECT coalesce((SELECT seq FROM sqlite_sequence"
+                               " WHERE name = 'segment'), 0)");
+}
+
 /// Of the links [first, last), one way's, in one direction; by their number along the way.
 std::vector<Segment>
 drivable_segments(const RoadNetwork& roads, std::uint32_t first, std::uint32_t last, bool forward) {
@@ -83,21 +111,17 @@ bool is_line(std::span<const GeoPoint> line) {
 }
 
 std::string write_ways(Database& database, const RoadNetwork& roads) {
-    auto insert = database.prepare("INSERT INTO way VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    auto insert = database.prepare(insert_way);
+    for (std::uint32_t i = 0; i < way_count(roads); ++i) {
+        write_way(insert, way_at(roads, i));
+    }
+    return hash_of_ways(roads);
+}
+
+std::string hash_of_ways(const RoadNetwork& roads) {
     Sha256 hash;
     for (std::uint32_t i = 0; i < way_count(roads); ++i) {
         const auto way = way_at(roads, i);
-        const auto node_ids = bytes_of(way.node_ids);
-        const auto points = bytes_of(way.line);
-        const auto turns = bytes_of(way.turns);
-        insert.run(way.id,
-                   unless_empty(way.name),
-                   unless_empty(way.highway),
-                   static_cast<int>(way.oneway),
-                   Blob{node_ids},
-                   Blob{points},
-                   std::int64_t{way.speed_limit_cmps},
-                   Blob{turns});
         hash.add(fmt::format("{} {} {} {} {} {} {}\n{}\n{}\n",
                              way.id,
                              way.name.size(),
@@ -108,28 +132,56 @@ std::string write_ways(Database& database, const RoadNetwork& roads) {
                              way.turns.size(),
                              way.name,
                              way.highway));
-        hash.add(node_ids);
-        hash.add(points);
-        hash.add(turns);
+        hash.add(bytes_of(way.node_ids));
+        hash.add(bytes_of(way.line));
+        hash.add(bytes_of(way.turns));
     }
     return hash.hex();
 }
 
-WrittenSegments
-write_segments(Database& database, const RoadNetwork& roads, const Progress& progress) {
+void update_ways(Database& database, const RoadNetwork& before, const RoadNetwork& after) {
+    auto write = database.prepare(
+        "INSERT INTO way VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT (way_id) DO UPDATE SET"
+        " name = excluded.name, highway = excluded.highway, oneway = excluded.oneway,"
+        " node_ids = excluded.node_ids, points = excluded.points,"
+        " speed_limit_cmps = excluded.speed_limit_cmps, turns = excluded.turns");
+    auto remove = database.prepare("DELETE FROM way WHERE way_id = ?");
+    std::uint32_t a = 0;
+    for (std::uint32_t b = 0; b <= way_count(after); ++b) {
+        const bool is_end = b == way_count(after);
+        for (; a < way_count(before) && (is_end || before.ways[a].id < after.ways[b].id); ++a) {
+            remove.run(before.ways[a].id);
+        }
+        const bool is_old =
+            !is_end && a < way_count(before) && before.ways[a].id == after.ways[b].id;
+        if (!is_end && !(is_old && says_the_same(way_at(before, a), way_at(after, b)))) {
+            write_way(write, way_at(after, b));
+        }
+        a += is_old ? 1 : 0;
+    }
+}
+
+WrittenSegments write_segments(Database& database,
+                               const RoadNetwork& roads,
+                               const Progress& progress,
+                               const std::vector<bool>& left_out) {
     BulkInsert insert{database, "INSERT INTO segment", 9};
     WrittenSegments written;
     std::optional<StripKey> strip;
-    std::int64_t first_of_strip = 0; // its row, of those that count from 1
+    const auto first_row = first_free_row(database);
+    std::int64_t first_of_strip = 0; // its row
     const auto count = link_count(roads);
     for (std::uint32_t first = 0, last = 0; first < count; first = last) {
         while (last < count &&
                link_at(roads, LinkId{last}).way == link_at(roads, LinkId{first}).way) {
             ++last;
         }
+        if (!left_out.empty() && left_out[link_at(roads, LinkId{first}).way]) {
+            continue;
+        }
         for (const bool forward : {true, false}) {
             for (const auto& segment : drivable_segments(roads, first, last, forward)) {
-                const auto row = ++written.segments;
+                const auto row = first_row + written.segments++;
                 if (const auto key = strip_of(segment.key, roads.segment_length_m); strip != key) {
                     strip = key;
                     first_of_strip = row;

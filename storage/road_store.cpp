@@ -102,10 +102,12 @@ const std::filesystem::path& RoadStore::file() const {
 }
 
 std::string RoadStore::network_hash() const {
-    return read_network_hash(impl_->database);
+    return impl_->network_hash;
 }
 
 RoadNetwork RoadStore::roads() const {
+    Transaction one_moment{impl_->database, Transaction::Kind::read};
+    impl_->expect_same_network();
     return build_network(read_ways(impl_->database), impl_->settings.segment_length_m);
 }
 
@@ -124,6 +126,7 @@ std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
     auto& database = impl_->database;
     const UncheckedKeys keys_are_looked_up{database};
     Transaction all{database, Transaction::Kind::write};
+    impl_->expect_same_network();
     PassWriter writer{
         database, segments_in_strip(impl_->settings.segment_length_m), Destination::kept};
     std::vector<bool> added;

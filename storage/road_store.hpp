@@ -2,9 +2,11 @@
 
 #include "estimator/common/progress.hpp"
 #include "mapping/alignment.hpp"
+#include "mapping/change_summary.hpp"
 #include "mapping/control_section.hpp"
 #include "mapping/fusion.hpp"
 #include "mapping/iri_class.hpp"
+#include "mapping/network_change.hpp"
 #include "mapping/pass.hpp"
 #include "mapping/road_network.hpp"
 #include "mapping/segment_record.hpp"
@@ -186,6 +188,23 @@ struct StoreInfo {
     GeoBox box; ///< of segments with passes; of all if there are none
 };
 
+/// Where a network is from.
+struct NetworkSource {
+    std::string name;        ///< as StoreSettings::network_source
+    std::string attribution; ///< as in StoreSettings
+};
+
+/// What an update of the network did.
+struct NetworkUpdate {
+    ChangeSummary roads;
+    std::size_t passes_kept = 0;    ///< on ways that were kept
+    std::size_t passes_carried = 0; ///< old ones of which something is left
+    std::size_t passes_lost = 0;
+    std::size_t passes_now = 0; ///< made of those carried
+    int generation = 1;
+    bool changed = false; ///< false: the ways are the same
+};
+
 /// Where the passes of many cars meet: one GeoPackage file (docs/store.md). Each call that writes
 /// is one transaction, all of it or nothing, on disk when it returns; only refresh() takes several,
 /// so that others get their turn, and goes on where it was cut off.
@@ -218,8 +237,23 @@ public:
     /// the store holds: kept_roads (storage/network_file.hpp) has it quicker.
     RoadNetwork roads() const;
 
-    /// SHA-256 of these ways, in hex digits, as it was when the store was made.
+    /// SHA-256 of these ways, in hex digits.
     std::string network_hash() const;
+
+    /// Puts another network in the place of the store's own, as a new generation: passes and traces
+    /// go to where the new one has their roads (mapping/carried_readings.hpp), and what they come
+    /// to is fused. All of it is one transaction: readers see the old roads until it is done.
+    /// Nothing is done if the ways are the same.
+    ///
+    /// \param before  roads(), \param change  between the two.
+    /// \throws InputError  if hardly any road is the same, or the store has got another network
+    /// since it was opened; it stays as it is. So does every later add_trip() of who opened it
+    /// before.
+    NetworkUpdate update_network(const RoadNetwork& before,
+                                 const RoadNetwork& after,
+                                 const NetworkChange& change,
+                                 const NetworkSource& source,
+                                 const Progress& progress = {});
 
     bool knows_trip(const std::string& sha256) const;
 

@@ -104,7 +104,8 @@ std::size_t RoadStore::set_valid_from(std::span<const SegmentKey> segments,
 std::vector<ValidSince> RoadStore::valid_since() const {
     auto select = impl_->database.prepare(
         "SELECT way_id, direction, seq, from_ms FROM valid_from"
-        " CROSS JOIN segment ON segment.fid = valid_from.segment ORDER BY segment.fid");
+        " CROSS JOIN segment ON segment.fid = valid_from.segment ORDER BY " +
+        std::string{order_of_keys});
     std::vector<ValidSince> all;
     while (select.step()) {
         all.push_back({{select.integer(0),

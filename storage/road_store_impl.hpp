@@ -6,6 +6,7 @@
 #include "storage/store_schema.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace macadam {
 
@@ -14,6 +15,7 @@ struct RoadStore::Impl {
         add_geometry_functions(database);
         check_store(database);
         settings = read_settings(database);
+        network_hash = read_network_hash(database);
         if (access == Database::Access::write) { // now that it is known to be ours
             database.write_beside_readers();
         }
@@ -21,8 +23,13 @@ struct RoadStore::Impl {
 
     const ClassTable& classes() const { return *class_table(settings.class_table); }
 
+    /// What was worked out for one network cannot be written into another.
+    /// \throws InputError  if the network was updated since the store was opened.
+    void expect_same_network();
+
     Database database;
     StoreSettings settings;
+    std::string network_hash; ///< as it was when the store was opened
 };
 
 } // namespace macadam

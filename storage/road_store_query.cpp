@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -54,7 +55,7 @@ Road road_to(const SegmentFilter& filter) {
 
 /// The joins stand in the order in which they are to be done. Only fixed words come together here,
 /// never a value: those are bound by name.
-std::string select_of(const SegmentFilter& filter) {
+std::string select_of(const SegmentFilter& filter, bool rows_in_order) {
     const auto road = road_to(filter);
     const auto* const state = filter.with_state_only
                                   ? " CROSS JOIN segment_state AS state ON state.fid = segment.fid"
@@ -80,7 +81,9 @@ std::string select_of(const SegmentFilter& filter) {
     if (!filter.highway.empty()) {
         sql += " AND way.highway = :highway";
     }
-    return sql + " ORDER BY segment.fid";
+    // The rows of one way always stand in the order of its keys.
+    return sql + " ORDER BY " +
+           (rows_in_order || road != Road::all ? "segment.fid" : order_of_keys);
 }
 
 /// Ways whose name holds the text in any case, in the order of their ids.
@@ -109,20 +112,26 @@ struct RowRange {
     std::int64_t last;
 };
 
-/// Rows of segments that may meet the box, in order: SQLite would sort them with all their columns.
-std::vector<RowRange> rows_near(Database& database, const GeoBox& box) {
-    auto select = database.prepare("SELECT id FROM rtree_segment_geom WHERE maxx >= ?"
-                                   " AND minx <= ? AND maxy >= ? AND miny <= ?");
-    std::vector<std::int64_t> rows;
+/// Rows of segments that may meet the box, in the order of keys: SQLite would sort them with all
+/// their columns. Each range is of one way where rows as such are in no order.
+std::vector<RowRange> rows_near(Database& database, const GeoBox& box, bool rows_in_order) {
+    auto select = database.prepare(
+        fmt::format("SELECT id, {} FROM rtree_segment_geom AS place {} WHERE place.maxx >= ?"
+                    " AND place.minx <= ? AND place.maxy >= ? AND place.miny <= ?",
+                    rows_in_order ? "0" : "segment.way_id",
+                    rows_in_order ? "" : "CROSS JOIN segment ON segment.fid = place.id"));
+    std::vector<std::pair<std::int64_t, std::int64_t>> rows; // way, row
     for (select.bind(box.west_deg, box.east_deg, box.south_deg, box.north_deg); select.step();) {
-        rows.push_back(select.integer(0));
+        rows.emplace_back(select.integer(1), select.integer(0));
     }
     std::ranges::sort(rows);
     std::vector<RowRange> ranges;
-    for (const auto row : rows) {
-        if (ranges.empty() || row != ranges.back().last + 1) {
+    std::int64_t way = 0;
+    for (const auto& [way_of_row, row] : rows) {
+        if (ranges.empty() || way_of_row != way || row != ranges.back().last + 1) {
             ranges.push_back({row, row});
         }
+        way = way_of_row;
         ranges.back().last = row;
     }
     return ranges;
@@ -139,7 +148,8 @@ std::vector<SegmentRange> ranges_of(const SegmentFilter& filter) {
 /// Runs the statement for each look-up in turn. \param row  is given the statement at each row.
 template <typename Row>
 void each_row(Database& database, const SegmentFilter& filter, const Row& row) {
-    auto select = database.prepare(select_of(filter));
+    const bool rows_in_order = are_rows_in_order(database);
+    auto select = database.prepare(select_of(filter, rows_in_order));
     const auto run = [&] {
         while (select.step()) {
             row(select);
@@ -167,7 +177,7 @@ void each_row(Database& database, const SegmentFilter& filter, const Row& row) {
         }
         return;
     case Road::box:
-        for (const auto& [first, last] : rows_near(database, *filter.box)) {
+        for (const auto& [first, last] : rows_near(database, *filter.box, rows_in_order)) {
             select.bind_named(":first", first);
             select.bind_named(":last", last);
             run();

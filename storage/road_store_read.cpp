@@ -137,8 +137,9 @@ void add_passes(Sha256& hash, Database& database) {
                                      " trip.reference_ppm IS NOT NULL, {} FROM pass"
                                      " CROSS JOIN segment ON segment.fid = pass.segment"
                                      " CROSS JOIN trip ON trip.id = pass.trip"
-                                     " ORDER BY pass.segment, trip.sha256, pass.occurrence",
-                                     pass_columns));
+                                     " ORDER BY {}, trip.sha256, pass.occurrence",
+                                     pass_columns,
+                                     are_rows_in_order(database) ? "pass.segment" : order_of_keys));
     while (select.step()) {
         const auto* const kind = select.integer(2) != 0 ? "reference" : "pass";
         hash.add(fmt::format("{} {} {}", kind, select.text(0), select.text(1)) +
@@ -253,8 +254,9 @@ std::string RoadStore::digest() const {
         add_passes(hash, impl_->database);
         auto select = impl_->database.prepare(fmt::format(
             "SELECT {} FROM segment JOIN segment_state AS state ON state.fid = segment.fid"
-            " JOIN way ON way.way_id = segment.way_id ORDER BY segment.fid",
-            record_columns));
+            " JOIN way ON way.way_id = segment.way_id ORDER BY {}",
+            record_columns,
+            are_rows_in_order(impl_->database) ? "segment.fid" : order_of_keys));
         while (select.step()) {
             hash.add(state_line(*record_in(select).state));
         }

@@ -149,6 +149,25 @@ StoreSettings read_settings(Database& database) {
     return settings;
 }
 
+bool are_rows_in_order(Database& database) {
+    return meta(database, "rows_in_order") != "0";
+}
+
+void update_network_meta(Database& database, const NetworkMeta& network) {
+    const auto set = [&](std::string_view key, std::string_view value) {
+        database
+            .prepare("INSERT INTO meta VALUES (?, ?)"
+                     " ON CONFLICT (key) DO UPDATE SET value = excluded.value")
+            .run(key, value);
+    };
+    set("network_source", network.source);
+    set("attribution", network.attribution);
+    set("network_sha256", network.hash);
+    set("segments", fmt::format("{}", network.segments));
+    set("network_m", fmt::format("{}", network.length_m));
+    set("rows_in_order", "0");
+}
+
 std::string read_network_hash(Database& database) {
     return meta(database, "network_sha256");
 }

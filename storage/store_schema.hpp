@@ -5,6 +5,7 @@
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace macadam {
@@ -20,6 +21,24 @@ void check_store(Database& database);
 
 /// \throws InputError  for a class table or segment length that nobody knows.
 StoreSettings read_settings(Database& database);
+
+/// Whether rows of table segment stand in the order of keys, as init writes them. Those of one way
+/// always do.
+bool are_rows_in_order(Database& database);
+inline constexpr const char* order_of_keys =
+    "segment.way_id, segment.direction DESC, segment.seq"; ///< forward before backward
+
+/// In table meta, what changes with the network.
+struct NetworkMeta {
+    std::string source;
+    std::string attribution;
+    std::string hash;
+    std::int64_t segments;
+    double length_m; ///< each direction counted
+};
+
+/// From then on rows are not in the order of keys.
+void update_network_meta(Database& database, const NetworkMeta& network);
 
 /// SHA-256 of the ways and all that they say, in hex digits.
 std::string read_network_hash(Database& database);

@@ -1,0 +1,82 @@
+#include "app/network_update_output.hpp"
+
+#include "storage/json.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr double m_per_km = 1000;
+
+struct Fate {
+    std::string_view name;
+    std::string_view words;
+    SegmentTotal ChangeSummary::*total;
+};
+
+constexpr std::array fates{Fate{"kept", "as they were", &ChangeSummary::kept},
+                           Fate{"renamed", "same place, other key", &ChangeSummary::renamed},
+                           Fate{"split", "of ways that were split", &ChangeSummary::split},
+                           Fate{"merged", "of ways that were merged", &ChangeSummary::merged},
+                           Fate{"moved", "cut anew or moved", &ChangeSummary::moved},
+                           Fate{"lost", "lost", &ChangeSummary::lost},
+                           Fate{"new", "new", &ChangeSummary::added}};
+
+std::int64_t whole(std::size_t count) {
+    return static_cast<std::int64_t>(count);
+}
+
+} // namespace
+
+std::string text_of(const NetworkUpdate& update) {
+    auto text = fmt::format("{:<26}{:>12}{:>12}\n", "roads", "km", "segments");
+    for (const auto& [name, words, total] : fates) {
+        const auto& [segments, length_m] = update.roads.*total;
+        text += fmt::format("{:<26}{:>12.1f}{:>12}\n", words, length_m / m_per_km, segments);
+    }
+    text += fmt::format("{:<26}{:>12}\n"
+                        "{:<26}{:>12}{:>12} now\n"
+                        "{:<26}{:>12}\n",
+                        "passes that stayed",
+                        update.passes_kept,
+                        "passes carried",
+                        update.passes_carried,
+                        update.passes_now,
+                        "passes lost",
+                        update.passes_lost);
+    for (const auto& [name, length_m] : update.roads.lost_roads) {
+        text += fmt::format("lost {:>8.2f} km  {}\n", length_m / m_per_km, name);
+    }
+    return text;
+}
+
+std::string json_of(const NetworkUpdate& update) {
+    JsonObject object;
+    for (const auto& [name, words, total] : fates) {
+        const auto& [segments, length_m] = update.roads.*total;
+        JsonObject entry;
+        entry.add("km", JsonNumber{length_m / m_per_km, 3}).add("segments", whole(segments));
+        object.add(name, JsonRaw{entry.text()});
+    }
+    std::vector<std::string> lost;
+    for (const auto& [name, length_m] : update.roads.lost_roads) {
+        JsonObject entry;
+        entry.add("name", name).add("km", JsonNumber{length_m / m_per_km, 3});
+        lost.push_back(entry.text());
+    }
+    object.add("passes_kept", whole(update.passes_kept))
+        .add("passes_carried", whole(update.passes_carried))
+        .add("passes_lost", whole(update.passes_lost))
+        .add("passes_now", whole(update.passes_now))
+        .add("lost_roads", JsonRaw{json_array(lost)})
+        .add("generation", std::int64_t{update.generation})
+        .add("changed", update.changed);
+    return object.text() + "\n";
+}
+
+} // namespace macadam

@@ -1,0 +1,121 @@
+#include "mapping/change/carried_trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr std::int32_t sd_step_mm = 100; // as cut_traces rounds it
+
+/// A piece and the old trace that was read there.
+struct TracedPiece {
+    StationRange before_m;
+    StationRange after_m;
+    const StripTrace* trace;
+};
+
+std::vector<TracedPiece> traced_pieces(const CarriedDrive& drive,
+                                       const std::vector<StripTrace>& old) {
+    std::vector<TracedPiece> pieces;
+    for (const auto& piece : drive.pieces) {
+        const auto trace = std::ranges::find_if(old, [&](const StripTrace& each) {
+            return each.strip == piece.old_strip && each.drive == piece.pass->drive;
+        });
+        if (trace != old.end()) {
+            pieces.push_back({piece.heir.before_m, piece.heir.after_m, &*trace});
+        }
+    }
+    std::ranges::stable_sort(
+        pieces, {}, [](const TracedPiece& piece) { return piece.after_m.from_m; });
+    return pieces;
+}
+
+double off_m(const StationRange& range, double station_m) {
+    return std::max({0.0, range.from_m - station_m, station_m - range.to_m});
+}
+
+/// Of the old way; metre for metre beyond the piece's ends.
+double old_station_m(const TracedPiece& piece, double station_m) {
+    const double scale = length_m(piece.before_m) / length_m(piece.after_m);
+    const double within_m = std::clamp(station_m, piece.after_m.from_m, piece.after_m.to_m);
+    return piece.before_m.from_m + scale * (within_m - piece.after_m.from_m) +
+           (station_m - within_m);
+}
+
+struct Cell {
+    RoughnessCode iri = no_roughness;
+    RoughnessCode left = no_roughness;
+};
+
+Cell cell_at(const TracedPiece& piece, double station_m) {
+    const auto i = static_cast<std::int64_t>(std::floor(old_station_m(piece, station_m))) -
+                   piece.trace->first_m;
+    if (i < 0 || i >= static_cast<std::int64_t>(piece.trace->iri.size())) {
+        return {};
+    }
+    const auto k = static_cast<std::size_t>(i);
+    return {piece.trace->iri[k], piece.trace->left.empty() ? no_roughness : piece.trace->left[k]};
+}
+
+/// By the lengths of the pieces, in whole decimetres.
+std::int32_t place_sd_mm(const std::vector<TracedPiece>& pieces) {
+    double sum = 0;
+    double all_m = 0;
+    for (const auto& piece : pieces) {
+        sum += length_m(piece.after_m) * piece.trace->place_sd_mm;
+        all_m += length_m(piece.after_m);
+    }
+    return sd_step_mm * static_cast<std::int32_t>(std::lround(sum / all_m / sd_step_mm));
+}
+
+/// From the first known cell to the last.
+void take_known(StripTrace& trace, const std::vector<Cell>& cells) {
+    const auto is_known = [](const Cell& cell) { return cell.iri != no_roughness; };
+    const auto first = std::ranges::find_if(cells, is_known);
+    const auto last = std::find_if(cells.rbegin(), cells.rend(), is_known).base();
+    trace.first_m += static_cast<std::int32_t>(first - cells.begin());
+    bool tracks = false;
+    for (auto cell = first; cell < last; ++cell) {
+        trace.iri.push_back(cell->iri);
+        trace.left.push_back(cell->left);
+        tracks = tracks || cell->left != no_roughness;
+    }
+    if (!tracks) {
+        trace.left.clear();
+    }
+}
+
+} // namespace
+
+std::optional<StripTrace>
+trace_of(const CarriedDrive& drive, const std::vector<StripTrace>& old, double segment_length_m) {
+    const auto pieces = traced_pieces(drive, old);
+    if (pieces.empty() || !drive.number) {
+        return std::nullopt;
+    }
+    const double last_m = std::ranges::max(pieces, {}, [](const TracedPiece& piece) {
+                              return piece.after_m.to_m;
+                          }).after_m.to_m;
+    const auto first =
+        static_cast<std::int32_t>(std::floor(pieces.front().after_m.from_m - trace_margin_m));
+    const auto past = static_cast<std::int32_t>(std::ceil(last_m + trace_margin_m));
+    std::vector<Cell> cells;
+    for (auto metre = first; metre < past; ++metre) {
+        const double middle_m = metre + 0.5;
+        const auto nearest = std::ranges::min_element(
+            pieces, {}, [&](const TracedPiece& piece) { return off_m(piece.after_m, middle_m); });
+        cells.push_back(cell_at(*nearest, middle_m));
+    }
+    StripTrace trace{.strip = strip_of(drive.pieces.front().heir.after, segment_length_m),
+                     .drive = *drive.number,
+                     .first_m = first,
+                     .iri = {},
+                     .left = {},
+                     .place_sd_mm = place_sd_mm(pieces)};
+    take_known(trace, cells);
+    return trace.iri.empty() ? std::nullopt : std::optional{std::move(trace)};
+}
+
+} // namespace macadam

@@ -1,0 +1,192 @@
+#include "mapping/change/segment_heirs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace macadam {
+namespace {
+
+constexpr double unchanged_m = 0.1; // what whole millimetres of many ways may add up to
+
+/// The link's border before its segment `number`, from the way's first node.
+double border_m(const Link& link, std::uint32_t number) {
+    return number == link.segments
+               ? link.to_m
+               : link.from_m + (link.to_m - link.from_m) * number / link.segments;
+}
+
+StationRange stations(bool forward, double from_m, double to_m) {
+    return forward ? StationRange{from_m, to_m} : StationRange{-to_m, -from_m};
+}
+
+bool may_drive(const WayView& way, bool forward) {
+    return way.oneway != (forward ? Oneway::backward : Oneway::forward);
+}
+
+std::uint32_t segments_of_way(const RoadNetwork& roads, const WayView& way) {
+    const auto last = link_at(roads, LinkId{way.past_link - 1});
+    return last.first_segment + last.segments;
+}
+
+/// The link of a way that holds a segment of that number, which the way has.
+Link link_with(const RoadNetwork& roads, const WayView& way, std::uint32_t index) {
+    auto first = way.first_link;
+    auto past = way.past_link;
+    while (past - first > 1) {
+        const auto middle = first + (past - first) / 2;
+        (roads.links[middle].first_segment <= index ? first : past) = middle;
+    }
+    return link_at(roads, LinkId{first});
+}
+
+struct PlacedSegment {
+    SegmentKey key;
+    StationRange whole_m;
+};
+
+/// Segments of a way that meet a range of stations, in driving direction.
+std::vector<PlacedSegment>
+segments_in(const RoadNetwork& roads, const WayView& way, bool forward, const StationRange& range) {
+    const auto along = stations(forward, range.from_m, range.to_m);
+    std::vector<PlacedSegment> segments;
+    for (auto i = way.first_link; i < way.past_link; ++i) {
+        const auto link = link_at(roads, LinkId{i});
+        if (link.to_m <= along.from_m || link.from_m >= along.to_m) {
+            continue;
+        }
+        for (std::uint32_t k = 0; k < link.segments; ++k) {
+            const double from_m = border_m(link, k);
+            const double to_m = border_m(link, k + 1);
+            if (from_m < along.to_m && to_m > along.from_m) {
+                segments.push_back(
+                    {{way.id, forward, link.first_segment + k}, stations(forward, from_m, to_m)});
+            }
+        }
+    }
+    if (!forward) {
+        std::ranges::reverse(segments);
+    }
+    return segments;
+}
+
+StationRange shared(const StationRange& a, const StationRange& b) {
+    return {std::max(a.from_m, b.from_m), std::min(a.to_m, b.to_m)};
+}
+
+/// A range of one side of a piece of road, on its other side.
+StationRange over(const StationRange& range, const DirectedPart& here, const DirectedPart& there) {
+    const double scale =
+        (there.to_station_m - there.from_station_m) / (here.to_station_m - here.from_station_m);
+    const auto at = [&](double station_m) {
+        return there.from_station_m + scale * (station_m - here.from_station_m);
+    };
+    return {at(range.from_m), at(range.to_m)};
+}
+
+bool are_near(const StationRange& a, const StationRange& b) {
+    return std::abs(a.from_m - b.from_m) <= unchanged_m && std::abs(a.to_m - b.to_m) <= unchanged_m;
+}
+
+} // namespace
+
+std::optional<std::uint32_t> way_numbered(const RoadNetwork& roads, std::int64_t id) {
+    const auto past = roads.ways.begin() + way_count(roads);
+    const auto found = std::ranges::lower_bound(roads.ways.begin(), past, id, {}, &PackedWay::id);
+    return found != past && found->id == id
+               ? std::optional{static_cast<std::uint32_t>(found - roads.ways.begin())}
+               : std::nullopt;
+}
+
+std::optional<StationRange> stations_of(const RoadNetwork& roads, const SegmentKey& key) {
+    const auto number = way_numbered(roads, key.way_id);
+    if (!number) {
+        return std::nullopt;
+    }
+    const auto way = way_at(roads, *number);
+    if (!may_drive(way, key.forward) || key.index >= segments_of_way(roads, way)) {
+        return std::nullopt;
+    }
+    const auto link = link_with(roads, way, key.index);
+    const auto within = key.index - link.first_segment;
+    return stations(key.forward, border_m(link, within), border_m(link, within + 1));
+}
+
+std::uint32_t segments_of_strip(const RoadNetwork& roads, const StripKey& strip) {
+    const auto number = way_numbered(roads, strip.way_id);
+    const auto length = segments_in_strip(roads.segment_length_m);
+    const auto all = number ? segments_of_way(roads, way_at(roads, *number)) : 0;
+    const auto first = strip.number * length;
+    return first < all ? std::min(length, all - first) : 0;
+}
+
+SegmentHeirs::SegmentHeirs(const RoadNetwork& before,
+                           const RoadNetwork& after,
+                           const NetworkChange& change)
+    : before_{&before}, after_{&after}, change_{&change} {}
+
+bool SegmentHeirs::is_kept(std::int64_t way_id) const {
+    return std::ranges::binary_search(change_->kept, way_id);
+}
+
+std::vector<Heir> SegmentHeirs::of(const SegmentKey& before) const {
+    const auto whole = stations_of(*before_, before);
+    if (!whole) {
+        return {};
+    }
+    if (is_kept(before.way_id)) {
+        return {{before, *whole, *whole, *whole}};
+    }
+    std::vector<Heir> heirs;
+    const auto key = std::tuple{before.way_id, !before.forward};
+    const auto key_of = [](const SameRoad& road) {
+        return std::tuple{road.before.way_id, !road.before.forward};
+    };
+    for (const auto& road : std::ranges::equal_range(change_->same, key, {}, key_of)) {
+        const auto old = shared(*whole, {road.before.from_station_m, road.before.to_station_m});
+        if (!(old.to_m > old.from_m)) {
+            continue;
+        }
+        const auto now = over(old, road.before, road.after);
+        const auto way = way_at(*after_, *way_numbered(*after_, road.after.way_id));
+        for (const auto& segment : segments_in(*after_, way, road.after.forward, now)) {
+            const auto part = shared(now, segment.whole_m);
+            heirs.push_back(
+                {segment.key, over(part, road.after, road.before), part, segment.whole_m});
+        }
+    }
+    return heirs;
+}
+
+std::optional<Heir> SegmentHeirs::unchanged(const SegmentKey& before) const {
+    const auto whole = stations_of(*before_, before);
+    auto heirs = of(before);
+    std::erase_if(heirs, [](const Heir& heir) { return length_m(heir.after_m) <= unchanged_m; });
+    const bool is_one = heirs.size() == 1 && are_near(heirs[0].before_m, *whole) &&
+                        are_near(heirs[0].after_m, heirs[0].whole_m);
+    return is_one ? std::optional{heirs.front()} : std::nullopt;
+}
+
+std::optional<MovedStrip> SegmentHeirs::moved(const StripKey& before) const {
+    const auto segment_length_m = before_->segment_length_m;
+    const auto count = segments_of_strip(*before_, before);
+    const auto first = before.number * segments_in_strip(segment_length_m);
+    std::optional<MovedStrip> strip;
+    for (auto index = first; index < first + count; ++index) {
+        const auto heir = unchanged({before.way_id, before.forward, index});
+        if (!heir) {
+            return std::nullopt;
+        }
+        const MovedStrip to{strip_of(heir->after, segment_length_m),
+                            heir->after_m.from_m - heir->before_m.from_m};
+        if (strip &&
+            (strip->strip != to.strip || std::abs(strip->shift_m - to.shift_m) > unchanged_m)) {
+            return std::nullopt;
+        }
+        strip = strip ? strip : to;
+    }
+    const bool is_whole = strip && segments_of_strip(*after_, strip->strip) == count;
+    return is_whole ? strip : std::nullopt;
+}
+
+} // namespace macadam

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "mapping/network_change.hpp"
+#include "mapping/segment.hpp"
+#include "mapping/strip_trace.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace macadam {
+
+/// Stations along a way in one driving direction; they rise.
+struct StationRange {
+    double from_m;
+    double to_m;
+    friend bool operator==(const StationRange&, const StationRange&) = default;
+};
+
+inline double length_m(const StationRange& range) {
+    return range.to_m - range.from_m;
+}
+
+/// The way's number; nothing if the network has none of that id.
+std::optional<std::uint32_t> way_numbered(const RoadNetwork& roads, std::int64_t id);
+
+/// Where a segment lies; nothing if the network has no such segment, or nobody may drive it so.
+std::optional<StationRange> stations_of(const RoadNetwork& roads, const SegmentKey& key);
+
+/// How many segments a strip has; 0 if the network has no such strip.
+std::uint32_t segments_of_strip(const RoadNetwork& roads, const StripKey& strip);
+
+/// A piece of an old segment that is a piece of a new one.
+struct Heir {
+    SegmentKey after;
+    StationRange before_m; ///< of the piece, along the old way
+    StationRange after_m;  ///< of the piece, along the new way
+    StationRange whole_m;  ///< of the new segment
+};
+
+/// A strip that lies where it did, with the same segments: every old station plus `shift_m` is the
+/// new one.
+struct MovedStrip {
+    StripKey strip;
+    double shift_m;
+};
+
+/// What has become of the segments of an old network.
+class SegmentHeirs {
+public:
+    /// All outlive this.
+    SegmentHeirs(const RoadNetwork& before, const RoadNetwork& after, const NetworkChange& change);
+
+    /// Nothing has become of it as far as none is told. A segment of a kept way is its own heir.
+    /// In driving direction.
+    std::vector<Heir> of(const SegmentKey& before) const;
+
+    /// The one segment that it is now, with both its ends where they were, to a decimetre.
+    std::optional<Heir> unchanged(const SegmentKey& before) const;
+
+    /// Nothing if its segments are not all there, unchanged, and together one strip.
+    std::optional<MovedStrip> moved(const StripKey& before) const;
+
+    bool is_kept(std::int64_t way_id) const;
+
+    const RoadNetwork& before() const { return *before_; }
+    const RoadNetwork& after() const { return *after_; }
+
+private:
+    const RoadNetwork* before_;
+    const RoadNetwork* after_;
+    const NetworkChange* change_;
+};
+
+} // namespace macadam
