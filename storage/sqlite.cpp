@@ -266,19 +266,28 @@ Database::Database(const std::filesystem::path& file,
     run(settings_for(access));
 }
 
-void Database::write_beside_readers() {
-    constexpr const char* use_log = "PRAGMA journal_mode = WAL";
+void Database::write_beside_readers(std::chrono::milliseconds patience) {
     database_.get_deleter().takes_log_away = true;
-    // Who waits inside SQLite for readers to end lets no others begin: that only as the last
-    // resort.
-    sqlite3_busy_handler(handle(), nullptr, nullptr);
-    int code = SQLITE_BUSY;
-    for (int pauses = 0; (code & 0xff) == SQLITE_BUSY && wait_for_turn(nullptr, pauses); ++pauses) {
-        code = sqlite3_exec(handle(), use_log, nullptr, nullptr, nullptr);
+    wants_log_ = true;
+    const auto pauses = patience.count() / busy_pause_ms;
+    begin_log_if_wanted();
+    for (int i = 0; wants_log_ && i < pauses; ++i) {
+        sqlite3_sleep(busy_pause_ms);
+        begin_log_if_wanted();
     }
+}
+
+void Database::begin_log_if_wanted() {
+    if (!wants_log_ || in_transaction()) {
+        return;
+    }
+    // Who waits inside SQLite for readers to end lets no others begin.
+    sqlite3_busy_handler(handle(), nullptr, nullptr);
+    const int code = sqlite3_exec(handle(), "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
     sqlite3_busy_handler(handle(), wait_for_turn, nullptr);
-    if (code != SQLITE_OK) {
-        run(use_log);
+    wants_log_ = (code & 0xff) == SQLITE_BUSY;
+    if (!wants_log_) {
+        check(handle(), *file_, code);
     }
 }
 
@@ -347,6 +356,7 @@ UncheckedKeys::~UncheckedKeys() {
 Transaction::Transaction(Database& database, Kind kind)
     : database_{&database}, is_outermost_{!database.in_transaction()} {
     if (kind == Kind::write) {
+        database.begin_log_if_wanted();
         database.run("BEGIN IMMEDIATE"); // waits for its turn here, not in the middle of its work
     } else if (is_outermost_) {
         database.run("BEGIN");

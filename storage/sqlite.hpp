@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -113,7 +114,10 @@ public:
     /// commit and neither they nor the writer wait for each other. When the file is closed, the log
     /// is brought in and goes away, if nobody else has the file open. Where there can be no such
     /// log (some network drives), writing goes on without, and each commit waits for the readers.
-    void write_beside_readers();
+    ///
+    /// The log can only be begun in a moment in which nobody reads. If there is none for so long,
+    /// writing goes on without, and each transaction tries again.
+    void write_beside_readers(std::chrono::milliseconds patience = std::chrono::seconds{20});
 
     /// One or more statements without parameters or rows.
     /// Brings all commits of the log into the file and empties it, now. \returns false if somebody
@@ -131,6 +135,9 @@ public:
     /// Rows that the last statement inserted, changed or deleted.
     std::int64_t changes() const;
 
+    /// Before a transaction that writes; see write_beside_readers().
+    void begin_log_if_wanted();
+
     bool in_transaction() const;
     /// As messages call it.
     const std::filesystem::path& file() const { return *file_; }
@@ -146,6 +153,7 @@ private:
     std::unique_ptr<const std::filesystem::path>
         file_; ///< stays where it is: statements point at it
     std::unique_ptr<sqlite3, Close> database_;
+    bool wants_log_ = false;
 };
 
 /// Removes what another file of that name has left beside it, journal and log: SQLite would bring

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <utility>
@@ -49,6 +50,13 @@ std::optional<double> take_fraction(std::string_view& text) {
     return fraction;
 }
 
+/// With zeros before it; a store writes a million of them.
+std::string padded(std::int64_t number, std::size_t digits) {
+    const auto text = fmt::format_int{number};
+    return std::string(digits - std::min(digits, text.size()), '0')
+        .append(text.data(), text.size());
+}
+
 } // namespace
 
 std::string utc_text(std::int64_t utc_ms) {
@@ -56,15 +64,20 @@ std::string utc_text(std::int64_t utc_ms) {
     const auto day = chr::floor<chr::days>(time);
     const chr::year_month_day date{day};
     const chr::hh_mm_ss clock{time - day};
-    auto text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}",
-                            static_cast<int>(date.year()),
-                            static_cast<unsigned>(date.month()),
-                            static_cast<unsigned>(date.day()),
-                            clock.hours().count(),
-                            clock.minutes().count(),
-                            clock.seconds().count());
+    auto text = padded(static_cast<int>(date.year()), 4);
+    text += '-';
+    text += padded(static_cast<unsigned>(date.month()), 2);
+    text += '-';
+    text += padded(static_cast<unsigned>(date.day()), 2);
+    text += 'T';
+    text += padded(clock.hours().count(), 2);
+    text += ':';
+    text += padded(clock.minutes().count(), 2);
+    text += ':';
+    text += padded(clock.seconds().count(), 2);
     if (const auto ms = clock.subseconds().count(); ms != 0) {
-        text += fmt::format(".{:03}", ms);
+        text += '.';
+        text += padded(ms, 3);
     }
     return text + "Z";
 }

@@ -40,11 +40,13 @@ const std::array hostile{
     Hostile{"long", std::string(1'000'000, 'A')},
 };
 
+TripLog driven(const Drive& drive) {
+    return drive_over(
+        patched_road([](double) { return false; }, 1), drive, *built_in_vehicle("golden-car"));
+}
+
 std::string text_of_trip(const Drive& drive) {
-    return text_of(drive_over(patched_road([](double) { return false; }, 1),
-                              drive,
-                              *built_in_vehicle("golden-car")),
-                   drive);
+    return text_of(driven(drive), drive);
 }
 
 /// Controls of ECMA-48 other than ends of lines; a terminal would obey them.
@@ -63,9 +65,10 @@ TEST(HostileMetadata, OfTripsIsTextOrRefusedWithWords) {
     const auto folder = fresh_folder();
     const auto store = folder / "roads.gpkg";
     fs::create_directory(folder / "trips");
+    const auto log = driven({.length_m = 200});
     for (const auto& [what, text] : hostile) {
         const Drive drive{.length_m = 200, .trip_id = text, .vehicle_id = text};
-        write_file(folder / "trips" / (what + ".trip.csv"), text_of_trip(drive));
+        write_file(folder / "trips" / (what + ".trip.csv"), text_of(log, drive));
     }
     const auto first = (folder / "trips/sql.trip.csv").string();
     ASSERT_EQ(run_macadam({"init", store.string(), "--trace", first}).exit_status, 0);
@@ -73,23 +76,28 @@ TEST(HostileMetadata, OfTripsIsTextOrRefusedWithWords) {
     EXPECT_FALSE(steers_a_terminal(run.out + run.err));
     EXPECT_LT(run.out.size() + run.err.size(), 20'000U);
 
-    Database database{store, Database::Access::read};
-    auto select = database.prepare("SELECT trip_id FROM trip WHERE file_name = ?");
-    for (const auto& [what, text] : hostile) {
-        if (select.bind(what + ".trip.csv").step()) {
-            EXPECT_EQ(select.text(0), text);
-        } else {
-            EXPECT_THAT(run.out, HasSubstr(what + ".trip.csv:"));
+    {
+        Database database{store, Database::Access::read};
+        auto select = database.prepare("SELECT trip_id FROM trip WHERE file_name = ?");
+        for (const auto& [what, text] : hostile) {
+            if (select.bind(what + ".trip.csv").step()) {
+                EXPECT_EQ(select.text(0), text);
+            } else {
+                EXPECT_THAT(run.out, HasSubstr(what + ".trip.csv:"));
+            }
         }
-    }
-    EXPECT_GE(database.number("SELECT count(*) FROM trip"), 7);
+        select.reset();
+        EXPECT_GE(database.number("SELECT count(*) FROM trip"), 7);
+    } // or the next import would wait for this reader
 
     auto words = import_words(store, folder / "trips");
     words.emplace_back("--json");
     std::istringstream lines{run_macadam(words).out};
-    for (std::string line; std::getline(lines, line);) {
+    std::size_t told = 0;
+    for (std::string line; std::getline(lines, line); ++told) {
         EXPECT_TRUE(nlohmann::json::accept(line)) << line.substr(0, 500);
     }
+    EXPECT_EQ(told, hostile.size());
     const auto info = run_macadam({"info", store.string()});
     EXPECT_EQ(info.exit_status, 0) << info.err;
     EXPECT_FALSE(steers_a_terminal(info.out + info.err));

@@ -298,6 +298,47 @@ void add_batch(benchmark::State& state) {
     count_passes(state, static_cast<double>(passes_a_trip) * trips_in_batch);
 }
 
+/// The peer of a batch's rows: SQLite inserts as many into a table of that kind and nothing else.
+void insert_bare_rows(benchmark::State& state) {
+    const auto& batch =
+        batch_over(keys_of(testing::made_up_town(static_cast<int>(state.range(0)))), false);
+    for (auto _ : state) {
+        const auto file = scratch("bare.db");
+        fs::remove(file);
+        Database database{file, Database::Access::create};
+        database.run(
+            "CREATE TABLE pass (segment INTEGER, trip INTEGER, occurrence INTEGER, a, b, c,"
+            " d, e, f, g, h, i, j, k, l, PRIMARY KEY (segment, trip, occurrence))"
+            " WITHOUT ROWID");
+        Transaction all{database, Transaction::Kind::write};
+        auto insert = database.prepare(
+            "INSERT INTO pass VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        std::int64_t trip = 0;
+        for (const auto& [record, passes, traces] : batch.trips) {
+            ++trip;
+            for (const auto& pass : passes) {
+                insert.run(40 * pass.segment.way_id + pass.segment.index,
+                           trip,
+                           pass.segment.forward,
+                           std::nullopt,
+                           std::nullopt,
+                           std::int64_t{pass.iri_um},
+                           std::int64_t{pass.iri_um},
+                           std::int64_t{pass.sd_um},
+                           pass.centre_only,
+                           std::int64_t{pass.validity},
+                           std::int64_t{pass.speed_mmps},
+                           std::int64_t{pass.covered_mm},
+                           std::int64_t{pass.confidence_ppm},
+                           pass.t_ms,
+                           std::nullopt);
+            }
+        }
+        all.commit();
+    }
+    count_passes(state, static_cast<double>(passes_a_trip) * trips_in_batch);
+}
+
 /// A store for a town's network; the peer is the insertion of the same rows under the triggers that
 /// keep a GeoPackage's R-tree.
 void make_store(benchmark::State& state) {
@@ -407,6 +448,7 @@ BENCHMARK(read_beside_a_writer)->Arg(0)->Arg(1)->Iterations(1000)->Unit(benchmar
 BENCHMARK(add_and_fuse_trips<false>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_and_fuse_trips<true>)->Arg(25)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_batch<false>)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(insert_bare_rows)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(add_batch<true>)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(fuse_trips<false>)->Arg(50)->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(fuse_trips<true>)->Arg(50)->Arg(200)->Unit(benchmark::kMillisecond);

@@ -13,7 +13,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <fstream>
+#include <optional>
 
 namespace macadam {
 namespace {
@@ -196,6 +199,30 @@ TEST(OpenStore, IsWrittenWhileItIsRead) {
     const auto trips = reader.number("SELECT count(*) FROM trip");
     EXPECT_TRUE(store.add_trip(trip_record(9), passes_of(9)));
     EXPECT_EQ(reader.number("SELECT count(*) FROM trip"), trips);
+}
+
+TEST(OpenStore, IsWrittenWithoutALogWhileSomeoneReadsForLongAndWithOneAfterwards) {
+    const auto [file, before] = closed_store();
+    const auto mode_of = [&] { // SQLite's file format, 1.3.3: 1 is a rollback journal, 2 a log
+        std::ifstream in{file, std::ios::binary};
+        in.seekg(18);
+        return in.get();
+    };
+    Database reader{file, Database::Access::read};
+    std::optional<Transaction> long_moment{std::in_place, reader, Transaction::Kind::read};
+    const auto passes = reader.number("SELECT count(*) FROM pass");
+    Database writer{file, Database::Access::write};
+    writer.write_beside_readers(std::chrono::milliseconds{20});
+    {
+        Transaction first{writer, Transaction::Kind::write};
+        writer.run("DELETE FROM pass");
+        EXPECT_EQ(mode_of(), 1);
+        EXPECT_EQ(reader.number("SELECT count(*) FROM pass"), passes);
+        long_moment.reset(); // or the commit waits for it
+        first.commit();
+    }
+    const Transaction second{writer, Transaction::Kind::write};
+    EXPECT_EQ(mode_of(), 2);
 }
 
 TEST(OpenStore, IsHandedOverByExportAsOneFile) {

@@ -1,0 +1,266 @@
+// What a store costs at ten million segments: making it, a pass everywhere, a batch of 1,000 trips
+// more, questions, and readers beside a writer. Prints a table; the store goes away with the
+// program.
+//
+//     large_store [SIDE]      crossings along a side of the town; 705 are ten million segments
+
+#include "estimator/common/error.hpp"
+#include "storage/road_store.hpp"
+#include "support/town.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <thread>
+
+#include <unistd.h>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int questions = 2000;
+constexpr std::size_t passes_a_trip = 500;
+constexpr int trips_in_batch = 1000;
+
+double cpu_s(clockid_t clock) {
+    timespec now{};
+    clock_gettime(clock, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double wall_ms() {
+    using namespace std::chrono;
+    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+/// CPU seconds of the process.
+template <typename Work>
+double cost_s(const Work& work) {
+    const double begin_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
+    work();
+    return cpu_s(CLOCK_PROCESS_CPUTIME_ID) - begin_s;
+}
+
+void row(std::string_view what, const std::string& figures) {
+    fmt::print("| {} | {} |\n", what, figures);
+    std::fflush(stdout);
+}
+
+std::string spread(std::vector<double> ms) {
+    std::ranges::sort(ms);
+    const auto at = [&](std::size_t percent) { return ms[(ms.size() - 1) * percent / 100]; };
+    return fmt::format(
+        "p50 {:.3f}, p95 {:.3f}, p99 {:.3f}, worst {:.1f} ms", at(50), at(95), at(99), ms.back());
+}
+
+std::vector<SegmentKey> keys_of(const RoadNetwork& roads) {
+    std::vector<SegmentKey> keys;
+    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
+        for (const bool forward : {true, false}) {
+            if (const auto edge = edge_of(LinkId{i}, forward); is_drivable(roads, edge)) {
+                for (const auto& segment : segments_of(roads, edge)) {
+                    keys.push_back(segment.key);
+                }
+            }
+        }
+    }
+    return keys;
+}
+
+std::vector<Pass> passes_over(std::span<const SegmentKey> keys, int trip) {
+    std::vector<Pass> passes;
+    for (const auto& key : keys) {
+        const auto number = static_cast<std::int64_t>(passes.size());
+        const auto um = static_cast<IriUm>(1000 + (number * 7919 + 31 * trip) % 1000);
+        passes.push_back({.segment = key,
+                          .occurrence = 0,
+                          .iri_left_um = {},
+                          .iri_right_um = {},
+                          .iri_centre_um = um,
+                          .iri_um = um,
+                          .sd_um = um / 5,
+                          .centre_only = true,
+                          .validity = 0,
+                          .speed_mmps = 14000,
+                          .covered_mm = 20000,
+                          .confidence_ppm = 990000,
+                          .t_ms = number * 1400});
+    }
+    return passes;
+}
+
+TripRecord trip_number(int number) {
+    TripRecord trip;
+    trip.trip_id = fmt::format("trip-{}", number);
+    trip.sha256 = fmt::format("{:064}", number);
+    trip.vehicle_id = fmt::format("car-{}", number % 20);
+    trip.t0_utc_ms = 1'767'225'600'000 + 3'600'000LL * number;
+    return trip;
+}
+
+/// Trips that go on from each other.
+struct Batch {
+    std::vector<TripRecord> records;
+    std::vector<std::vector<Pass>> passes;
+    std::vector<NewTrip> trips; ///< of these
+};
+
+Batch batch_of(std::span<const SegmentKey> keys, int first_trip, int count) {
+    Batch batch;
+    for (int i = 0; i < count; ++i) {
+        const auto first =
+            static_cast<std::size_t>(i) * passes_a_trip % (keys.size() - passes_a_trip);
+        batch.records.push_back(trip_number(first_trip + i));
+        batch.passes.push_back(passes_over(keys.subspan(first, passes_a_trip), first_trip + i));
+    }
+    for (std::size_t i = 0; i < batch.records.size(); ++i) {
+        batch.trips.push_back({&batch.records[i], batch.passes[i], {}});
+    }
+    return batch;
+}
+
+void drive_everywhere(RoadStore& store, std::span<const SegmentKey> keys) {
+    constexpr std::size_t keys_at_once = 500'000;
+    for (std::size_t first = 0, trip = 0; first < keys.size(); first += keys_at_once, ++trip) {
+        const auto some = keys.subspan(first, std::min(keys_at_once, keys.size() - first));
+        const auto number = static_cast<int>(trip);
+        store.add_trip(trip_number(number), passes_over(some, number));
+    }
+    store.refresh();
+}
+
+/// Places all over the town.
+Segment place(const RoadNetwork& roads, int number) {
+    const auto link = static_cast<std::uint64_t>(number) * 7'919'003 % link_count(roads);
+    return segments_of(roads, edge_of(LinkId{static_cast<std::uint32_t>(link)}, true)).front();
+}
+
+SegmentFilter around(const Segment& segment, double lat_deg, double lon_deg) {
+    const auto at = segment.line.front();
+    SegmentFilter filter;
+    filter.box = GeoBox{.west_deg = at.lon_deg - lon_deg,
+                        .south_deg = at.lat_deg - lat_deg,
+                        .east_deg = at.lon_deg + lon_deg,
+                        .north_deg = at.lat_deg + lat_deg};
+    return filter;
+}
+
+template <typename Question>
+void ask(std::string_view what,
+         const RoadStore& store,
+         const RoadNetwork& roads,
+         Question question) {
+    std::vector<double> ms;
+    std::size_t found = 0;
+    for (int i = 0; i < questions; ++i) {
+        const auto filter = question(place(roads, i));
+        const double begin_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
+        store.visit(filter, [&](const SegmentRecord&) { ++found; });
+        ms.push_back(1e3 * (cpu_s(CLOCK_THREAD_CPUTIME_ID) - begin_s));
+    }
+    row(fmt::format("{} ({} segments), CPU", what, found / questions), spread(ms));
+}
+
+void ask_all(const fs::path& file, const RoadNetwork& roads) {
+    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    ask("box", store, roads, [](const Segment& at) { return around(at, 0.0034, 0.0068); });
+    ask("near", store, roads, [](const Segment& at) { return around(at, 0.0002, 0.0003); });
+    ask("way", store, roads, [](const Segment& at) {
+        SegmentFilter filter;
+        filter.way_id = at.key.way_id;
+        return filter;
+    });
+    ask("segment", store, roads, [](const Segment& at) {
+        SegmentFilter filter;
+        filter.key = at.key;
+        return filter;
+    });
+}
+
+/// A reader opens the store and asks by box, again and again, while a writer adds trips and fuses.
+void read_beside_a_writer(const fs::path& file,
+                          const RoadNetwork& roads,
+                          std::span<const SegmentKey> keys) {
+    std::atomic<int> trips = 0;
+    std::jthread writer{[&](const std::stop_token& stop) {
+        auto store = RoadStore::open(file, RoadStore::Access::write);
+        for (int number = 100'000; !stop.stop_requested(); ++number, ++trips) {
+            const auto first = static_cast<std::size_t>(number) * 7919 * passes_a_trip %
+                               (keys.size() - passes_a_trip);
+            const auto driven = keys.subspan(first, passes_a_trip);
+            store.add_trip(trip_number(number), passes_over(driven, number));
+            store.refresh();
+        }
+    }};
+    std::vector<double> ms;
+    for (int i = 0; i < questions; ++i) {
+        const auto filter = around(place(roads, i), 0.0034, 0.0068);
+        const double begin_ms = wall_ms();
+        RoadStore::open(file, RoadStore::Access::read).visit(filter, [](const SegmentRecord&) {});
+        ms.push_back(wall_ms() - begin_ms);
+    }
+    writer.request_stop();
+    writer.join();
+    row(fmt::format("open and box, beside a writer ({} trips meanwhile), wall", trips.load()),
+        spread(ms));
+}
+
+void measure(int side, const fs::path& file) {
+    const auto roads = testing::made_up_town(side);
+    const auto keys = keys_of(roads);
+    const auto count = static_cast<double>(keys.size());
+    fmt::print("{} segments, {} questions each.\n\n| what | figures |\n|---|---|\n",
+               keys.size(),
+               questions);
+    const double made_s = cost_s([&] { RoadStore::create(file, roads, {}); });
+    const auto bare_bytes = static_cast<double>(fs::file_size(file));
+    row("init",
+        fmt::format(
+            "{:.0f} segments/s, {:.0f} bytes a segment", count / made_s, bare_bytes / count));
+
+    const double driven_s = cost_s([&] {
+        auto store = RoadStore::open(file, RoadStore::Access::write);
+        drive_everywhere(store, keys);
+    });
+    row("a pass over each, with state",
+        fmt::format("{:.0f} passes/s, {:.0f} bytes a pass",
+                    count / driven_s,
+                    (static_cast<double>(fs::file_size(file)) - bare_bytes) / count));
+    ask_all(file, roads);
+
+    const auto batch = batch_of(keys, 50'000, trips_in_batch);
+    auto store = RoadStore::open(file, RoadStore::Access::write);
+    constexpr double passes = static_cast<double>(passes_a_trip) * trips_in_batch;
+    const double added_s = cost_s([&] { store.add_trips(batch.trips); });
+    const double fused_s = cost_s([&] { store.refresh(); });
+    row("1,000 trips of 500 passes: their rows", fmt::format("{:.0f} passes/s", passes / added_s));
+    row("1,000 trips of 500 passes: with state",
+        fmt::format("{:.0f} passes/s", passes / (added_s + fused_s)));
+    read_beside_a_writer(file, roads, keys);
+}
+
+} // namespace
+} // namespace macadam
+
+int main(int argc, char** argv) {
+    namespace fs = std::filesystem;
+    const auto file =
+        fs::temp_directory_path() / fmt::format("macadam_large_store_{}.gpkg", getpid());
+    int status = 0;
+    try {
+        macadam::measure(argc > 1 ? std::atoi(argv[1]) : 705, file);
+    } catch (const macadam::InputError& error) {
+        fmt::print(stderr, "large_store: {}\n", error.what());
+        status = 1;
+    }
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    return status;
+}
