@@ -129,6 +129,7 @@ std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
                                    RoadPlane& plane,
                                    Routes& routes,
                                    const Positions& positions,
+                                   const RoadSpread& spread,
                                    const MatchConfig& config);
 
 } // namespace macadam
