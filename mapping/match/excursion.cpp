@@ -18,6 +18,27 @@ bool came_back(const Candidate& left, const Candidate& entered, double travelled
                                             same_travel_m + same_travel_share * travelled_m;
 }
 
+/// Of the cheapest chain to a state off the network.
+struct Before {
+    std::size_t samples;        ///< off the network, at most samples_back
+    std::size_t sample;         ///< the one before them, ...
+    const Candidate* candidate; ///< ... on a road; null where the trip begins, or they are more
+};
+
+Before before_excursion(const Lattice& lattice, std::uint32_t state, std::size_t sample) {
+    for (std::size_t samples = 1; samples <= samples_back; ++samples, --sample) {
+        if (sample == 0) {
+            return {samples, 0, nullptr};
+        }
+        state = lattice.transitions[lattice.states[state].arrival].from;
+        const auto& before = lattice.states[state].candidate;
+        if (!before.off_network) {
+            return {samples, sample - 1, &before};
+        }
+    }
+    return {samples_back, sample, nullptr};
+}
+
 } // namespace
 
 double excursion_share(const Lattice& lattice,
@@ -30,34 +51,26 @@ double excursion_share(const Lattice& lattice,
     const auto position = [&](std::size_t i) -> const Position& {
         return positions.all[positions.samples[i]];
     };
+    const auto left = before_excursion(lattice, state, sample);
+    const bool back = left.candidate != nullptr &&
+                      came_back(*left.candidate,
+                                entered,
+                                position(sample + 1).travel_m - position(left.sample).travel_m);
     const auto link = link_of(entered.edge);
     const double edge_m = length_m(roads, entered.edge);
-    const auto last = sample;
     double farthest_m = 0;
-    for (std::size_t back = 0; back < samples_back; ++back, --sample) {
-        if (back < samples_beside) {
-            const auto place = plane.nearest(link, position(sample).at);
-            const double offset_m =
-                is_forward(entered.edge) ? place.along_m : edge_m - place.along_m;
-            if (offset_m < 1) { // the road had not begun
-                return 1;
-            }
-            farthest_m = std::max(farthest_m, place.distance_m);
-        }
-        if (sample == 0) {
-            return 1;
-        }
-        state = lattice.transitions[lattice.states[state].arrival].from;
-        const auto& before = lattice.states[state].candidate;
-        if (!before.off_network) {
-            const double travelled_m = position(last + 1).travel_m - position(sample - 1).travel_m;
-            if (came_back(before, entered, travelled_m)) {
-                return 0;
-            }
-            break;
+    for (std::size_t i = 0; i < std::min(left.samples, samples_beside); ++i) {
+        const auto place = plane.nearest(link, position(sample - i).at);
+        const double offset_m = is_forward(entered.edge) ? place.along_m : edge_m - place.along_m;
+        farthest_m = std::max(farthest_m, place.distance_m);
+        if (offset_m < 1 || (!back && farthest_m >= elsewhere_m)) { // the road had not begun, or
+            return 1;                                               // lay elsewhere
         }
     }
-    return std::clamp((farthest_m - beside_m) / (elsewhere_m - beside_m), 0.0, 1.0);
+    return back ? 0
+           : left.samples == sample + 1
+               ? 1
+               : std::clamp((farthest_m - beside_m) / (elsewhere_m - beside_m), 0.0, 1.0);
 }
 
 } // namespace macadam

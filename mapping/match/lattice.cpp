@@ -103,14 +103,15 @@ std::vector<std::uint32_t>
 survivors(const Lattice& lattice, std::size_t sample, std::size_t widest) {
     std::vector<std::uint32_t> order(lattice.first_state[sample + 1] - lattice.first_state[sample]);
     std::iota(order.begin(), order.end(), static_cast<std::uint32_t>(lattice.first_state[sample]));
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return lattice.states[a].cost < lattice.states[b].cost;
-    });
-    const double worst = lattice.states[order.front()].cost + beam_nats;
-    const auto end = std::find_if(order.begin(), order.end(), [&](std::uint32_t state) {
-        return lattice.states[state].cost > worst;
-    });
-    order.erase(end, order.end());
+    const auto cheaper = [&](std::uint32_t a, std::uint32_t b) {
+        const auto& x = lattice.states[a];
+        const auto& y = lattice.states[b];
+        return x.cost < y.cost || (x.cost == y.cost && a < b);
+    };
+    const auto best = *std::min_element(order.begin(), order.end(), cheaper);
+    const double worst = lattice.states[best].cost + beam_nats;
+    std::erase_if(order, [&](std::uint32_t state) { return lattice.states[state].cost > worst; });
+    std::sort(order.begin(), order.end(), cheaper);
     order.resize(std::min(order.size(), widest));
     return order;
 }
@@ -133,9 +134,10 @@ public:
             RoadPlane& plane,
             Routes& routes,
             const Positions& positions,
+            const RoadSpread& spread,
             const MatchConfig& config)
-        : roads_{roads}, plane_{plane}, routes_{routes}, positions_{positions}, config_{config},
-          spread_{road_spread(positions, roads, plane, config)} {}
+        : roads_{roads}, plane_{plane}, routes_{routes},
+          positions_{positions}, config_{config}, spread_{spread} {}
 
     Lattice build() && {
         for (std::size_t sample = 0; sample < positions_.samples.size(); ++sample) {
@@ -178,7 +180,9 @@ private:
             positions_, positions_.samples[sample - 1], positions_.samples[sample], config_);
         const bool far = between.travelled_m > far_m;
         const auto from = survivors(lattice_, sample - 1, far ? widest_far_beam : widest_beam);
-        const auto targets = edges_of(lattice_.states_of(sample));
+        const auto targets = longest_way_m(between, config_) > Routes::kept_m
+                                 ? edges_of(lattice_.states_of(sample))
+                                 : std::vector<EdgeId>{};
         for (const auto state : from) {
             leave(state, sample, targets, between, state == from.front());
         }
@@ -261,7 +265,7 @@ private:
     Routes& routes_;
     const Positions& positions_;
     const MatchConfig& config_;
-    RoadSpread spread_;
+    const RoadSpread& spread_;
     Lattice lattice_;
 };
 
@@ -285,13 +289,14 @@ std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
                                    RoadPlane& plane,
                                    Routes& routes,
                                    const Positions& positions,
+                                   const RoadSpread& spread,
                                    const MatchConfig& config) {
     const auto samples = positions.samples.size();
     std::vector<Chosen> chain(samples);
     if (samples == 0) {
         return chain;
     }
-    const auto lattice = Builder{roads, plane, routes, positions, config}.build();
+    const auto lattice = Builder{roads, plane, routes, positions, spread, config}.build();
     const auto posterior = posteriors(lattice);
     const auto last = lattice.states_of(samples - 1);
     auto at = static_cast<std::size_t>(

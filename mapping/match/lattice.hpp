@@ -37,7 +37,12 @@ struct Passage {
     double least_s; ///< that it takes at the speed limits
 };
 
+/// The longest way between two samples that is sought.
+double longest_way_m(const Between& between, const MatchConfig& config);
+
 /// The ways out of `edge` that matter over such a distance.
+///
+/// \param targets  in order; only looked at where longest_way_m exceeds Routes::kept_m.
 const std::vector<Reached>& reached_from(Routes& routes,
                                          EdgeId edge,
                                          std::span<const EdgeId> targets,
@@ -124,6 +129,7 @@ std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
                                    RoadPlane& plane,
                                    Routes& routes,
                                    const Positions& positions,
+                                   const RoadSpread& spread,
                                    const MatchConfig& config);
 
 } // namespace macadam

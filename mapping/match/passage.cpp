@@ -15,15 +15,9 @@ constexpr double seen_detour_sd_m = 22; // of a way beyond the line that dense p
 constexpr double turn_scale_m = 44;     // of what turning round is worth
 constexpr double turn_sd_rad = 0.6;     // of an edge's course at a sample, corners being rounded
 constexpr double map_step_m = 2;        // by which a map's line shifts from piece to piece
-constexpr double sliding_weight = 0.3;
-constexpr double most_sliding_nats = 4;      // before it is weighed
+constexpr double sliding_weight = 0.5;
+constexpr double most_sliding_nats = 2.4;    // before it is weighed
 constexpr double standing_turn_share = 0.75; // of the price of turning round, where the car stood
-
-double longest_m(const Between& between, const MatchConfig& config) {
-    const double detour_m = between.dense ? seen_detour_m : unseen_detour_m;
-    const double share = between.dense ? seen_detour_share : unseen_detour_share;
-    return std::min(config.longest_route_m, (1 + share) * between.travelled_m + detour_m);
-}
 
 // Drivers exceed limits, and maps do not know them all: beyond so many times the limit ...
 constexpr double hurry_from = 1.8;
@@ -59,12 +53,18 @@ Passage turned(double length_m,
 
 } // namespace
 
+double longest_way_m(const Between& between, const MatchConfig& config) {
+    const double detour_m = between.dense ? seen_detour_m : unseen_detour_m;
+    const double share = between.dense ? seen_detour_share : unseen_detour_share;
+    return std::min(config.longest_route_m, (1 + share) * between.travelled_m + detour_m);
+}
+
 const std::vector<Reached>& reached_from(Routes& routes,
                                          EdgeId edge,
                                          std::span<const EdgeId> targets,
                                          const Between& between,
                                          const MatchConfig& config) {
-    const double bound_m = longest_m(between, config);
+    const double bound_m = longest_way_m(between, config);
     return bound_m <= Routes::kept_m ? routes.around(edge) : routes.towards(edge, targets, bound_m);
 }
 

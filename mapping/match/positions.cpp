@@ -53,7 +53,11 @@ struct Run {
 };
 
 bool is_drivable(const GnssFix& a, const GnssFix& b) {
-    return distance_m(a.at, b.at) <= jump_slack_m + fastest_mps * std::max(0.0, b.t_s - a.t_s);
+    constexpr double longest_degree_m = 111'700; // of latitude or longitude, on the ellipsoid
+    const double reach_m = jump_slack_m + fastest_mps * std::max(0.0, b.t_s - a.t_s);
+    const double degrees = std::abs(b.at.lat_deg - a.at.lat_deg) +
+                           std::abs(b.at.lon_deg - a.at.lon_deg); // hardly ever is more to be known
+    return longest_degree_m * degrees <= reach_m || distance_m(a.at, b.at) <= reach_m;
 }
 
 std::vector<Run> runs_of(const std::vector<GnssFix>& fixes, const std::vector<std::size_t>& serve) {

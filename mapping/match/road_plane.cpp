@@ -8,8 +8,8 @@
 namespace macadam {
 namespace {
 
-constexpr double look_ahead_m = 60; // of one look into the index, for the positions to come
-constexpr double hairpin_m = 25;    // a line that left by so much and came back is near twice
+constexpr double look_ahead_m = 120; // of one look into the index, for the positions to come
+constexpr double hairpin_m = 25;     // a line that left by so much and came back is near twice
 
 struct OnStep {
     double fraction;
@@ -113,14 +113,16 @@ std::span<const LinePoint> RoadPlane::line(LinkId link) {
 
 NearPlace RoadPlane::nearest(LinkId link, const PointEn& at) {
     const auto points = line(link);
-    NearPlace best{link, 0, std::numeric_limits<double>::infinity(), 0, 0};
+    OnStep best{0, std::numeric_limits<double>::infinity()};
+    std::size_t best_step = 0;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const auto on = nearest_on(points[i].at, points[i + 1].at, at);
         if (on.distance_m < best.distance_m) {
-            best = place_at(link, points[i], points[i + 1], on, at);
+            best = on;
+            best_step = i;
         }
     }
-    return best;
+    return place_at(link, points[best_step], points[best_step + 1], best, at);
 }
 
 void RoadPlane::look_around(const PointEn& at, const GeoPoint& place, double radius_m) {

@@ -84,6 +84,19 @@ TEST(NamedCases, OfTwoParallelRoadsTheNearOne) {
     expect_driven(art, "APEFSD", all_sensor_sets);
 }
 
+/// A dual carriageway whose lines lie 10 m apart. The positions are 7 m to the left of the one that
+/// is driven, so that they lie nearer to the other.
+TEST(NamedCases, OnTheCarriagewayOfItsDirectionThoughTheOtherIsNearer) {
+    const auto art = road_art(R"(
+        D-----------------------------------------------------------------------C
+        A-----------------------------------------------------------------------B
+    )",
+                              5,
+                              {"AB>", "CD>"});
+    expect_driven(art, "AB", all_sensor_sets, {.lane_m = -7});
+    expect_driven(art, "CD", all_sensor_sets, {.lane_m = -7});
+}
+
 TEST(NamedCases, UnderABridgeStraightOn) {
     const auto art = road_art(R"(
                             N

@@ -121,7 +121,10 @@ Matched matched(TripLog trip, const RoadNetwork& roads, const MatchConfig& confi
     if (!trip.meta.gnss_latency_stated) {
         auto unlagged = unused(trip);
         const auto found = find_gnss_latency(trip, heading_of(make_odometer(trip, {}, unlagged)));
-        latency_s = found ? std::optional{found->latency_s} : std::nullopt;
+        latency_s.reset();
+        if (found) {
+            latency_s = found->latency_s;
+        }
         trip.meta.gnss_latency_s = latency_s.value_or(0);
         trip.meta.gnss_latency_sd_s = found ? found->sd_s : 0;
     }
