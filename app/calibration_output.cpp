@@ -41,13 +41,14 @@ std::string text_of(const CalibrationReport& report) {
     return text + fmt::format("\ncars differ by      {:.1f} %\n"
                               "trips of a car by   {:.1f} %\n"
                               "passes of a trip by {:.1f} % and {:.2f} mm/m\n"
-                              "all cars together   {:.1f} % (how far their mean may be off)\n"
+                              "all cars together   {:.1f} % (how far {} may be off)\n"
                               "from {} at {} where two or more cars passed within a year\n",
                               100 * report.car_relative_sd,
                               100 * components.trip_relative_sd,
                               100 * components.rest_relative_sd,
                               components.rest_sd_mm_per_m,
                               100 * components.anchor_relative_sd,
+                              report.surveys > 0 ? "what surveys say" : "their mean",
                               counted(report.readings, "pass"),
                               counted(report.places, "place"));
 }
@@ -79,7 +80,8 @@ std::string json_of(const CalibrationReport& report) {
         .add("rest_sd_mm_per_m", JsonNumber{components.rest_sd_mm_per_m, 4})
         .add("anchor_relative_sd", JsonNumber{components.anchor_relative_sd, 4})
         .add("passes", whole(report.readings))
-        .add("shared_places", whole(report.places));
+        .add("shared_places", whole(report.places))
+        .add("reference_surveys", whole(report.surveys));
     return object.text() + "\n";
 }
 

@@ -35,35 +35,51 @@ struct Car {
     std::size_t trips = 0;
 };
 
+/// Cars have the first numbers, surveys those that follow.
 struct Fleet {
     std::vector<Car> cars; ///< by pseudonym
     std::unordered_map<std::int64_t, std::uint32_t> number_of_car;
-    std::unordered_map<std::string, std::uint32_t> number_of_trip; ///< by hash
-    std::unordered_set<std::string> trips;                         ///< hashes of the basis
+    struct Trip {
+        std::uint32_t number;
+        std::uint32_t car; ///< or the survey that it is
+    };
+    std::unordered_map<std::string, Trip> number_of_trip; ///< of the basis, by hash
+    std::unordered_set<std::string> trips;                ///< their hashes
+    std::vector<std::optional<double>> known;             ///< relative sd of surveys
     std::int64_t newest_ms = std::numeric_limits<std::int64_t>::min();
 };
 
-/// Trips without a vehicle_id are of no car that could be calibrated.
-Fleet fleet_of(Database& database, CalibrationBasis basis) {
-    Fleet fleet;
+void add_cars(Fleet& fleet, Database& database) {
     auto cars = database.prepare(
         "SELECT id, pseudonym FROM vehicle WHERE pseudonym <> 'unknown' ORDER BY pseudonym");
     while (cars.step()) {
         fleet.number_of_car[cars.integer(0)] = static_cast<std::uint32_t>(fleet.cars.size());
         fleet.cars.push_back({cars.integer(0), cars.text(1)});
     }
-    auto trips = database.prepare("SELECT sha256, vehicle, t0_utc_ms FROM trip"
+    fleet.known.resize(fleet.cars.size());
+}
+
+/// Trips without a vehicle_id are of no car that could be calibrated.
+Fleet fleet_of(Database& database, CalibrationBasis basis) {
+    Fleet fleet;
+    add_cars(fleet, database);
+    auto trips = database.prepare("SELECT sha256, vehicle, t0_utc_ms, reference_ppm FROM trip"
                                   " WHERE ?1 OR calibrates ORDER BY sha256");
     trips.bind(basis == CalibrationBasis::all);
     while (trips.step()) {
-        const auto car = fleet.number_of_car.find(trips.integer(1));
-        if (car == fleet.number_of_car.end()) {
+        const auto number = static_cast<std::uint32_t>(fleet.number_of_trip.size());
+        const auto sha256 = trips.text(0);
+        if (const auto ppm = trips.known_integer(3)) {
+            fleet.number_of_trip[sha256] = {number, static_cast<std::uint32_t>(fleet.known.size())};
+            fleet.known.push_back(static_cast<double>(std::max<std::int64_t>(1, *ppm)) / 1e6);
+        } else if (const auto car = fleet.number_of_car.find(trips.integer(1));
+                   car != fleet.number_of_car.end()) {
+            ++fleet.cars[car->second].trips;
+            fleet.number_of_trip[sha256] = {number, car->second};
+        } else {
             continue;
         }
-        ++fleet.cars[car->second].trips;
-        const auto number = static_cast<std::uint32_t>(fleet.number_of_trip.size());
-        fleet.number_of_trip[trips.text(0)] = number;
-        fleet.trips.insert(trips.text(0));
+        fleet.trips.insert(sha256);
         if (const auto utc_ms = known_utc_ms(trips, 2)) {
             fleet.newest_ms = std::max(fleet.newest_ms, *utc_ms);
         }
@@ -94,7 +110,8 @@ std::vector<std::int64_t> sampled_strips(Database& database, CalibrationBasis ba
 
 struct Readings {
     std::vector<FleetReading> all; ///< in the order of places
-    double stated_square = 0;      ///< sum of the relative variances that passes state
+    double stated_square = 0;      ///< sum of the relative variances that passes of cars state
+    std::size_t of_cars = 0;
 };
 
 /// Adds what the passes of a strip read.
@@ -114,14 +131,18 @@ void add(Readings& readings,
         const auto window = input.utc_ms && *input.utc_ms <= fleet.newest_ms
                                 ? (fleet.newest_ms - *input.utc_ms) / window_ms
                                 : undated;
+        const auto& [trip, car] = fleet.number_of_trip.at(input.trip_sha256);
         placed.push_back({fid,
                           input.utc_ms ? std::max<std::int64_t>(0, window) : undated,
                           {.place = 0,
-                           .car = fleet.number_of_car.at(input.vehicle),
-                           .trip = fleet.number_of_trip.at(input.trip_sha256),
+                           .car = car,
+                           .trip = trip,
                            .read_um = static_cast<double>(input.pass.iri_um)}});
-        readings.stated_square +=
-            std::pow(static_cast<double>(input.pass.sd_um) / input.pass.iri_um, 2);
+        if (!input.reference) {
+            readings.stated_square +=
+                std::pow(static_cast<double>(input.pass.sd_um) / input.pass.iri_um, 2);
+            ++readings.of_cars;
+        }
     }
     std::ranges::stable_sort(placed, [](const Placed& a, const Placed& b) {
         return std::pair{a.fid, a.window} < std::pair{b.fid, b.window};
@@ -176,15 +197,15 @@ CalibrationReport find_calibration(Database& database,
                                    const Progress& progress) {
     const auto fleet = fleet_of(database, basis);
     const auto readings = readings_of(database, segments_in_strip, fleet, basis, progress);
-    const std::vector<std::optional<double>> known(fleet.cars.size());
-    const auto found = calibrate_fleet(readings.all, known, {});
-    const auto count = static_cast<double>(std::max<std::size_t>(1, readings.all.size()));
+    const auto found = calibrate_fleet(readings.all, fleet.known, {});
+    const auto count = static_cast<double>(std::max<std::size_t>(1, readings.of_cars));
 
     CalibrationReport report{.generation = read_generation(database),
                              .cars = {},
                              .components = {},
                              .car_relative_sd = found.car_sd,
-                             .readings = readings.all.size(),
+                             .readings = readings.of_cars,
+                             .surveys = fleet.known.size() - fleet.cars.size(),
                              .places = found.places};
     bool any = false;
     for (std::size_t i = 0; i < fleet.cars.size(); ++i) {

@@ -68,7 +68,8 @@ struct CalibrationReport {
     std::vector<CalibratedCar> cars; ///< by pseudonym; without trips that name none
     FusionConfig components;         ///< the shipped ones if no car could be calibrated
     double car_relative_sd;          ///< how far cars are off each other
-    std::size_t readings;            ///< passes that were looked at
+    std::size_t readings;            ///< passes of cars that were looked at
+    std::size_t surveys;             ///< that tell what is right; 0: the mean of the cars does
     std::size_t places;              ///< where two or more cars passed
 };
 

@@ -296,6 +296,32 @@ TEST(Calibrate, FindsTheCarThatReadsTooHighAndFusesByIt) {
     });
 }
 
+TEST(Calibrate, TakesWhatASurveySaysForRight) {
+    auto store = fleet_store(test_folder() / "a.gpkg", up_to(24));
+    auto survey = trip_record(50);
+    survey.vehicle_id = "";
+    survey.t0_utc_ms = trip_record(22).t0_utc_ms;
+    survey.reference = ReferenceNote{.relative_sd_ppm = 20'000, .row_mm = 20'000};
+    auto passes = passes_of_fleet(1);
+    for (std::size_t i = 0; i < passes.size(); ++i) { // cars 1 and 2 read a tenth too little
+        passes[i].iri_um = static_cast<IriUm>((1000 + 300 * (i % 10)) * 10 / 9);
+        passes[i].sd_um = passes[i].iri_um / 50;
+    }
+    store.add_trip(survey, passes);
+    store.refresh();
+    const auto report = store.calibrate(true);
+    EXPECT_EQ(report.surveys, 1U);
+    EXPECT_NEAR(report.components.anchor_relative_sd, 0.02, 0.01);
+    ASSERT_THAT(report.cars, SizeIs(3));
+    std::vector<double> at_2000;
+    for (const auto& car : report.cars) {
+        at_2000.push_back(car.calibration->gain + car.calibration->offset_um / 2000);
+    }
+    std::ranges::sort(at_2000);
+    EXPECT_NEAR(at_2000[0], 0.9, 0.02);
+    EXPECT_NEAR(at_2000[2], 1.25 * 0.9, 0.03);
+}
+
 TEST(Calibrate, ChangesNothingWhenOnlyAsked) {
     auto store = fleet_store(test_folder() / "a.gpkg", up_to(12));
     const auto before = store.digest();
