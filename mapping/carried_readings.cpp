@@ -114,9 +114,13 @@ std::vector<NewPass> passes_of(const CarriedDrive& drive, const SegmentHeirs& he
     for (const auto& [key, pieces] : pieces_by_segment(drive.pieces)) {
         std::vector<const Pass*> made_of;
         std::ranges::transform(pieces, std::back_inserter(made_of), &CarriedPiece::pass);
-        const auto same = heirs.unchanged(pieces.front().pass->segment);
-        if (same && same->after == key) {
-            auto pass = *pieces.front().pass;
+        // Slivers of its neighbours may be there, too, of the last millimetre.
+        const auto same = std::ranges::find_if(pieces, [&](const CarriedPiece& piece) {
+            const auto heir = heirs.unchanged(piece.pass->segment);
+            return heir && heir->after == key;
+        });
+        if (same != pieces.end()) {
+            auto pass = *same->pass;
             pass.segment = key;
             pass.drive = drive.number;
             passes.push_back({pass, std::move(made_of)});
