@@ -189,6 +189,14 @@ FusionConfig components_of(const FleetCalibration& found, double stated_variance
     return config;
 }
 
+/// That passed places within a year of a car.
+std::size_t surveys_in(const FleetCalibration& found, std::size_t cars) {
+    return static_cast<std::size_t>(
+        std::count_if(found.shared.begin() + static_cast<std::ptrdiff_t>(cars),
+                      found.shared.end(),
+                      [](std::size_t shared) { return shared > 0; }));
+}
+
 } // namespace
 
 CalibrationReport find_calibration(Database& database,
@@ -205,7 +213,7 @@ CalibrationReport find_calibration(Database& database,
                              .components = {},
                              .car_relative_sd = found.car_sd,
                              .readings = readings.of_cars,
-                             .surveys = fleet.known.size() - fleet.cars.size(),
+                             .surveys = surveys_in(found, fleet.cars.size()),
                              .places = found.places};
     bool any = false;
     for (std::size_t i = 0; i < fleet.cars.size(); ++i) {
