@@ -95,6 +95,7 @@ KnownRoughness parse_known_roughness(const Arguments& arguments) {
                                                                  : std::string{});
     known.mm_per_m_of_one =
         arguments.choice("--unit", units) == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1;
+    known.take_back = arguments.flag("--take-back");
     return known;
 }
 
@@ -114,6 +115,11 @@ import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& 
         outcome.warnings.emplace_back("stays as it was imported, whatever the options say now");
         return outcome;
     }
+    if (store.has_forgotten(survey.sha256) && !known.take_back) {
+        throw InputError{fmt::format("{}: was forgotten on request and stays out; --take-back lets "
+                                     "it in again",
+                                     outcome.file)};
+    }
     outcome.found =
         reference_passes(survey, placed_on(roads, survey), {.relative_sd = known.relative_sd});
     if (outcome.found.passes.empty()) {
@@ -126,6 +132,7 @@ import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& 
         outcome.warnings.emplace_back(
             "--date does not say when it was measured: the survey counts as undated");
     }
+    store.take_back(survey.sha256);
     outcome.known = !store.add_trip(record_of(outcome), outcome.found.passes);
     return outcome;
 }

@@ -33,6 +33,7 @@ struct KnownRoughness {
     std::optional<std::int64_t> utc_ms;            ///< its day
     std::string name;                              ///< of the survey
     double mm_per_m_of_one = 1;                    ///< what an IRI of 1 in the files is
+    bool take_back = false; ///< let the survey in again that 'macadam forget' took out
 };
 
 /// Of the options above. \throws UsageError  for a value that does not fit, or goes with a file
@@ -54,7 +55,8 @@ struct SurveyOutcome {
 
 /// Brings the survey into the store, in one transaction.
 ///
-/// \throws InputError  if it cannot be read, or none of its rows lies on the store's roads.
+/// \throws InputError  if it cannot be read, none of its rows lies on the store's roads, or it was
+///                     forgotten and is not taken back.
 SurveyOutcome
 import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& known);
 

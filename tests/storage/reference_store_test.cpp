@@ -180,6 +180,27 @@ TEST(ReferenceStore, KnowsASurveyByItsContent) {
     EXPECT_EQ(store.digest(), digest);
 }
 
+TEST(ReferenceStore, ForgetsASurveyAsIfItHadNeverBeenThere) {
+    auto store = new_store(test_folder() / "roads.gpkg");
+    import_trips(store, 4);
+    const auto digest = store.digest();
+    store.add_trip(survey_record("survey-a"), survey_passes());
+    store.refresh();
+    store.forget({.trips = {"survey-a"}, .vehicles = {}});
+    EXPECT_EQ(store.digest(), digest);
+    EXPECT_THAT(store.surveys(), IsEmpty());
+}
+
+TEST(ReferenceStore, ForgetsCarsBesideASurvey) {
+    auto store = new_store(test_folder() / "roads.gpkg");
+    import_trips(store, 4); // of three cars
+    store.add_trip(survey_record("survey-a"), survey_passes());
+    store.refresh();
+    store.forget({.trips = {}, .vehicles = {"car-1"}});
+    EXPECT_THAT(store.info().vehicles, SizeIs(2));
+    EXPECT_THAT(store.surveys(), SizeIs(1));
+}
+
 TEST(ReferenceStore, NamesTheSurveyAmongThePasses) {
     auto store = new_store(test_folder() / "roads.gpkg");
     import_trips(store, 2);
