@@ -49,6 +49,9 @@ std::string text_of(const NetworkUpdate& update) {
                         update.passes_now,
                         "passes lost",
                         update.passes_lost);
+    for (const auto& name : update.lost_sections) {
+        text += fmt::format("lost control section {}\n", name);
+    }
     for (const auto& [name, length_m] : update.roads.lost_roads) {
         text += fmt::format("lost {:>8.2f} km  {}\n", length_m / m_per_km, name);
     }
@@ -74,6 +77,7 @@ std::string json_of(const NetworkUpdate& update) {
         .add("passes_lost", whole(update.passes_lost))
         .add("passes_now", whole(update.passes_now))
         .add("lost_roads", JsonRaw{json_array(lost)})
+        .add("lost_control_sections", JsonRaw{json_string_array(update.lost_sections)})
         .add("generation", std::int64_t{update.generation})
         .add("changed", update.changed);
     return object.text() + "\n";

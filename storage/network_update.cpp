@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -219,6 +221,50 @@ void move_valid_from(Database& database, const SegmentHeirs& heirs) {
     }
 }
 
+/// \returns the names of those whose road is gone; so are they.
+std::vector<std::string> move_control_sections(Database& database, const SegmentHeirs& heirs) {
+    struct Section {
+        std::string name;
+        DirectedPart part;
+    };
+    constexpr double mm_per_m = 1000;
+    std::vector<Section> sections;
+    auto select = database.prepare(
+        "SELECT name, way_id, direction, from_mm, to_mm FROM control_section ORDER BY name");
+    while (select.step()) {
+        const bool forward = select.text(2) == "forward";
+        const double from_m = static_cast<double>(select.integer(3)) / mm_per_m;
+        const double to_m = static_cast<double>(select.integer(4)) / mm_per_m;
+        sections.push_back({select.text(0),
+                            {select.integer(1),
+                             forward,
+                             station_m(forward, forward ? from_m : to_m),
+                             station_m(forward, forward ? to_m : from_m)}});
+    }
+    auto move = database.prepare("UPDATE control_section SET way_id = ?2, direction = ?3,"
+                                 " from_mm = ?4, to_mm = ?5 WHERE name = ?1");
+    auto remove = database.prepare("DELETE FROM control_section WHERE name = ?");
+    std::vector<std::string> lost;
+    for (const auto& [name, part] : sections) {
+        if (heirs.is_kept(part.way_id)) {
+            continue;
+        }
+        if (const auto now = heirs.stretch(part)) {
+            const double a = std::abs(now->from_station_m);
+            const double b = std::abs(now->to_station_m);
+            move.run(name,
+                     now->way_id,
+                     now->forward ? "forward" : "backward",
+                     std::int64_t{std::llround(mm_per_m * std::min(a, b))},
+                     std::int64_t{std::llround(mm_per_m * std::max(a, b))});
+        } else {
+            remove.run(name);
+            lost.push_back(name);
+        }
+    }
+    return lost;
+}
+
 void remove_what_is_made_anew(Database& database) {
     for (const auto* table : {"strip_state", "strip_dirty"}) {
         database.run(
@@ -237,7 +283,8 @@ move_to_network(Database& database, const SegmentHeirs& heirs, const Progress& p
     update_ways(database, heirs.before(), heirs.after());
     write_new_segments(database, heirs, {.report = {}, .stop = progress.stop});
     add_index_triggers(database, "segment");
-    const auto moved = move_readings(database, heirs, progress);
+    auto moved = move_readings(database, heirs, progress);
+    moved.lost_sections = move_control_sections(database, heirs);
     rename_rows(database, heirs, "segment_state", "fid");
     rename_rows(database, heirs, "state_change", "segment");
     move_valid_from(database, heirs);

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -13,7 +15,8 @@ namespace macadam {
 struct MovedPasses {
     std::size_t carried = 0; ///< something is left of them
     std::size_t lost = 0;
-    std::size_t now = 0; ///< made of those carried
+    std::size_t now = 0;                      ///< made of those carried
+    std::vector<std::string> lost_sections{}; ///< control sections whose road is gone, by name
 };
 
 /// Makes tables way and segment hold another network and takes all that belongs to segments over to

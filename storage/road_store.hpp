@@ -200,7 +200,8 @@ struct NetworkUpdate {
     std::size_t passes_kept = 0;    ///< on ways that were kept
     std::size_t passes_carried = 0; ///< old ones of which something is left
     std::size_t passes_lost = 0;
-    std::size_t passes_now = 0; ///< made of those carried
+    std::size_t passes_now = 0;               ///< made of those carried
+    std::vector<std::string> lost_sections{}; ///< control sections whose road is gone, by name
     int generation = 1;
     bool changed = false; ///< false: the ways are the same
 };

@@ -89,6 +89,7 @@ NetworkUpdate RoadStore::update_network(const RoadNetwork& before,
     update.passes_carried = moved.carried;
     update.passes_lost = moved.lost;
     update.passes_now = moved.now;
+    update.lost_sections = moved.lost_sections;
     update.passes_kept -= moved.carried + moved.lost;
     update.changed = true;
     const auto segments = segments_of(after);

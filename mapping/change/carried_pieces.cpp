@@ -23,6 +23,11 @@ double speed_mps(const Pass& pass) {
     return std::max(least_speed_mps, pass.speed_mmps / mm_per_m);
 }
 
+/// A reference survey has neither speeds nor times: its stations alone tell the order.
+bool is_driven(const Pass& pass) {
+    return pass.speed_mmps > 0;
+}
+
 auto key_of(const StripKey& strip) {
     return std::tuple{strip.way_id, !strip.forward, strip.number};
 }
@@ -52,18 +57,19 @@ std::vector<StripPieces> pieces_by_strip(const std::vector<Pass>& passes,
         for (const auto& heir : heirs.of(pass.segment)) {
             const double share = std::min(1.0, pass.covered_mm / mm_per_m / length_m(*whole));
             const double late_m = middle_m(heir.before_m) - middle_m(*whole);
+            const double late_s = is_driven(pass) ? late_m / speed_mps(pass) : 0;
             by_strip[key_of(strip_of(heir.after, segment_length_m))].push_back(
                 {&pass,
                  strip_of(pass.segment, segment_length_m),
                  heir,
                  share * length_m(heir.after_m),
-                 static_cast<double>(pass.t_ms) + ms_per_s * late_m / speed_mps(pass)});
+                 static_cast<double>(pass.t_ms) + ms_per_s * late_s});
         }
     }
     std::vector<StripPieces> strips;
     for (auto& [key, pieces] : by_strip) {
         std::ranges::stable_sort(pieces, {}, [](const CarriedPiece& piece) {
-            return std::tuple{piece.t_ms, piece.heir.after_m.from_m, piece.pass->occurrence};
+            return std::tuple{piece.t_ms, piece.pass->occurrence, piece.heir.after_m.from_m};
         });
         strips.push_back(std::move(pieces));
     }

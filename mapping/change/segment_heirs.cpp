@@ -84,6 +84,14 @@ StationRange over(const StationRange& range, const DirectedPart& here, const Dir
     return {at(range.from_m), at(range.to_m)};
 }
 
+/// What has become of a way in one direction.
+auto roads_of(const NetworkChange& change, std::int64_t way_id, bool forward) {
+    const auto key_of = [](const SameRoad& road) {
+        return std::tuple{road.before.way_id, !road.before.forward};
+    };
+    return std::ranges::equal_range(change.same, std::tuple{way_id, !forward}, {}, key_of);
+}
+
 bool are_near(const StationRange& a, const StationRange& b) {
     return std::abs(a.from_m - b.from_m) <= unchanged_m && std::abs(a.to_m - b.to_m) <= unchanged_m;
 }
@@ -129,6 +137,33 @@ bool SegmentHeirs::is_kept(std::int64_t way_id) const {
     return std::ranges::binary_search(change_->kept, way_id);
 }
 
+std::optional<DirectedPart> SegmentHeirs::stretch(const DirectedPart& before) const {
+    constexpr double least_share = 0.9;
+    if (is_kept(before.way_id)) {
+        return before;
+    }
+    const StationRange whole{before.from_station_m, before.to_station_m};
+    std::optional<DirectedPart> found;
+    double found_m = 0;
+    for (const auto& road : roads_of(*change_, before.way_id, before.forward)) {
+        const auto old = shared(whole, {road.before.from_station_m, road.before.to_station_m});
+        if (!(old.to_m > old.from_m)) {
+            continue;
+        }
+        const auto now = over(old, road.before, road.after);
+        if (found && (found->way_id != road.after.way_id || found->forward != road.after.forward ||
+                      now.from_m < found->from_station_m)) {
+            return std::nullopt;
+        }
+        found = DirectedPart{road.after.way_id,
+                             road.after.forward,
+                             found ? found->from_station_m : now.from_m,
+                             now.to_m};
+        found_m += length_m(old);
+    }
+    return found_m >= least_share * length_m(whole) ? found : std::nullopt;
+}
+
 std::vector<Heir> SegmentHeirs::of(const SegmentKey& before) const {
     const auto whole = stations_of(*before_, before);
     if (!whole) {
@@ -138,11 +173,7 @@ std::vector<Heir> SegmentHeirs::of(const SegmentKey& before) const {
         return {{before, *whole, *whole, *whole}};
     }
     std::vector<Heir> heirs;
-    const auto key = std::tuple{before.way_id, !before.forward};
-    const auto key_of = [](const SameRoad& road) {
-        return std::tuple{road.before.way_id, !road.before.forward};
-    };
-    for (const auto& road : std::ranges::equal_range(change_->same, key, {}, key_of)) {
+    for (const auto& road : roads_of(*change_, before.way_id, before.forward)) {
         const auto old = shared(*whole, {road.before.from_station_m, road.before.to_station_m});
         if (!(old.to_m > old.from_m)) {
             continue;

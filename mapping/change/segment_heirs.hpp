@@ -61,6 +61,9 @@ public:
     /// Nothing if its segments are not all there, unchanged, and together one strip.
     std::optional<MovedStrip> moved(const StripKey& before) const;
 
+    /// Where a stretch is now: nothing if less than nine tenths of it are there, or on two ways.
+    std::optional<DirectedPart> stretch(const DirectedPart& before) const;
+
     bool is_kept(std::int64_t way_id) const;
 
     const RoadNetwork& before() const { return *before_; }

@@ -306,6 +306,29 @@ TEST(CarriedReadings, KeepTwoDrivesApart) {
     EXPECT_EQ(now.readings.passes.size() % 2, 0U);
 }
 
+TEST(CarriedReadings, OfASurveyWithoutTimesAreMeansToo) {
+    const auto art = long_street();
+    const auto there = world(art.ways, with_new_junction(art.ways));
+    auto old = driven(there.before, 1, true);
+    old.traces.clear();
+    for (auto& pass : old.passes) {
+        pass.t_ms = 0;
+        pass.speed_mmps = 0;
+        pass.drive = std::nullopt;
+    }
+    const auto now = there.carry(old);
+    EXPECT_EQ(now.lost, 0U);
+    const auto way = way_at(there.after, 0);
+    const auto last = link_at(there.after, LinkId{way.past_link - 1});
+    EXPECT_EQ(now.readings.passes.size(), last.first_segment + last.segments);
+    for (const auto& pass : now.readings.passes) {
+        const auto range = *stations_of(there.after, pass.segment);
+        EXPECT_EQ(pass.occurrence, 0U);
+        EXPECT_NEAR(pass.covered_mm, 1000 * length_m(range), 2);
+        EXPECT_NEAR(pass.iri_um, mean_over(old.passes, there.before, range), 3);
+    }
+}
+
 TEST(CarriedReadings, AreLostWithTheirRoad) {
     const auto art = long_street();
     auto edited = testing::edited(art.ways);

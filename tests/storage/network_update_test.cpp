@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 
 namespace macadam {
 namespace {
@@ -167,6 +168,38 @@ TEST(NetworkUpdate, CarriesTheDayFromWhichPassesCount) {
     EXPECT_EQ(select.text(0), "100+0003");
     EXPECT_EQ(select.integer(1), 5);
     EXPECT_FALSE(select.step());
+}
+
+ControlSection section_of(std::int64_t way_id, const std::string& name) {
+    return {.name = name,
+            .way_id = way_id,
+            .forward = true,
+            .from_m = 20,
+            .to_m = 80,
+            .iri_mm_per_m = 2,
+            .sd_mm_per_m = 0.1,
+            .utc_ms = std::nullopt};
+}
+
+TEST(NetworkUpdate, CarriesControlSectionsAndNamesThoseThatAreGone) {
+    auto store = filled_store(test_folder() / "a.gpkg");
+    const auto way = section_of(1, "long");
+    const auto gone = section_of(3, "gone");
+    store.put_control_sections(std::array{way, gone});
+    const auto done = update(store, with_edits([](auto& network) {
+                                 testing::reverse(network, 1);
+                                 testing::renumber(network, 1, 100);
+                                 testing::erase(network, 3);
+                             }));
+    EXPECT_EQ(done.lost_sections, std::vector<std::string>{"gone"});
+    const auto sections = store.control_sections();
+    ASSERT_EQ(sections.size(), 1U);
+    EXPECT_EQ(sections[0].way_id, 100);
+    EXPECT_FALSE(sections[0].forward);
+    // Drawn the other way round, 20 to 80 m of 200 m are 120 to 180 m.
+    const double whole_m = way_at(testing::small_country(), 0).along_m.back();
+    EXPECT_NEAR(sections[0].from_m, whole_m - 80, 0.01);
+    EXPECT_NEAR(sections[0].to_m, whole_m - 20, 0.01);
 }
 
 TEST(NetworkUpdate, RefusesAMapOfAnotherArea) {
