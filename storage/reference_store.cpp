@@ -76,7 +76,8 @@ std::vector<ReferenceReading> RoadStore::reference_readings() const {
                     " CROSS JOIN segment ON segment.fid = pass.segment"
                     " CROSS JOIN way ON way.way_id = segment.way_id"
                     " WHERE trip.reference_ppm IS NOT NULL"
-                    " ORDER BY pass.segment, trip.trip_id, trip.sha256, pass.occurrence",
+                    " ORDER BY segment.way_id, segment.direction DESC, segment.seq, trip.trip_id,"
+                    " trip.sha256, pass.occurrence",
                     pass_columns));
     std::vector<ReferenceReading> readings;
     while (select.step()) {
