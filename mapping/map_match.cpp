@@ -168,9 +168,8 @@ MatchedTrace map_match(const TripLog& trip,
     }
     RoadPlane plane{roads, positions.frame};
     Routes routes{roads, config.u_turn_cost_m};
-    const auto spread = road_spread(positions, roads, plane, config);
-    const auto chain = cheapest_chain(roads, plane, routes, positions, spread, config);
-    const auto paths = paths_of(roads, plane, routes, positions, spread, chain, config);
+    const auto chain = cheapest_chain(roads, plane, routes, positions, config);
+    const auto paths = paths_of(roads, plane, routes, positions, chain, config);
 
     const double begin_m = positions.all.front().travel_m;
     const double end_m = positions.all.back().travel_m;

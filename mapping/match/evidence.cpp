@@ -201,15 +201,6 @@ RoadSpread road_spread(const Positions& positions,
             two_way_m};
 }
 
-double course_rad_at(const Positions& positions, std::size_t at) {
-    const double known_rad = positions.all[at].course_rad;
-    if (!std::isnan(known_rad)) {
-        return known_rad;
-    }
-    const auto course = drawn_course(positions, at);
-    return course ? course->course_rad : std::numeric_limits<double>::quiet_NaN();
-}
-
 Evidence evidence_of(const Positions& positions,
                      std::size_t sample,
                      double road_sd_m,

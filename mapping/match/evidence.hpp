@@ -22,10 +22,6 @@ RoadSpread road_spread(const Positions& positions,
                        RoadPlane& plane,
                        const MatchConfig& config);
 
-/// Course of the car at a position of Positions::all, clockwise from north: the receiver's, or the
-/// one that the positions around draw. NaN where neither says anything.
-double course_rad_at(const Positions& positions, std::size_t at);
-
 /// What one sample says of the road under it.
 struct Evidence {
     double sd_m;          ///< across the road

@@ -134,10 +134,9 @@ public:
             RoadPlane& plane,
             Routes& routes,
             const Positions& positions,
-            const RoadSpread& spread,
             const MatchConfig& config)
-        : roads_{roads}, plane_{plane}, routes_{routes},
-          positions_{positions}, config_{config}, spread_{spread} {}
+        : roads_{roads}, plane_{plane}, routes_{routes}, positions_{positions}, config_{config},
+          spread_{road_spread(positions, roads, plane, config)} {}
 
     Lattice build() && {
         for (std::size_t sample = 0; sample < positions_.samples.size(); ++sample) {
@@ -265,7 +264,7 @@ private:
     Routes& routes_;
     const Positions& positions_;
     const MatchConfig& config_;
-    const RoadSpread& spread_;
+    RoadSpread spread_;
     Lattice lattice_;
 };
 
@@ -289,14 +288,13 @@ std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
                                    RoadPlane& plane,
                                    Routes& routes,
                                    const Positions& positions,
-                                   const RoadSpread& spread,
                                    const MatchConfig& config) {
     const auto samples = positions.samples.size();
     std::vector<Chosen> chain(samples);
     if (samples == 0) {
         return chain;
     }
-    const auto lattice = Builder{roads, plane, routes, positions, spread, config}.build();
+    const auto lattice = Builder{roads, plane, routes, positions, config}.build();
     const auto posterior = posteriors(lattice);
     const auto last = lattice.states_of(samples - 1);
     auto at = static_cast<std::size_t>(

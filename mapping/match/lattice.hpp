@@ -129,7 +129,6 @@ std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
                                    RoadPlane& plane,
                                    Routes& routes,
                                    const Positions& positions,
-                                   const RoadSpread& spread,
                                    const MatchConfig& config);
 
 } // namespace macadam

@@ -15,8 +15,8 @@ constexpr double seen_detour_sd_m = 22; // of a way beyond the line that dense p
 constexpr double turn_scale_m = 44;     // of what turning round is worth
 constexpr double turn_sd_rad = 0.6;     // of an edge's course at a sample, corners being rounded
 constexpr double map_step_m = 2;        // by which a map's line shifts from piece to piece
-constexpr double sliding_weight = 0.5;
-constexpr double most_sliding_nats = 2.4;    // before it is weighed
+constexpr double sliding_weight = 0.3;
+constexpr double most_sliding_nats = 4;      // before it is weighed
 constexpr double standing_turn_share = 0.75; // of the price of turning round, where the car stood
 
 // Drivers exceed limits, and maps do not know them all: beyond so many times the limit ...

@@ -1,7 +1,6 @@
 #include "mapping/match/path.hpp"
 
 #include "mapping/match/path_ends.hpp"
-#include "mapping/match/path_growth.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -41,11 +40,10 @@ public:
                 RoadPlane& plane,
                 Routes& routes,
                 const Positions& positions,
-                const RoadSpread& spread,
                 const std::vector<Chosen>& chain,
                 const MatchConfig& config)
         : roads_{roads}, plane_{plane}, routes_{routes},
-          positions_{positions}, spread_{spread}, chain_{chain}, config_{config} {}
+          positions_{positions}, chain_{chain}, config_{config} {}
 
     std::vector<RoadPath> build() && {
         for (std::size_t sample = 0; sample < chain_.size(); ++sample) {
@@ -60,11 +58,6 @@ public:
             path.legs.back().to_m = length_m(roads_, path.legs.back().edge);
             vouch_for_unseen(path.legs);
             settle(path);
-        }
-        for (std::size_t i = 0; i < paths_.size(); ++i) {
-            grow(i);
-        }
-        for (auto& path : paths_) {
             trim(path, roads_);
         }
         return std::move(paths_);
@@ -154,19 +147,6 @@ private:
         }
     }
 
-    void grow(std::size_t i) {
-        auto& path = paths_[i];
-        if (path.first_sample > 0) {
-            const auto first = i == 0 ? 0 : paths_[i - 1].positions.back() + 1;
-            grow_begin(path, roads_, plane_, positions_, spread_, first);
-        }
-        if (path.last_sample + 1 < chain_.size()) {
-            const auto limit =
-                i + 1 < paths_.size() ? paths_[i + 1].positions.front() : positions_.all.size();
-            grow_end(path, roads_, plane_, positions_, spread_, limit);
-        }
-    }
-
     /// Ends the last leg at `end_m` of its edge and begins the next at `begin_m` of its own.
     void go_on(EdgeId edge, double end_m, double begin_m) {
         auto& legs = paths_.back().legs;
@@ -180,7 +160,6 @@ private:
     RoadPlane& plane_;
     Routes& routes_;
     const Positions& positions_;
-    const RoadSpread& spread_;
     const std::vector<Chosen>& chain_;
     const MatchConfig& config_;
     std::vector<RoadPath> paths_;
@@ -197,10 +176,9 @@ std::vector<RoadPath> paths_of(const RoadNetwork& roads,
                                RoadPlane& plane,
                                Routes& routes,
                                const Positions& positions,
-                               const RoadSpread& spread,
                                const std::vector<Chosen>& chain,
                                const MatchConfig& config) {
-    return PathBuilder{roads, plane, routes, positions, spread, chain, config}.build();
+    return PathBuilder{roads, plane, routes, positions, chain, config}.build();
 }
 
 } // namespace macadam

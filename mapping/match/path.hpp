@@ -30,12 +30,10 @@ double length_m(const RoadPath& path);
 
 /// The chain's edges joined to paths. A sample or two off the network between places that a way of
 /// the travelled length joins are bad positions, not an excursion.
-/// A path that ends in a hole goes on as far as the positions fit.
 std::vector<RoadPath> paths_of(const RoadNetwork& roads,
                                RoadPlane& plane,
                                Routes& routes,
                                const Positions& positions,
-                               const RoadSpread& spread,
                                const std::vector<Chosen>& chain,
                                const MatchConfig& config);
 

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace macadam::testing {
@@ -56,7 +57,8 @@ testing::Run ran(const std::vector<std::string>& words) {
 class Reference : public ::testing::Test {
 protected:
     static void SetUpTestSuite() {
-        fleet_ = fs::path{::testing::TempDir()} / "macadam_reference_fleet";
+        // Tests may run at once, each as a process of its own.
+        fleet_ = fs::path{::testing::TempDir()} / fmt::format("macadam_reference_{}", ::getpid());
         fs::remove_all(fleet_);
         fs::create_directories(fleet_);
         write_file(fleet_ / "town.osm", town);
@@ -72,6 +74,8 @@ protected:
         ran({"init", made + "/roads.gpkg", "--network", made + "/network.osm.pbf"});
         ran({"import", made + "/roads.gpkg", made + "/trips", "--method", "kf"});
     }
+
+    static void TearDownTestSuite() { fs::remove_all(fleet_); }
 
     void SetUp() override {
         folder_ = fresh_folder();
