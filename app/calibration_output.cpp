@@ -37,6 +37,9 @@ std::string text_of(const CalibrationReport& report) {
     for (const auto& car : report.cars) {
         text += row_of(car);
     }
+    if (report.places == 0) { // nothing was found of the rest
+        return text;
+    }
     const auto& components = report.components;
     return text + fmt::format("\ncars differ by      {:.1f} %\n"
                               "trips of a car by   {:.1f} %\n"

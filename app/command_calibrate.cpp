@@ -30,9 +30,10 @@ void run_calibrate(const Arguments& arguments, const Console& console) {
     const bool any = std::ranges::any_of(
         report.cars, [](const CalibratedCar& car) { return car.calibration.has_value(); });
     if (!any) {
-        console.warn(fmt::format("{}: no car could be calibrated: each needs 50 segments that "
-                                 "others passed within a year, and a vehicle_id in its trips",
-                                 file.string()));
+        throw InputError{fmt::format("{}: no car could be calibrated: each needs 50 segments that "
+                                     "others passed within a year, and a vehicle_id in its trips; "
+                                     "the store is as it was",
+                                     file.string())};
     }
     console.say(keep ? fmt::format("generation {}: all segments were fused by these rules",
                                    report.generation)

@@ -81,8 +81,7 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
     const auto shared = shared_readings(readings);
     const auto places = shared_places(shared, known.size());
     FleetFit fit{shared, known, prior};
-    int round = 0;
-    for (; round < most_rounds; ++round) {
+    for (int round = 0; round < most_rounds; ++round) {
         const double moved = fit.settle();
         const bool is_spread_round =
             round >= first_spread_round && round <= last_spread_round && (round & (round - 1)) == 0;
@@ -103,8 +102,7 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                            .trip_sd = fit.trip_sd,
                            .rest_sd = fit.rest_sd,
                            .anchor_sd = 0,
-                           .places = fit.place_count(),
-                           .rounds = round};
+                           .places = fit.place_count()};
     for (const auto& reading : shared) {
         ++fleet.shared[reading.car];
     }

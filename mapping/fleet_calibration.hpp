@@ -37,7 +37,6 @@ struct FleetCalibration {
     double rest_sd;     ///< of a pass, relative, beside FleetPrior::rest_sd_um
     double anchor_sd;   ///< of all cars together, relative
     std::size_t places; ///< where two or more cars passed
-    int rounds;
 };
 
 /// How each car reads, from what others read at the same places:

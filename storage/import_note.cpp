@@ -25,9 +25,6 @@ std::optional<OpenImport> RoadStore::begin_import(const std::string& name,
                                                   std::size_t trips_asked) {
     auto& database = impl_->database;
     Transaction all{database, Transaction::Kind::write};
-    // Stores of version 0.1 were made without it.
-    database.run("CREATE TABLE IF NOT EXISTS import_note (name TEXT PRIMARY KEY NOT NULL,"
-                 " asked INTEGER NOT NULL, trips_before INTEGER NOT NULL) WITHOUT ROWID");
     const auto earlier = open_import(database, name);
     database.prepare("INSERT OR IGNORE INTO import_note VALUES (?, ?, ?)")
         .run(name, static_cast<std::int64_t>(trips_asked), count_of_trips(database));

@@ -281,8 +281,9 @@ public:
     std::size_t refresh(const Progress& progress = {});
 
     /// Finds how the cars read from what they read of the same roads, and of what their errors are
-    /// made; with `keep` begins a generation with these rules and fuses all passes by them, in one
-    /// transaction: readers see the numbers of before until all are made.
+    /// made; with `keep`, and if any car could be calibrated, begins a generation with these rules
+    /// and fuses all passes by them, in one transaction: readers see the numbers of before until
+    /// all are made.
     CalibrationReport calibrate(bool keep, const Progress& progress = {});
 
     /// Lays aside what a trip of the store says now that it was worked out anew; nobody sees it

@@ -170,11 +170,11 @@ CalibrationReport RoadStore::calibrate(bool keep, const Progress& progress) {
     constexpr auto basis = CalibrationBasis::all;
     Transaction all{database, keep ? Transaction::Kind::write : Transaction::Kind::read};
     auto report = find_calibration(database, in_strip, basis, progress);
-    if (keep) {
+    const auto cars = std::ranges::count_if(
+        report.cars, [](const auto& car) { return car.calibration.has_value(); });
+    if (keep && cars > 0) {
         take_calibration(database, report, basis);
         report.generation = read_generation(database);
-        const auto cars = std::ranges::count_if(
-            report.cars, [](const auto& car) { return car.calibration.has_value(); });
         const auto audit = add_audit(
             database, "calibrate", fmt::format("cars: {} of {}", cars, report.cars.size()));
         fuse_dirty_at_once(database, in_strip, impl_->classes(), audit, progress);

@@ -114,6 +114,18 @@ TEST_F(UpkeepProgram, CalibratesTheCarsAndTellsThem) {
     EXPECT_THAT(run("info", {}).out, HasSubstr(" IRI "));
 }
 
+TEST_F(UpkeepProgram, LeavesAStoreAsItWasWhereNoCarCanBeCalibrated) {
+    run("forget", {"--vehicle", "car-1", "car-2"});
+    const auto before = digest();
+    const auto done = run("calibrate", {});
+    EXPECT_EQ(done.exit_status, 1);
+    EXPECT_THAT(done.err, HasSubstr("no car could be calibrated: each needs 50 segments"));
+    EXPECT_THAT(done.err, HasSubstr("the store is as it was"));
+    EXPECT_THAT(done.out, ::testing::Not(HasSubstr("cars differ by")));
+    EXPECT_EQ(digest(), before);
+    EXPECT_EQ(Json::parse(run("info", {"--json"}).out)["generation"], 1);
+}
+
 TEST_F(UpkeepProgram, TellsWhatWasDoneAndWhatItDidToANumber) {
     run("valid-from", {"--from", "2026-05", "--segment", "1+0003", "--reason", "resurfaced"});
     EXPECT_THAT(run("info", {"--audit"}).out,

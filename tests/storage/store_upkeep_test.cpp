@@ -439,7 +439,7 @@ TEST(Reprocess, LeavesOutATripThatWasForgottenMeanwhile) {
 
 TEST(Reprocess, RefusesToGoOnFromAnotherGeneration) {
     const auto folder = test_folder();
-    auto store = store_of(folder / "a.gpkg", up_to(4));
+    auto store = fleet_store(folder / "a.gpkg", up_to(12));
     store.stage_trip(trip_record(1), passes_of(101), {});
     RoadStore::open(folder / "a.gpkg", RoadStore::Access::write).calibrate(true);
     const auto before = store.digest();
