@@ -1,6 +1,8 @@
 #include "mapping/road_network.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/barred_turns.hpp"
+#include "mapping/network_tables.hpp"
 #include "mapping/speed_limits.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +11,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -18,23 +19,6 @@ namespace {
 
 /// Of a link, under one box of the tree: a long winding link is several small boxes.
 constexpr std::uint32_t most_steps_of_a_piece = 16;
-
-/// What a network built in memory looks into.
-struct Tables {
-    std::vector<PackedWay> ways;
-    std::vector<PackedPoint> points;
-    std::vector<std::int64_t> node_ids;
-    std::vector<std::uint32_t> along_mm;
-    std::vector<PackedLink> links;
-    std::vector<std::uint32_t> node_point;
-    std::vector<std::uint32_t> first_out;
-    std::vector<EdgeId> out_edges;
-    std::vector<PackedTurn> barred_turns;
-    std::vector<TurnRule> turns;
-    BoxTreeArrays tree;
-    std::vector<std::uint32_t> first_letter;
-    std::vector<char> letters;
-};
 
 // ---------------------------------------------------------------------------------------- ways
 
@@ -96,7 +80,7 @@ void expect_away_from_antimeridian(const std::vector<Way>& ways) {
 /// Texts that are kept once each.
 class TextPool {
 public:
-    explicit TextPool(Tables& tables) : tables_{tables} { tables_.first_letter = {0}; }
+    explicit TextPool(NetworkTables& tables) : tables_{tables} { tables_.first_letter = {0}; }
 
     std::uint32_t number_of(const std::string& text) {
         const auto [found, fresh] =
@@ -109,11 +93,11 @@ public:
     }
 
 private:
-    Tables& tables_;
+    NetworkTables& tables_;
     std::unordered_map<std::string, std::uint32_t> numbers_;
 };
 
-void add_lengths(Tables& tables, const Way& way) {
+void add_lengths(NetworkTables& tables, const Way& way) {
     constexpr double longest_m = std::numeric_limits<std::uint32_t>::max() / Unpacked::per_m;
     const std::span points{tables.points.end() - static_cast<std::ptrdiff_t>(way.line.size()),
                            tables.points.end()};
@@ -132,7 +116,7 @@ void add_lengths(Tables& tables, const Way& way) {
 
 /// Records of the ways with their points, and one past the last; each way is let go of when it is
 /// told, because a map of a country has millions. Links are not there yet.
-void add_ways(Tables& tables, std::vector<Way> ways) {
+void add_ways(NetworkTables& tables, std::vector<Way> ways) {
     TextPool texts{tables};
     const auto start = [&] {
         return PackedWay{.id = 0,
@@ -165,7 +149,7 @@ void add_ways(Tables& tables, std::vector<Way> ways) {
 // ------------------------------------------------------------------------------------ topology
 
 /// Identities of the points that are nodes, rising: ends of ways and points met more than once.
-std::vector<std::int64_t> node_identities(const Tables& tables) {
+std::vector<std::int64_t> node_identities(const NetworkTables& tables) {
     auto met = tables.node_ids;
     for (std::size_t way = 0; way + 1 < tables.ways.size(); ++way) {
         met.push_back(tables.node_ids[tables.ways[way].first_point]); // an end counts as met twice
@@ -181,31 +165,23 @@ std::vector<std::int64_t> node_identities(const Tables& tables) {
     return nodes;
 }
 
-std::optional<std::uint32_t> number_of_node(const std::vector<std::int64_t>& nodes,
-                                            std::int64_t id) {
-    const auto found = std::lower_bound(nodes.begin(), nodes.end(), id);
-    return found != nodes.end() && *found == id
-               ? std::optional{static_cast<std::uint32_t>(found - nodes.begin())}
-               : std::nullopt;
-}
-
 std::uint16_t flags_of(Oneway oneway) {
     return static_cast<std::uint16_t>((oneway != Oneway::backward ? link_flags::forward : 0) |
                                       (oneway != Oneway::forward ? link_flags::backward : 0));
 }
 
-std::string_view text(const Tables& tables, std::uint32_t number) {
+std::string_view text(const NetworkTables& tables, std::uint32_t number) {
     const auto first = tables.first_letter[number];
     return {tables.letters.data() + first, tables.first_letter[number + 1] - first};
 }
 
-std::uint16_t speed_limit_cmps(const Tables& tables, const PackedWay& way) {
+std::uint16_t speed_limit_cmps(const NetworkTables& tables, const PackedWay& way) {
     return way.speed_limit_cmps > 0 ? way.speed_limit_cmps
                                     : usual_speed_limit_cmps(text(tables, way.highway));
 }
 
 /// The way's parts between nodes, in its own direction.
-void add_links(Tables& tables,
+void add_links(NetworkTables& tables,
                std::uint32_t way,
                const std::vector<std::int64_t>& nodes,
                double segment_length_m) {
@@ -234,7 +210,9 @@ void add_links(Tables& tables,
     }
 }
 
-void add_links(Tables& tables, const std::vector<std::int64_t>& nodes, double segment_length_m) {
+void add_links(NetworkTables& tables,
+               const std::vector<std::int64_t>& nodes,
+               double segment_length_m) {
     tables.node_point.resize(nodes.size());
     const auto past = static_cast<std::uint32_t>(tables.ways.size() - 1);
     for (std::uint32_t way = 0; way < past; ++way) {
@@ -254,7 +232,7 @@ void add_links(Tables& tables, const std::vector<std::int64_t>& nodes, double se
 
 /// Calls `visit(node, edge)` for every drivable edge, in the order of the edges.
 template <typename Visit>
-void for_each_departure(const Tables& tables, Visit visit) {
+void for_each_departure(const NetworkTables& tables, Visit visit) {
     for (std::uint32_t i = 0; i + 1 < tables.links.size(); ++i) {
         const auto& link = tables.links[i];
         if ((link.flags & link_flags::forward) != 0) {
@@ -266,7 +244,7 @@ void for_each_departure(const Tables& tables, Visit visit) {
     }
 }
 
-void add_departures(Tables& tables) {
+void add_departures(NetworkTables& tables) {
     auto& first = tables.first_out;
     first.assign(tables.node_point.size() + 1, 0);
     for_each_departure(tables, [&](std::uint32_t node, EdgeId) { ++first[node + 1]; });
@@ -277,91 +255,6 @@ void add_departures(Tables& tables) {
     auto next = first;
     for_each_departure(
         tables, [&](std::uint32_t node, EdgeId edge) { tables.out_edges[next[node]++] = edge; });
-}
-
-// --------------------------------------------------------------------------------------- turns
-
-/// The one drivable edge of a way that leaves a node; nothing if there are two or none.
-std::optional<EdgeId> departure(const Tables& tables, std::uint32_t way, std::uint32_t node) {
-    std::optional<EdgeId> found;
-    for (auto i = tables.first_out[node]; i < tables.first_out[node + 1]; ++i) {
-        const auto edge = tables.out_edges[i];
-        if (tables.links[static_cast<std::uint32_t>(link_of(edge))].way == way) {
-            if (found) {
-                return {};
-            }
-            found = edge;
-        }
-    }
-    return found;
-}
-
-/// The one drivable edge of a way that arrives at a node; nothing if there are two or none.
-std::optional<EdgeId> arrival(const Tables& tables, std::uint32_t way, std::uint32_t node) {
-    std::optional<EdgeId> found;
-    const auto take = [&](EdgeId edge, bool arrives) {
-        const bool twice = arrives && found;
-        found = arrives ? std::optional{edge} : found;
-        return !twice;
-    };
-    for (auto i = tables.ways[way].first_link; i < tables.ways[way + 1].first_link; ++i) {
-        const auto& link = tables.links[i];
-        const bool forward = link.to == node && (link.flags & link_flags::forward) != 0;
-        const bool backward = link.from == node && (link.flags & link_flags::backward) != 0;
-        if (!take(edge_of(LinkId{i}, true), forward) ||
-            !take(edge_of(LinkId{i}, false), backward)) {
-            return {};
-        }
-    }
-    return found;
-}
-
-std::optional<std::uint32_t> number_of_way(const Tables& tables, std::int64_t id) {
-    const auto past = tables.ways.end() - 1;
-    const auto found = std::lower_bound(
-        tables.ways.begin(), past, id, [](const PackedWay& way, std::int64_t sought) {
-            return way.id < sought;
-        });
-    return found != past && found->id == id
-               ? std::optional{static_cast<std::uint32_t>(found - tables.ways.begin())}
-               : std::nullopt;
-}
-
-/// The turns that a rule forbids. A rule that the ways' ends do not make plain forbids none.
-void add_barred(Tables& tables,
-                std::uint32_t way,
-                const TurnRule& rule,
-                const std::vector<std::int64_t>& nodes) {
-    const auto node = number_of_node(nodes, rule.via_node);
-    const auto to_way = number_of_way(tables, rule.to_way);
-    const auto from = node && to_way ? arrival(tables, way, *node) : std::nullopt;
-    const auto to = from ? departure(tables, *to_way, *node) : std::nullopt;
-    if (!to) {
-        return;
-    }
-    for (auto i = tables.first_out[*node]; i < tables.first_out[*node + 1]; ++i) {
-        const auto edge = tables.out_edges[i];
-        if ((edge == *to) != (rule.only != 0)) {
-            tables.barred_turns.push_back(
-                {static_cast<std::uint32_t>(*from), static_cast<std::uint32_t>(edge)});
-        }
-    }
-}
-
-void add_barred(Tables& tables, const std::vector<std::int64_t>& nodes) {
-    for (std::uint32_t way = 0; way + 1 < tables.ways.size(); ++way) {
-        for (auto i = tables.ways[way].first_turn; i < tables.ways[way + 1].first_turn; ++i) {
-            add_barred(tables, way, tables.turns[i], nodes);
-        }
-    }
-    auto& turns = tables.barred_turns;
-    std::sort(turns.begin(), turns.end());
-    turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
-    for (const auto& turn : turns) {
-        const EdgeId from{turn.from};
-        tables.links[static_cast<std::uint32_t>(link_of(from))].flags |=
-            is_forward(from) ? link_flags::forward_barred : link_flags::backward_barred;
-    }
 }
 
 // --------------------------------------------------------------------------------------- index
@@ -377,7 +270,7 @@ GridBox box_of(std::span<const PackedPoint> points) {
     return box;
 }
 
-BoxTreeArrays tree_of(const Tables& tables) {
+BoxTreeArrays tree_of(const NetworkTables& tables) {
     std::vector<GridBox> boxes;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i + 1 < tables.links.size(); ++i) {
@@ -420,12 +313,12 @@ RoadNetwork build_network(std::vector<Way> ways, double segment_length_m) {
     auto ordered = in_order(std::move(ways));
     expect_away_from_antimeridian(ordered);
     expect_to_be_numbered(ordered);
-    const auto tables = std::make_shared<Tables>();
+    const auto tables = std::make_shared<NetworkTables>();
     add_ways(*tables, std::move(ordered));
     const auto nodes = node_identities(*tables);
     add_links(*tables, nodes, segment_length_m);
     add_departures(*tables);
-    add_barred(*tables, nodes);
+    add_barred_turns(*tables, nodes);
     tables->tree = tree_of(*tables);
     return {.owner = tables,
             .segment_length_m = segment_length_m,

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "mapping/network_tables.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace macadam {
+
+/// Adds the turns that the ways' rules forbid, in order, each once, and flags the links that they
+/// begin on. A rule that the ways' ends do not make plain forbids none.
+///
+/// \param tables  with ways, links and departures
+/// \param nodes   identities of the nodes, rising
+void add_barred_turns(NetworkTables& tables, const std::vector<std::int64_t>& nodes);
+
+} // namespace macadam
