@@ -2,6 +2,7 @@
 #include "app/commands.hpp"
 #include "app/interruption.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 
 #include "estimator/common/error.hpp"
 
@@ -21,6 +22,7 @@ void run_calibrate(const Arguments& arguments, const Console& console) {
     const Interruption interruption;
     auto progress = console.progress("calibrating");
     progress.stop = interruption.stop();
+    store.be_patient(patience_for(file, console, progress.stop));
     const auto report = store.calibrate(keep, progress);
     if (arguments.flag("--json")) {
         print(json_of(report));
@@ -51,9 +53,10 @@ const Command calibrate_command{
     .summary = "Find how each car reads from what others read of the same roads",
     .about = "Gives each car a gain and an offset, and the fleet the spread of its cars, trips and "
              "passes, and fuses all\npasses anew by them: a new generation, in one transaction. "
-             "Readers see the numbers of before until all are\nmade; imports wait. These rules "
-             "then hold until the next calibration, also for new trips. The mean of the\ncars is "
-             "taken to be right: how far it may be off is part of every interval.",
+             "Readers see the numbers of before until all are\nmade; imports go on meanwhile and "
+             "wait only while they are put in place. These rules then hold until the\nnext "
+             "calibration, also for new trips. The mean of the cars is taken to be right: how far "
+             "it may be off is\npart of every interval.",
     .example = "  macadam calibrate roads.gpkg --dry-run      what would be found\n"
                "  macadam calibrate roads.gpkg\n"
                "  macadam info roads.gpkg --audit             what was done when",

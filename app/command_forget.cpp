@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/interruption.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 
 #include "storage/json.hpp"
 
@@ -33,6 +34,7 @@ void run_forget(const Arguments& arguments, const Console& console) {
     const Interruption interruption;
     auto progress = console.progress("forgetting");
     progress.stop = interruption.stop();
+    store.be_patient(patience_for(file, console, progress.stop));
     const auto forgotten = store.forget(request, progress);
     if (arguments.flag("--json")) {
         print(json_of(forgotten));

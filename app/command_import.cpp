@@ -7,6 +7,7 @@
 #include "app/laid_words.hpp"
 #include "app/mapping_option.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 #include "app/trip_outcome_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -114,6 +115,7 @@ void run_import(const Arguments& arguments, const Console& console) {
     const auto options = parse_import(arguments);
     VehicleChoice vehicles{arguments};
     auto store = RoadStore::open(options.store, RoadStore::Access::write);
+    store.be_patient(patience_for(options.store, console));
     if (options.known.survey || options.known.control) {
         import_known(store, options, console);
     }
@@ -127,6 +129,7 @@ void run_import(const Arguments& arguments, const Console& console) {
         console.say(spoken(*earlier));
     }
     const Interruption interruption;
+    store.be_patient(patience_for(options.store, console, interruption.stop()));
 
     const auto tell = [&](const TripOutcome& outcome) { tell_of(outcome, options.json); };
     std::ranges::for_each(refused, tell);
@@ -205,17 +208,19 @@ constexpr std::array options{
 const Command import_command{
     .name = "import",
     .summary = "Bring trip logs into a store: each trip once, every row accounted for",
-    .about = "Each trip is read, its road roughness estimated, its way matched to the store's "
-             "network and cut\n"
-             "into passes over segments; then all passes over a segment are fused. One transaction "
-             "a trip: what\n"
-             "is reported as imported is on disk. A trip that is already in the store, under any "
-             "name or\n"
-             "compression, is 'known' and changes nothing. A trip that cannot be used is "
-             "'rejected' with its\n"
-             "reason and does not stop the others; the exit status is then 1.\n"
-             "--reference and --control bring what is known of roads from elsewhere; PATH is not "
-             "needed with them.",
+    .about =
+        "Each trip is read, its road roughness estimated, its way matched to the store's "
+        "network and cut\n"
+        "into passes over segments; then all passes over a segment are fused. What is reported "
+        "as imported\n"
+        "is on disk; trips that follow each other within a second go there together. A trip that "
+        "is already in the store, under any "
+        "name or\n"
+        "compression, is 'known' and changes nothing. A trip that cannot be used is "
+        "'rejected' with its\n"
+        "reason and does not stop the others; the exit status is then 1.\n"
+        "--reference and --control bring what is known of roads from elsewhere; PATH is not "
+        "needed with them.",
     .example =
         "  macadam import roads.gpkg trips/                     every log under trips/\n"
         "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"

@@ -2,6 +2,7 @@
 #include "app/interruption.hpp"
 #include "app/network_update_output.hpp"
 #include "app/output_guard.hpp"
+#include "app/store_patience.hpp"
 
 #include "estimator/common/error.hpp"
 #include "mapping/network_change.hpp"
@@ -157,6 +158,7 @@ void update_store(const InitOptions& options, const Console& console) {
         return progress;
     };
     auto store = RoadStore::open(options.store, RoadStore::Access::write);
+    store.be_patient(patience_for(options.store, console, interruption.stop()));
     const auto before = kept_roads(store);
     const auto after = build_network(
         read_network(*options.update, options.columns, console.progress("reading roads")),

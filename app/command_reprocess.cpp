@@ -5,6 +5,7 @@
 #include "app/interruption.hpp"
 #include "app/mapping_option.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 #include "app/trip_outcome_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -33,7 +34,8 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     config.estimator.tracks = false; // as an import
     const auto& words = arguments.operands("PATH");
     VehicleChoice vehicles{arguments};
-    auto store = RoadStore::open(store_file(arguments), RoadStore::Access::write);
+    const auto file = store_file(arguments);
+    auto store = RoadStore::open(file, RoadStore::Access::write);
     const auto [trips, refused] =
         asked_trips({words.begin(), words.end()}, mapping_of(arguments), console);
     const bool json = arguments.flag("--json");
@@ -43,6 +45,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     std::ranges::for_each(refused, tell);
     auto working = console.progress("reprocessing");
     working.stop = interruption.stop();
+    store.be_patient(patience_for(file, console, working.stop));
     auto totals = rework_trips(store, trips, vehicles, config, jobs, working, tell);
     totals.rejected += refused.size();
     if (totals.left > 0) {

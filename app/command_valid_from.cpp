@@ -2,6 +2,7 @@
 #include "app/interruption.hpp"
 #include "app/period_options.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/json.hpp"
@@ -77,6 +78,7 @@ void run_valid_from(const Arguments& arguments, const Console& console) {
     const Interruption interruption;
     auto progress = console.progress("fusing");
     progress.stop = interruption.stop();
+    store.be_patient(patience_for(file, console, progress.stop));
     const auto found =
         store.set_valid_from(segments, from_ms, arguments.value("--reason").value_or(""), progress);
     console.say(from_ms ? fmt::format("{}: only passes from {} on count",

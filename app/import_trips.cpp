@@ -8,13 +8,17 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <map>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <span>
 #include <thread>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -96,6 +100,9 @@ TripOutcome worked_out(const TripSource& source,
     return outcome;
 }
 
+using Clock = std::chrono::steady_clock;
+using Deadline = std::optional<Clock::time_point>; ///< nothing: there is none
+
 /// Workers take trips in order and hand outcomes back under their number; the writer takes them in
 /// order. Workers stay at most `ahead` trips before the writer, so that memory is bounded.
 class Workshop {
@@ -109,9 +116,15 @@ public:
         }
     }
 
-    TripOutcome take(std::size_t number) {
+    /// Waits for its outcome, but no longer than until then; nothing: it is not there yet.
+    std::optional<TripOutcome> take(std::size_t number, const Deadline& until) {
         std::unique_lock lock{mutex_};
-        changed_.wait(lock, [&] { return done_.contains(number) || failure_; });
+        const auto is_there = [&] { return done_.contains(number) || failure_; };
+        if (!until) {
+            changed_.wait(lock, is_there);
+        } else if (!changed_.wait_until(lock, *until, is_there)) {
+            return std::nullopt;
+        }
         if (failure_) {
             std::rethrow_exception(failure_);
         }
@@ -162,8 +175,66 @@ struct Purpose {
     /// Why nothing is to be done, if so, with what is to be said of it.
     std::function<std::optional<std::pair<Result, std::vector<std::string>>>(const std::string&)>
         leave;
-    std::function<Result(const TripOutcome&)> take;
+    std::function<void(std::span<TripOutcome* const>)> take; ///< says what became of each
 };
+
+// A commit costs the disk the same for one trip as for many. What is not committed has to be worked
+// out again after a kill.
+constexpr std::size_t most_together = 100; // trips
+constexpr std::size_t most_passes_together = 50'000;
+constexpr std::chrono::seconds longest_together{1};
+
+/// Outcomes that wait to be taken together, and then told, in their order.
+class Batch {
+public:
+    void add(TripOutcome outcome) {
+        if (outcomes_.empty()) {
+            due_ = Clock::now() + longest_together;
+        }
+        passes_ += outcome.trip.passes.size();
+        outcomes_.push_back(std::move(outcome));
+    }
+
+    /// Nothing: there is nothing that waits.
+    Deadline due() const { return outcomes_.empty() ? Deadline{} : due_; }
+
+    bool is_full() const {
+        return outcomes_.size() >= most_together || passes_ >= most_passes_together ||
+               (!outcomes_.empty() && Clock::now() >= due_);
+    }
+
+    /// Those that were worked out.
+    std::vector<TripOutcome*> made() {
+        std::vector<TripOutcome*> made;
+        for (auto& outcome : outcomes_) {
+            if (outcome.result == TripOutcome::Result::imported) {
+                made.push_back(&outcome);
+            }
+        }
+        return made;
+    }
+
+    std::vector<TripOutcome> empty() {
+        passes_ = 0;
+        return std::exchange(outcomes_, {});
+    }
+
+private:
+    std::vector<TripOutcome> outcomes_;
+    std::size_t passes_ = 0;
+    Clock::time_point due_;
+};
+
+void add(ImportTotals& totals, const TripOutcome& outcome) {
+    using Result = TripOutcome::Result;
+    const bool is_taken =
+        outcome.result == Result::imported || outcome.result == Result::reprocessed;
+    const bool is_rejected = outcome.result == Result::rejected;
+    totals.imported += is_taken ? 1U : 0U;
+    totals.rejected += is_rejected ? 1U : 0U;
+    totals.known += !is_taken && !is_rejected ? 1U : 0U;
+    totals.passes += is_taken ? outcome.trip.passes.size() : 0U;
+}
 
 ImportTotals work_on(const Purpose& purpose,
                      const RoadNetwork& roads,
@@ -197,30 +268,39 @@ ImportTotals work_on(const Purpose& purpose,
 
     ImportTotals totals;
     Workshop workshop{trips.size(), jobs, work};
+    Batch batch;
+    std::size_t told = 0;
+    const auto commit = [&] {
+        if (const auto made = batch.made(); !made.empty()) {
+            const std::scoped_lock lock{store_in_use};
+            purpose.take(made);
+        }
+        for (const auto& outcome : batch.empty()) {
+            add(totals, outcome);
+            tell(outcome);
+            progress(++told, trips.size());
+        }
+    };
     for (std::size_t i = 0; i < trips.size(); ++i) {
         if (progress.stop.stop_requested()) {
             totals.left = trips.size() - i;
             break;
         }
-        auto outcome = workshop.take(i);
-        if (progress.stop.stop_requested() && outcome.result == Result::rejected) {
+        auto outcome = workshop.take(i, batch.due());
+        if (!outcome) { // a long one: what was done before it does not wait
+            commit();
+            outcome = workshop.take(i, {});
+        }
+        if (progress.stop.stop_requested() && outcome->result == Result::rejected) {
             totals.left = trips.size() - i; // rejected only for being stopped, it may be
             break;
         }
-        if (outcome.result == Result::imported) {
-            const std::scoped_lock lock{store_in_use};
-            outcome.result = purpose.take(outcome);
+        batch.add(std::move(*outcome));
+        if (batch.is_full() || told == 0) { // the first word comes soon
+            commit();
         }
-        const bool is_taken =
-            outcome.result == Result::imported || outcome.result == Result::reprocessed;
-        const bool is_rejected = outcome.result == Result::rejected;
-        totals.imported += is_taken ? 1U : 0U;
-        totals.rejected += is_rejected ? 1U : 0U;
-        totals.known += !is_taken && !is_rejected ? 1U : 0U;
-        totals.passes += is_taken ? outcome.trip.passes.size() : 0U;
-        tell(outcome);
-        progress(i + 1, trips.size());
     }
+    commit();
     return totals;
 }
 
@@ -266,13 +346,18 @@ ImportTotals import_trips(RoadStore& store,
             return std::nullopt;
         },
         .take =
-            [&](const TripOutcome& outcome) {
-                if (work.take_back) {
-                    store.take_back(outcome.record.sha256);
+            [&](std::span<TripOutcome* const> outcomes) {
+                std::vector<NewTrip> together;
+                for (const auto* outcome : outcomes) {
+                    together.push_back({&outcome->record,
+                                        outcome->trip.passes,
+                                        outcome->trip.traces,
+                                        work.take_back});
                 }
-                const bool is_new =
-                    store.add_trip(outcome.record, outcome.trip.passes, outcome.trip.traces);
-                return is_new ? Result::imported : Result::known; // twice in one call
+                const auto is_new = store.add_trips(together);
+                for (std::size_t i = 0; i < outcomes.size(); ++i) { // or twice in one call
+                    outcomes[i]->result = is_new[i] ? Result::imported : Result::known;
+                }
             }};
     return work_on(purpose, roads, trips, vehicles, config, work.jobs, progress, tell);
 }
@@ -297,10 +382,12 @@ ImportTotals rework_trips(RoadStore& store,
                 std::vector<std::string>{"is not in the store: 'macadam import' brings it in"}};
         },
         .take =
-            [&](const TripOutcome& outcome) {
-                const bool is_kept =
-                    store.stage_trip(outcome.record, outcome.trip.passes, outcome.trip.traces);
-                return is_kept ? Result::reprocessed : Result::unknown;
+            [&](std::span<TripOutcome* const> outcomes) {
+                for (auto* const outcome : outcomes) {
+                    const bool is_kept = store.stage_trip(
+                        outcome->record, outcome->trip.passes, outcome->trip.traces);
+                    outcome->result = is_kept ? Result::reprocessed : Result::unknown;
+                }
             }};
     return work_on(purpose, roads, trips, vehicles, config, jobs, progress, tell);
 }

@@ -42,7 +42,8 @@ struct ImportWork {
 };
 
 /// Brings trips into a store: read and estimated by `jobs` threads, written by this one in the
-/// order of `trips`, one transaction each. A trip that cannot be used is an outcome and never stops
+/// order of `trips`, those of a second (but no more than 100) in one transaction, and told when
+/// that is on the disk. A trip that cannot be used is an outcome and never stops
 /// the others; an error of the store itself is thrown and leaves the trips before it in place.
 /// When a stop is requested, the trip at hand is finished or dropped and the rest is left.
 ImportTotals import_trips(RoadStore& store,

@@ -1,6 +1,7 @@
 #include "mapping/strip_cut.hpp"
 
 #include "mapping/driven_part.hpp"
+#include "mapping/trace_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,12 +49,7 @@ double travel_at(std::span<const Knot> knots, double station_m) {
                      (station_m - before->station_m) / (next->station_m - before->station_m));
 }
 
-struct Cell {
-    RoughnessCode iri = no_roughness;
-    RoughnessCode left = no_roughness;
-};
-
-Cell cell_over(const TravelSpan& travel, const IriTrace& roughness, const Vehicle& vehicle) {
+TraceCell cell_over(const TravelSpan& travel, const IriTrace& roughness, const Vehicle& vehicle) {
     const auto mean = mean_over(roughness, travel.from_m, travel.to_m, vehicle);
     const auto headline = headline_of(mean);
     if (!headline || !(mean.covered_m >= least_cover * (travel.to_m - travel.from_m))) {
@@ -61,24 +57,6 @@ Cell cell_over(const TravelSpan& travel, const IriTrace& roughness, const Vehicl
     }
     return {code_of(headline->iri_mm_per_m),
             mean.left_mm_per_m ? code_of(*mean.left_mm_per_m) : no_roughness};
-}
-
-/// The cells from the first known one to the last.
-StripTrace without_silent_ends(StripTrace trace, const std::vector<Cell>& cells) {
-    const auto is_known = [](const Cell& cell) { return cell.iri != no_roughness; };
-    const auto first = std::ranges::find_if(cells, is_known);
-    const auto last = std::find_if(cells.rbegin(), cells.rend(), is_known).base();
-    trace.first_m += static_cast<std::int32_t>(first - cells.begin());
-    bool tracks = false;
-    for (auto cell = first; cell < last; ++cell) {
-        trace.iri.push_back(cell->iri);
-        trace.left.push_back(cell->left);
-        tracks = tracks || cell->left != no_roughness;
-    }
-    if (!tracks) {
-        trace.left.clear();
-    }
-    return trace;
 }
 
 /// The mean over the drive's length. In whole decimetres, so that the last bit of a filter, which
@@ -107,19 +85,19 @@ StripTrace trace_of(std::span<const DrivenPart> parts,
     const auto first =
         static_cast<std::int32_t>(std::floor(knots.front().station_m - trace_margin_m));
     const auto last = static_cast<std::int32_t>(std::ceil(knots.back().station_m + trace_margin_m));
-    std::vector<Cell> cells;
+    std::vector<TraceCell> cells;
     for (auto metre = first; metre < last; ++metre) {
         const TravelSpan travel{travel_at(knots, metre), travel_at(knots, metre + 1)};
         const bool is_told = travel.from_m >= told.from_m && travel.to_m <= told.to_m;
-        cells.push_back(is_told ? cell_over(travel, roughness, vehicle) : Cell{});
+        cells.push_back(is_told ? cell_over(travel, roughness, vehicle) : TraceCell{});
     }
-    return without_silent_ends({.strip = strip_of(parts.front().segment, roads.segment_length_m),
-                                .drive = *parts.front().drive,
-                                .first_m = first,
-                                .iri = {},
-                                .left = {},
-                                .place_sd_mm = place_sd_mm(parts)},
-                               cells);
+    return with_cells({.strip = strip_of(parts.front().segment, roads.segment_length_m),
+                       .drive = *parts.front().drive,
+                       .first_m = first,
+                       .iri = {},
+                       .left = {},
+                       .place_sd_mm = place_sd_mm(parts)},
+                      cells);
 }
 
 /// The mean of the known part of a row of cells, and how long that is. Micrometres per metre.

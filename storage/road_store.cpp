@@ -93,6 +93,10 @@ RoadStore RoadStore::open(const std::filesystem::path& file, Access access) {
         file, access == Access::read ? Database::Access::read : Database::Access::write)};
 }
 
+void RoadStore::be_patient(LockPatience patience) {
+    impl_->database.be_patient(std::move(patience));
+}
+
 const StoreSettings& RoadStore::settings() const {
     return impl_->settings;
 }
@@ -130,7 +134,10 @@ std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
     PassWriter writer{
         database, segments_in_strip(impl_->settings.segment_length_m), Destination::kept};
     std::vector<bool> added;
-    for (const auto& [trip, passes, traces] : trips) {
+    for (const auto& [trip, passes, traces, take_back] : trips) {
+        if (take_back) {
+            unmark_forgotten(database, trip->sha256);
+        }
         added.push_back(!has_trip(database, trip->sha256) && !is_forgotten(database, trip->sha256));
         if (added.back()) {
             const auto row = write_trip(database, *trip);

@@ -11,6 +11,7 @@
 #include "mapping/road_network.hpp"
 #include "mapping/segment_record.hpp"
 #include "mapping/strip_trace.hpp"
+#include "storage/lock_wait.hpp"
 #include "storage/store_upkeep.hpp"
 
 #include <filesystem>
@@ -66,6 +67,7 @@ struct NewTrip {
     const TripRecord* trip;
     std::span<const Pass> passes;
     std::span<const StripTrace> traces;
+    bool take_back = false; ///< comes in also if it was forgotten
 };
 
 /// A span of time, ms since 1970 UTC: from <= t < until. Nothing: open on that side.
@@ -212,8 +214,9 @@ struct NetworkUpdate {
 ///
 /// Readers see the last commit and neither wait for a writer nor make it wait.
 ///
-/// \throws InputError  from every call, if the file is missing, no store, locked for over 20 s,
-///                     or cannot be written (the message names the file and the cause).
+/// \throws InputError  from every call, if the file is missing, no store, kept locked by a
+///                     program that does nothing with it, or cannot be written (the message names
+///                     the file and the cause).
 class RoadStore {
 public:
     /// Makes a new store with the segments of a network. \throws InputError if the file exists;
@@ -229,6 +232,10 @@ public:
     RoadStore(RoadStore&&) noexcept;
     RoadStore& operator=(RoadStore&&) noexcept;
     ~RoadStore();
+
+    /// How it waits from now on while another process writes, and what ends the wait: what then
+    /// was to be written is not. Without a word from here it waits as long as the other works.
+    void be_patient(LockPatience patience);
 
     const StoreSettings& settings() const;
 
@@ -282,8 +289,10 @@ public:
 
     /// Finds how the cars read from what they read of the same roads, and of what their errors are
     /// made; with `keep`, and if any car could be calibrated, begins a generation with these rules
-    /// and fuses all passes by them, in one transaction: readers see the numbers of before until
-    /// all are made.
+    /// and puts all passes fused by them in place, in one transaction: readers see the numbers of
+    /// before until all are made. Like all that follow here, it works them out beside the store
+    /// and keeps others from writing only while it puts them in place; trips that come in
+    /// meanwhile are fused by the new rules, and no car is calibrated from them.
     CalibrationReport calibrate(bool keep, const Progress& progress = {});
 
     /// Lays aside what a trip of the store says now that it was worked out anew; nobody sees it

@@ -1,11 +1,13 @@
 #include "storage/audit.hpp"
+#include "storage/foreseen_upkeep.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/segment_row.hpp"
-#include "storage/strip_fusion.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +27,43 @@ AuditEntry entry_in(const Statement& row) {
 
 constexpr const char* find_segment =
     "SELECT fid FROM segment WHERE way_id = ? AND direction = ? AND seq = ?";
+
+/// Of those that the store has.
+std::vector<std::int64_t> rows_of(Database& database, std::span<const SegmentKey> segments) {
+    auto find = database.prepare(find_segment);
+    std::vector<std::int64_t> rows;
+    for (const auto& key : segments) {
+        find.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
+        if (find.step()) {
+            rows.push_back(find.integer(0));
+        }
+    }
+    return rows;
+}
+
+std::vector<std::int64_t> strips_of(Database& database, std::span<const std::int64_t> segments) {
+    auto find = database.prepare("SELECT strip FROM segment WHERE fid = ?");
+    std::set<std::int64_t> strips;
+    for (const auto row : segments) {
+        find.bind(row).step();
+        strips.insert(find.integer(0));
+    }
+    return {strips.begin(), strips.end()};
+}
+
+void put_valid_from(Database& database,
+                    std::span<const std::int64_t> segments,
+                    const std::optional<std::int64_t>& from_ms) {
+    auto insert = database.prepare("INSERT OR REPLACE INTO valid_from VALUES (?, ?)");
+    auto remove = database.prepare("DELETE FROM valid_from WHERE segment = ?");
+    for (const auto row : segments) {
+        if (from_ms) {
+            insert.run(row, *from_ms);
+        } else {
+            remove.run(row);
+        }
+    }
+}
 
 } // namespace
 
@@ -64,41 +103,31 @@ std::size_t RoadStore::set_valid_from(std::span<const SegmentKey> segments,
                                       std::string_view reason,
                                       const Progress& progress) {
     auto& database = impl_->database;
-    Transaction all{database, Transaction::Kind::write};
-    auto find = database.prepare(find_segment);
-    auto insert = database.prepare("INSERT OR REPLACE INTO valid_from VALUES (?, ?)");
-    auto remove = database.prepare("DELETE FROM valid_from WHERE segment = ?");
-    auto mark = database.prepare("INSERT OR IGNORE INTO segment_dirty VALUES (?)");
-    const auto audit = add_audit(
-        database,
-        "valid-from",
-        fmt::format("{} segments {}{}{}",
-                    segments.size(),
-                    from_ms ? "from " + datetime_text(*from_ms) : std::string{"from any day"},
-                    reason.empty() ? "" : ": ",
-                    reason));
-    std::size_t found = 0;
-    for (const auto& key : segments) {
-        find.bind(key.way_id, key.forward ? "forward" : "backward", std::int64_t{key.index});
-        if (!find.step()) {
-            continue;
-        }
-        const auto row = find.integer(0);
-        if (from_ms) {
-            insert.run(row, *from_ms);
-        } else {
-            remove.run(row);
-        }
-        mark.run(row);
-        ++found;
-    }
-    fuse_dirty_at_once(database,
-                       segments_in_strip(impl_->settings.segment_length_m),
-                       impl_->classes(),
-                       audit,
-                       progress);
-    all.commit();
-    return found;
+    std::vector<std::int64_t> rows;
+    const auto foresee = [&]() -> std::optional<std::vector<std::int64_t>> {
+        rows = rows_of(database, segments);
+        database.run("CREATE TEMP TABLE valid_from (segment INTEGER PRIMARY KEY, from_ms INTEGER);"
+                     "INSERT INTO temp.valid_from SELECT * FROM main.valid_from");
+        put_valid_from(database, rows, from_ms);
+        return strips_of(database, rows);
+    };
+    const auto apply = [&] {
+        put_valid_from(database, rows, from_ms);
+        return add_audit(
+            database,
+            "valid-from",
+            fmt::format("{} segments {}{}{}",
+                        segments.size(),
+                        from_ms ? "from " + datetime_text(*from_ms) : std::string{"from any day"},
+                        reason.empty() ? "" : ": ",
+                        reason));
+    };
+    carry_out(database,
+              segments_in_strip(impl_->settings.segment_length_m),
+              impl_->classes(),
+              {foresee, "DROP TABLE IF EXISTS temp.valid_from", apply},
+              progress);
+    return rows.size();
 }
 
 std::vector<ValidSince> RoadStore::valid_since() const {

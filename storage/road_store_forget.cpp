@@ -1,17 +1,19 @@
 #include "estimator/common/error.hpp"
 #include "storage/audit.hpp"
+#include "storage/foreseen_upkeep.hpp"
 #include "storage/forgotten_trips.hpp"
 #include "storage/fusion_settings.hpp"
 #include "storage/pseudonym.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/store_calibration.hpp"
-#include "storage/strip_fusion.hpp"
+#include "storage/store_moment.hpp"
 #include "storage/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -107,6 +109,62 @@ std::set<std::int64_t> segments_of(Database& database, const KeptTrips& trips) {
     return segments;
 }
 
+/// That they have passes or traces on.
+std::set<std::int64_t> strips_of(Database& database, const KeptTrips& trips) {
+    auto select = database.prepare(
+        "SELECT segment.strip FROM pass CROSS JOIN segment ON segment.fid = pass.segment"
+        " WHERE pass.trip = ?1 UNION SELECT strip FROM trace WHERE trip = ?1");
+    std::set<std::int64_t> strips;
+    for (const auto& [row, trip] : trips) {
+        for (select.bind(row); select.step();) {
+            strips.insert(select.integer(0));
+        }
+    }
+    return strips;
+}
+
+/// For this connection they are not there any more, nor are cars that have no others: passes and
+/// traces are only found with their trips.
+void hide_trips(Database& database, const KeptTrips& trips) {
+    database.run("CREATE TEMP TABLE leaving_trip (id INTEGER PRIMARY KEY);"
+                 "CREATE TEMP VIEW trip AS SELECT * FROM main.trip WHERE id NOT IN"
+                 " (SELECT id FROM temp.leaving_trip);"
+                 "CREATE TEMP VIEW vehicle AS SELECT * FROM main.vehicle WHERE id IN"
+                 " (SELECT vehicle FROM temp.trip)");
+    auto insert = database.prepare("INSERT INTO temp.leaving_trip VALUES (?)");
+    for (const auto& [row, trip] : trips) {
+        insert.run(row);
+    }
+}
+
+constexpr const char* unhide_trips =
+    "DROP VIEW IF EXISTS temp.vehicle; DROP VIEW IF EXISTS temp.trip;"
+    "DROP TABLE IF EXISTS temp.leaving_trip;";
+
+/// \returns how many passes went.
+std::size_t erase(Database& database, const KeptTrips& trips, std::int64_t segments_in_strip) {
+    for (const auto& [row, trip] : trips) {
+        mark_segments(database, row);
+    }
+    database.prepare(erase_changes).run(segments_in_strip);
+    std::size_t passes = 0;
+    auto count = database.prepare("SELECT count(*) FROM pass WHERE trip = ?");
+    for (const auto& [row, trip] : trips) {
+        count.bind(row).step();
+        passes += static_cast<std::size_t>(count.integer(0));
+        count.reset();
+        erase(database, row);
+        mark_forgotten(database, trip.sha256);
+    }
+    database.run(erase_cars_without_trips);
+    return passes;
+}
+
+std::ptrdiff_t calibrated_in(const CalibrationReport& report) {
+    return std::ranges::count_if(report.cars,
+                                 [](const auto& car) { return car.calibration.has_value(); });
+}
+
 KeptTrips trips_of(Database& database, const ForgetRequest& request) {
     KeptTrips trips;
     for (const auto& name : request.trips) {
@@ -123,35 +181,38 @@ KeptTrips trips_of(Database& database, const ForgetRequest& request) {
 Forgotten RoadStore::forget(const ForgetRequest& request, const Progress& progress) {
     auto& database = impl_->database;
     const auto in_strip = segments_in_strip(impl_->settings.segment_length_m);
-    Transaction all{database, Transaction::Kind::write};
-    const auto trips = trips_of(database, request);
-    Forgotten forgotten{.trips = trips.size(), .segments = segments_of(database, trips).size()};
-    for (const auto& [row, trip] : trips) {
-        mark_segments(database, row);
-        forgotten.calibrated = forgotten.calibrated || trip.calibrates;
-    }
-    database.prepare(erase_changes).run(std::int64_t{in_strip});
-    auto passes = database.prepare("SELECT count(*) FROM pass WHERE trip = ?");
-    for (const auto& [row, trip] : trips) {
-        passes.bind(row).step();
-        forgotten.passes += static_cast<std::size_t>(passes.integer(0));
-        erase(database, row);
-        mark_forgotten(database, trip.sha256);
-    }
-    passes.reset();
-    database.run(erase_cars_without_trips);
-    if (forgotten.calibrated) {
-        const auto basis = CalibrationBasis::same;
-        take_calibration(database, find_calibration(database, in_strip, basis, progress), basis);
-    }
-    const auto audit =
-        add_audit(database,
-                  "forget",
-                  fmt::format("trips: {}{}",
-                              forgotten.trips,
-                              forgotten.calibrated ? "; cars calibrated without them" : ""));
-    fuse_dirty_at_once(database, in_strip, impl_->classes(), audit, progress);
-    all.commit();
+    KeptTrips trips;
+    Forgotten forgotten;
+    std::optional<CalibrationReport> calibration;
+    const auto foresee = [&]() -> std::optional<std::vector<std::int64_t>> {
+        trips = trips_of(database, request);
+        forgotten = {.trips = trips.size(), .segments = segments_of(database, trips).size()};
+        forgotten.calibrated =
+            std::ranges::any_of(trips, [](const auto& trip) { return trip.second.calibrates; });
+        auto strips = strips_of(database, trips);
+        hide_trips(database, trips);
+        calibration.reset();
+        if (forgotten.calibrated) {
+            calibration = find_calibration(database, in_strip, CalibrationBasis::same, progress);
+            foresee_calibration(database, *calibration);
+            const auto others = driven_strips(database);
+            strips.insert(others.begin(), others.end());
+        }
+        return std::vector(strips.begin(), strips.end());
+    };
+    const auto apply = [&] {
+        forgotten.passes = erase(database, trips, in_strip);
+        if (calibration) {
+            take_calibration(database, *calibration);
+        }
+        return add_audit(database,
+                         "forget",
+                         fmt::format("trips: {}{}",
+                                     forgotten.trips,
+                                     calibration ? "; cars calibrated without them" : ""));
+    };
+    const auto unsee = std::string{unhide_trips} + unsee_calibration;
+    carry_out(database, in_strip, impl_->classes(), {foresee, unsee.c_str(), apply}, progress);
     forgotten.log_is_clean = database.bring_log_in();
     return forgotten;
 }
@@ -167,20 +228,33 @@ void RoadStore::take_back(const std::string& sha256) {
 CalibrationReport RoadStore::calibrate(bool keep, const Progress& progress) {
     auto& database = impl_->database;
     const auto in_strip = segments_in_strip(impl_->settings.segment_length_m);
-    constexpr auto basis = CalibrationBasis::all;
-    Transaction all{database, keep ? Transaction::Kind::write : Transaction::Kind::read};
-    auto report = find_calibration(database, in_strip, basis, progress);
-    const auto cars = std::ranges::count_if(
-        report.cars, [](const auto& car) { return car.calibration.has_value(); });
-    if (keep && cars > 0) {
-        take_calibration(database, report, basis);
-        report.generation = read_generation(database);
-        const auto audit = add_audit(
-            database, "calibrate", fmt::format("cars: {} of {}", cars, report.cars.size()));
-        fuse_dirty_at_once(database, in_strip, impl_->classes(), audit, progress);
-        all.commit();
+    if (!keep) {
+        Transaction one_moment{database, Transaction::Kind::read};
+        return find_calibration(database, in_strip, CalibrationBasis::all, progress);
     }
-    return report;
+    std::optional<CalibrationReport> report;
+    std::int64_t last_trip = 0; // of those that cars are calibrated from
+    const auto foresee = [&]() -> std::optional<std::vector<std::int64_t>> {
+        last_trip = moment_of(database).last_trip;
+        report = find_calibration(database, in_strip, CalibrationBasis::all, progress);
+        if (calibrated_in(*report) == 0) {
+            return std::nullopt;
+        }
+        foresee_calibration(database, *report);
+        return driven_strips(database);
+    };
+    const auto apply = [&] {
+        take_calibration(database, *report);
+        database.prepare("UPDATE trip SET calibrates = 1 WHERE NOT calibrates AND id <= ?")
+            .run(last_trip);
+        report->generation = read_generation(database);
+        return add_audit(
+            database,
+            "calibrate",
+            fmt::format("cars: {} of {}", calibrated_in(*report), report->cars.size()));
+    };
+    carry_out(database, in_strip, impl_->classes(), {foresee, unsee_calibration, apply}, progress);
+    return *report;
 }
 
 std::vector<CalibratedCar> RoadStore::calibrated_cars() const {

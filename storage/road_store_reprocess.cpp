@@ -1,13 +1,16 @@
 #include "estimator/common/error.hpp"
 #include "storage/audit.hpp"
+#include "storage/foreseen_upkeep.hpp"
 #include "storage/pass_writer.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/store_calibration.hpp"
-#include "storage/strip_fusion.hpp"
+#include "storage/store_moment.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -29,7 +32,9 @@ CREATE TEMP TABLE IF NOT EXISTS staged_pass AS SELECT * FROM main.pass WHERE 0;
 CREATE TEMP TABLE IF NOT EXISTS staged_trace AS SELECT * FROM main.trace WHERE 0;
 CREATE TEMP TABLE IF NOT EXISTS staged_reason AS SELECT * FROM main.row_reason WHERE 0;
 CREATE INDEX IF NOT EXISTS temp.staged_pass_of_trip ON staged_pass(trip);
+CREATE INDEX IF NOT EXISTS temp.staged_pass_of_segment ON staged_pass(segment);
 CREATE INDEX IF NOT EXISTS temp.staged_trace_of_trip ON staged_trace(trip);
+CREATE INDEX IF NOT EXISTS temp.staged_trace_of_strip ON staged_trace(strip);
 CREATE INDEX IF NOT EXISTS temp.staged_reason_of_trip ON staged_reason(trip);
 )";
 
@@ -96,6 +101,54 @@ void expect_same_generation(Database& database) {
     }
 }
 
+/// Trips that were forgotten meanwhile; their rows may be of others.
+constexpr const char* drop_lost_trips =
+    "DELETE FROM staged_trip WHERE NOT EXISTS (SELECT 1 FROM main.trip WHERE"
+    " main.trip.id = staged_trip.trip AND main.trip.sha256 = staged_trip.sha256)";
+
+/// For this connection the trips already say what they will.
+constexpr const char* see_swapped_trips = R"(
+CREATE TEMP VIEW pass AS
+    SELECT * FROM main.pass WHERE trip NOT IN (SELECT trip FROM temp.staged_trip)
+    UNION ALL
+    SELECT * FROM temp.staged_pass WHERE trip IN (SELECT trip FROM temp.staged_trip);
+CREATE TEMP VIEW trace AS
+    SELECT * FROM main.trace WHERE trip NOT IN (SELECT trip FROM temp.staged_trip)
+    UNION ALL
+    SELECT * FROM temp.staged_trace WHERE trip IN (SELECT trip FROM temp.staged_trip);
+)";
+constexpr const char* unsee_swapped_trips =
+    "DROP VIEW IF EXISTS temp.pass; DROP VIEW IF EXISTS temp.trace;";
+
+/// Of what the trips said before and of what they say now.
+std::vector<std::int64_t> strips_to_swap(Database& database) {
+    auto select = database.prepare(
+        "SELECT segment.strip FROM staged_trip AS staged CROSS JOIN main.pass AS pass"
+        " ON pass.trip = staged.trip CROSS JOIN segment ON segment.fid = pass.segment"
+        " UNION SELECT trace.strip FROM staged_trip AS staged CROSS JOIN main.trace AS trace"
+        " ON trace.trip = staged.trip"
+        " UNION SELECT segment.strip FROM staged_trip AS staged CROSS JOIN staged_pass AS pass"
+        " ON pass.trip = staged.trip CROSS JOIN segment ON segment.fid = pass.segment"
+        " UNION SELECT trace.strip FROM staged_trip AS staged CROSS JOIN staged_trace AS trace"
+        " ON trace.trip = staged.trip");
+    std::vector<std::int64_t> strips;
+    while (select.step()) {
+        strips.push_back(select.integer(0));
+    }
+    return strips;
+}
+
+/// \returns how many there were; generation and calibration are another's.
+Reprocessed swap(Database& database) {
+    Reprocessed done{.generation = 0};
+    done.trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM staged_trip"));
+    done.others = static_cast<std::size_t>(
+                      database.number("SELECT count(*) FROM trip WHERE reference_ppm IS NULL")) -
+                  done.trips;
+    database.run(swap_trips);
+    return done;
+}
+
 } // namespace
 
 bool RoadStore::stage_trip(const TripRecord& trip,
@@ -121,30 +174,39 @@ Reprocessed RoadStore::take_staged(std::string_view how, const Progress& progres
     auto& database = impl_->database;
     const auto in_strip = segments_in_strip(impl_->settings.segment_length_m);
     database.run(staging_tables);
-    Transaction all{database, Transaction::Kind::write};
-    expect_same_generation(database);
-    database.run("DELETE FROM staged_trip WHERE sha256 NOT IN (SELECT sha256 FROM trip)");
+    std::optional<CalibrationReport> calibration;
     Reprocessed done{.generation = 0};
-    done.trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM staged_trip"));
-    done.others = static_cast<std::size_t>(
-                      database.number("SELECT count(*) FROM trip WHERE reference_ppm IS NULL")) -
-                  done.trips;
-    done.calibrated = database.number("SELECT count(*) FROM trip WHERE calibrates") > 0;
-    database.run(swap_trips);
-    if (done.calibrated) {
-        const auto basis = CalibrationBasis::same;
-        take_calibration(database, find_calibration(database, in_strip, basis, progress), basis);
-    } else {
-        begin_generation(database);
-    }
-    done.generation = read_generation(database);
-    const auto audit = add_audit(
-        database,
-        "reprocess",
-        fmt::format(
-            "{}; trips: {} worked out anew, {} as they were", how, done.trips, done.others));
-    fuse_dirty_at_once(database, in_strip, impl_->classes(), audit, progress);
-    all.commit();
+    const auto foresee = [&]() -> std::optional<std::vector<std::int64_t>> {
+        expect_same_generation(database);
+        database.run(drop_lost_trips);
+        auto strips = strips_to_swap(database);
+        database.run(see_swapped_trips);
+        calibration.reset();
+        if (database.number("SELECT count(*) FROM trip WHERE calibrates") > 0) {
+            calibration = find_calibration(database, in_strip, CalibrationBasis::same, progress);
+            foresee_calibration(database, *calibration);
+            const auto others = driven_strips(database);
+            strips.insert(strips.end(), others.begin(), others.end());
+        }
+        return strips;
+    };
+    const auto apply = [&] {
+        done = swap(database);
+        if (calibration) {
+            take_calibration(database, *calibration);
+            done.calibrated = true;
+        } else {
+            begin_generation(database);
+        }
+        done.generation = read_generation(database);
+        return add_audit(
+            database,
+            "reprocess",
+            fmt::format(
+                "{}; trips: {} worked out anew, {} as they were", how, done.trips, done.others));
+    };
+    const auto unsee = std::string{unsee_swapped_trips} + unsee_calibration;
+    carry_out(database, in_strip, impl_->classes(), {foresee, unsee.c_str(), apply}, progress);
     database.run(drop_staging_tables);
     return done;
 }

@@ -98,11 +98,10 @@ NetworkUpdate RoadStore::update_network(const RoadNetwork& before,
     update_extent(database, extent_of(after));
     update.generation = begin_generation(database);
     const auto audit = add_audit(database, "network", words_for_audit(update, source.name));
-    fuse_dirty_at_once(database,
-                       segments_in_strip(impl_->settings.segment_length_m),
-                       impl_->classes(),
-                       audit,
-                       progress);
+    fuse_dirty_at_once(
+        database,
+        {segments_in_strip(impl_->settings.segment_length_m), &impl_->classes(), audit},
+        progress);
     all.commit();
     impl_->network_hash = hash;
     impl_->settings = read_settings(database);

@@ -4,21 +4,17 @@
 #include <sqlite3.h>
 
 #include <cstring>
+#include <thread>
+#include <utility>
 
 namespace macadam {
 namespace {
 
-// Every waiting program asks equally often, so that each finds the pauses between the transactions
-// of another (strip_fusion.cpp); SQLite's own pauses grow to 100 ms.
-constexpr int busy_timeout_ms = 20000;
-constexpr int busy_pause_ms = 5;
+// Readers wait only in the moments in which a log is begun or brought in.
+constexpr std::chrono::seconds idle_limit_of_readers{20};
 
-int wait_for_turn(void* /*nothing*/, int pauses) {
-    if (pauses >= busy_timeout_ms / busy_pause_ms) {
-        return 0;
-    }
-    sqlite3_sleep(busy_pause_ms);
-    return 1;
+int wait_for_turn(void* wait, int pauses) {
+    return static_cast<LockWait*>(wait)->wait(pauses) ? 1 : 0;
 }
 
 std::string cause_of_io_error(sqlite3* database, int code) {
@@ -39,7 +35,7 @@ bool is_unfinished(int code) {
     return code == SQLITE_READONLY_ROLLBACK || code == SQLITE_READONLY_RECOVERY;
 }
 
-std::string cause_of(sqlite3* database, int code) {
+std::string cause_of(sqlite3* database, const OpenFile& file, int code) {
     switch (code & 0xff) {
     case SQLITE_FULL:
         return "no space left on the disk, nothing was changed";
@@ -56,7 +52,7 @@ std::string cause_of(sqlite3* database, int code) {
         return fmt::format("is damaged: {}", sqlite3_errmsg(database));
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-        return "is locked by another program, waited 20 s";
+        return file.wait.reason();
     case SQLITE_IOERR:
         return cause_of_io_error(database, code);
     default:
@@ -64,9 +60,9 @@ std::string cause_of(sqlite3* database, int code) {
     }
 }
 
-void check(sqlite3* database, const std::filesystem::path& file, int code) {
+void check(sqlite3* database, const OpenFile& file, int code) {
     if (code != SQLITE_OK && code != SQLITE_ROW && code != SQLITE_DONE) {
-        throw InputError{fmt::format("{}: {}", file.string(), cause_of(database, code))};
+        throw InputError{fmt::format("{}: {}", file.name.string(), cause_of(database, file, code))};
     }
 }
 
@@ -93,20 +89,19 @@ const char* settings_for(Database::Access access) {
 
 /// Also readers ask for writing: SQLite then falls back to reading where it must, and can undo
 /// what an import that was cut off has left behind where it may.
-sqlite3*
-opened(const std::string& name, Database::Access access, const std::filesystem::path& known_as) {
+sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file) {
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
                       (access == Database::Access::create ? SQLITE_OPEN_CREATE : 0) |
                       (access == Database::Access::read ? SQLITE_OPEN_URI : 0);
     sqlite3* database = nullptr;
     const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
     try {
-        check(database, known_as, code);
+        check(database, file, code);
     } catch (...) {
         sqlite3_close_v2(database);
         throw;
     }
-    sqlite3_busy_handler(database, wait_for_turn, nullptr);
+    sqlite3_busy_handler(database, wait_for_turn, &file.wait);
     // What we make ourselves needs no defence, and its R-tree is written node by node.
     const int defensive = access == Database::Access::create ? 0 : 1;
     sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, defensive, nullptr);
@@ -151,8 +146,7 @@ void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
     sqlite3_finalize(statement);
 }
 
-Statement::Statement(sqlite3* database, const std::filesystem::path& file, const char* sql)
-    : file_{&file} {
+Statement::Statement(sqlite3* database, const OpenFile& file, const char* sql) : file_{&file} {
     sqlite3_stmt* statement = nullptr;
     const int code = sqlite3_prepare_v2(database, sql, -1, &statement, nullptr);
     statement_.reset(statement);
@@ -251,11 +245,15 @@ void Database::Close::operator()(sqlite3* database) const {
 Database::Database(const std::filesystem::path& file,
                    Access access,
                    const std::filesystem::path& known_as)
-    : file_{std::make_unique<const std::filesystem::path>(known_as.empty() ? file : known_as)},
+    : file_{std::make_unique<OpenFile>(OpenFile{
+          known_as.empty() ? file : known_as,
+          LockWait{std::filesystem::absolute(file),
+                   access == Access::read ? LockPatience{.idle_limit = idle_limit_of_readers}
+                                          : LockPatience{}}})},
       database_{nullptr, Close{.takes_log_away = false}} {
     const auto name = std::filesystem::absolute(file); // never ":memory:"
     database_.reset(opened(name.string(), access, *file_));
-    if (access == Access::read && must_be_taken_as_it_is(handle(), name, *file_)) {
+    if (access == Access::read && must_be_taken_as_it_is(handle(), name, file_->name)) {
         database_.reset(opened(as_it_is(name.string()), access, *file_));
     }
     auto* const database = handle();
@@ -266,13 +264,18 @@ Database::Database(const std::filesystem::path& file,
     run(settings_for(access));
 }
 
+void Database::be_patient(LockPatience patience) {
+    file_->wait.be_patient(std::move(patience));
+}
+
 void Database::write_beside_readers(std::chrono::milliseconds patience) {
     database_.get_deleter().takes_log_away = true;
     wants_log_ = true;
-    const auto pauses = patience.count() / busy_pause_ms;
+    constexpr std::chrono::milliseconds pause{5};
+    const auto pauses = patience / pause;
     begin_log_if_wanted();
     for (int i = 0; wants_log_ && i < pauses; ++i) {
-        sqlite3_sleep(busy_pause_ms);
+        std::this_thread::sleep_for(pause);
         begin_log_if_wanted();
     }
 }
@@ -284,7 +287,7 @@ void Database::begin_log_if_wanted() {
     // Who waits inside SQLite for readers to end lets no others begin.
     sqlite3_busy_handler(handle(), nullptr, nullptr);
     const int code = sqlite3_exec(handle(), "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
-    sqlite3_busy_handler(handle(), wait_for_turn, nullptr);
+    sqlite3_busy_handler(handle(), wait_for_turn, &file_->wait);
     wants_log_ = (code & 0xff) == SQLITE_BUSY;
     if (!wants_log_) {
         check(handle(), *file_, code);
@@ -295,7 +298,7 @@ bool Database::bring_log_in() {
     sqlite3_busy_handler(handle(), nullptr, nullptr); // readers may take as long as they like
     const int code =
         sqlite3_wal_checkpoint_v2(handle(), "main", SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
-    sqlite3_busy_handler(handle(), wait_for_turn, nullptr);
+    sqlite3_busy_handler(handle(), wait_for_turn, &file_->wait);
     if ((code & 0xff) != SQLITE_BUSY) {
         check(handle(), *file_, code);
     }

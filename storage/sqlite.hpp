@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/common/error.hpp"
+#include "storage/lock_wait.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -20,10 +21,16 @@ struct Blob {
     std::string_view bytes;
 };
 
+/// A file as messages call it, and how its users wait for each other.
+struct OpenFile {
+    std::filesystem::path name;
+    LockWait wait;
+};
+
 /// One SQL statement, compiled. Parameters are bound from the first; columns count from 0.
 class Statement {
 public:
-    Statement(sqlite3* database, const std::filesystem::path& file, const char* sql);
+    Statement(sqlite3* database, const OpenFile& file, const char* sql);
 
     /// Binds all parameters anew.
     template <typename... Values>
@@ -91,7 +98,7 @@ private:
     struct Finalize {
         void operator()(sqlite3_stmt* statement) const;
     };
-    const std::filesystem::path* file_;
+    const OpenFile* file_;
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
@@ -110,6 +117,9 @@ public:
              Access access,
              const std::filesystem::path& known_as = {});
 
+    /// How it waits from now on where another process keeps it from its turn.
+    void be_patient(LockPatience patience);
+
     /// From now on, commits go to a log beside the file ("FILE-wal"): readers go on with the last
     /// commit and neither they nor the writer wait for each other. When the file is closed, the log
     /// is brought in and goes away, if nobody else has the file open. Where there can be no such
@@ -119,11 +129,11 @@ public:
     /// writing goes on without, and each transaction tries again.
     void write_beside_readers(std::chrono::milliseconds patience = std::chrono::seconds{20});
 
-    /// One or more statements without parameters or rows.
     /// Brings all commits of the log into the file and empties it, now. \returns false if somebody
     /// reads what is in it: the last one to close the file does it then.
     bool bring_log_in();
 
+    /// One or more statements without parameters or rows.
     void run(const char* sql);
     void run(const std::string& sql) { run(sql.c_str()); }
 
@@ -140,7 +150,7 @@ public:
 
     bool in_transaction() const;
     /// As messages call it.
-    const std::filesystem::path& file() const { return *file_; }
+    const std::filesystem::path& file() const { return file_->name; }
     sqlite3* handle() const { return database_.get(); }
 
     void close();
@@ -150,8 +160,7 @@ private:
         bool takes_log_away;
         void operator()(sqlite3* database) const;
     };
-    std::unique_ptr<const std::filesystem::path>
-        file_; ///< stays where it is: statements point at it
+    std::unique_ptr<OpenFile> file_; ///< stays where it is: statements and SQLite point at it
     std::unique_ptr<sqlite3, Close> database_;
     bool wants_log_ = false;
 };

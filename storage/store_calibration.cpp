@@ -90,14 +90,14 @@ Fleet fleet_of(Database& database, CalibrationBasis basis) {
 /// Where there are so many passes that some must do: every n-th strip that has any.
 std::vector<std::int64_t> sampled_strips(Database& database, CalibrationBasis basis) {
     const bool of_all = basis == CalibrationBasis::all;
-    auto count = database.prepare("SELECT count(*) FROM trip CROSS JOIN pass ON pass.trip = trip.id"
-                                  " WHERE ?1 OR trip.calibrates");
+    auto count = database.prepare("SELECT count(*) FROM pass"
+                                  " WHERE trip IN (SELECT id FROM trip WHERE ?1 OR calibrates)");
     count.bind(of_all).step();
     const auto step = 1 + (count.integer(0) - 1) / most_readings;
-    auto select = database.prepare(
-        "SELECT DISTINCT segment.strip FROM segment WHERE EXISTS (SELECT 1 FROM pass"
-        " CROSS JOIN trip ON trip.id = pass.trip WHERE pass.segment = segment.fid"
-        " AND (?1 OR trip.calibrates)) ORDER BY 1");
+    auto select =
+        database.prepare("SELECT DISTINCT segment.strip FROM (SELECT DISTINCT segment FROM pass"
+                         " WHERE trip IN (SELECT id FROM trip WHERE ?1 OR calibrates)) AS driven"
+                         " CROSS JOIN segment ON segment.fid = driven.segment ORDER BY 1");
     select.bind(of_all);
     std::vector<std::int64_t> strips;
     for (std::int64_t i = 0; select.step(); ++i) {
@@ -197,6 +197,19 @@ std::size_t surveys_in(const FleetCalibration& found, std::size_t cars) {
                       [](std::size_t shared) { return shared > 0; }));
 }
 
+void write_rules(Database& database, const CalibrationReport& calibration) {
+    CarRecords records;
+    for (const auto& car : calibration.cars) {
+        if (car.calibration) {
+            records[car.row] = {*car.calibration,
+                                static_cast<std::int64_t>(car.trips),
+                                static_cast<std::int64_t>(car.shared)};
+        }
+    }
+    write_calibrations(database, records);
+    write_fusion_config(database, calibration.components);
+}
+
 } // namespace
 
 CalibrationReport find_calibration(Database& database,
@@ -227,25 +240,15 @@ CalibrationReport find_calibration(Database& database,
     return report;
 }
 
-void take_calibration(Database& database,
-                      const CalibrationReport& calibration,
-                      CalibrationBasis basis) {
+void foresee_calibration(Database& database, const CalibrationReport& calibration) {
+    database.run("CREATE TEMP TABLE calibration AS SELECT * FROM main.calibration WHERE 0;"
+                 "CREATE TEMP TABLE fusion_setting (key TEXT PRIMARY KEY NOT NULL, value INTEGER)");
+    write_rules(database, calibration);
+}
+
+void take_calibration(Database& database, const CalibrationReport& calibration) {
     begin_generation(database);
-    CarRecords records;
-    for (const auto& car : calibration.cars) {
-        if (car.calibration) {
-            records[car.row] = {*car.calibration,
-                                static_cast<std::int64_t>(car.trips),
-                                static_cast<std::int64_t>(car.shared)};
-        }
-    }
-    write_calibrations(database, records);
-    write_fusion_config(database, calibration.components);
-    if (basis == CalibrationBasis::all) {
-        database.run("UPDATE trip SET calibrates = 1 WHERE NOT calibrates");
-    }
-    database.run("INSERT OR IGNORE INTO strip_dirty SELECT DISTINCT segment.strip FROM segment"
-                 " WHERE EXISTS (SELECT 1 FROM pass WHERE pass.segment = segment.fid)");
+    write_rules(database, calibration);
 }
 
 } // namespace macadam

@@ -20,10 +20,15 @@ CalibrationReport find_calibration(Database& database,
                                    CalibrationBasis basis,
                                    const Progress& progress);
 
-/// Begins a generation with these rules and marks all that has passes to be fused by them. Within
-/// the caller's transaction.
-void take_calibration(Database& database,
-                      const CalibrationReport& calibration,
-                      CalibrationBasis basis);
+/// Puts tables `calibration` and `fusion_setting` with these rules before those of the store, for
+/// this connection: what is fused from then on is fused by them.
+void foresee_calibration(Database& database, const CalibrationReport& calibration);
+
+/// Takes those tables away, also if they are not there.
+inline constexpr const char* unsee_calibration =
+    "DROP TABLE IF EXISTS temp.calibration; DROP TABLE IF EXISTS temp.fusion_setting;";
+
+/// Begins a generation with these rules. Within the caller's transaction.
+void take_calibration(Database& database, const CalibrationReport& calibration);
 
 } // namespace macadam

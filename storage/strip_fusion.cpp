@@ -3,15 +3,20 @@
 #include "estimator/common/error.hpp"
 #include "storage/audit.hpp"
 #include "storage/segment_row.hpp"
+#include "storage/staged_strips.hpp"
+#include "storage/store_moment.hpp"
 #include "storage/strip_states.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -19,21 +24,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A waiting importer asks for its turn every 5 ms (sqlite.cpp) and gives up after 20 s.
+// A waiting importer asks for its turn every 5 ms (lock_wait.cpp).
 constexpr std::chrono::milliseconds longest_turn{200};
 constexpr std::chrono::milliseconds pause_between_turns{10};
 
-std::vector<std::int64_t> dirty_strips(Database& database) {
-    auto select = database.prepare(
-        "SELECT segment.strip FROM segment_dirty AS dirty"
-        " CROSS JOIN segment ON segment.fid = dirty.segment UNION SELECT strip FROM strip_dirty"
-        " ORDER BY 1");
-    std::vector<std::int64_t> strips;
-    while (select.step()) {
-        strips.push_back(select.integer(0));
-    }
-    return strips;
-}
+constexpr int most_tries = 3; // the last of them under the lock
 
 constexpr const char* clean_segments =
     "DELETE FROM segment_dirty WHERE segment >= ?1 AND segment < ?1 + ?2"
@@ -64,7 +59,7 @@ public:
                 std::int64_t segments_in_strip,
                 const ClassTable& classes,
                 std::optional<std::int64_t> audit)
-        : database_{&database}, states_{database}, clean_{database.prepare(clean_segments)},
+        : database_{&database}, clean_{database.prepare(clean_segments)},
           clean_strip_{database.prepare("DELETE FROM strip_dirty WHERE strip = ?")},
           select_{database.prepare(states_of_strip)}, insert_{database,
                                                               insert_state,
@@ -76,13 +71,14 @@ public:
           remove_strip_{database.prepare("DELETE FROM strip_state WHERE strip = ?")},
           segments_in_strip_{segments_in_strip}, classes_{&classes}, audit_{audit} {}
 
+    /// \param fused  what it comes to, where that is known.
     /// \returns how many of its segments were dirty; none if another importer was quicker.
-    std::size_t clean_strip(std::int64_t strip) {
+    std::size_t clean_strip(std::int64_t strip, const std::optional<FusedStrip>& fused) {
         clean_.run(strip, segments_in_strip_);
         const auto cleaned = database_->changes();
         clean_strip_.run(strip);
         if (cleaned > 0 || database_->changes() > 0) {
-            write(strip, states_.of(strip, segments_in_strip_));
+            write(strip, fused ? *fused : states().of(strip, segments_in_strip_));
         }
         return static_cast<std::size_t>(cleaned);
     }
@@ -97,11 +93,13 @@ public:
     const std::optional<std::int64_t>& audit() const { return audit_; }
 
 private:
+    StripStates& states() { return states_ ? *states_ : states_.emplace(*database_); }
+
     void write(std::int64_t strip, const FusedStrip& fused) {
-        if (fused.lags.empty()) {
+        if (fused.laid.drives == 0) {
             remove_strip_.run(strip);
         } else {
-            write_summary(strip, summary_of(fused.lags));
+            write_summary(strip, fused.laid);
         }
         auto before = numbers_before(strip);
         for (const auto& [fid, state] : fused.segments) {
@@ -149,7 +147,7 @@ private:
     }
 
     Database* database_;
-    StripStates states_;
+    std::optional<StripStates> states_; ///< made when it is needed
     Statement clean_;
     Statement clean_strip_;
     Statement select_;
@@ -163,6 +161,66 @@ private:
     std::optional<std::int64_t> audit_;
 };
 
+/// A strip that waits to be fused, and how often that was tried.
+struct WaitingStrip {
+    std::int64_t strip;
+    int tries = 0;
+};
+
+/// Strips that were fused at one moment, the first of those that wait.
+struct FusedAhead {
+    StoreMoment moment;
+    std::vector<std::optional<FusedStrip>> strips; ///< nothing: another importer was quicker
+};
+
+FusedAhead fused_ahead(Database& database,
+                       const std::deque<WaitingStrip>& waiting,
+                       std::int64_t segments_in_strip,
+                       const Progress& progress) {
+    const auto turn_ends = Clock::now() + longest_turn;
+    Transaction moment{database, Transaction::Kind::read};
+    FusedAhead ahead{moment_of(database), {}};
+    StripStates states{database};
+    auto is_dirty = database.prepare(
+        "SELECT EXISTS (SELECT 1 FROM strip_dirty WHERE strip = ?1) OR EXISTS (SELECT 1"
+        " FROM segment_dirty CROSS JOIN main.segment ON fid = segment_dirty.segment"
+        " WHERE segment_dirty.segment >= ?1 AND segment_dirty.segment < ?1 + ?2 AND strip = ?1)");
+    do {
+        const auto strip = waiting[ahead.strips.size()].strip;
+        is_dirty.bind(strip, segments_in_strip).step();
+        ahead.strips.push_back(is_dirty.integer(0) != 0
+                                   ? std::optional{states.of(strip, segments_in_strip)}
+                                   : std::nullopt);
+        is_dirty.reset();
+    } while (ahead.strips.size() < waiting.size() && Clock::now() < turn_ends &&
+             !progress.stop.stop_requested());
+    return ahead;
+}
+
+/// Which strips are not what they were.
+class Changes {
+public:
+    Changes(Database& database, const StoreMoment& before)
+        : all_{moment_of(database).upkeep != before.upkeep},
+          strips_{all_ ? std::vector<std::int64_t>{} : strips_driven_since(database, before)} {}
+
+    bool hold(std::int64_t strip) const {
+        return all_ || std::ranges::binary_search(strips_, strip);
+    }
+
+private:
+    bool all_;
+    std::vector<std::int64_t> strips_;
+};
+
+std::deque<WaitingStrip> waiting_strips(Database& database) {
+    std::deque<WaitingStrip> waiting;
+    for (const auto strip : dirty_strips(database)) {
+        waiting.push_back({strip});
+    }
+    return waiting;
+}
+
 } // namespace
 
 std::size_t fuse_dirty(Database& database,
@@ -170,43 +228,50 @@ std::size_t fuse_dirty(Database& database,
                        const ClassTable& classes,
                        const Progress& progress) {
     const UncheckedKeys rows_are_those_read{database};
-    const auto strips = dirty_strips(database);
+    auto waiting = waiting_strips(database);
+    const auto whole = waiting.size();
     std::optional<std::int64_t> audit;
     std::size_t cleaned = 0;
-    std::size_t done = 0;
-    while (done < strips.size() && !progress.stop.stop_requested()) {
-        const auto turn_ends = Clock::now() + longest_turn;
+    while (!waiting.empty() && !progress.stop.stop_requested()) {
+        const auto ahead = fused_ahead(database, waiting, segments_in_strip, progress);
         Transaction turn{database, Transaction::Kind::write};
+        const Changes changes{database, ahead.moment};
         StripFusion fusion{database, segments_in_strip, classes, audit};
-        do {
-            cleaned += fusion.clean_strip(strips[done++]);
-        } while (done < strips.size() && Clock::now() < turn_ends &&
-                 !progress.stop.stop_requested());
+        for (const auto& fused : ahead.strips) {
+            auto [strip, tries] = waiting.front();
+            waiting.pop_front();
+            if (!changes.hold(strip)) {
+                cleaned += fused ? fusion.clean_strip(strip, fused) : 0;
+            } else if (++tries < most_tries) {
+                waiting.push_back({strip, tries});
+            } else {
+                cleaned += fusion.clean_strip(strip, std::nullopt);
+            }
+        }
         fusion.flush();
         audit = fusion.audit();
         turn.commit();
-        progress(done, strips.size());
-        if (done < strips.size()) {
+        progress(whole - std::min(whole, waiting.size()), whole);
+        if (!waiting.empty()) {
             std::this_thread::sleep_for(pause_between_turns);
         }
     }
     return cleaned;
 }
 
-std::size_t fuse_dirty_at_once(Database& database,
-                               std::int64_t segments_in_strip,
-                               const ClassTable& classes,
-                               std::int64_t audit,
-                               const Progress& progress) {
+std::size_t
+fuse_dirty_at_once(Database& database, const FusionWork& work, const Progress& progress) {
     const auto strips = dirty_strips(database);
-    StripFusion fusion{database, segments_in_strip, classes, audit};
+    StripFusion fusion{database, work.segments_in_strip, *work.classes, work.audit};
     std::size_t cleaned = 0;
     for (std::size_t done = 0; done < strips.size();) {
         if (progress.stop.stop_requested()) {
             throw InputError{
                 fmt::format("{}: interrupted; the store is as it was", database.file().string())};
         }
-        cleaned += fusion.clean_strip(strips[done++]);
+        const auto strip = strips[done++];
+        cleaned += fusion.clean_strip(
+            strip, work.staged != nullptr ? work.staged->find(strip) : std::nullopt);
         progress(done, strips.size());
     }
     fusion.flush();

@@ -98,10 +98,9 @@ std::vector<StripPass> StripStates::readings(std::int64_t strip,
 
 FusedStrip StripStates::of(std::int64_t strip, std::int64_t segments_in_strip) {
     const auto traces = traces_.placed(strip);
-    FusedStrip all;
-    std::ranges::transform(traces, std::back_inserter(all.lags), &PlacedTrace::lag);
-    all.segments = fused(valid_passes(strip, segments_in_strip), traces, config_);
-    return all;
+    std::vector<LagLine> lags;
+    std::ranges::transform(traces, std::back_inserter(lags), &PlacedTrace::lag);
+    return {summary_of(lags), fused(valid_passes(strip, segments_in_strip), traces, config_)};
 }
 
 std::vector<FusedSegment>

@@ -21,7 +21,7 @@ struct FusedSegment {
 };
 
 struct FusedStrip {
-    std::vector<LagLine> lags;          ///< of its traces, in the order of (trip hash, drive)
+    LaySummary laid;                    ///< of its traces
     std::vector<FusedSegment> segments; ///< with a pass, in the order of their rows
 };
 

@@ -1,5 +1,7 @@
 #include "mapping/change/carried_trace.hpp"
 
+#include "mapping/trace_cells.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -44,12 +46,7 @@ double old_station_m(const TracedPiece& piece, double station_m) {
            (station_m - within_m);
 }
 
-struct Cell {
-    RoughnessCode iri = no_roughness;
-    RoughnessCode left = no_roughness;
-};
-
-Cell cell_at(const TracedPiece& piece, double station_m) {
+TraceCell cell_at(const TracedPiece& piece, double station_m) {
     const auto i = static_cast<std::int64_t>(std::floor(old_station_m(piece, station_m))) -
                    piece.trace->first_m;
     if (i < 0 || i >= static_cast<std::int64_t>(piece.trace->iri.size())) {
@@ -70,23 +67,6 @@ std::int32_t place_sd_mm(const std::vector<TracedPiece>& pieces) {
     return sd_step_mm * static_cast<std::int32_t>(std::lround(sum / all_m / sd_step_mm));
 }
 
-/// From the first known cell to the last.
-void take_known(StripTrace& trace, const std::vector<Cell>& cells) {
-    const auto is_known = [](const Cell& cell) { return cell.iri != no_roughness; };
-    const auto first = std::ranges::find_if(cells, is_known);
-    const auto last = std::find_if(cells.rbegin(), cells.rend(), is_known).base();
-    trace.first_m += static_cast<std::int32_t>(first - cells.begin());
-    bool tracks = false;
-    for (auto cell = first; cell < last; ++cell) {
-        trace.iri.push_back(cell->iri);
-        trace.left.push_back(cell->left);
-        tracks = tracks || cell->left != no_roughness;
-    }
-    if (!tracks) {
-        trace.left.clear();
-    }
-}
-
 } // namespace
 
 std::optional<StripTrace>
@@ -101,20 +81,20 @@ trace_of(const CarriedDrive& drive, const std::vector<StripTrace>& old, double s
     const auto first =
         static_cast<std::int32_t>(std::floor(pieces.front().after_m.from_m - trace_margin_m));
     const auto past = static_cast<std::int32_t>(std::ceil(last_m + trace_margin_m));
-    std::vector<Cell> cells;
+    std::vector<TraceCell> cells;
     for (auto metre = first; metre < past; ++metre) {
         const double middle_m = metre + 0.5;
         const auto nearest = std::ranges::min_element(
             pieces, {}, [&](const TracedPiece& piece) { return off_m(piece.after_m, middle_m); });
         cells.push_back(cell_at(*nearest, middle_m));
     }
-    StripTrace trace{.strip = strip_of(drive.pieces.front().heir.after, segment_length_m),
-                     .drive = *drive.number,
-                     .first_m = first,
-                     .iri = {},
-                     .left = {},
-                     .place_sd_mm = place_sd_mm(pieces)};
-    take_known(trace, cells);
+    auto trace = with_cells({.strip = strip_of(drive.pieces.front().heir.after, segment_length_m),
+                             .drive = *drive.number,
+                             .first_m = first,
+                             .iri = {},
+                             .left = {},
+                             .place_sd_mm = place_sd_mm(pieces)},
+                            cells);
     return trace.iri.empty() ? std::nullopt : std::optional{std::move(trace)};
 }
 

@@ -1,6 +1,7 @@
 // What is done to a store beside bringing trips in: calibrate, reprocess, forget, valid from.
 
 #include "estimator/common/error.hpp"
+#include "fleet_passes.hpp"
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 #include "tests/storage/files.hpp"
@@ -244,20 +245,6 @@ TEST(Audit, ForgetsWhatForgottenTripsDidToANumber) {
 }
 
 // -------------------------------------------------------------------------------------- calibrate
-
-/// Car `number` % 3 reads all that it reads 1.25 times too high if it is car 0.
-std::vector<Pass> passes_of_fleet(int number) {
-    auto passes = passes_of(1000); // all cars over the same road
-    const double gain = number % 3 == 0 ? 1.25 : 1;
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        const double rest =
-            1 + 0.02 * static_cast<double>((i * 7 + unsigned(number) * 13) % 5) - 0.04;
-        passes[i].iri_um =
-            static_cast<IriUm>(std::lround((1000 + 300 * double(i % 10)) * gain * rest));
-        passes[i].sd_um = passes[i].iri_um / 10;
-    }
-    return passes;
-}
 
 RoadStore fleet_store(const std::filesystem::path& file, const std::vector<int>& trips) {
     auto store = new_store(file);
