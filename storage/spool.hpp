@@ -30,6 +30,7 @@ public:
     std::string read(const SpoolPlace& place) const;
 
     std::uint64_t size() const { return size_; }
+    const std::filesystem::path& beside() const { return beside_; }
 
 private:
     std::filesystem::path beside_;
