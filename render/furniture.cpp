@@ -1,5 +1,6 @@
 #include "render/furniture.hpp"
 
+#include "render/canvas.hpp"
 #include "render/scale_bar.hpp"
 
 #include <algorithm>
@@ -123,11 +124,8 @@ bool has_large_letters(const Layout& layout) {
     return layout.unit * 1000 > side_px * 1.001;
 }
 
-void draw_north(Canvas& canvas,
-                TypeSetter& setter,
-                const PixelPoint& foot,
-                double unit,
-                const Palette& colours) {
+void draw_north(
+    Pen& canvas, TypeSetter& setter, const PixelPoint& foot, double unit, const Palette& colours) {
     const double height = 24 * unit;
     const double half = 6.5 * unit;
     const double notch = 5.5 * unit;
@@ -146,7 +144,7 @@ void draw_north(Canvas& canvas,
         setter.mask("N", {label_px * unit, true}), {foot.x + half + 4 * unit, foot.y}, colours.ink);
 }
 
-void draw_scale(Canvas& canvas,
+void draw_scale(Pen& canvas,
                 TypeSetter& setter,
                 const ScaleBar& bar,
                 const PixelPoint& start,
@@ -165,7 +163,7 @@ void draw_scale(Canvas& canvas,
                  colours.ink);
 }
 
-void draw_footer(Canvas& canvas,
+void draw_footer(Pen& canvas,
                  TypeSetter& setter,
                  const Layout& layout,
                  const MapFrame& frame,
@@ -182,7 +180,7 @@ void draw_footer(Canvas& canvas,
     draw_scale(canvas, setter, bar, {left, base}, unit, colours);
 }
 
-void draw_edges(Canvas& canvas, const Layout& layout, const Palette& colours) {
+void draw_edges(Pen& canvas, const Layout& layout, const Palette& colours) {
     const double line = std::max(1.0, std::round(layout.unit));
     const auto& map = layout.map;
     if (map.top > 0) {
@@ -217,13 +215,12 @@ Placement placement_of(const MapScene& scene,
     return best;
 }
 
-Image furnished(Image roads,
-                const Layout& layout,
-                const Placement& placement,
-                const MapStyle& style,
-                TypeSetter& setter) {
+void furnish(Pen& canvas,
+             const Layout& layout,
+             const Placement& placement,
+             const MapStyle& style,
+             TypeSetter& setter) {
     const auto colours = palette(style.theme);
-    Canvas canvas{std::move(roads)};
     draw_edges(canvas, layout, colours);
     for (const auto& text : layout.texts) {
         canvas.write(setter.mask(text.text, text.look),
@@ -236,6 +233,15 @@ Image furnished(Image roads,
     if (!placement.card.legend.entries.empty()) {
         draw_legend(canvas, setter, placement.card, placement.corner, colours);
     }
+}
+
+Image furnished(Image roads,
+                const Layout& layout,
+                const Placement& placement,
+                const MapStyle& style,
+                TypeSetter& setter) {
+    Canvas canvas{std::move(roads)};
+    furnish(canvas, layout, placement, style, setter);
     return std::move(canvas).finished();
 }
 

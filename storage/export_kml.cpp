@@ -1,0 +1,168 @@
+#include "storage/segment_export.hpp"
+
+#include "estimator/common/utf8.hpp"
+#include "mapping/antimeridian.hpp"
+#include "storage/class_colours.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+// OGC 07-147r2 (KML 2.2): 9.2 Placemark, 9.3 ExtendedData with a Schema, 12.10 LineStyle.
+
+constexpr int place_decimals = 7; // 1 cm
+constexpr int line_px = 4;
+constexpr std::uint32_t unmeasured_rgb = 0x8a8a8a;
+constexpr std::string_view unmeasured_style = "none";
+
+constexpr std::string_view replacement = "\xef\xbf\xbd"; // U+FFFD
+
+/// Of one character. What XML 1.0 (2.2) cannot say in any way is replaced: control characters, and
+/// U+FFFE and U+FFFF.
+std::string escaped(std::string_view character) {
+    const auto code = static_cast<unsigned char>(character.front());
+    if (character == "&") {
+        return "&amp;";
+    }
+    if (character == "<") {
+        return "&lt;";
+    }
+    if (character == ">") {
+        return "&gt;";
+    }
+    if (character == "\r" || character == "\n" || character == "\t") {
+        return fmt::format("&#{};", code); // a reader would change them
+    }
+    const bool cannot_be_said =
+        code < 0x20 || character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf";
+    return std::string{cannot_be_said ? replacement : character};
+}
+
+std::string xml_text(std::string_view text) {
+    std::string made;
+    while (!text.empty()) {
+        const auto bytes = utf8_length(text);
+        made += bytes == 0 ? std::string{replacement} : escaped(text.substr(0, bytes));
+        text.remove_prefix(std::max<std::size_t>(bytes, 1));
+    }
+    return made;
+}
+
+/// KML writes alpha, blue, green, red.
+std::string style(std::string_view id, std::uint32_t rgb) {
+    return fmt::format("<Style id=\"{}\"><LineStyle><color>ff{:02x}{:02x}{:02x}</color>"
+                       "<width>{}</width></LineStyle></Style>\n",
+                       xml_text(id),
+                       rgb & 255U,
+                       rgb >> 8U & 255U,
+                       rgb >> 16U & 255U,
+                       line_px);
+}
+
+/// A placemark has a name of its own, which is the road's. Whole numbers have 32 bits in KML: too
+/// few for a way's id.
+bool is_own_member(const Field& field) {
+    return field.name == "name";
+}
+
+std::string_view type_of(const Field& field) {
+    return field.type == Field::Type::real      ? "double"
+           : field.type == Field::Type::integer ? field.name == "way_id" ? "string" : "int"
+                                                : "string";
+}
+
+std::string schema() {
+    std::string text = "<Schema name=\"roughness\" id=\"roughness\">\n";
+    for (const auto& field : segment_fields()) {
+        if (!is_own_member(field)) {
+            text +=
+                fmt::format("<SimpleField type=\"{}\" name=\"{}\"/>\n", type_of(field), field.name);
+        }
+    }
+    return text + "</Schema>\n";
+}
+
+std::string styles(const ClassTable& classes) {
+    std::string text = style(unmeasured_style, unmeasured_rgb);
+    for (std::size_t i = 0; i < classes.classes.size(); ++i) {
+        text += style(classes.classes[i].name, class_rgb(i, classes.classes.size()));
+    }
+    return text;
+}
+
+std::string line_string(const std::vector<GeoPoint>& line) {
+    std::string text = "<LineString><tessellate>1</tessellate><coordinates>";
+    const char* separator = "";
+    for (const auto& point : line) {
+        text += fmt::format("{}{:.{}f},{:.{}f}",
+                            separator,
+                            point.lon_deg,
+                            place_decimals,
+                            point.lat_deg,
+                            place_decimals);
+        separator = " ";
+    }
+    return text + "</coordinates></LineString>";
+}
+
+std::string shape_of(const std::vector<GeoPoint>& line) {
+    if (!crosses_antimeridian(line)) {
+        return line_string(line);
+    }
+    std::string parts;
+    for (const auto& part : cut_at_antimeridian(line)) {
+        parts += line_string(part);
+    }
+    return fmt::format("<MultiGeometry>{}</MultiGeometry>", parts);
+}
+
+std::string placemark(const SegmentRecord& record, const ClassTable& classes) {
+    const auto fields = segment_fields();
+    const auto values = field_values(record, classes);
+    std::string name;
+    std::string data;
+    auto style_id = std::string{unmeasured_style};
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (!values[i]) {
+            continue;
+        }
+        const auto text = xml_text(*values[i]);
+        if (is_own_member(fields[i])) {
+            name = fmt::format("<name>{}</name>", text);
+        } else {
+            data += fmt::format("<SimpleData name=\"{}\">{}</SimpleData>", fields[i].name, text);
+        }
+        if (fields[i].name == "class") {
+            style_id = text;
+        }
+    }
+    return fmt::format("<Placemark>{}<styleUrl>#{}</styleUrl><ExtendedData><SchemaData "
+                       "schemaUrl=\"#roughness\">{}</SchemaData></ExtendedData>{}</Placemark>\n",
+                       name,
+                       style_id,
+                       data,
+                       shape_of(record.segment.line));
+}
+
+} // namespace
+
+std::size_t write_kml(const SegmentExport& what, AtomicFile& file) {
+    file.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+               "<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n"
+               "<Document id=\"macadam\"><name>roughness</name>\n" +
+               fmt::format("<description>{}</description>\n", xml_text(description_of(what))) +
+               styles(what.classes) + schema() +
+               "<Folder id=\"segments\"><name>roughness</name>\n");
+    const auto written = each_segment(
+        what, [&](const SegmentRecord& record) { file.write(placemark(record, what.classes)); });
+    file.write("</Folder>\n</Document>\n</kml>\n");
+    return written;
+}
+
+} // namespace macadam
