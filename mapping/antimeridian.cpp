@@ -71,11 +71,23 @@ std::vector<GeoPoint> unwrapped(std::span<const GeoPoint> line, double near_lon_
     return smooth;
 }
 
+GeoBox grown_over(const GeoBox& box, double margin_m) {
+    if (box.east_deg <= half_turn_deg) {
+        return grown(box, margin_m);
+    }
+    const double turned_deg = (box.west_deg + box.east_deg) / 2; // to where there is room
+    const auto large =
+        grown({box.west_deg - turned_deg, box.south_deg, box.east_deg - turned_deg, box.north_deg},
+              margin_m);
+    return {
+        large.west_deg + turned_deg, large.south_deg, large.east_deg + turned_deg, large.north_deg};
+}
+
 std::vector<GeoBox> parts_on_globe(const GeoBox& box) {
     if (box.east_deg <= half_turn_deg) {
         return {box};
     }
-    if (box.west_deg > half_turn_deg) {
+    if (box.west_deg >= half_turn_deg) {
         return {{box.west_deg - turn_deg, box.south_deg, box.east_deg - turn_deg, box.north_deg}};
     }
     return {{box.west_deg, box.south_deg, half_turn_deg, box.north_deg},

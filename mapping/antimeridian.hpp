@@ -26,6 +26,9 @@ std::vector<std::vector<GeoPoint>> cut_at_antimeridian(std::span<const GeoPoint>
 /// of the one before, the first within 180 of `near_lon_deg`.
 std::vector<GeoPoint> unwrapped(std::span<const GeoPoint> line, double near_lon_deg);
 
+/// `grown` for a box whose east may lie beyond 180 degrees: such a box is not clipped there.
+GeoBox grown_over(const GeoBox& box, double margin_m);
+
 /// A box whose east may lie beyond 180 degrees, as one or two boxes on the globe.
 std::vector<GeoBox> parts_on_globe(const GeoBox& box);
 
