@@ -1,12 +1,11 @@
 #include "storage/segment_export.hpp"
 
-#include "estimator/common/utf8.hpp"
 #include "mapping/antimeridian.hpp"
 #include "storage/class_colours.hpp"
+#include "storage/xml_text.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -20,39 +19,6 @@ constexpr int place_decimals = 7; // 1 cm
 constexpr int line_px = 4;
 constexpr std::uint32_t unmeasured_rgb = 0x8a8a8a;
 constexpr std::string_view unmeasured_style = "none";
-
-constexpr std::string_view replacement = "\xef\xbf\xbd"; // U+FFFD
-
-/// Of one character. What XML 1.0 (2.2) cannot say in any way is replaced: control characters, and
-/// U+FFFE and U+FFFF.
-std::string escaped(std::string_view character) {
-    const auto code = static_cast<unsigned char>(character.front());
-    if (character == "&") {
-        return "&amp;";
-    }
-    if (character == "<") {
-        return "&lt;";
-    }
-    if (character == ">") {
-        return "&gt;";
-    }
-    if (character == "\r" || character == "\n" || character == "\t") {
-        return fmt::format("&#{};", code); // a reader would change them
-    }
-    const bool cannot_be_said =
-        code < 0x20 || character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf";
-    return std::string{cannot_be_said ? replacement : character};
-}
-
-std::string xml_text(std::string_view text) {
-    std::string made;
-    while (!text.empty()) {
-        const auto bytes = utf8_length(text);
-        made += bytes == 0 ? std::string{replacement} : escaped(text.substr(0, bytes));
-        text.remove_prefix(std::max<std::size_t>(bytes, 1));
-    }
-    return made;
-}
 
 /// KML writes alpha, blue, green, red.
 std::string style(std::string_view id, std::uint32_t rgb) {
