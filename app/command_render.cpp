@@ -1,47 +1,27 @@
 #include "app/commands.hpp"
+#include "app/map_box.hpp"
 #include "app/map_scene.hpp"
+#include "app/output_guard.hpp"
+#include "app/picture_output.hpp"
 #include "app/segment_options.hpp"
 
-#include "estimator/common/error.hpp"
-#include "storage/atomic_file.hpp"
+#include "storage/utc.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
+#include <utility>
 
 namespace macadam {
 namespace {
 
 struct RenderOptions {
     std::filesystem::path store;
-    std::filesystem::path output;
+    PictureOutput output;
     std::optional<GeoBox> box;
-    int width_px;
-    int height_px;
     std::string title;
     MapStyle style;
 };
-
-constexpr std::string_view default_size = "1600x1200";
-
-std::pair<int, int> size_of(const std::string& text) {
-    int width = 0;
-    int height = 0;
-    const auto* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, width);
-    const bool crossed = first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x';
-    const auto second = crossed ? std::from_chars(first.ptr + 1, end, height) : first;
-    const auto fits = [](int px) { return px >= least_image_px && px <= most_image_px; };
-    if (!crossed || second.ec != std::errc{} || second.ptr != end || !fits(width) ||
-        !fits(height)) {
-        throw UsageError{fmt::format("--size is '{}', expected WxH with both from {} to {} pixels",
-                                     text,
-                                     least_image_px,
-                                     most_image_px)};
-    }
-    return {width, height};
-}
 
 MapStyle style_of(const Arguments& arguments) {
     constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
@@ -66,51 +46,45 @@ MapStyle style_of(const Arguments& arguments) {
 }
 
 RenderOptions parse_render(const Arguments& arguments) {
-    const auto output = arguments.value("--output");
-    if (!output || !output->ends_with(".png")) {
-        throw UsageError{output
-                             ? fmt::format("-o is '{}', expected a name that ends in .png", *output)
-                             : std::string{"-o map.png is missing"}};
-    }
-    const auto [width, height] =
-        size_of(arguments.value("--size").value_or(std::string{default_size}));
-    RenderOptions options{.store = store_file(arguments),
-                          .output = *output,
-                          .box = {},
-                          .width_px = width,
-                          .height_px = height,
-                          .title = arguments.value("--title").value_or("Road roughness"),
-                          .style = style_of(arguments)};
-    if (const auto degrees = arguments.numbers("--bbox", 4)) {
-        options.box = box_of(*degrees);
-    }
-    return options;
+    return {.store = store_file(arguments),
+            .output = parse_picture_output(arguments),
+            .box = map_box(arguments),
+            .title = arguments.value("--title").value_or("Road roughness"),
+            .style = style_of(arguments)};
 }
 
 void run_render(const Arguments& arguments, const Console& console) {
     auto options = parse_render(arguments);
+    refuse_to_replace(options.output.file, {options.store});
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     warn_of_waiting(store, options.store, console);
     if (options.style.classes == nullptr) {
         options.style.classes = class_table(store.settings().class_table);
     }
-    const auto scene = map_scene(store, options.box, *options.style.classes, options.title);
-    const auto png =
-        encode_png(render_map(scene, options.style, options.width_px, options.height_px));
-
-    AtomicFile file{options.output};
-    file.write(
-        {reinterpret_cast<const char*>(png.data()), png.size()}); // NOLINT(*-reinterpret-cast)
-    file.commit();
-    console.say(fmt::format(
-        "{}: {} x {} pixels", options.output.string(), options.width_px, options.height_px));
+    const auto projection = projection_of(options.output);
+    auto scene = map_scene(store, options.box, *options.style.classes, options.title);
+    scene.projection = projection;
+    const auto last_seen_ms = store.info().last_seen_ms;
+    const auto words = write_picture(std::move(scene),
+                                     options.style,
+                                     options.output,
+                                     last_seen_ms ? utc_text(*last_seen_ms) : std::string{});
+    console.say(fmt::format("{}: {}", options.output.file.string(), words));
 }
 
 constexpr std::array operands{store_operand};
 constexpr std::array options{
-    Option{"-o,--output", "FILE", "The picture, a .png file."},
-    Option{"--bbox", "W,S,E,N", "What to show, in degrees.", "all that was driven"},
-    Option{"--size", "WxH", "Pixels; lines and letters grow with it.", default_size},
+    picture_output_option,
+    Option{"--bbox",
+           "W,S,E,N",
+           "What to show, in degrees; W > E goes over the antimeridian.",
+           "all that was driven"},
+    picture_size_option,
+    crs_option,
+    world_file_option,
+    bare_option,
+    paper_option,
+    landscape_option,
     Option{"--title", "TEXT", "Over the map.", "Road roughness"},
     Option{"--classes", "NAME", "fhwa (good, fair, poor) or five.", "the store's"},
     Option{"--ramp",
@@ -124,7 +98,7 @@ constexpr std::array options{
 } // namespace
 
 const Command render_command{.name = "render",
-                             .summary = "Draw the roughness map as a picture",
+                             .summary = "Draw the roughness map as a picture or a page",
                              .about =
                                  "Each direction on its own side of the road where there is room, "
                                  "roads that nobody drove in grey,\n"
@@ -132,6 +106,10 @@ const Command render_command{.name = "render",
                              .example = "  macadam render roads.gpkg -o map.png\n"
                                         "  macadam render roads.gpkg -o centre.png --bbox "
                                         "11.55,49.93,11.60,49.96 --size 4096x4096\n"
+                                        "  macadam render roads.gpkg -o map.tif --bare --crs "
+                                        "EPSG:3006\n"
+                                        "  macadam render roads.gpkg -o map.pdf --paper A3 "
+                                        "--landscape\n"
                                         "  macadam render roads.gpkg -o map.png --classes five "
                                         "--theme dark --title \"Winter 2026\"",
                              .operands = operands,

@@ -1,7 +1,9 @@
 #include "app/map_scene.hpp"
 
 #include "app/console.hpp"
+#include "app/map_box.hpp"
 #include "estimator/common/error.hpp"
+#include "mapping/antimeridian.hpp"
 #include "storage/utc.hpp"
 
 #include <fmt/format.h>
@@ -45,8 +47,8 @@ GeoBox box_with_margin(const GeoBox& box) {
 /// More than the box: what a picture of another shape than the box also shows, with the room that
 /// it makes for the legend. What lies outside the picture is cut off by it.
 GeoBox shown_around(const GeoBox& box) {
-    return grown(box,
-                 1.5 * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
+    return grown_over(
+        box, 1.5 * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
 }
 
 /// \param whole  the picture shows all of the store, so its numbers are the picture's.
@@ -75,13 +77,12 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes) 
     // sides where the map lets cars go both ways.
     std::map<std::pair<std::int64_t, std::uint32_t>, int> directions;
     SegmentFilter filter;
-    filter.box = box;
     filter.with_state_only = false;
-    store.visit(filter, [&](const SegmentRecord& record) {
+    visit_box(store, filter, box, [&](const SegmentRecord& record) {
         ++directions[{record.segment.key.way_id, record.segment.key.index}];
     });
     std::vector<MapLine> lines;
-    store.visit(filter, [&](const SegmentRecord& record) {
+    visit_box(store, filter, box, [&](const SegmentRecord& record) {
         const auto& key = record.segment.key;
         MapLine line;
         line.line = record.segment.line;

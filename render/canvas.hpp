@@ -1,34 +1,27 @@
 #pragma once
 
 #include "render/map.hpp"
-#include "render/projection.hpp"
-#include "render/text.hpp"
+#include "render/pen.hpp"
 
 #include <cstdint>
 
 namespace macadam {
 
-struct RoundedBox {
-    PixelBox box;
-    double radius_px = 0;
-};
-
-/// Draws shapes and text onto a picture, with smooth edges. What lies outside is left out.
-class Canvas {
+/// Draws shapes and text onto a picture, with smooth edges.
+class Canvas final : public Pen {
 public:
     explicit Canvas(Image image) : image_{std::move(image)} {}
 
-    void fill(const RoundedBox& shape, std::uint32_t rgb);
-
-    /// A thick line with round ends.
-    void stroke(const PixelPoint& from, const PixelPoint& to, double radius_px, std::uint32_t rgb);
-
-    /// Corners in the order of the clock.
-    void
-    fill_triangle(const PixelPoint& a, const PixelPoint& b, const PixelPoint& c, std::uint32_t rgb);
-
-    /// \param at  left end of the base line
-    void write(const TextMask& text, const PixelPoint& at, std::uint32_t rgb);
+    void fill(const RoundedBox& shape, std::uint32_t rgb) override;
+    void stroke(const PixelPoint& from,
+                const PixelPoint& to,
+                double radius_px,
+                std::uint32_t rgb) override;
+    void fill_triangle(const PixelPoint& a,
+                       const PixelPoint& b,
+                       const PixelPoint& c,
+                       std::uint32_t rgb) override;
+    void write(const TextMask& text, const PixelPoint& at, std::uint32_t rgb) override;
 
     Image finished() && { return std::move(image_); }
 

@@ -1,5 +1,6 @@
 #include "render/furniture.hpp"
 
+#include "render/canvas.hpp"
 #include "render/scale_bar.hpp"
 
 #include <algorithm>
@@ -93,8 +94,8 @@ Placement beside_or_below(const MapScene& scene,
     auto upper_room = inset(layout.map, margin);
     upper_room.bottom -= std::min(row.height_px + card_margin, upper_room.height() * 0.6);
 
-    const auto left_frame = fitted_frame(scene.box, left_room);
-    const auto upper_frame = fitted_frame(scene.box, upper_room);
+    const auto left_frame = fitted_frame(scene.box, left_room, scene.projection.get());
+    const auto upper_frame = fitted_frame(scene.box, upper_room, scene.projection.get());
     if (left_frame.px_per_rad >= upper_frame.px_per_rad) {
         return {left_frame, column, corners_of(layout.map, column)[0]};
     }
@@ -123,30 +124,51 @@ bool has_large_letters(const Layout& layout) {
     return layout.unit * 1000 > side_px * 1.001;
 }
 
-void draw_north(Canvas& canvas,
-                TypeSetter& setter,
-                const PixelPoint& foot,
-                double unit,
-                const Palette& colours) {
+struct NorthArrow {
+    PixelPoint foot;
+    double turn_rad; ///< clockwise from up
+};
+
+PixelPoint turned(const PixelPoint& point, const PixelPoint& pivot, double turn_rad) {
+    if (turn_rad == 0) { // not moved by a rounding
+        return point;
+    }
+    const double x = point.x - pivot.x;
+    const double y = point.y - pivot.y;
+    return {pivot.x + x * std::cos(turn_rad) - y * std::sin(turn_rad),
+            pivot.y + x * std::sin(turn_rad) + y * std::cos(turn_rad)};
+}
+
+void draw_north(
+    Pen& canvas, TypeSetter& setter, const NorthArrow& arrow, double unit, const Palette& colours) {
+    const auto& foot = arrow.foot;
     const double height = 24 * unit;
     const double half = 6.5 * unit;
     const double notch = 5.5 * unit;
     const PixelPoint tip{foot.x, foot.y - height};
     const PixelPoint heart{foot.x, foot.y - notch};
+    const auto fill =
+        [&](const PixelPoint& a, const PixelPoint& b, const PixelPoint& c, std::uint32_t rgb) {
+            const PixelPoint pivot{foot.x, foot.y - height / 2};
+            canvas.fill_triangle(turned(a, pivot, arrow.turn_rad),
+                                 turned(b, pivot, arrow.turn_rad),
+                                 turned(c, pivot, arrow.turn_rad),
+                                 rgb);
+        };
     // The light half reaches a little under the dark one, so that no ground shines through the
     // seam.
     const double under = 1;
-    canvas.fill_triangle({tip.x - under, tip.y + 4 * under},
-                         {foot.x + half, foot.y},
-                         {heart.x - under, heart.y},
-                         colours.quiet_ink);
-    canvas.fill_triangle(tip, {foot.x + half, foot.y}, heart, colours.quiet_ink);
-    canvas.fill_triangle(tip, heart, {foot.x - half, foot.y}, colours.ink);
-    canvas.write(
-        setter.mask("N", {label_px * unit, true}), {foot.x + half + 4 * unit, foot.y}, colours.ink);
+    fill({tip.x - under, tip.y + 4 * under},
+         {foot.x + half, foot.y},
+         {heart.x - under, heart.y},
+         colours.quiet_ink);
+    fill(tip, {foot.x + half, foot.y}, heart, colours.quiet_ink);
+    fill(tip, heart, {foot.x - half, foot.y}, colours.ink);
+    const double aside = half + 4 * unit + 5 * unit * std::abs(std::sin(arrow.turn_rad));
+    canvas.write(setter.mask("N", {label_px * unit, true}), {foot.x + aside, foot.y}, colours.ink);
 }
 
-void draw_scale(Canvas& canvas,
+void draw_scale(Pen& canvas,
                 TypeSetter& setter,
                 const ScaleBar& bar,
                 const PixelPoint& start,
@@ -165,7 +187,7 @@ void draw_scale(Canvas& canvas,
                  colours.ink);
 }
 
-void draw_footer(Canvas& canvas,
+void draw_footer(Pen& canvas,
                  TypeSetter& setter,
                  const Layout& layout,
                  const MapFrame& frame,
@@ -174,7 +196,13 @@ void draw_footer(Canvas& canvas,
     const auto& room = layout.scale_room;
     const double unit = layout.unit;
     const double base = std::round((room.top + room.bottom) / 2 + 11 * unit);
-    draw_north(canvas, setter, {room.left + 7 * unit, base}, unit, colours);
+    const PixelPoint heart_of_map{(layout.map.left + layout.map.right) / 2,
+                                  (layout.map.top + layout.map.bottom) / 2};
+    draw_north(canvas,
+               setter,
+               {{room.left + 7 * unit, base}, north_rad(frame, heart_of_map)},
+               unit,
+               colours);
 
     const double left = std::round(room.left + 46 * unit);
     const double middle = (layout.map.top + layout.map.bottom) / 2;
@@ -182,7 +210,7 @@ void draw_footer(Canvas& canvas,
     draw_scale(canvas, setter, bar, {left, base}, unit, colours);
 }
 
-void draw_edges(Canvas& canvas, const Layout& layout, const Palette& colours) {
+void draw_edges(Pen& canvas, const Layout& layout, const Palette& colours) {
     const double line = std::max(1.0, std::round(layout.unit));
     const auto& map = layout.map;
     if (map.top > 0) {
@@ -197,7 +225,8 @@ Placement placement_of(const MapScene& scene,
                        const Legend& legend,
                        const Layout& layout,
                        TypeSetter& setter) {
-    const auto frame = fitted_frame(scene.box, inset(layout.map, margin_px * layout.unit));
+    const double margin = scene.to_the_edge ? 0 : margin_px * layout.unit;
+    const auto frame = fitted_frame(scene.box, inset(layout.map, margin), scene.projection.get());
     if (legend.entries.empty()) {
         return {frame, {}, {}};
     }
@@ -217,13 +246,12 @@ Placement placement_of(const MapScene& scene,
     return best;
 }
 
-Image furnished(Image roads,
-                const Layout& layout,
-                const Placement& placement,
-                const MapStyle& style,
-                TypeSetter& setter) {
+void furnish(Pen& canvas,
+             const Layout& layout,
+             const Placement& placement,
+             const MapStyle& style,
+             TypeSetter& setter) {
     const auto colours = palette(style.theme);
-    Canvas canvas{std::move(roads)};
     draw_edges(canvas, layout, colours);
     for (const auto& text : layout.texts) {
         canvas.write(setter.mask(text.text, text.look),
@@ -236,6 +264,15 @@ Image furnished(Image roads,
     if (!placement.card.legend.entries.empty()) {
         draw_legend(canvas, setter, placement.card, placement.corner, colours);
     }
+}
+
+Image furnished(Image roads,
+                const Layout& layout,
+                const Placement& placement,
+                const MapStyle& style,
+                TypeSetter& setter) {
+    Canvas canvas{std::move(roads)};
+    furnish(canvas, layout, placement, style, setter);
     return std::move(canvas).finished();
 }
 

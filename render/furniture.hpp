@@ -19,6 +19,13 @@ struct Placement {
 Placement
 placement_of(const MapScene& scene, const Legend& legend, const Layout& layout, TypeSetter& setter);
 
+/// Everything but the roads.
+void furnish(Pen& canvas,
+             const Layout& layout,
+             const Placement& placement,
+             const MapStyle& style,
+             TypeSetter& setter);
+
 /// Everything but the roads, and the roads' picture below it.
 Image furnished(Image roads,
                 const Layout& layout,

@@ -73,7 +73,7 @@ struct Place {
     double x, y;
 };
 
-void draw_swatch(Canvas& canvas,
+void draw_swatch(Pen& canvas,
                  const LegendEntry& entry,
                  const Place& middle,
                  double unit,
@@ -165,7 +165,7 @@ LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSette
     return card;
 }
 
-void draw_legend(Canvas& canvas,
+void draw_legend(Pen& canvas,
                  TypeSetter& setter,
                  const LegendCard& card,
                  const PixelPoint& corner,

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/canvas.hpp"
 #include "render/colour.hpp"
+#include "render/pen.hpp"
 
 #include <string>
 #include <vector>
@@ -42,7 +42,7 @@ struct LegendCard {
 LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSetter& setter);
 
 /// \param corner  top left, whole pixels
-void draw_legend(Canvas& canvas,
+void draw_legend(Pen& canvas,
                  TypeSetter& setter,
                  const LegendCard& card,
                  const PixelPoint& corner,

@@ -2,8 +2,10 @@
 
 #include "estimator/common/geo.hpp"
 #include "mapping/iri_class.hpp"
+#include "render/plane_projection.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,13 +35,17 @@ struct MapStyle {
 };
 
 struct MapScene {
-    GeoBox box; ///< what must be in the picture; widened to its shape
+    /// What must be in the picture; widened to its shape. Where its east lies beyond 180 degrees it
+    /// goes on over the antimeridian, and so do the longitudes of the lines.
+    GeoBox box;
     std::vector<MapLine> lines;
     std::string title;
     std::string subtitle;         ///< period, kilometres, cars
     std::string attribution;      ///< whose data
     std::vector<double> class_km; ///< length of each class, for the legend; empty: not shown
     bool scale_bar = true;        ///< with north arrow; false: the words around say how large it is
+    bool to_the_edge = false;     ///< the box fills the map; else it keeps away from its edges
+    std::shared_ptr<const PlaneProjection> projection{}; ///< null: spherical Mercator
 };
 
 /// Eight-bit RGB, top row first.
@@ -61,6 +67,9 @@ Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int
 
 /// How much ground that picture shows from side to side, at half its height.
 double ground_width_m(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
+
+/// Where the same picture lies on the plane of its projection.
+PlanePlace place_of(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
 
 /// The picture as the bytes of a PNG file.
 std::vector<std::uint8_t> encode_png(const Image& image);

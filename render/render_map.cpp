@@ -3,10 +3,14 @@
 #include "estimator/common/error.hpp"
 #include "render/furniture.hpp"
 #include "render/line_joining.hpp"
+#include "render/pdf_map.hpp"
+#include "render/pdf_roads.hpp"
 #include "render/road_painter.hpp"
 #include "render/road_strands.hpp"
 
 #include <fmt/core.h>
+
+#include <cmath>
 
 namespace macadam {
 namespace {
@@ -57,6 +61,15 @@ strands_of(const MapScene& scene, const std::vector<LineUse>& uses, const MapFra
     return strands;
 }
 
+/// The scene with lines that bend as the projection bends them.
+MapScene bent_scene(const MapScene& scene, const MapFrame& frame) {
+    auto shown = scene;
+    for (auto& line : shown.lines) {
+        line.line = bent(frame, line.line);
+    }
+    return shown;
+}
+
 struct Roads {
     std::vector<Strand> strands;
     LineWidths widths;
@@ -99,6 +112,22 @@ Roads roads_of(const MapScene& scene,
     return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
 }
 
+Roads shown_roads(const MapScene& scene,
+                  const MapStyle& style,
+                  const MapFrame& frame,
+                  const Layout& layout) {
+    return scene.projection ? roads_of(bent_scene(scene, frame), style, frame, layout)
+                            : roads_of(scene, style, frame, layout); // without a copy of all lines
+}
+
+MapFrame frame_of(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
+    check_size(width_px, height_px);
+    TypeSetter setter;
+    const auto layout = layout_of(scene, width_px, height_px, setter);
+    const auto legend = legend_of(scene, style, classes_of(style));
+    return placement_of(scene, legend, layout, setter).frame;
+}
+
 } // namespace
 
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
@@ -111,7 +140,7 @@ Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int
     const auto layout = layout_of(scene, width_px, height_px, setter);
     const auto legend = legend_of(scene, style, classes);
     const auto placement = placement_of(scene, legend, layout, setter);
-    const auto roads = roads_of(scene, style, placement.frame, layout);
+    const auto roads = shown_roads(scene, style, placement.frame, layout);
     auto image = painted_roads({width_px, height_px, layout.map},
                                roads.strands,
                                roads.widths,
@@ -120,13 +149,36 @@ Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int
     return furnished(std::move(image), layout, placement, style, setter);
 }
 
-double ground_width_m(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
+std::string map_pdf(const MapScene& scene, const MapStyle& style, const PdfSheet& sheet) {
+    const int width_px = int(std::lround(sheet.width_px));
+    const int height_px = int(std::lround(sheet.height_px));
     check_size(width_px, height_px);
+    const auto& classes = classes_of(style);
+    check_classes(scene, classes);
+    const auto colours = ramp_colours(style.ramp, classes.classes.size());
+    const auto theme = palette(style.theme);
+
     TypeSetter setter;
     const auto layout = layout_of(scene, width_px, height_px, setter);
-    const auto legend = legend_of(scene, style, classes_of(style));
-    const auto frame = placement_of(scene, legend, layout, setter).frame;
-    return width_px * metres_per_px(frame, height_px / 2.0);
+    const auto legend = legend_of(scene, style, classes);
+    const auto placement = placement_of(scene, legend, layout, setter);
+    const auto roads = shown_roads(scene, style, placement.frame, layout);
+    return pdf_file(sheet, [&](PdfPage& page) {
+        page.fill({{0, 0, sheet.width_px, sheet.height_px}}, theme.page);
+        page.fill({layout.map}, theme.ground);
+        page.begin_clip(layout.map);
+        draw_roads(page, roads.strands, roads.widths, theme, colours);
+        page.end_clip();
+        furnish(page, layout, placement, style, setter);
+    });
+}
+
+PlanePlace place_of(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
+    return plane_place(frame_of(scene, style, width_px, height_px));
+}
+
+double ground_width_m(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
+    return width_px * metres_per_px(frame_of(scene, style, width_px, height_px), height_px / 2.0);
 }
 
 } // namespace macadam

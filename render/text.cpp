@@ -179,6 +179,8 @@ TextMask TypeSetter::mask(std::string_view utf8, const TextLook& look) {
         stamps.push_back(std::move(made));
     }
     auto mask = blank_for(columns, top, bottom);
+    mask.text = without_controls(utf8);
+    mask.look = look;
     for (const auto& made : stamps) {
         for (int y = 0; y < made.height; ++y) {
             for (int x = 0; x < made.width; ++x) {

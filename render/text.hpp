@@ -9,7 +9,7 @@
 namespace macadam {
 
 struct TextLook {
-    double size_px; ///< of the em
+    double size_px = 0; ///< of the em
     bool bold = false;
 };
 
@@ -19,6 +19,8 @@ struct TextMask {
     int left = 0, top = 0; ///< of the mask, from the origin; top is negative
     int width = 0, height = 0;
     std::vector<std::uint8_t> coverage;
+    std::string text{}; ///< what it says, and how, for pens that set text themselves
+    TextLook look{};
 };
 
 /// Sets lines of text in DejaVu Sans, in any script it has: glyphs are chosen and placed by

@@ -22,11 +22,15 @@ struct Field {
 };
 std::span<const Field> segment_fields();
 
+/// Whether a field of type text says a time, as ISO 8601 in UTC.
+bool is_time(const Field& field);
+
 /// The value of each of segment_fields() as text; nothing: not known.
 std::vector<std::optional<std::string>> field_values(const SegmentRecord& record,
                                                      const ClassTable& classes);
 
-/// One GeoJSON Feature on one line (RFC 7946: longitude first, 7 decimals; `id` = segment).
+/// One GeoJSON Feature on one line (RFC 7946: longitude first, 7 decimals; `id` = segment). A line
+/// over the antimeridian is a MultiLineString that is cut there.
 std::string geojson_feature(const SegmentRecord& record, const ClassTable& classes);
 
 /// A CSV row of the field values and of the middle of the segment (lat_deg, lon_deg), without the
@@ -40,10 +44,12 @@ std::string csv_text(std::string_view text);
 
 /// Writes segments to a file in the order of visit(); its kind is its suffix: .geojson, .geojsonl,
 /// .csv, .gpkg (the layer `roughness` with its style, without passes, trips or vehicles), .fgb
-/// (FlatGeobuf, in the order of its spatial index). The file appears when it is whole, or not at
-/// all. \returns how many segments were written.
+/// (FlatGeobuf, in the order of its spatial index), .shp (Shapefile: with its .shx, .dbf, .prj and
+/// .cpg), .kml. The file, or the files of a set, appear when they are whole, or not at all.
+/// \returns how many segments were written.
 ///
-/// \throws InputError  for a suffix that is not known, or if the file cannot be written.
+/// \throws InputError  for a suffix that is not known, for more segments than the kind can hold, or
+///                     if the file cannot be written.
 std::size_t export_segments(const RoadStore& store,
                             const SegmentFilter& filter,
                             const std::filesystem::path& file,

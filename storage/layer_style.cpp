@@ -1,9 +1,11 @@
 #include "storage/geopackage.hpp"
 
+#include "storage/class_colours.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
+#include <string>
+#include <string_view>
 
 namespace macadam {
 namespace {
@@ -29,23 +31,17 @@ INSERT INTO gpkg_contents (table_name, data_type, identifier, description)
     VALUES ('layer_styles', 'attributes', 'layer_styles', 'Styles that QGIS loads');
 )";
 
-// ColorBrewer RdYlBu, good is blue: its classes stay apart under every colour-vision deficiency.
-constexpr std::array three_colours{"44,123,182", "254,224,144", "215,25,28"};
-constexpr std::array five_colours{
-    "44,123,182", "171,217,233", "255,255,191", "253,174,97", "215,25,28"};
-
 constexpr const char* casing_colour = "38,38,38"; // pale classes need an outline on a light map
 constexpr double core_mm = 0.7;
 constexpr double casing_mm = 1.1;
 constexpr double side_mm = 0.6; // to the right: each direction on its own side
 
-/// Colours of `count` classes from smooth to rough.
-const char* colour_of(std::size_t index, std::size_t count) {
-    return count <= three_colours.size() ? three_colours[index]
-                                         : five_colours[std::min(index, five_colours.size() - 1)];
+std::string colour_of(std::size_t index, std::size_t count) {
+    const auto rgb = class_rgb(index, count);
+    return fmt::format("{},{},{}", rgb >> 16U & 255U, rgb >> 8U & 255U, rgb & 255U);
 }
 
-std::string line_layer(int pass, const char* rgb, double width_mm) {
+std::string line_layer(int pass, std::string_view rgb, double width_mm) {
     return fmt::format(R"(<layer class="SimpleLine" enabled="1" locked="0" pass="{}">)"
                        R"(<Option type="Map">)"
                        R"(<Option type="QString" name="line_color" value="{},255"/>)"

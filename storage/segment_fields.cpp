@@ -1,4 +1,6 @@
 #include "storage/export.hpp"
+
+#include "mapping/antimeridian.hpp"
 #include "storage/json.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/utc.hpp"
@@ -6,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace macadam {
 namespace {
@@ -69,7 +72,7 @@ std::vector<Text> values_without_state() {
     return values;
 }
 
-std::string coordinates_of(const std::vector<GeoPoint>& line) {
+std::string positions_of(const std::vector<GeoPoint>& line) {
     std::vector<std::string> points;
     points.reserve(line.size());
     for (const auto& point : line) {
@@ -79,11 +82,33 @@ std::string coordinates_of(const std::vector<GeoPoint>& line) {
     return json_array(points);
 }
 
+JsonObject json_geometry(const std::vector<GeoPoint>& line) {
+    JsonObject geometry;
+    if (!crosses_antimeridian(line)) {
+        geometry.add("type", "LineString").add("coordinates", JsonRaw{positions_of(line)});
+        return geometry;
+    }
+    std::vector<std::string> parts;
+    for (const auto& part : cut_at_antimeridian(line)) {
+        parts.push_back(positions_of(part));
+    }
+    geometry.add("type", "MultiLineString").add("coordinates", JsonRaw{json_array(parts)});
+    return geometry;
+}
+
 JsonValue json_of(const Field& field, const Text& value) {
     if (!value) {
         return nullptr;
     }
     return field.type == Type::text ? JsonValue{*value} : JsonValue{JsonRaw{*value}};
+}
+
+GeoPoint middle_of(const std::vector<GeoPoint>& line) {
+    if (!crosses_antimeridian(line)) {
+        return halfway_along(line);
+    }
+    const auto middle = halfway_along(unwrapped(line, line.front().lon_deg));
+    return {middle.lat_deg, std::remainder(middle.lon_deg, 360.0)};
 }
 
 /// A spreadsheet would take such text for a formula, in quotes or not.
@@ -109,6 +134,10 @@ std::span<const Field> segment_fields() {
     return fields;
 }
 
+bool is_time(const Field& field) {
+    return field.name == "first_seen" || field.name == "last_seen" || field.name == "changed";
+}
+
 std::vector<Text> field_values(const SegmentRecord& record, const ClassTable& classes) {
     const auto& segment = record.segment;
     std::vector<Text> values{name_of(segment.key),
@@ -129,13 +158,10 @@ std::string geojson_feature(const SegmentRecord& record, const ClassTable& class
     for (std::size_t i = 0; i < fields.size(); ++i) {
         properties.add(fields[i].name, json_of(fields[i], values[i]));
     }
-    JsonObject geometry;
-    geometry.add("type", "LineString")
-        .add("coordinates", JsonRaw{coordinates_of(record.segment.line)});
     JsonObject feature;
     feature.add("type", "Feature")
         .add("id", name_of(record.segment.key))
-        .add("geometry", JsonRaw{geometry.text()})
+        .add("geometry", JsonRaw{json_geometry(record.segment.line).text()})
         .add("properties", JsonRaw{properties.text()});
     return feature.text();
 }
@@ -146,7 +172,7 @@ std::string csv_row(const SegmentRecord& record, const ClassTable& classes) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
         row += csv_cell(fields[i], values[i]) + ",";
     }
-    const auto middle = halfway_along(record.segment.line);
+    const auto middle = middle_of(record.segment.line);
     return row +
            fmt::format(
                "{:.{}f},{:.{}f}", middle.lat_deg, place_decimals, middle.lon_deg, place_decimals);

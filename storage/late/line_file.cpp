@@ -1,4 +1,4 @@
-#include "storage/late/flatgeobuf.hpp"
+#include "storage/late/line_file.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/late/gdal_errors.hpp"
@@ -8,7 +8,6 @@
 #include <ogrsf_frmts.h>
 
 #include <memory>
-#include <system_error>
 
 namespace macadam {
 
@@ -26,79 +25,68 @@ void expect(OGRErr result) {
     }
 }
 
-/// Takes back what was written, unless it is whole. GDAL gathers the features in a file beside.
-class Unfinished {
-public:
-    explicit Unfinished(std::filesystem::path file) : file_{std::move(file)} {}
-    Unfinished(const Unfinished&) = delete;
-    Unfinished& operator=(const Unfinished&) = delete;
-    ~Unfinished() {
-        std::error_code ignored;
-        auto beside = file_;
-        beside.replace_extension();
-        beside += "_temp.fgb";
-        std::filesystem::remove(beside, ignored);
-        if (!whole_) {
-            std::filesystem::remove(file_, ignored);
-        }
-    }
-
-    void is_whole() { whole_ = true; }
-
-private:
-    std::filesystem::path file_;
-    bool whole_ = false;
-};
-
-OGRFieldType type_of(const FlatGeobufColumn& column) {
+OGRFieldType type_of(const LineFileColumn& column) {
     switch (column.type) {
-    case FlatGeobufColumn::Type::integer:
+    case LineFileColumn::Type::integer:
         return OFTInteger64;
-    case FlatGeobufColumn::Type::real:
+    case LineFileColumn::Type::real:
         return OFTReal;
-    case FlatGeobufColumn::Type::time:
+    case LineFileColumn::Type::time:
         return OFTDateTime;
-    case FlatGeobufColumn::Type::text:
+    case LineFileColumn::Type::day:
+        return OFTDate;
+    case LineFileColumn::Type::text:
         break;
     }
     return OFTString;
 }
 
-GDALDatasetUniquePtr create(const std::filesystem::path& file) {
+GDALDatasetUniquePtr create(const LineFile& what) {
     GDALAllRegister();
-    auto* const driver = GetGDALDriverManager()->GetDriverByName("FlatGeobuf");
+    auto* const driver = GetGDALDriverManager()->GetDriverByName(what.driver);
     if (driver == nullptr) {
-        throw InputError{"cannot be written: this GDAL knows no FlatGeobuf"};
+        throw InputError{fmt::format("cannot be written: this GDAL knows no {}", what.driver)};
     }
-    GDALDatasetUniquePtr dataset{
-        driver->Create(std::filesystem::absolute(file).c_str(), 0, 0, 0, GDT_Unknown, nullptr)};
+    GDALDatasetUniquePtr dataset{driver->Create(
+        std::filesystem::absolute(what.file).c_str(), 0, 0, 0, GDT_Unknown, nullptr)};
     if (!dataset) {
         fail();
     }
     return dataset;
 }
 
-OGRLayer& create_layer(GDALDataset& dataset, const FlatGeobufLayer& what) {
+OGRLayer& create_layer(GDALDataset& dataset, const LineFile& what) {
     OGRSpatialReference wgs84;
     wgs84.SetWellKnownGeogCS("WGS84");
     wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     CPLStringList options;
-    options.SetNameValue("SPATIAL_INDEX", "YES");
-    options.SetNameValue("DESCRIPTION", what.description.c_str());
+    for (const auto& [name, value] : what.options) {
+        options.SetNameValue(name.c_str(), value.c_str());
+    }
     auto* const layer =
-        dataset.CreateLayer(what.name.c_str(), &wgs84, wkbLineString, options.List());
+        dataset.CreateLayer(what.layer.c_str(), &wgs84, wkbLineString, options.List());
     if (layer == nullptr) {
         fail();
     }
     for (const auto& column : what.columns) {
         OGRFieldDefn field{std::string{column.name}.c_str(), type_of(column)};
+        field.SetWidth(column.width);
+        field.SetPrecision(column.decimals);
         expect(layer->CreateField(&field));
     }
     return *layer;
 }
 
+OGRLineString line_of(const std::vector<GeoPoint>& points) {
+    OGRLineString line;
+    for (const auto& point : points) {
+        line.addPoint(point.lon_deg, point.lat_deg);
+    }
+    return line;
+}
+
 void put_line(OGRLayer& layer,
-              const std::vector<GeoPoint>& line,
+              const LineParts& parts,
               const std::vector<std::optional<std::string>>& values) {
     OGRFeature feature{layer.GetLayerDefn()};
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -106,11 +94,17 @@ void put_line(OGRLayer& layer,
             feature.SetField(static_cast<int>(i), values[i]->c_str());
         }
     }
-    OGRLineString shape;
-    for (const auto& point : line) {
-        shape.addPoint(point.lon_deg, point.lat_deg);
+    if (parts.size() == 1) {
+        const auto line = line_of(parts.front());
+        feature.SetGeometry(&line);
+    } else {
+        OGRMultiLineString lines;
+        for (const auto& part : parts) {
+            const auto line = line_of(part);
+            lines.addGeometry(&line);
+        }
+        feature.SetGeometry(&lines);
     }
-    feature.SetGeometry(&shape);
     expect(layer.CreateFeature(&feature));
 }
 
@@ -133,31 +127,28 @@ void expect_lines(const std::filesystem::path& file, std::size_t count) {
     }
 }
 
-void write(const FlatGeobufLayer& what, const std::function<void(const FlatGeobufPut& put)>& give) {
+void write(const LineFile& what, const std::function<void(const LinePut& put)>& give) {
     const Quiet quiet;
-    Unfinished file{what.file};
-    auto dataset = create(what.file);
+    auto dataset = create(what);
     auto& layer = create_layer(*dataset, what);
     std::size_t count = 0;
-    give([&](const auto& line, const auto& values) {
-        put_line(layer, line, values);
+    give([&](const auto& parts, const auto& values) {
+        put_line(layer, parts, values);
         ++count;
     });
     CPLErrorReset();
-    dataset.reset(); // the file itself is written now, from the index on
+    dataset.reset(); // some kinds of file are written only now
     if (CPLGetLastErrorType() == CE_Failure) {
         fail();
     }
     expect_lines(what.file, count);
-    file.is_whole();
 }
 
 } // namespace
 
 } // namespace macadam
 
-extern "C" void
-macadam_flatgeobuf_write(const macadam::FlatGeobufLayer& layer,
-                         const std::function<void(const macadam::FlatGeobufPut&)>& give) {
-    macadam::write(layer, give);
+extern "C" void macadam_line_file_write(const macadam::LineFile& file,
+                                        const std::function<void(const macadam::LinePut&)>& give) {
+    macadam::write(file, give);
 }

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "render/pen.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace macadam {
+
+/// A page of a PDF file. Shapes stay shapes, and text stays text, in fonts that the file carries:
+/// DejaVu Sans, and for other scripts what the machine has.
+class PdfPage : public Pen {
+public:
+    /// A line through points, with round ends and joins.
+    virtual void draw(std::span<const PixelPoint> line, double radius_px, std::uint32_t rgb) = 0;
+
+    /// A line of text. \param at  left end of the base line
+    virtual void write_text(const std::string& utf8,
+                            const TextLook& look,
+                            const PixelPoint& at,
+                            std::uint32_t rgb) = 0;
+    virtual double width_px(const std::string& utf8, const TextLook& look) = 0;
+
+    /// What is drawn from now on shows only inside the box; nothing else until end_clip().
+    virtual void begin_clip(const PixelBox& box) = 0;
+    virtual void end_clip() = 0;
+
+    virtual void next_page() = 0;
+};
+
+/// Pages of one size.
+struct PdfSheet {
+    double width_px, height_px;
+    double px_per_inch;
+    std::string title;  ///< in the file's properties
+    std::string author; ///< whose data
+    std::string made;   ///< ISO 8601, UTC: the same pages make the same bytes; "" = 1970
+};
+
+/// The bytes of a PDF file of the pages that `draw` draws, one at least. The same on every machine
+/// with the same fonts and the same versions of Cairo and Pango.
+///
+/// \throws InputError  if Cairo cannot write it.
+std::string pdf_file(const PdfSheet& sheet, const std::function<void(PdfPage& page)>& draw);
+
+/// What the late library macadam_pdf is asked for.
+using PdfWrite = void(const PdfSheet& sheet,
+                      const std::function<void(PdfPage& page)>& draw,
+                      const std::function<void(std::string bytes)>& take);
+inline constexpr const char* pdf_write_name = "macadam_pdf_write";
+
+} // namespace macadam

@@ -1,0 +1,104 @@
+#include "render/pdf_roads.hpp"
+
+#include "render/road_strands.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr int lowest_rank = 5;
+constexpr double unmeasured_core = 0.75; // as in the picture
+
+using Strands = std::vector<const Strand*>;
+
+bool is_measured(const Strand& strand) {
+    return strand.looks.front() != unmeasured_look;
+}
+
+Strands strands_of(std::span<const Strand> strands, int rank, bool measured) {
+    Strands found;
+    for (const auto& strand : strands) {
+        if (!strand.looks.empty() && std::clamp(strand.rank, 0, lowest_rank) == rank &&
+            is_measured(strand) == measured) {
+            found.push_back(&strand);
+        }
+    }
+    return found;
+}
+
+struct Brush {
+    double radius_px;
+    std::uint64_t looks; ///< a bit for each
+    std::uint32_t rgb;
+};
+
+/// Neighbouring pieces of the brush's looks are one line.
+void draw(PdfPage& page, const Strand& strand, const Brush& brush) {
+    for (std::size_t i = 0; i < strand.looks.size();) {
+        std::size_t end = i;
+        while (end < strand.looks.size() && (brush.looks >> strand.looks[end] & 1U) != 0) {
+            ++end;
+        }
+        if (end > i) {
+            page.draw(std::span{strand.points}.subspan(i, end - i + 1), brush.radius_px, brush.rgb);
+        }
+        i = std::max(end, i + 1);
+    }
+}
+
+void draw(PdfPage& page, const Strands& strands, const Brush& brush) {
+    for (const auto* strand : strands) {
+        draw(page, *strand, brush);
+    }
+}
+
+std::uint64_t bit_of(int look) {
+    return std::uint64_t{1} << look;
+}
+
+std::uint64_t looks_of(std::size_t classes, bool certain) {
+    std::uint64_t looks = 0;
+    for (std::size_t i = 0; i < classes; ++i) {
+        looks |= bit_of(look_of(int(i), certain));
+    }
+    return looks;
+}
+
+} // namespace
+
+void draw_roads(PdfPage& page,
+                std::span<const Strand> strands,
+                const LineWidths& widths,
+                const Palette& palette,
+                std::span<const std::uint32_t> class_colours) {
+    for (int rank = lowest_rank; rank >= 0; --rank) {
+        const double radius_px = core_radius_px(widths, rank, true) * unmeasured_core;
+        draw(page,
+             strands_of(strands, rank, false),
+             {radius_px, ~std::uint64_t{0}, palette.unmeasured});
+    }
+    for (int rank = lowest_rank; rank >= 0; --rank) {
+        const auto measured = strands_of(strands, rank, true);
+        for (const bool certain : {false, true}) {
+            draw(page,
+                 measured,
+                 {casing_radius_px(widths, rank, certain),
+                  looks_of(class_colours.size(), certain),
+                  palette.casing});
+        }
+        for (std::size_t i = 0; i < class_colours.size(); ++i) {
+            for (const bool certain : {false, true}) {
+                draw(page,
+                     measured,
+                     {core_radius_px(widths, rank, certain),
+                      bit_of(look_of(int(i), certain)),
+                      class_colours[i]});
+            }
+        }
+    }
+}
+
+} // namespace macadam

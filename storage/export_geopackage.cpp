@@ -1,0 +1,102 @@
+#include "storage/segment_export.hpp"
+
+#include "mapping/antimeridian.hpp"
+#include "storage/geopackage.hpp"
+#include "storage/segment_row.hpp"
+#include "storage/sqlite.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr const char* roughness_table = R"(
+CREATE TABLE roughness (
+    fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,
+    geom LINESTRING,
+    segment TEXT NOT NULL,
+    way_id INTEGER NOT NULL,
+    name TEXT,
+    highway TEXT,
+    direction TEXT NOT NULL,
+    from_m DOUBLE NOT NULL,
+    to_m DOUBLE NOT NULL,
+    iri DOUBLE,
+    iri_sd DOUBLE,
+    iri_low DOUBLE,
+    iri_high DOUBLE,
+    iri_left DOUBLE,
+    iri_right DOUBLE,
+    "index" TEXT,
+    class TEXT,
+    passes INTEGER NOT NULL,
+    vehicles INTEGER NOT NULL,
+    first_seen DATETIME,
+    last_seen DATETIME,
+    trend_per_year DOUBLE,
+    trend_sd DOUBLE,
+    changed DATETIME,
+    change DOUBLE,
+    validity TEXT
+);
+)";
+
+/// A table of lines takes none in parts: over the antimeridian longitudes go on.
+std::vector<GeoPoint> smooth_line(const SegmentRecord& record) {
+    const auto& line = record.segment.line;
+    return crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line;
+}
+
+/// The fields' texts become numbers by the columns' affinity; only times are written another way.
+void write_row(Statement& insert,
+               const SegmentRecord& record,
+               std::span<const GeoPoint> line,
+               const ClassTable& classes) {
+    const auto fields = segment_fields();
+    auto values = field_values(record, classes);
+    insert.bind(Blob{geometry_of(line)});
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (fields[i].name == "first_seen" && record.state && record.state->first_seen_ms) {
+            values[i] = datetime_text(*record.state->first_seen_ms);
+        } else if (fields[i].name == "last_seen" && record.state && record.state->last_seen_ms) {
+            values[i] = datetime_text(*record.state->last_seen_ms);
+        } else if (fields[i].name == "changed" && record.state && record.state->change) {
+            values[i] = datetime_text(record.state->change->utc_ms);
+        }
+        insert.bind_at(static_cast<int>(i) + 2, values[i]);
+    }
+    insert.step();
+}
+
+} // namespace
+
+std::size_t write_geopackage(const SegmentExport& what, AtomicFile& file) {
+    Database database{file.temporary(), Database::Access::create, what.file};
+    add_geometry_functions(database);
+    Transaction all{database, Transaction::Kind::write};
+    make_geopackage(database);
+    database.run(roughness_table);
+    GeoBox box;
+    std::size_t written = 0;
+    {
+        auto insert = database.prepare(
+            "INSERT INTO roughness VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?,"
+            " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        written = each_segment(what, [&](const SegmentRecord& record) {
+            const auto line = smooth_line(record);
+            write_row(insert, record, line, what.classes);
+            for (const auto& point : line) {
+                box = including(box, point);
+            }
+        });
+    }
+    list_features(database,
+                  {"roughness",
+                   "roughness",
+                   description_of(what),
+                   is_empty(box) ? what.store.info().box : box});
+    index_features(database, "roughness");
+    add_default_style(database, "roughness", what.classes);
+    all.commit();
+    return written;
+}
+
+} // namespace macadam

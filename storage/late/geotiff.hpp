@@ -1,0 +1,14 @@
+#pragma once
+
+#include "storage/picture_file.hpp"
+
+namespace macadam {
+
+// What storage/picture_file.cpp asks of the late library macadam_gdal.
+
+/// \param file  not there yet, in a folder of its own.
+/// \throws InputError  with GDAL's complaint, without the file's name. Half a file may be left.
+using GeotiffWrite = void(const PlacedPicture& picture, const std::filesystem::path& file);
+inline constexpr const char* geotiff_write_name = "macadam_geotiff_write";
+
+} // namespace macadam

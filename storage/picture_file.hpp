@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+/// A picture and where it lies on the plane of a coordinate reference system.
+struct PlacedPicture {
+    int width_px, height_px;
+    std::span<const std::uint8_t> rgb; ///< width * height * 3, top row first
+    double left, top;                  ///< of the top left corner, in units of the plane
+    double per_px;                     ///< side of a pixel
+    std::string wkt;                   ///< of the system
+    std::string copyright;             ///< whose data
+};
+
+/// Writes a Cloud Optimized GeoTIFF: tiled, deflated, with smaller copies of itself. It appears
+/// when it is whole, or not at all.
+///
+/// \throws InputError  if it cannot be written.
+void write_geotiff(const PlacedPicture& picture, const std::filesystem::path& file);
+
+/// Writes a PNG file, beside it the world file that says where its pixels lie (map.png: map.pgw),
+/// and map.png.aux.xml that says on which plane, as GDAL reads it. All three or none.
+///
+/// \param png      the bytes of the PNG file
+/// \param picture  without the colours
+/// \throws InputError  if one of them cannot be written.
+void write_png_with_world_file(std::string_view png,
+                               const PlacedPicture& picture,
+                               const std::filesystem::path& file);
+
+/// The name of the world file of a picture: map.pgw for map.png.
+std::filesystem::path world_file_of(const std::filesystem::path& picture);
+
+} // namespace macadam

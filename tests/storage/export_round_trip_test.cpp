@@ -1,0 +1,380 @@
+// What other programs find in our files, read by GDAL's own tool and held against the store, field
+// by field.
+
+#include "files.hpp"
+#include "storage/export.hpp"
+#include "storage/utc.hpp"
+#include "store_world.hpp"
+#include "support/road_art.hpp"
+#include "support/shell.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+/// Names in many scripts, and those that have broken other writers.
+const std::vector<std::string> names{
+    "Rue de l'Épée 100%",
+    "=HYPERLINK(\"x\"), <b>&amp;</b> ]]> \\ ' `",
+    "Ωμέγα Вулиця שדרות شارع 日本橋 हिन्दी ถนน 😀",
+    "line\nfeed, tab\t, return\r.",
+    "control \x01\x1f end",
+    std::string(300, 'x'),
+    std::string(253, 'y') + "é", // 255 bytes, the last letter of two
+    "-1",
+    "NULL",
+};
+
+/// A road for each name, and one without; the first has passes of six trips.
+RoadNetwork country_of_names() {
+    auto ways = road_art("A---B", 100, {"AB"}).ways;
+    const auto first = ways.front();
+    for (std::size_t i = 0; i <= names.size(); ++i) {
+        auto way = first;
+        way.id = std::int64_t(i) + 1;
+        way.name = i < names.size() ? names[i] : "";
+        way.highway = i % 2 == 0 ? "residential" : "";
+        for (auto& node : way.node_ids) {
+            node += std::int64_t(i) * 1000;
+        }
+        for (auto& point : way.line) {
+            point.lat_deg += 0.01 * double(i);
+        }
+        if (i == 0) {
+            ways.front() = way;
+        } else {
+            ways.push_back(way);
+        }
+    }
+    ways.back().id = 99'999'999'999; // more than 32 bits
+    return build_network(std::move(ways), 20);
+}
+
+RoadStore store_of_names(const fs::path& file) {
+    auto store = RoadStore::create(file, country_of_names(), settings());
+    import_trips(store, 6);
+    return store;
+}
+
+using Values = std::map<std::string, std::optional<std::string>>;
+
+/// What a kind of file says of each field, by its own limits (docs/outputs.md).
+using Limits = std::function<Values(Values)>;
+
+Values values_of(const SegmentRecord& record) {
+    Values values;
+    const auto texts = field_values(record, *class_table("fhwa"));
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        values.emplace(segment_fields()[i].name, texts[i]);
+    }
+    return values;
+}
+
+/// A field of a feature against the text that it should be.
+void expect_equal(const json& found,
+                  const std::optional<std::string>& expected,
+                  const Field& field,
+                  const std::string& where) {
+    if (!expected) {
+        EXPECT_TRUE(found.is_null() || found == "") << where << " " << found;
+        return;
+    }
+    ASSERT_FALSE(found.is_null()) << where;
+    if (field.type != Field::Type::text) {
+        const double value =
+            found.is_number() ? found.get<double>() : std::stod(found.get<std::string>());
+        EXPECT_EQ(value, std::stod(*expected)) << where;
+        return;
+    }
+    ASSERT_TRUE(found.is_string()) << where << " " << found;
+    auto text = found.get<std::string>();
+    if (is_time(field) && text != *expected) { // 2018/08/02 16:14:49.225+00
+        std::ranges::replace(text, '/', '-');
+        std::ranges::replace(text, ' ', 'T');
+        const auto zone = text.find("+00");
+        text = zone == std::string::npos ? text : text.substr(0, zone) + "Z";
+        ASSERT_TRUE(parse_utc_s(text)) << where << " " << found;
+        EXPECT_EQ(parse_utc_s(text), parse_utc_s(*expected)) << where;
+        return;
+    }
+    EXPECT_EQ(text, *expected) << where;
+}
+
+json collection_by_gdal(const fs::path& folder, const std::string& name) {
+    const auto out = folder / (name + ".json");
+    EXPECT_EQ(output_of(folder,
+                        "ogr2ogr -f GeoJSON -lco RFC7946=NO -lco COORDINATE_PRECISION=9 " +
+                            out.string() + " " + (folder / name).string()),
+              "");
+    return json::parse(content_of(out));
+}
+
+void expect_line(const json& coordinates, const std::vector<GeoPoint>& line, double tolerance_deg) {
+    ASSERT_EQ(coordinates.size(), line.size());
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        EXPECT_NEAR(coordinates[i][0].get<double>(), line[i].lon_deg, tolerance_deg);
+        EXPECT_NEAR(coordinates[i][1].get<double>(), line[i].lat_deg, tolerance_deg);
+    }
+}
+
+struct Kind {
+    std::string suffix;
+    double tolerance_deg; ///< of coordinates; 0: the kind has no lines
+    std::map<std::string, std::string> renamed{};
+    Limits limits = [](Values values) { return values; };
+};
+
+void expect_round_trip(const Kind& kind) {
+    const auto folder = test_folder();
+    const auto store = store_of_names(folder / "store.gpkg");
+    SegmentFilter all;
+    all.with_state_only = false;
+    const auto count = export_segments(store, all, folder / ("out" + kind.suffix));
+    std::map<std::string, json> features;
+    for (const auto& feature : collection_by_gdal(folder, "out" + kind.suffix)["features"]) {
+        features.emplace(feature["properties"]["segment"].get<std::string>(), feature);
+    }
+    ASSERT_EQ(features.size(), count);
+    std::size_t with_state = 0;
+    std::size_t without = 0;
+    store.visit(all, [&](const SegmentRecord& record) {
+        const auto segment = name_of(record.segment.key);
+        ASSERT_TRUE(features.contains(segment)) << segment;
+        const auto& feature = features.at(segment);
+        const auto expected = kind.limits(values_of(record));
+        for (const auto& field : segment_fields()) {
+            const std::string name{field.name};
+            const auto renamed = kind.renamed.find(name);
+            const auto& there = renamed == kind.renamed.end() ? name : renamed->second;
+            const auto& properties = feature["properties"];
+            const bool listed = properties.contains(there);
+            EXPECT_TRUE(listed || !expected.at(name)) << there;
+            expect_equal(listed ? properties[there] : json{},
+                         expected.at(name),
+                         field,
+                         segment + " " + name);
+        }
+        if (kind.tolerance_deg > 0) {
+            expect_line(
+                feature["geometry"]["coordinates"], record.segment.line, kind.tolerance_deg);
+        }
+        ++(record.state ? with_state : without);
+    });
+    EXPECT_GT(with_state, 0U);
+    EXPECT_GT(without, 0U);
+}
+
+constexpr double seven_decimals_deg = 6e-8;
+constexpr double nine_decimals_deg = 6e-10; // what the tool writes for us to read
+
+TEST(ExportRoundTrip, OfGeoJsonLosesNothing) {
+    expect_round_trip({".geojson", seven_decimals_deg});
+}
+
+TEST(ExportRoundTrip, OfGeoJsonLinesLosesNothing) {
+    expect_round_trip({".geojsonl", seven_decimals_deg});
+}
+
+TEST(ExportRoundTrip, OfGeoPackageLosesNothing) {
+    expect_round_trip({".gpkg", nine_decimals_deg});
+}
+
+TEST(ExportRoundTrip, OfFlatGeobufLosesNothing) {
+    expect_round_trip({".fgb", nine_decimals_deg});
+}
+
+TEST(ExportRoundTrip, OfCsvLosesNothingButSetsAnApostropheBeforeFormulas) {
+    expect_round_trip({".csv", 0, {}, [](Values values) {
+                           auto& name = values["name"];
+                           if (name && (name->starts_with('=') || name->starts_with('-'))) {
+                               name = "'" + *name;
+                           }
+                           return values;
+                       }});
+}
+
+TEST(ExportRoundTrip, OfShapefileLosesTimesOfDayAndTheEndsOfVeryLongNames) {
+    expect_round_trip(
+        {".shp", nine_decimals_deg, {{"trend_per_year", "trend_year"}}, [](Values values) {
+             for (const auto* name : {"first_seen", "last_seen", "changed"}) {
+                 auto& time = values[name];
+                 time = time ? std::optional{time->substr(0, 10)} : time;
+             }
+             auto& name = values["name"];
+             if (name && name->size() > 254) {
+                 name = name->substr(0, name->back() == 'x' ? 254 : 253);
+             }
+             return values;
+         }});
+}
+
+TEST(ExportRoundTrip, OfKmlLosesControlCharacters) {
+    expect_round_trip({".kml", seven_decimals_deg, {{"name", "Name"}}, [](Values values) {
+                           auto& name = values["name"];
+                           if (name && name->starts_with("control")) {
+                               name = "control \xef\xbf\xbd\xef\xbf\xbd end";
+                           }
+                           return values;
+                       }});
+}
+
+// --------------------------------------------------------------------------------- antimeridian
+
+/// A road of Taveuni: eastwards over the meridian of 180 degrees.
+RoadStore store_of_taveuni(const fs::path& file) {
+    auto ways = road_art("A---B", 5, {"AB"}).ways;
+    ways.front().line = {{-16.8, 179.9999}, {-16.8, -179.9999}};
+    return RoadStore::create(file, build_network(std::move(ways), 40), settings());
+}
+
+json geometry_by_gdal(const std::string& suffix) {
+    const auto folder = test_folder();
+    const auto store = store_of_taveuni(folder / "store.gpkg");
+    SegmentFilter way;
+    way.with_state_only = false;
+    EXPECT_EQ(export_segments(store, way, folder / ("out" + suffix)), 2U);
+    return collection_by_gdal(folder, "out" + suffix)["features"][0]["geometry"];
+}
+
+TEST(ExportOverTheAntimeridian, CutsTheLinesOfGeoJsonAsRfc7946Asks) {
+    for (const auto* suffix : {".geojson", ".geojsonl", ".kml", ".shp"}) {
+        const auto geometry = geometry_by_gdal(suffix);
+        EXPECT_EQ(geometry["type"], "MultiLineString") << suffix;
+        const auto& parts = geometry["coordinates"];
+        ASSERT_THAT(parts, SizeIs(2)) << suffix;
+        expect_line(parts[0], {{-16.8, 179.9999}, {-16.8, 180}}, seven_decimals_deg);
+        expect_line(parts[1], {{-16.8, -180}, {-16.8, -179.9999}}, seven_decimals_deg);
+    }
+}
+
+TEST(ExportOverTheAntimeridian, LetsLongitudesGoOnInTablesOfLines) {
+    for (const auto* suffix : {".gpkg", ".fgb"}) {
+        const auto geometry = geometry_by_gdal(suffix);
+        EXPECT_EQ(geometry["type"], "LineString");
+        expect_line(
+            geometry["coordinates"], {{-16.8, 179.9999}, {-16.8, 180.0001}}, seven_decimals_deg);
+    }
+}
+
+TEST(ExportOverTheAntimeridian, HasTheMiddleInCsvWhereTheRoadIs) {
+    const auto folder = test_folder();
+    const auto store = store_of_taveuni(folder / "store.gpkg");
+    SegmentFilter all;
+    all.with_state_only = false;
+    export_segments(store, all, folder / "out.csv");
+    EXPECT_THAT(content_of(folder / "out.csv"), HasSubstr(",-16.8000000,180.0000000"));
+}
+
+// ------------------------------------------------------------------------------------ Shapefile
+
+TEST(Shapefile, IsASetOfFiveFiles) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    fs::create_directory(folder / "out");
+    written(folder / "out", "roads.qix", "an index of other roads");
+    export_segments(store, {}, folder / "out" / "roads.shp");
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator{folder / "out"}) {
+        found.push_back(entry.path().filename().string());
+    }
+    std::ranges::sort(found);
+    EXPECT_THAT(found,
+                ElementsAre("roads.cpg", "roads.dbf", "roads.prj", "roads.shp", "roads.shx"));
+    EXPECT_EQ(content_of(folder / "out" / "roads.cpg"), "UTF-8");
+}
+
+TEST(Shapefile, ShowsItsRoughnessAsTypedColumns) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    export_segments(store, {}, folder / "out.shp");
+    const auto info = output_of(folder, "ogrinfo -ro -so -al " + (folder / "out.shp").string());
+    for (const auto* line : {"Geometry: Line String",
+                             "Feature Count: 20",
+                             "GEOGCRS[\"WGS 84\"",
+                             "way_id: Integer64 (18.0)",
+                             "iri: Real (13.3)",
+                             "from_m: Real (13.2)",
+                             "trend_year: Real (13.3)",
+                             "passes: Integer64",
+                             "first_seen: Date"}) {
+        EXPECT_THAT(info, HasSubstr(line));
+    }
+}
+
+TEST(Shapefile, IsTheSameByteForByteOnAnyDay) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    export_segments(store, {}, folder / "out.shp");
+    // The second to fourth byte of a .dbf: the day of the last pass, 2027-02-21 of trip 5 or so.
+    const auto last_seen_ms = *store.info().last_seen_ms;
+    const auto day = utc_text(last_seen_ms);
+    const auto dbf = content_of(folder / "out.dbf");
+    EXPECT_EQ(1900 + int(static_cast<unsigned char>(dbf[1])), std::stoi(day.substr(0, 4)));
+    EXPECT_EQ(int(dbf[2]), std::stoi(day.substr(5, 2)));
+    EXPECT_EQ(int(dbf[3]), std::stoi(day.substr(8, 2)));
+}
+
+TEST(Shapefile, CanBeEmpty) {
+    const auto folder = test_folder();
+    const auto store = new_store(folder / "a.gpkg");
+    EXPECT_EQ(export_segments(store, {}, folder / "out.shp"), 0U);
+    EXPECT_THAT(output_of(folder, "ogrinfo -ro -so -al " + (folder / "out.shp").string()),
+                HasSubstr("Feature Count: 0"));
+}
+
+TEST(Shapefile, RefusesIdsThatItsNumbersCannotHold) {
+    const auto folder = test_folder();
+    auto ways = road_art("A---B", 10, {"AB"}).ways;
+    ways.front().id = 1'234'567'890'123'456'789;
+    const auto store =
+        RoadStore::create(folder / "a.gpkg", build_network(std::move(ways), 20), settings());
+    SegmentFilter all;
+    all.with_state_only = false;
+    EXPECT_THAT(
+        refusal_of([&] { export_segments(store, all, folder / "out.shp"); }),
+        HasSubstr("out.shp: a way_id has 19 digits, expected at most the 18 of a Shapefile"));
+    EXPECT_FALSE(fs::exists(folder / "out.shp"));
+}
+
+// ------------------------------------------------------------------------------------------ KML
+
+TEST(Kml, HasAStyleForEachClassOfTheStoresTable) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    export_segments(store, {}, folder / "out.kml");
+    const auto kml = content_of(folder / "out.kml");
+    for (const auto* style : {"<Style id=\"good\"><LineStyle><color>ffb67b2c</color>",
+                              "<Style id=\"fair\"><LineStyle><color>ff90e0fe</color>",
+                              "<Style id=\"poor\"><LineStyle><color>ff1c19d7</color>"}) {
+        EXPECT_THAT(kml, HasSubstr(style));
+    }
+    for (const auto& feature : collection_by_gdal(folder, "out.kml")["features"]) {
+        const auto name = feature["properties"]["class"].get<std::string>();
+        EXPECT_THAT(kml, HasSubstr("<styleUrl>#" + name + "</styleUrl>"));
+    }
+}
+
+TEST(Kml, NamesWhoseRoadsTheyAre) {
+    const auto folder = test_folder();
+    const auto store = new_store(folder / "a.gpkg");
+    export_segments(store, {}, folder / "out.kml");
+    EXPECT_THAT(content_of(folder / "out.kml"),
+                HasSubstr("Roughness (IRI, mm/m). © &quot;Mappers&quot;"));
+}
+
+} // namespace
+} // namespace macadam::testing
