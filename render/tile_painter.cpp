@@ -214,6 +214,7 @@ void TilePainter::Impl::number_corners() const {
 
 /// All in one go: colours and widths come with the corners.
 void TilePainter::Impl::paint(std::span<const TileQuad> quads) const {
+    context.make_current();
     Clear(GL_COLOR_BUFFER_BIT);
     while (!quads.empty()) {
         const auto some = quads.first(std::min(quads.size(), quads_per_call));

@@ -9,9 +9,9 @@ namespace {
 
 GeoPoint place_at(const WorldWindow& window, double x_px, double y_px) {
     const double per_px = 1.0 / window.scale.tile_px;
-    return geo_point({(double(window.left_px) + x_px) * per_px,
-                      (double(window.top_px) + y_px) * per_px},
-                     window.scale.zoom);
+    return geo_point(
+        {(double(window.left_px) + x_px) * per_px, (double(window.top_px) + y_px) * per_px},
+        window.scale.zoom);
 }
 
 /// A street from crossing to crossing, cut into pieces, there and perhaps back.
@@ -67,10 +67,8 @@ std::vector<PointEn> bent(const PointEn& from, const PointEn& to, double bend_px
 
 } // namespace
 
-MapLine line_at(const WorldWindow& window,
-                const std::vector<PointEn>& places_px,
-                int iri_class,
-                int rank) {
+MapLine
+line_at(const WorldWindow& window, const std::vector<PointEn>& places_px, int iri_class, int rank) {
     MapLine line;
     for (const auto& [x_px, y_px] : places_px) {
         line.line.push_back(place_at(window, x_px, y_px));
@@ -86,8 +84,8 @@ std::vector<MapLine> town_in(const WorldWindow& window, double block_px) {
     const int side = int(window.side_px / block_px) + 3;
     std::vector<PointEn> crossings;
     for (int i = 0; i < side * side; ++i) {
-        crossings.push_back({(i % side - 1) * block_px + shift(random),
-                             (i / side - 1) * block_px + shift(random)});
+        crossings.push_back(
+            {(i % side - 1) * block_px + shift(random), (i / side - 1) * block_px + shift(random)});
     }
     Builder town{window};
     for (int i = 0; i < side * side; ++i) {
@@ -100,8 +98,9 @@ std::vector<MapLine> town_in(const WorldWindow& window, double block_px) {
         }
     }
     const double far_px = window.side_px;
-    town.street({{-3 * far_px, 0.2 * far_px}, {0.5 * far_px, 0.45 * far_px}, {5 * far_px, 0.9 * far_px}},
-                0);
+    town.street(
+        {{-3 * far_px, 0.2 * far_px}, {0.5 * far_px, 0.45 * far_px}, {5 * far_px, 0.9 * far_px}},
+        0);
     const double half_px = far_px / 2;
     town.street({{half_px - 60, half_px},
                  {half_px + 60, half_px + 5},
