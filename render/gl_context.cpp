@@ -54,7 +54,8 @@ void destroy(void* context) {
 
 } // namespace
 
-GlContext::GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px) {
+GlContext::GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px)
+    : context_{nullptr}, rgba_{rgba}, width_px_{width_px}, height_px_{height_px} {
     check_size(width_px, height_px);
     assert(rgba.size() == std::size_t(width_px) * std::size_t(height_px) * 4);
 
@@ -62,12 +63,27 @@ GlContext::GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px) 
     if (context_ == nullptr) {
         throw InputError{fmt::format("'{}' gives no OpenGL 3.3 core context", library)};
     }
-    const auto made = mesa<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent")(
-        static_cast<OSMesaContext>(context_), rgba.data(), GL_UNSIGNED_BYTE, width_px, height_px);
-    if (made != GL_TRUE) {
+    try {
+        make_current();
+    } catch (...) {
         destroy(context_);
+        throw;
+    }
+}
+
+void GlContext::make_current() const {
+    if (mesa<decltype(OSMesaGetCurrentContext)>("OSMesaGetCurrentContext")() == context_) {
+        return;
+    }
+    const auto made =
+        mesa<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent")(static_cast<OSMesaContext>(context_),
+                                                               rgba_.data(),
+                                                               GL_UNSIGNED_BYTE,
+                                                               width_px_,
+                                                               height_px_);
+    if (made != GL_TRUE) {
         throw InputError{
-            fmt::format("'{}' cannot draw a picture of {}x{} px", library, width_px, height_px)};
+            fmt::format("'{}' cannot draw a picture of {}x{} px", library, width_px_, height_px_)};
     }
 }
 

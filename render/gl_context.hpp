@@ -6,7 +6,7 @@
 namespace macadam {
 
 /// An OpenGL 3.3 core context without a window, drawing into memory. It is current in the thread
-/// that made it until it ends.
+/// that made it until it ends or another one is.
 ///
 /// OSMesa is opened when the first context is made, and every entry point comes from it by name: a
 /// program that links libGL as well would call that one's functions, which draw nothing.
@@ -21,6 +21,9 @@ public:
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
+    /// What is drawn from now on in this thread is drawn here.
+    void make_current() const;
+
     /// An OpenGL function: `context.entry<decltype(&glClear)>("glClear")`.
     template <typename Pointer>
     Pointer entry(const char* name) const {
@@ -32,6 +35,8 @@ private:
     Address address(const char* name) const;
 
     void* context_;
+    std::span<std::uint8_t> rgba_;
+    int width_px_, height_px_;
 };
 
 } // namespace macadam

@@ -110,31 +110,6 @@ std::vector<Pair> pairs_at(std::span<const Arm> arms,
     return pairs;
 }
 
-constexpr std::size_t nothing = SIZE_MAX;
-
-struct Neighbours {
-    std::vector<std::size_t> next, previous;
-};
-
-Neighbours neighbours_of(std::span<const MapLine> lines, const std::vector<LineUse>& uses) {
-    Neighbours found{std::vector(uses.size(), nothing), std::vector(uses.size(), nothing)};
-    const auto arms = arms_of(lines, uses);
-    for (auto first = arms.begin(); first != arms.end();) {
-        const auto last = std::find_if(
-            first, arms.end(), [&](const Arm& arm) { return arm.place != first->place; });
-        if (std::size_t(last - first) <= most_arms) {
-            for (const auto& pair : pairs_at({first, last}, lines, uses)) {
-                if (found.next[pair.from] == nothing && found.previous[pair.to] == nothing) {
-                    found.next[pair.from] = pair.to;
-                    found.previous[pair.to] = pair.from;
-                }
-            }
-        }
-        first = last;
-    }
-    return found;
-}
-
 } // namespace
 
 std::vector<LineUse> all_lines(std::span<const MapLine> lines) {
@@ -171,6 +146,27 @@ std::vector<LineUse> worse_of_both_ways(std::span<const MapLine> lines) {
     return uses;
 }
 
+Neighbours neighbours_of(std::span<const MapLine> lines, const std::vector<LineUse>& uses) {
+    Neighbours found{std::vector(uses.size(), no_neighbour),
+                     std::vector(uses.size(), no_neighbour)};
+    const auto arms = arms_of(lines, uses);
+    for (auto first = arms.begin(); first != arms.end();) {
+        const auto last = std::find_if(
+            first, arms.end(), [&](const Arm& arm) { return arm.place != first->place; });
+        if (std::size_t(last - first) <= most_arms) {
+            for (const auto& pair : pairs_at({first, last}, lines, uses)) {
+                if (found.next[pair.from] == no_neighbour &&
+                    found.previous[pair.to] == no_neighbour) {
+                    found.next[pair.from] = pair.to;
+                    found.previous[pair.to] = pair.from;
+                }
+            }
+        }
+        first = last;
+    }
+    return found;
+}
+
 std::vector<std::vector<LineUse>> joined(std::span<const MapLine> lines,
                                          const std::vector<LineUse>& uses) {
     const auto [next, previous] = neighbours_of(lines, uses);
@@ -178,7 +174,7 @@ std::vector<std::vector<LineUse>> joined(std::span<const MapLine> lines,
     std::vector<bool> taken(uses.size(), false);
     const auto follow = [&](std::size_t start) {
         std::vector<LineUse> chain;
-        for (auto at = start; at != nothing && !taken[at]; at = next[at]) {
+        for (auto at = start; at != no_neighbour && !taken[at]; at = next[at]) {
             taken[at] = true;
             chain.push_back(uses[at]);
         }
@@ -187,7 +183,7 @@ std::vector<std::vector<LineUse>> joined(std::span<const MapLine> lines,
         }
     };
     for (std::size_t i = 0; i < uses.size(); ++i) {
-        if (previous[i] == nothing) {
+        if (previous[i] == no_neighbour) {
             follow(i);
         }
     }

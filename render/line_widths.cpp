@@ -42,6 +42,13 @@ LineWidths line_widths(double metres_per_px, double unit) {
             .separate_ways = zoom >= separate_zoom};
 }
 
+LineWidths tile_widths(double zoom) {
+    const double core_px = grown_width_px(zoom);
+    return {.core_px = core_px,
+            .casing_px = std::clamp(0.3 + 0.22 * core_px, 0.5, 1.6),
+            .separate_ways = zoom >= separate_zoom};
+}
+
 double rank_factor(int rank) {
     constexpr std::array factors{1.3, 1.2, 1.1, 1.0, 0.9, 0.8};
     return factors[std::size_t(std::clamp(rank, 0, 5))];

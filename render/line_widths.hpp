@@ -19,6 +19,11 @@ struct LineWidths {
 /// \param unit  size of the picture, in thousands of pixels of its shorter side
 LineWidths line_widths(double metres_per_px, double unit);
 
+/// The same for tiles, by zoom alone, so that what is on one tile never shows on the next.
+///
+/// \param zoom  of tiles of 256 px
+LineWidths tile_widths(double zoom);
+
 /// A motorway is a little wider than a service road.
 double rank_factor(int rank);
 

@@ -1,6 +1,7 @@
 #include "render/ribbon_painter.hpp"
 
 #include "estimator/common/error.hpp"
+#include "render/gl_program.hpp"
 
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace macadam {
@@ -71,22 +71,13 @@ struct RibbonPainter::Gl {
     MACADAM_GL(decltype(&glGetError), GetError);
     MACADAM_GL(decltype(&glScissor), Scissor);
     MACADAM_GL(decltype(&glViewport), Viewport);
-    MACADAM_GL(PFNGLATTACHSHADERPROC, AttachShader);
     MACADAM_GL(PFNGLBINDBUFFERPROC, BindBuffer);
     MACADAM_GL(PFNGLBINDVERTEXARRAYPROC, BindVertexArray);
     MACADAM_GL(PFNGLBUFFERDATAPROC, BufferData);
-    MACADAM_GL(PFNGLCOMPILESHADERPROC, CompileShader);
-    MACADAM_GL(PFNGLCREATEPROGRAMPROC, CreateProgram);
-    MACADAM_GL(PFNGLCREATESHADERPROC, CreateShader);
-    MACADAM_GL(PFNGLDELETESHADERPROC, DeleteShader);
     MACADAM_GL(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray);
     MACADAM_GL(PFNGLGENBUFFERSPROC, GenBuffers);
     MACADAM_GL(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays);
-    MACADAM_GL(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog);
-    MACADAM_GL(PFNGLGETPROGRAMIVPROC, GetProgramiv);
     MACADAM_GL(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation);
-    MACADAM_GL(PFNGLLINKPROGRAMPROC, LinkProgram);
-    MACADAM_GL(PFNGLSHADERSOURCEPROC, ShaderSource);
     MACADAM_GL(PFNGLUNIFORM1FPROC, Uniform1f);
     MACADAM_GL(PFNGLUNIFORM2FPROC, Uniform2f);
     MACADAM_GL(PFNGLUNIFORM3FPROC, Uniform3f);
@@ -94,7 +85,6 @@ struct RibbonPainter::Gl {
     MACADAM_GL(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer);
 #undef MACADAM_GL
 
-    GLuint program() const;
     void describe_vertices() const;
     void number_corners() const;
 
@@ -103,28 +93,6 @@ struct RibbonPainter::Gl {
 };
 
 RibbonPainter::Gl::Gl(const GlContext& context) : context_{context} {}
-
-GLuint RibbonPainter::Gl::program() const {
-    const GLuint made = CreateProgram();
-    for (const auto& [kind, source] : {std::pair{GL_VERTEX_SHADER, vertex_shader},
-                                       std::pair{GL_FRAGMENT_SHADER, fragment_shader}}) {
-        const GLuint shader = CreateShader(GLenum(kind));
-        ShaderSource(shader, 1, &source, nullptr);
-        CompileShader(shader);
-        AttachShader(made, shader);
-        DeleteShader(shader); // lives as long as the program
-    }
-    LinkProgram(made);
-    GLint linked = GL_FALSE;
-    GetProgramiv(made, GL_LINK_STATUS, &linked);
-    if (linked != GL_TRUE) {
-        std::string log(1000, '\0');
-        GLsizei length = 0;
-        GetProgramInfoLog(made, GLsizei(log.size()), &length, log.data());
-        throw InputError{fmt::format("OSMesa refuses a shader: {}", log.substr(0, length))};
-    }
-    return made;
-}
 
 void RibbonPainter::Gl::describe_vertices() const {
     GLuint array = 0;
@@ -168,7 +136,7 @@ void RibbonPainter::Gl::number_corners() const {
 
 RibbonPainter::RibbonPainter(const GlContext& context, int width_px, int height_px)
     : gl_{std::make_unique<Gl>(context)} {
-    const GLuint program = gl_->program();
+    const GLuint program = linked_program(context, vertex_shader, fragment_shader);
     gl_->UseProgram(program);
     gl_->colour = gl_->GetUniformLocation(program, "colour");
     gl_->radius_px = gl_->GetUniformLocation(program, "radius_px");
