@@ -29,6 +29,7 @@ struct MapStyle {
     const ClassTable* classes = nullptr; ///< null: fhwa
     bool left_hand_traffic = false;
     bool in_per_mi = false; ///< legend in in/mi
+    bool labels = true;     ///< the names of roads along them
     bool legend = true;     ///< false: none, where the page around the picture has its own
 };
 

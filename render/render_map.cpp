@@ -2,7 +2,9 @@
 
 #include "estimator/common/error.hpp"
 #include "render/furniture.hpp"
+#include "render/label_painter.hpp"
 #include "render/line_joining.hpp"
+#include "render/map_labels.hpp"
 #include "render/road_painter.hpp"
 #include "render/road_strands.hpp"
 
@@ -99,6 +101,15 @@ Roads roads_of(const MapScene& scene,
     return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
 }
 
+Image with_labels(Image roads,
+                  std::span<const Label> labels,
+                  const Palette& colours,
+                  TypeSetter& setter) {
+    Canvas canvas{std::move(roads)};
+    draw_labels(canvas, labels, {}, {colours.ink, colours.quiet_ink, colours.ground}, setter);
+    return std::move(canvas).finished();
+}
+
 } // namespace
 
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
@@ -117,6 +128,10 @@ Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int
                                roads.widths,
                                palette(style.theme),
                                colours);
+    if (style.labels) {
+        const auto labels = map_labels(scene, layout, placement, roads.widths, setter);
+        image = with_labels(std::move(image), labels, palette(style.theme), setter);
+    }
     return furnished(std::move(image), layout, placement, style, setter);
 }
 
