@@ -14,7 +14,7 @@ namespace {
 
 constexpr int last_main_rank = 2; // secondary roads
 constexpr double main_size = 1.1; // of their names, over those of others
-constexpr double same_name = 0.6; // of repeat_px: the least distance between two labels of a name
+constexpr double same_name = 0.8; // of repeat_px: the least distance between two labels of a name
 
 // What a place for a label costs: what nobody would mind against what everybody would.
 constexpr double cost_of_cover = 4;
