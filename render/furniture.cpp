@@ -192,7 +192,7 @@ void draw_footer(Pen& canvas,
                  const Layout& layout,
                  const MapFrame& frame,
                  const MapStyle& style) {
-    const auto colours = palette(style.theme);
+    const auto colours = palette(style);
     const auto& room = layout.scale_room;
     const double unit = layout.unit;
     const double base = std::round((room.top + room.bottom) / 2 + 11 * unit);
@@ -251,7 +251,7 @@ void furnish(Pen& canvas,
              const Placement& placement,
              const MapStyle& style,
              TypeSetter& setter) {
-    const auto colours = palette(style.theme);
+    const auto colours = palette(style);
     draw_edges(canvas, layout, colours);
     for (const auto& text : layout.texts) {
         canvas.write(setter.mask(text.text, text.look),

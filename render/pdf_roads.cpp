@@ -60,7 +60,7 @@ std::uint64_t bit_of(int look) {
 }
 
 std::uint64_t looks_of(std::size_t classes, bool certain) {
-    std::uint64_t looks = 0;
+    std::uint64_t looks = certain ? bit_of(few_passes_look) : 0;
     for (std::size_t i = 0; i < classes; ++i) {
         looks |= bit_of(look_of(int(i), certain));
     }
@@ -89,6 +89,9 @@ void draw_roads(PdfPage& page,
                   looks_of(class_colours.size(), certain),
                   palette.casing});
         }
+        draw(page,
+             measured,
+             {core_radius_px(widths, rank, true), bit_of(few_passes_look), palette.few_passes});
         for (std::size_t i = 0; i < class_colours.size(); ++i) {
             for (const bool certain : {false, true}) {
                 draw(page,

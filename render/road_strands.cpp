@@ -11,6 +11,13 @@ constexpr double flat_px =
     0.05; // a point this near the line between its neighbours does not bend it
 constexpr std::size_t most_passed = 64; // so that long straights cost no more than others
 
+int line_look(const MapLine& line) {
+    if (line.iri_class < 0) {
+        return unmeasured_look;
+    }
+    return line.few_passes ? few_passes_look : look_of(line.iri_class, line.certain);
+}
+
 double apart_px(const PixelPoint& a, const PixelPoint& b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
@@ -94,8 +101,7 @@ Strand strand_of(std::span<const MapLine> lines,
     bool begun = false;
     for (const auto& [index, reversed] : chain) {
         const auto& line = lines[index];
-        const int look =
-            line.iri_class < 0 ? unmeasured_look : look_of(line.iri_class, line.certain);
+        const int look = line_look(line);
         for (std::size_t i = 0; i < line.line.size(); ++i) {
             const auto& place = line.line[reversed ? line.line.size() - 1 - i : i];
             const auto point = to_pixel(frame, place);

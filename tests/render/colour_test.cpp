@@ -193,7 +193,7 @@ TEST(Colour, AnyNumberOfClassesIsSpreadOverTheWholeRamp) {
 TEST(Colour, UnknownRampIsRefused) {
     EXPECT_THAT([] { ramp_colours("rainbow", 3); },
                 ::testing::ThrowsMessage<InputError>(
-                    "unknown colour ramp 'rainbow', expected rdylbu, cividis or viridis"));
+                    "unknown colour ramp 'rainbow', expected one of rdylbu, cividis, viridis"));
 }
 
 } // namespace macadam::testing

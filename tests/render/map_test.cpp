@@ -291,7 +291,7 @@ TEST(Map, RefusesAnEmptyBox) {
 TEST(Map, RefusesAnUnknownRamp) {
     EXPECT_THAT([] { render_map(scene({}, 400), {.ramp = "jet"}, 512, 512); },
                 ::testing::ThrowsMessage<InputError>(
-                    "unknown colour ramp 'jet', expected rdylbu, cividis or viridis"));
+                    "unknown colour ramp 'jet', expected one of rdylbu, cividis, viridis"));
 }
 
 TEST(Map, RefusesAClassThatIsNotInTheTable) {
