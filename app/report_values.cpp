@@ -35,7 +35,7 @@ struct PictureSizes {
 constexpr PictureSizes on_screen{1400, 480};
 constexpr PictureSizes on_paper{2100, 700}; // 300 dots an inch on A4, of which three stretches
                                             // share the width
-constexpr double least_map_shape = 0.625; // height by width
+constexpr double least_map_shape = 0.625;   // height by width
 constexpr double most_map_shape = 0.893;
 constexpr double stretch_shape = 0.75;
 constexpr std::size_t most_changed = 10; // stretches of each kind

@@ -143,12 +143,29 @@ std::vector<bool> verdicts(std::span<const Difference> differences, double rate)
 
 } // namespace
 
-Difference difference_of(const RatedLength& before, const RatedLength& after, double common_share) {
-    const double apart = before.sd * before.sd + after.sd * after.sd;
-    const double together = (after.sd - before.sd) * (after.sd - before.sd);
-    return {after.length_m,
-            after.iri - before.iri,
-            std::sqrt(std::lerp(apart, together, common_share))};
+double common_variance(const SegmentState& state, const FusionConfig& config) {
+    if (state.vehicles == 0) {
+        return 0;
+    }
+    const double level = state.iri_um / um_per_mm;
+    const double sd = state.sd_um / um_per_mm;
+    const double rest = std::hypot(
+        config.rest_relative_sd * level, config.trip_relative_sd * level, config.rest_sd_mm_per_m);
+    const double of_cars = sd * sd - rest * rest / state.passes;
+    const double stated = of_cars / (config.common_share + config.car_share / state.vehicles);
+    return std::max(0.0, config.common_share * stated);
+}
+
+Difference
+difference_of(const SegmentRecord& before, const SegmentRecord& after, const FusionConfig& config) {
+    const auto first = rated_length(before);
+    const auto second = rated_length(after);
+    const double common1 = common_variance(*before.state, config);
+    const double common2 = common_variance(*after.state, config);
+    const double apart = first.sd * first.sd - common1 + second.sd * second.sd - common2;
+    return {second.length_m,
+            second.iri - first.iri,
+            std::hypot(std::sqrt(apart), std::sqrt(common1) - std::sqrt(common2))};
 }
 
 double chance_of(const Difference& difference) {
@@ -193,8 +210,7 @@ ChangeSince change_since(const RoadNetwork& roads,
         });
     std::vector<Difference> differences;
     for (const auto& [i, k] : places) {
-        differences.push_back(
-            difference_of(rated_length(before[i]), rated_length(since[k]), config.common_share));
+        differences.push_back(difference_of(before[i], since[k], config.fusion));
         change.called_alone +=
             chance_of(differences.back()) < std::erfc(interval_95 / std::numbers::sqrt2) ? 1 : 0;
     }

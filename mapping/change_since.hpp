@@ -14,12 +14,11 @@
 namespace macadam {
 
 struct ChangeSinceConfig {
-    double rate = 0.05; ///< of what is called changed, at most this share by chance (expected)
-    double common_share = common_share_along_road; ///< of the variance, alike before and after: the
-                                                   ///< model of the car and the method have stayed
-    double least_length_m = 100;                   ///< of a stretch that is listed
-    double most_unmeasured_m = 30;                 ///< as RoadStretchConfig
-    double most_other_m = 50; ///< comparable but not called, in a row, within a stretch
+    double rate = 0.05;    ///< of what is called changed, at most this share by chance (expected)
+    FusionConfig fusion{}; ///< of what the errors of states are made
+    double least_length_m = 100;   ///< of a stretch that is listed
+    double most_unmeasured_m = 30; ///< as RoadStretchConfig
+    double most_other_m = 50;      ///< comparable but not called, in a row, within a stretch
     double sharpest_turn_deg = 60;
 };
 
@@ -30,10 +29,19 @@ struct Difference {
     double sd = 0;
 };
 
-/// \param before, after  of the same road, from different passes. With c the common share, the
-///        variance is (1 - c) (sd1^2 + sd2^2) + c (sd1 - sd2)^2: what is alike in both cancels as
-///        far as it is equally large.
-Difference difference_of(const RatedLength& before, const RatedLength& after, double common_share);
+/// Of its variance, what all cars read wrong alike, mm^2/m^2: fusion makes the variance of n passes
+/// of m cars with stated variance s^2 as share s^2 + car_share s^2 / m + rest^2 / n, which is
+/// solved for s. 0 where references alone tell.
+double common_variance(const SegmentState& state, const FusionConfig& config);
+
+/// \param before, after  of the same segment, from different passes, with states. What all cars
+/// read
+///        wrong alike (c) is there on both sides, for the model of the cars and the method have
+///        stayed the same, and cancels as far as it is equally large: the variance is
+///        s1^2 - c1^2 + s2^2 - c2^2 + (c1 - c2)^2. That a car may have driven on both sides, so
+///        that its own error cancels too, is not counted: the variance is rather too large then.
+Difference
+difference_of(const SegmentRecord& before, const SegmentRecord& after, const FusionConfig& config);
 
 /// The probability that a difference as large, of either sign, comes by chance where nothing has
 /// changed. Normal errors.

@@ -304,16 +304,17 @@ constexpr std::array messages{
             "Positionen werden der Karte zugeordnet. Jede Überfahrt ergibt für jeden Abschnitt "
             "einen Wert mit Standardabweichung; die Überfahrten aller Fahrzeuge werden zu einem "
             "Mittel vereint, in dem eine einzelne schlechte kaum zählt."},
-    Message{"method.change",
-            "Änderung: Die Überfahrten eines Abschnitts vor dem Tag und seither werden getrennt "
-            "vereint und die beiden Werte verglichen. Die Hälfte der Varianz eines jeden gilt als "
-            "in beiden gleich, weil Fahrzeugmodell und Verfahren dieselben geblieben sind, und "
-            "zählt nicht als Rauschen des Unterschieds: Mit den Standardabweichungen s1 und s2 "
-            "besteht die Varianz des Unterschieds je zur Hälfte aus (s1² + s2²) und (s1 − s2)². "
-            "Geändert genannt werden Abschnitte nach dem Verfahren von Benjamini und Hochberg mit "
-            "einer Falscherkennungsrate von {share}. Stellen verbinden so genannte Abschnitte, die "
-            "aufeinander folgen; ihre Änderung ist die aller ihrer Abschnitte, die Hälfte der "
-            "Varianz ihnen gemeinsam."},
+    Message{
+        "method.change",
+        "Änderung: Die Überfahrten eines Abschnitts vor dem Tag und seither werden getrennt "
+        "vereint und die beiden Werte verglichen. Was alle Fahrzeuge nach dem Modell der "
+        "Vereinigung gleich falsch lesen, steckt in beiden und zählt nicht als Rauschen des "
+        "Unterschieds: Mit den Standardabweichungen s1 und s2 sowie c1 und c2 dieses gemeinsamen "
+        "Teils ist die Varianz des Unterschieds s1² − c1² + s2² − c2² + (c1 − c2)². "
+        "Geändert genannt werden Abschnitte nach dem Verfahren von Benjamini und Hochberg mit "
+        "einer Falscherkennungsrate von {share}. Stellen verbinden so genannte Abschnitte, die "
+        "aufeinander folgen; ihre Änderung ist die aller ihrer Abschnitte, die Hälfte der "
+        "Varianz ihnen gemeinsam."},
     Message{"limits", "Grenzen"},
     Message{"limits.estimates",
             "Dies sind Schätzungen aus dem Verhalten von Autos, die nur ungefähr bekannt sind. Sie "

@@ -297,10 +297,10 @@ constexpr std::array messages{
             "hardly counts."},
     Message{"method.change",
             "Change: a segment's passes before the day and since are fused apart, and the two "
-            "values compared. Half of the variance of each is taken to be alike in both, because "
-            "the model of the cars and the method have stayed the same, and is not counted as "
-            "noise of the difference: with standard deviations s1 and s2 the variance of the "
-            "difference is half of (s1² + s2²) and half of (s1 − s2)². Segments are called changed "
+            "values compared. What all cars read wrong alike, by the model of the fusion, is on "
+            "both sides and is not counted as noise of the difference: with standard deviations s1 "
+            "and s2, and c1 and c2 of that common part, the variance of the difference is s1² − "
+            "c1² + s2² − c2² + (c1 − c2)². Segments are called changed "
             "by the procedure of Benjamini and Hochberg with a false discovery rate of {share}. "
             "Stretches join segments that are called and that follow each other; their change is "
             "of all their segments, half of its variance common to them."},
