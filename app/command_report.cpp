@@ -1,14 +1,18 @@
 #include "app/commands.hpp"
 #include "app/output_guard.hpp"
+#include "app/period_options.hpp"
 #include "app/reference_report.hpp"
 #include "app/report_values.hpp"
 #include "app/segment_options.hpp"
 
+#include "render/report/pdf.hpp"
 #include "storage/atomic_file.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace macadam {
 namespace {
@@ -17,6 +21,7 @@ struct ReportOptions {
     std::filesystem::path store;
     std::filesystem::path output;
     ReportConfig report;
+    PdfConfig pdf;
 };
 
 constexpr std::int64_t most_stretches = 200; // each has maps of about 100 kB
@@ -42,32 +47,72 @@ MapStyle parse_style(const Arguments& arguments) {
     return style;
 }
 
+Wording parse_wording(const Arguments& arguments) {
+    Wording wording;
+    if (const auto code = arguments.value("--language")) {
+        wording.language = language(*code);
+        if (wording.language == nullptr) {
+            throw UsageError{fmt::format("--language is '{}', expected en or de", *code)};
+        }
+    }
+    if (const auto unit = arguments.value("--unit")) {
+        if (*unit != "mm/m" && *unit != "in/mi") {
+            throw UsageError{fmt::format("--unit is '{}', expected mm/m or in/mi", *unit)};
+        }
+        wording.unit = *unit == "in/mi" ? IriUnit::in_per_mi : IriUnit::mm_per_m;
+    }
+    return wording;
+}
+
+/// \param ending  of the output's name
+PdfConfig parse_paper(const Arguments& arguments, std::string_view ending) {
+    PdfConfig config;
+    if (const auto name = arguments.value("--paper")) {
+        if (*name != "A4" && *name != "a4" && *name != "letter") {
+            throw UsageError{fmt::format("--paper is '{}', expected A4 or letter", *name)};
+        }
+        if (ending != ".pdf") {
+            throw UsageError{"--paper goes with -o FILE.pdf"};
+        }
+        config.paper = *name == "letter" ? us_letter : a4;
+    }
+    return config;
+}
+
 ReportOptions parse_report(const Arguments& arguments) {
     const auto output = arguments.value("--output");
-    if (!output || !output->ends_with(".html")) {
+    const auto ending = std::filesystem::path{output.value_or("")}.extension().string();
+    if (ending != ".html" && ending != ".pdf") {
         throw UsageError{
-            output ? fmt::format("-o is '{}', expected a name that ends in .html", *output)
+            output ? fmt::format("-o is '{}', expected a name that ends in .html or .pdf", *output)
                    : std::string{"-o report.html is missing"}};
     }
+    const auto wording = parse_wording(arguments);
     return {.store = store_file(arguments),
             .output = *output,
-            .report = {.title = arguments.value("--title").value_or("Road roughness"),
+            .report = {.title = arguments.value("--title").value_or(wording("title")),
                        .worst = parse_worst(arguments),
                        .sections = parse_sections(arguments, false),
-                       .style = parse_style(arguments)}};
+                       .since_ms = parse_begin(arguments, "--since"),
+                       .wording = wording,
+                       .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
+                       .style = parse_style(arguments)},
+            .pdf = parse_paper(arguments, ending)};
 }
 
 /// What the options of the report for people say nothing of.
 void refuse_beside_references(const Arguments& arguments) {
-    for (const auto* const option : {"--worst", "--sections", "--classes"}) {
+    for (const auto* const option :
+         {"--worst", "--sections", "--classes", "--since", "--unit", "--language"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("{} and --against-reference exclude one another", option)};
         }
     }
 }
 
-std::string text_for(const ReferenceReport& report, std::string_view ending) {
+std::string text_for(const ReferenceReport& report, std::string_view ending, const PdfConfig& pdf) {
     return ending == ".html"   ? reference_html(report)
+           : ending == ".pdf"  ? pdf_of(reference_document(report), pdf)
            : ending == ".json" ? reference_json(report)
                                : reference_csv(report);
 }
@@ -76,11 +121,13 @@ void report_against_reference(const Arguments& arguments, const Console& console
     refuse_beside_references(arguments);
     const std::filesystem::path output = arguments.value("--output").value_or("");
     const auto ending = output.extension().string();
-    if (!output.empty() && ending != ".html" && ending != ".json" && ending != ".csv") {
-        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .html, .json or "
-                                     ".csv",
+    constexpr std::array<std::string_view, 4> endings{".html", ".pdf", ".json", ".csv"};
+    if (!output.empty() && std::ranges::find(endings, ending) == endings.end()) {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .html, .pdf, .json "
+                                     "or .csv",
                                      output.string())};
     }
+    const auto pdf = parse_paper(arguments, ending);
     const auto file = store_file(arguments);
     const auto store = RoadStore::open(file, RoadStore::Access::read);
     warn_of_waiting(store, file, console);
@@ -92,7 +139,7 @@ void report_against_reference(const Arguments& arguments, const Console& console
     }
     refuse_to_replace(output, {file});
     AtomicFile written{output};
-    written.write(text_for(report, ending));
+    written.write(text_for(report, ending, pdf));
     written.commit();
 }
 
@@ -108,23 +155,29 @@ void run_report(const Arguments& arguments, const Console& console) {
     if (options.report.style.classes == nullptr) {
         options.report.style.classes = class_table(store.settings().class_table);
     }
-    const auto html =
-        report_html(report_of(store, options.report, console.progress("drawing maps")));
+    const auto document =
+        report_document(report_of(store, options.report, console.progress("drawing maps")));
+    const auto bytes = options.report.pictures == PictureUse::paper ? pdf_of(document, options.pdf)
+                                                                    : html_of(document);
 
     AtomicFile file{options.output};
-    file.write(html);
+    file.write(bytes);
     file.commit();
     console.say(fmt::format(
-        "{}: {:.1f} MB", options.output.string(), static_cast<double>(html.size()) / 1e6));
+        "{}: {:.1f} MB", options.output.string(), static_cast<double>(bytes.size()) / 1e6));
 }
 
 constexpr std::array operands{store_operand};
 constexpr std::array options{
-    Option{"-o,--output", "FILE", "The report, an .html file."},
+    Option{"-o,--output", "FILE", "The report, an .html or .pdf file."},
     Option{"--against-reference",
            "",
-           "How near the cars come to surveys: -o FILE.html, .json or .csv, or a table."},
+           "How near the cars come to surveys: -o FILE.html, .pdf, .json or .csv, or a table."},
     Option{"--title", "TEXT", "Over the report.", "Road roughness"},
+    Option{"--since", "DATE", "What has changed since: 2026-03-01 or 2026-03."},
+    Option{"--unit", "UNIT", "Of roughness: mm/m or in/mi.", "mm/m"},
+    Option{"--language", "CODE", "en or de.", "en"},
+    Option{"--paper", "SIZE", "Of a .pdf: A4 or letter.", "A4"},
     Option{"--worst", "N", "How many of the worst stretches to list, each with a map.", "20"},
     sections_option,
     section_length_option,
@@ -139,9 +192,11 @@ constexpr std::array options{
 const Command report_command{
     .name = "report",
     .summary = "Write up what a store knows: condition, worst stretches, coverage, data",
-    .about = "One HTML file that needs nothing else: it opens in any browser, on a phone too, and "
-             "prints on A4. The same\nstore gives the same bytes.",
+    .about =
+        "One HTML file that needs nothing else and opens in any browser, on a phone too; or a PDF "
+        "for paper. The same\nstore gives the same bytes.",
     .example = "  macadam report roads.gpkg -o report.html --title \"Spring survey 2026\"\n"
+               "  macadam report roads.gpkg -o report.pdf --since 2026-04-01 --language de\n"
                "  macadam report roads.gpkg -o report.html --worst 50 --classes five\n"
                "  macadam report roads.gpkg --against-reference -o reference.html",
     .operands = operands,

@@ -6,16 +6,23 @@
 #include "render/report/report.hpp"
 #include "storage/road_store.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
 namespace macadam {
 
+/// What pictures are for: screens, light and dark, or print.
+enum class PictureUse { screen, paper };
+
 struct ReportConfig {
     std::string title;
     std::size_t worst = 20;                   ///< stretches to list
     std::optional<SectionOptions> sections{}; ///< to list
-    MapStyle style;                           ///< ramp, classes (not null) and side of the traffic
+    std::optional<std::int64_t> since_ms{};   ///< day from which on changes are looked for
+    Wording wording{};
+    PictureUse pictures = PictureUse::screen;
+    MapStyle style; ///< ramp, classes (not null) and side of the traffic
 };
 
 /// All that a report of a store says, with its pictures.

@@ -1,8 +1,7 @@
 #include "render/report/figures.hpp"
 
 #include "render/nice_step.hpp"
-#include "render/report/html.hpp"
-#include "render/report/numbers.hpp"
+#include "render/report/parts.hpp"
 
 #include <fmt/format.h>
 
@@ -12,6 +11,9 @@
 #include <vector>
 
 namespace macadam {
+
+using namespace document;
+
 namespace {
 
 // Sizes of the histogram in its own units; a phone shows 400 of them on about 330 px.
@@ -21,20 +23,14 @@ constexpr double left = 40;
 constexpr double right = 392;
 constexpr double top = 24;
 constexpr double bottom = 186;
-constexpr double text_size = 12;
 
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-std::string label(double x, double y, const char* anchor, const std::string& text) {
-    return fmt::format(
-        "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, text);
-}
-
 /// Where values stand in the figure.
 struct Axes {
-    double most_iri;
+    double most_iri; ///< mm/m
     double most_km;
     double step_km;
 
@@ -53,124 +49,102 @@ Axes axes_of(const IriHistogram& histogram) {
             step_km};
 }
 
-std::string grid_svg(const Axes& axes) {
-    std::string svg;
+/// Between two numbers under the axis, in the report's unit.
+double iri_step(const Axes& axes, IriUnit unit) {
+    return unit == IriUnit::mm_per_m ? (axes.most_iri > 8 ? 2 : 1)
+                                     : nice_step(in_unit(axes.most_iri, unit), 6);
+}
+
+void add_grid(Drawing& drawing, const Axes& axes, const Wording& say) {
     const int lines = static_cast<int>(std::lround(axes.most_km / axes.step_km));
     for (int i = 0; i <= lines; ++i) {
         const double y = axes.y(i * axes.step_km);
-        svg +=
-            fmt::format("<line class=\"grid\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>\n",
-                        left,
-                        right,
-                        y,
-                        y);
-        svg += label(left - 6, y + 4, "end", fmt::format("{:g}", i * axes.step_km));
+        drawing.shapes.emplace_back(Stroke{StrokeLook::grid, {{left, y}, {right, y}}});
+        drawing.shapes.emplace_back(
+            Label{left - 6, y + 4, Anchor::end, say.shortest(i * axes.step_km)});
     }
-    const double iri_step = axes.most_iri > 8 ? 2 : 1;
-    for (double iri = 0; iri < axes.most_iri - 0.5 * iri_step; iri += iri_step) {
-        svg += label(axes.x(iri), bottom + 16, "middle", fmt::format("{:g}", iri));
+    const double per_mm_per_m = in_unit(1, say.unit);
+    const double step = iri_step(axes, say.unit);
+    const double most = axes.most_iri * per_mm_per_m;
+    for (double iri = 0; iri < most - 0.7 * step; iri += step) {
+        drawing.shapes.emplace_back(
+            Label{axes.x(iri / per_mm_per_m), bottom + 16, Anchor::middle, say.shortest(iri)});
     }
-    return svg + label(right, bottom + 16, "end", fmt::format("{:g} +", axes.most_iri)) +
-           label((left + right) / 2, bottom + 36, "middle", "IRI of a segment, mm/m") +
-           label(2, 12, "start", "km");
+    drawing.shapes.emplace_back(
+        Label{right,
+              bottom + 16,
+              Anchor::end,
+              (say.unit == IriUnit::mm_per_m ? say.shortest(most) : say.whole(most)) + " +"});
+    drawing.shapes.emplace_back(
+        Label{(left + right) / 2,
+              bottom + 36,
+              Anchor::middle,
+              say("histogram.axis", {{"unit", std::string{say.iri_unit()}}})});
+    drawing.shapes.emplace_back(Label{2, 12, Anchor::start, "km"});
 }
 
-std::string
-bars_svg(const IriHistogram& histogram, const Axes& axes, std::span<const std::uint32_t> colours) {
-    const double bar = (right - left) / static_cast<double>(histogram.length_m.size());
-    std::string svg;
-    for (std::size_t bin = 0; bin < histogram.length_m.size(); ++bin) {
+void add_bars(Drawing& drawing, const Axes& axes, const Report& report) {
+    const auto& bins = report.histogram.length_m;
+    const double bar = (right - left) / static_cast<double>(bins.size());
+    for (std::size_t bin = 0; bin < bins.size(); ++bin) {
         double below_km = 0;
-        for (std::size_t c = 0; c < colours.size(); ++c) {
-            const double km = histogram.length_m[bin][c] / 1000;
+        for (std::size_t c = 0; c < report.colours.size(); ++c) {
+            const double km = bins[bin][c] / 1000;
             if (km > 0) {
-                svg += fmt::format("<rect class=\"bar\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
-                                   "height=\"{:.2f}\" fill=\"#{:06x}\"/>\n",
-                                   left + bar * static_cast<double>(bin) + 0.5,
-                                   axes.y(below_km + km),
-                                   bar - 1,
-                                   axes.y(below_km) - axes.y(below_km + km),
-                                   colours[c]);
+                drawing.shapes.emplace_back(Bar{left + bar * static_cast<double>(bin) + 0.5,
+                                                axes.y(below_km + km),
+                                                bar - 1,
+                                                axes.y(below_km) - axes.y(below_km + km),
+                                                report.colours[c]});
             }
             below_km += km;
         }
     }
-    return svg;
 }
 
-std::string mean_svg(const Axes& axes, double iri) {
+void add_mean(Drawing& drawing, const Axes& axes, double iri, const Wording& say) {
     const double x = axes.x(iri);
     const bool at_right = x > (left + right) / 2;
-    return fmt::format(
-               "<line class=\"mean\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>\n",
-               x,
-               top - 12,
-               bottom) +
-           label(x + (at_right ? -5 : 5),
-                 top - 4,
-                 at_right ? "end" : "start",
-                 fmt::format("mean {}", iri_text(iri)));
+    drawing.shapes.emplace_back(Stroke{StrokeLook::mean, {{x, top - 12}, {x, bottom}}});
+    drawing.shapes.emplace_back(Label{x + (at_right ? -5 : 5),
+                                      top - 4,
+                                      at_right ? Anchor::end : Anchor::start,
+                                      say("histogram.mean", {{"iri", say.iri(iri)}})});
 }
 
 } // namespace
 
-std::string swatch_svg(std::uint32_t rgb) {
-    return fmt::format("<svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\">"
-                       "<rect class=\"bar\" width=\"10\" height=\"10\" fill=\"#{:06x}\"/></svg>",
-                       rgb);
-}
-
-std::string share_bar_svg(const RoadSummary& roads,
-                          const ClassTable& classes,
-                          std::span<const std::uint32_t> colours) {
+Cell share_bar(const Report& report, const RoadSummary& roads) {
+    Cell cell{""};
     if (roads.covered_m <= 0) {
-        return {};
+        return cell;
     }
-    std::string words, rects;
-    double x = 0;
-    for (std::size_t c = 0; c < colours.size(); ++c) {
+    std::string words;
+    for (std::size_t c = 0; c < report.colours.size(); ++c) {
         const double share = 100 * roads.classes[c].length_m / roads.covered_m;
-        words += fmt::format(
-            "{}{} {:.0f} %", c > 0 ? ", " : "", escaped(classes.classes[c].name), share);
-        if (share > 0) {
-            rects += fmt::format("<rect x=\"{:.2f}\" width=\"{:.2f}\" height=\"10\" "
-                                 "fill=\"#{:06x}\"/>",
-                                 x,
-                                 share,
-                                 colours[c]);
-        }
-        x += share;
+        words += fmt::format("{}{} {:.0f} %", c > 0 ? ", " : "", class_name(report, c), share);
+        cell.shares.push_back({share, report.colours[c]});
     }
-    return fmt::format("<svg class=\"share\" viewBox=\"0 0 100 10\" preserveAspectRatio=\"none\" "
-                       "role=\"img\" aria-label=\"{}\">{}</svg>",
-                       words,
-                       rects);
+    cell.text = words;
+    return cell;
 }
 
-std::string histogram_svg(const IriHistogram& histogram,
-                          const RoadMean& mean,
-                          const ClassTable& classes,
-                          std::span<const std::uint32_t> colours) {
-    const auto axes = axes_of(histogram);
-    std::string words;
-    for (std::size_t c = 0; c < colours.size(); ++c) {
+Drawing histogram_drawing(const Report& report) {
+    const auto& say = report.wording;
+    const auto axes = axes_of(report.histogram);
+    const double mean = report.summary.all.mean.iri;
+    Drawing drawing{width, height, say("histogram.words", {{"iri", say.iri(mean)}}), {}};
+    for (std::size_t c = 0; c < report.colours.size(); ++c) {
         double km = 0;
-        for (const auto& bin : histogram.length_m) {
+        for (const auto& bin : report.histogram.length_m) {
             km += bin[c] / 1000;
         }
-        words += fmt::format(", {} {:.2f} km", escaped(classes.classes[c].name), km);
+        drawing.words += fmt::format(", {} {} km", class_name(report, c), say.number(km, 2));
     }
-    return fmt::format("<svg class=\"histogram\" viewBox=\"0 0 {} {}\" role=\"img\" "
-                       "font-size=\"{}\" aria-label=\"Histogram of IRI by length of road: mean "
-                       "{}{}\">\n{}{}{}</svg>\n",
-                       width,
-                       height,
-                       text_size,
-                       iri_text(mean.iri),
-                       words,
-                       grid_svg(axes),
-                       bars_svg(histogram, axes, colours),
-                       mean_svg(axes, mean.iri));
+    add_grid(drawing, axes, say);
+    add_bars(drawing, axes, report);
+    add_mean(drawing, axes, mean, say);
+    return drawing;
 }
 
 } // namespace macadam

@@ -61,13 +61,14 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     return text;
 }
 
-std::string html_of(const HtmlTable& table) {
+std::string table_html(const document::Table& table,
+                       const std::function<std::string(const document::Cell&)>& cell_html) {
     const auto class_of = [&](std::size_t column) {
         const auto& [title, number, elsewhere] = table.columns[column];
         return number && elsewhere ? " class=\"n else\"" : number ? " class=\"n\"" : "";
     };
     const auto title_of = [&](std::size_t column) {
-        return table.stacks ? fmt::format(" data-t=\"{}\"", table.columns[column].title)
+        return table.stacks ? fmt::format(" data-t=\"{}\"", escaped(table.columns[column].title))
                             : std::string{};
     };
     constexpr std::size_t rows_that_stay_together = 12; // on paper; more may go over a page
@@ -81,15 +82,16 @@ std::string html_of(const HtmlTable& table) {
                             : table.columns.size() > most_on_a_phone ? " class=\"stack many\""
                                                                      : " class=\"stack\"");
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
-        html += fmt::format("<th scope=\"col\"{}>{}</th>", class_of(i), table.columns[i].title);
+        html += fmt::format(
+            "<th scope=\"col\"{}>{}</th>", class_of(i), escaped(table.columns[i].title));
     }
     html += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows) {
         const bool sum = table.sum && &row == &table.rows.back();
         html += sum ? "<tr class=\"all\">" : "<tr>";
-        html += fmt::format("<th scope=\"row\"{}>{}</th>", class_of(0), row.front());
+        html += fmt::format("<th scope=\"row\"{}>{}</th>", class_of(0), cell_html(row.front()));
         for (std::size_t i = 1; i < row.size(); ++i) {
-            html += fmt::format("<td{}{}>{}</td>", class_of(i), title_of(i), row[i]);
+            html += fmt::format("<td{}{}>{}</td>", class_of(i), title_of(i), cell_html(row[i]));
         }
         html += "</tr>\n";
     }

@@ -1,8 +1,6 @@
 #include "render/report/parts.hpp"
 
-#include "estimator/common/utf8.hpp"
-#include "render/report/html.hpp"
-#include "render/report/numbers.hpp"
+#include "render/scale_bar.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +9,7 @@
 namespace macadam {
 
 std::string sentence_case(std::string_view name) {
-    auto text = escaped(name);
+    std::string text{name};
     std::ranges::replace(text, '_', ' ');
     if (!text.empty() && 'a' <= text[0] && text[0] <= 'z') {
         text[0] = static_cast<char>(text[0] - 'a' + 'A');
@@ -19,44 +17,53 @@ std::string sentence_case(std::string_view name) {
     return text;
 }
 
-std::string count_text(std::size_t count, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", count_text(count), count == 1 ? one : many);
+std::string kind_name(const Report& report, std::string_view kind) {
+    return report.wording.or_else(fmt::format("kind.{}", kind), sentence_case(kind));
 }
 
-std::string unbroken(const std::string& html) {
-    return "<span class=\"nw\">" + html + "</span>";
+std::string class_name(const Report& report, std::size_t i) {
+    const auto name = report.classes->classes[i].name;
+    return report.wording.or_else(fmt::format("class.{}", name), sentence_case(name));
 }
 
-std::string breakable(std::string_view text) {
-    constexpr std::size_t longest_word = 24; // letters
-    std::string html;
-    std::string piece;
-    std::size_t letters = 0;
-    while (!text.empty()) {
-        const auto length = std::max<std::size_t>(1, utf8_length(text));
-        letters = text.front() == ' ' ? 0 : letters + 1;
-        if (letters > longest_word) {
-            html += escaped(piece) + "<wbr>";
-            piece.clear();
-            letters = 1;
-        }
-        piece += text.substr(0, length);
-        text.remove_prefix(length);
+std::string road_name(const Report& report, const RoadStretch& stretch) {
+    if (!stretch.name.empty()) {
+        return stretch.name;
     }
-    return html + escaped(piece);
+    const auto kind =
+        stretch.highway.empty() ? std::string_view{"other"} : road_kind(stretch.highway);
+    return report.wording(fmt::format("unnamed.{}", kind));
 }
 
-std::string picture_html(const ReportPicture& picture, const std::string& alt) {
-    const auto image = [&](const char* look, const std::vector<std::uint8_t>& png) {
-        return fmt::format("<img class=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" "
-                           "src=\"data:image/png;base64,{}\">",
-                           look,
-                           picture.width_px,
-                           picture.height_px,
-                           alt,
-                           base64(png));
-    };
-    return image("light", picture.light_png) + image("dark", picture.dark_png);
+std::string reference_text(const Report& report, const RoadStretch& stretch) {
+    std::string text;
+    for (const auto& [way_id, forward, from_m, to_m] : stretch.parts) {
+        text += text.empty() ? "" : ", ";
+        text += report.wording("stretch.part",
+                               {{"way", fmt::format("{}", way_id)},
+                                {"from", report.wording.whole(forward ? from_m : to_m)},
+                                {"to", report.wording.whole(forward ? to_m : from_m)}});
+    }
+    return text;
+}
+
+std::string passes_text(const Wording& wording, std::int32_t least, double median) {
+    return least == median ? fmt::format("{}", least)
+                           : fmt::format("{} – {}", least, wording.shortest(median));
+}
+
+document::MapFigure map_figure(const Report& report,
+                               const ReportPicture& picture,
+                               double width_m,
+                               const std::string& words) {
+    constexpr double most_percent = 30;
+    document::MapFigure figure{picture, words, 0, "", report.attribution};
+    if (width_m > 0) {
+        const auto bar = scale_bar(width_m / 100, most_percent, false); // in percent, not pixels
+        figure.scale_percent = bar.width_px;
+        figure.scale = report.wording("map.scale", {{"length", bar.label}});
+    }
+    return figure;
 }
 
 std::size_t cars_in(const std::vector<ReportVehicle>& vehicles) {

@@ -5,25 +5,35 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace macadam {
 
-// What several sections of the report share. All give HTML.
+// What several sections of the report share.
 
 /// "living_street" as "Living street".
 std::string sentence_case(std::string_view name);
 
-/// "1 car", "12 cars".
-std::string count_text(std::size_t count, std::string_view one, std::string_view many);
+/// A kind of road in the report's language; what the catalogue has no word for, as it came.
+std::string kind_name(const Report& report, std::string_view kind);
 
-/// HTML that stays on one line.
-std::string unbroken(const std::string& html);
+/// Likewise a class of roughness.
+std::string class_name(const Report& report, std::size_t i);
 
-/// Text in which words that are longer than a column may break, and no others.
-std::string breakable(std::string_view text);
+/// The road's name, or what kind of road has none.
+std::string road_name(const Report& report, const RoadStretch& stretch);
 
-/// The picture for the page's look. \param alt  HTML.
-std::string picture_html(const ReportPicture& picture, const std::string& alt);
+/// Metres along its ways, as driven: they fall where a way is driven against.
+std::string reference_text(const Report& report, const RoadStretch& stretch);
+
+/// "2", or "2 – 5": the least that a segment has, and the median.
+std::string passes_text(const Wording& wording, std::int32_t least, double median);
+
+/// The map with a scale bar that is as wide as its length, whatever a page makes of the picture.
+document::MapFigure map_figure(const Report& report,
+                               const ReportPicture& picture,
+                               double width_m,
+                               const std::string& words);
 
 /// Cars, each once, however many models and methods it was read with.
 std::size_t cars_in(const std::vector<ReportVehicle>& vehicles);

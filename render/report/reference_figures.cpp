@@ -1,37 +1,25 @@
 #include "render/report/reference_figures.hpp"
 
 #include "render/nice_step.hpp"
-#include "render/report/numbers.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
 
 namespace macadam {
+
+using namespace document;
+
 namespace {
 
-constexpr const char* ink = "#2c7bb6"; // of the best class of the default ramp: readable on both
-                                       // light and dark pages
-
-std::string label(double x, double y, const char* anchor, const std::string& text) {
-    return fmt::format(
-        "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, text);
-}
-
-std::string line(const char* look, double x1, double y1, double x2, double y2) {
-    return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" "
-                       "y2=\"{:.1f}\"/>\n",
-                       look,
-                       x1,
-                       y1,
-                       x2,
-                       y2);
-}
+constexpr std::uint32_t ink = 0x2c7bb6; // of the best class of the default ramp: readable on both
+                                        // light and dark pages
 
 // ------------------------------------------------------------------------------------- scatter
 
@@ -54,33 +42,33 @@ Square square_of(std::span<const SurveyPair> pairs) {
     return {std::ceil(most)};
 }
 
-std::string scatter_axes(const Square& square) {
+void add_axes(Drawing& drawing, const Square& square) {
     const double step = nice_step(square.most, 6);
-    std::string svg;
     for (double iri = 0; iri <= square.most + 1e-9; iri += step) {
-        svg += line("grid", square.x(0), square.y(iri), square.x(square.most), square.y(iri));
-        svg += label(scatter_left - 6, square.y(iri) + 4, "end", fmt::format("{:g}", iri));
-        svg += label(square.x(iri), square.y(0) + 16, "middle", fmt::format("{:g}", iri));
+        const auto text = fmt::format("{:g}", iri);
+        drawing.shapes.emplace_back(
+            Stroke{StrokeLook::grid,
+                   {{square.x(0), square.y(iri)}, {square.x(square.most), square.y(iri)}}});
+        drawing.shapes.emplace_back(Label{scatter_left - 6, square.y(iri) + 4, Anchor::end, text});
+        drawing.shapes.emplace_back(Label{square.x(iri), square.y(0) + 16, Anchor::middle, text});
     }
-    return svg +
-           line("mean", square.x(0), square.y(0), square.x(square.most), square.y(square.most));
+    drawing.shapes.emplace_back(
+        Stroke{StrokeLook::mean,
+               {{square.x(0), square.y(0)}, {square.x(square.most), square.y(square.most)}}});
 }
 
 /// Dots on a grid of half a unit, each once.
-std::string dots(std::span<const SurveyPair> pairs, const Square& square) {
+Dots dots(std::span<const SurveyPair> pairs, const Square& square) {
     std::set<std::pair<long, long>> places;
     for (const auto& pair : pairs) {
         places.emplace(std::lround(2 * square.x(pair.survey)),
                        std::lround(2 * square.y(pair.trip)));
     }
-    std::string path;
+    Dots dots{{}, 3, ink};
     for (const auto& [x, y] : places) {
-        path += fmt::format("M{:g} {:g}h0", static_cast<double>(x) / 2, static_cast<double>(y) / 2);
+        dots.places.emplace_back(static_cast<double>(x) / 2, static_cast<double>(y) / 2);
     }
-    return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"3\" stroke-linecap=\"round\" "
-                       "stroke-opacity=\"0.6\" fill=\"none\"/>\n",
-                       path,
-                       ink);
+    return dots;
 }
 
 // ---------------------------------------------------------------------------------- differences
@@ -140,97 +128,114 @@ std::string band_text(const SurveyScore& score) {
                : fmt::format("{:g} to {:g}", score.from_mm_per_m, score.to_mm_per_m);
 }
 
-std::string curve_svg(const Panel& panel, double most) {
+/// Where a panel stands in the figure.
+struct Corner {
+    double x;
+    double y;
+};
+
+void add_curve(Drawing& drawing, const Panel& panel, const Corner& corner, double most) {
     if (!(panel.score.sd > 0)) {
-        return {};
+        return;
     }
-    std::string points;
+    Stroke stroke{StrokeLook::curve, {}};
     for (int i = 0; i <= 2 * bins; ++i) {
         const double difference = panel.reach * (static_cast<double>(i) / bins - 1);
-        points += fmt::format(
-            "{:.1f},{:.1f} ", panel.x(difference), Panel::y(curve(panel, difference) / most));
+        stroke.points.emplace_back(corner.x + panel.x(difference),
+                                   corner.y + Panel::y(curve(panel, difference) / most));
     }
-    return fmt::format("<polyline points=\"{}\" fill=\"none\" class=\"grid\" "
-                       "stroke-width=\"1.5\"/>\n",
-                       points);
+    drawing.shapes.emplace_back(std::move(stroke));
 }
 
-std::string panel_svg(const Panel& panel) {
-    double most = *std::ranges::max_element(panel.share);
-    if (panel.score.sd > 0) {
-        most = std::max(most, curve(panel, panel.score.bias));
-    }
-    std::string svg;
+void add_bars(Drawing& drawing, const Panel& panel, const Corner& corner, double most) {
     const double bar = (plot_right - plot_left) / bins;
     for (int i = 0; i < bins; ++i) {
         const double share = panel.share[static_cast<std::size_t>(i)];
         if (share > 0) {
             const double top = Panel::y(share / most);
-            svg += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
-                               "height=\"{:.2f}\" fill=\"{}\"/>\n",
-                               plot_left + bar * i + 0.3,
-                               top,
-                               bar - 0.6,
-                               plot_bottom - top,
-                               ink);
+            drawing.shapes.emplace_back(Bar{corner.x + plot_left + bar * i + 0.3,
+                                            corner.y + top,
+                                            bar - 0.6,
+                                            plot_bottom - top,
+                                            ink,
+                                            false});
         }
     }
-    svg += curve_svg(panel, most);
-    svg += line("mean", panel.x(0), plot_top - 4, panel.x(0), plot_bottom);
-    svg += line("grid", plot_left, plot_bottom, plot_right, plot_bottom);
+}
+
+void add_panel_axes(Drawing& drawing, const Panel& panel, const Corner& corner) {
+    const auto at = [&](double x, double y) { return std::pair{corner.x + x, corner.y + y}; };
+    drawing.shapes.emplace_back(
+        Stroke{StrokeLook::mean, {at(panel.x(0), plot_top - 4), at(panel.x(0), plot_bottom)}});
+    drawing.shapes.emplace_back(
+        Stroke{StrokeLook::grid, {at(plot_left, plot_bottom), at(plot_right, plot_bottom)}});
     for (const double difference : {-panel.reach, 0.0, panel.reach}) {
-        svg += label(panel.x(difference),
-                     plot_bottom + 14,
-                     difference < 0   ? "start"
-                     : difference > 0 ? "end"
-                                      : "middle",
-                     fmt::format("{:g}", difference));
+        const auto [x, y] = at(panel.x(difference), plot_bottom + 14);
+        drawing.shapes.emplace_back(Label{x,
+                                          y,
+                                          difference < 0   ? Anchor::start
+                                          : difference > 0 ? Anchor::end
+                                                           : Anchor::middle,
+                                          fmt::format("{:g}", difference)});
     }
-    return svg + label(plot_left,
-                       12,
-                       "start",
-                       fmt::format("{} mm/m, {}", band_text(panel.score), panel.score.pieces));
+    const auto [x, y] = at(plot_left, 12);
+    drawing.shapes.emplace_back(
+        Label{x,
+              y,
+              Anchor::start,
+              fmt::format("{} mm/m, {}", band_text(panel.score), panel.score.pieces)});
+}
+
+void add_panel(Drawing& drawing, const Panel& panel, const Corner& corner) {
+    double most = *std::ranges::max_element(panel.share);
+    if (panel.score.sd > 0) {
+        most = std::max(most, curve(panel, panel.score.bias));
+    }
+    add_bars(drawing, panel, corner, most);
+    add_curve(drawing, panel, corner, most);
+    add_panel_axes(drawing, panel, corner);
 }
 
 } // namespace
 
-std::string scatter_svg(std::span<const SurveyPair> pairs) {
+Drawing scatter_drawing(std::span<const SurveyPair> pairs) {
     const auto square = square_of(pairs);
-    return fmt::format("<svg class=\"histogram\" viewBox=\"0 0 392 396\" role=\"img\" "
-                       "font-size=\"12\" aria-label=\"IRI of the cars over IRI of the reference, "
-                       "{} pieces of road, 0 to {:g} mm/m\">\n{}{}{}{}</svg>\n",
-                       pairs.size(),
-                       square.most,
-                       scatter_axes(square),
-                       dots(pairs, square),
-                       label(scatter_left + scatter_size / 2,
-                             scatter_top + scatter_size + 36,
-                             "middle",
-                             "IRI of the reference, mm/m"),
-                       label(scatter_left + 6, scatter_top + 12, "start", "IRI of the cars, mm/m"));
+    Drawing drawing{392,
+                    396,
+                    fmt::format("IRI of the cars over IRI of the reference, {} pieces of road, 0 "
+                                "to {:g} mm/m",
+                                pairs.size(),
+                                square.most),
+                    {}};
+    add_axes(drawing, square);
+    drawing.shapes.emplace_back(dots(pairs, square));
+    drawing.shapes.emplace_back(Label{scatter_left + scatter_size / 2,
+                                      scatter_top + scatter_size + 36,
+                                      Anchor::middle,
+                                      "IRI of the reference, mm/m"});
+    drawing.shapes.emplace_back(
+        Label{scatter_left + 6, scatter_top + 12, Anchor::start, "IRI of the cars, mm/m"});
+    return drawing;
 }
 
-std::string differences_svg(std::span<const SurveyPair> pairs) {
+Drawing differences_drawing(std::span<const SurveyPair> pairs) {
     const auto scores = scores_by_band(pairs);
-    std::string panels, words;
-    for (std::size_t i = 0; i < scores.size(); ++i) {
-        panels += fmt::format("<g transform=\"translate({:g} {:g})\">\n{}</g>\n",
-                              panel_width * static_cast<double>(i % 2),
-                              panel_height * static_cast<double>(i / 2),
-                              panel_svg(panel_of(pairs, scores[i])));
-        words += fmt::format("; {} mm/m: mean {:+.2f}, {} pieces",
-                             band_text(scores[i]),
-                             scores[i].bias,
-                             scores[i].pieces);
-    }
     const auto rows = static_cast<double>((scores.size() + 1) / 2);
-    return fmt::format("<svg class=\"histogram\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" "
-                       "font-size=\"12\" aria-label=\"Histograms of the cars' IRI less the "
-                       "reference's{}\">\n{}</svg>\n",
-                       2 * panel_width,
-                       panel_height * rows,
-                       words,
-                       panels);
+    Drawing drawing{2 * panel_width,
+                    panel_height * rows,
+                    "Histograms of the cars' IRI less the reference's",
+                    {}};
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+        add_panel(
+            drawing,
+            panel_of(pairs, scores[i]),
+            {panel_width * static_cast<double>(i % 2), panel_height * static_cast<double>(i / 2)});
+        drawing.words += fmt::format("; {} mm/m: mean {:+.2f}, {} pieces",
+                                     band_text(scores[i]),
+                                     scores[i].bias,
+                                     scores[i].pieces);
+    }
+    return drawing;
 }
 
 } // namespace macadam

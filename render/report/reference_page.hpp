@@ -3,6 +3,7 @@
 #include "mapping/control_section.hpp"
 #include "mapping/reference_comparison.hpp"
 #include "mapping/road_mean.hpp"
+#include "render/report/document.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -54,6 +55,9 @@ struct ReferenceReport {
     ComparedPieces hundreds;
     std::vector<ComparedControl> controls;
 };
+
+/// What the report says, for any kind of page; in English and mm/m.
+Document reference_document(const ReferenceReport& report);
 
 /// One HTML page that needs nothing else, like report_html. The same values give the same bytes.
 std::string reference_html(const ReferenceReport& report);

@@ -1,41 +1,48 @@
 #include "render/report/report.hpp"
 
-#include "render/report/html.hpp"
 #include "render/report/sections.hpp"
-#include "render/report/style.hpp"
-
-#include <fmt/format.h>
 
 #include <cassert>
 
 namespace macadam {
 
-std::string report_html(const Report& report) {
+Document report_document(const Report& report) {
     assert(report.classes != nullptr && report.colours.size() == report.classes->classes.size());
-    // The policy is a promise to the reader: the page asks nobody for anything.
-    auto html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-        "style-src 'unsafe-inline'; img-src data:\">\n"
-        "<meta name=\"generator\" content=\"Macadam\">\n<title>{}</title>\n<style>\n{}</style>\n"
-        "</head>\n<body>\n",
-        escaped(report.title),
-        report_style());
-    html += head_section(report);
-    html += "<main>\n";
-    if (report.summary.all.covered_m > 0) {
-        html += condition_section(report);
+    const auto& say = report.wording;
+    const auto period = say.period(report.period.first, report.period.last);
+    Document document{.language = std::string{say.language->code},
+                      .title = report.title,
+                      .subtitle = subtitle_of(report),
+                      .running_head = report.title + (period.empty() ? "" : " · " + period),
+                      .page_of = std::string{find_message(*say.language, "page")->text},
+                      .day = report.period.last,
+                      .keys = key_numbers(report),
+                      .sections = {},
+                      .end = {source_section(report)}};
+    const bool measured = report.summary.all.covered_m > 0;
+    if (measured) {
+        document.sections.push_back(condition_section(report));
     }
-    html += map_section(report);
-    if (report.summary.all.covered_m > 0) {
-        html += worst_section(report);
+    document.sections.push_back(map_section(report));
+    if (measured) {
+        document.sections.push_back(worst_section(report));
     }
-    html += own_sections(report);
-    html += coverage_section(report);
-    html += data_section(report);
-    html += method_section(report);
-    return html + "</main>\n" + source_section(report) + "</body>\n</html>\n";
+    if (report.change) {
+        document.sections.push_back(change_section(report));
+    }
+    if (!report.sections.empty()) {
+        document.sections.push_back(own_sections(report));
+    }
+    document.sections.push_back(coverage_section(report));
+    document.sections.push_back(data_section(report));
+    document.sections.push_back(reading_section(report));
+    document.sections.push_back(method_section(report));
+    document.sections.push_back(limits_section(report));
+    return document;
+}
+
+std::string report_html(const Report& report) {
+    return html_of(report_document(report));
 }
 
 } // namespace macadam

@@ -1,31 +1,33 @@
 #pragma once
 
+#include "mapping/change_since.hpp"
 #include "mapping/data_quality.hpp"
 #include "mapping/iri_class.hpp"
 #include "mapping/measured_road.hpp"
 #include "mapping/network_summary.hpp"
 #include "mapping/worst_stretches.hpp"
+#include "render/report/document.hpp"
+#include "render/report/wording.hpp"
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace macadam {
 
-/// One picture for light pages and paper, one for dark pages: PNG files of the same size.
-struct ReportPicture {
-    std::vector<std::uint8_t> light_png;
-    std::vector<std::uint8_t> dark_png;
-    int width_px = 0;
-    int height_px = 0;
+/// First and last day of something, "2026-03-01"; "" where it is not dated.
+struct ReportDays {
+    std::string first;
+    std::string last;
 };
 
 struct ReportStretch {
     RoadStretch stretch;
-    std::string heading;   ///< "NE"
-    std::string reference; ///< metres along its ways
-    std::string seen;      ///< "2026-03-01 to 2026-04-02"
+    std::string heading; ///< "NE"
+    ReportDays seen;
     ReportPicture map;
 };
 
@@ -42,7 +44,7 @@ struct ReportSection {
 /// What the trips of one car gave.
 struct ReportVehicle {
     std::string name;  ///< pseudonym
-    std::string model; ///< where it came from: "own file" or the name of a built-in one
+    std::string model; ///< name of a built-in one; "" = the user's own
     std::string method;
     std::size_t trips = 0;
     std::size_t undated_trips = 0;
@@ -53,11 +55,30 @@ struct ReportVehicle {
     std::size_t rows_used = 0;
 };
 
-/// All that a report says, as plain values. Texts are as they came: report_html escapes them.
+/// A stretch that has become rougher or smoother.
+struct ReportChangedStretch {
+    ChangedStretch stretch;
+    std::string heading;
+    ReportPicture map;
+};
+
+/// What has changed since a day.
+struct ReportChange {
+    std::string since; ///< day, "2026-03-01"
+    ChangeSince change;
+    std::array<std::uint32_t, 3> colours;    ///< of the map, in the order of Verdict
+    std::vector<ReportChangedStretch> worse; ///< the most first
+    std::vector<ReportChangedStretch> better;
+    ReportPicture map;
+    double map_width_m = 0;
+};
+
+/// All that a report says, as plain values. Texts are as they came.
 struct Report {
+    Wording wording{};
     std::string title;
-    std::string period;         ///< "" where no trip is dated
-    std::string network_source; ///< what the roads were read from
+    ReportDays period;
+    std::string network_source; ///< what the roads were read from; "" = traced from the trips
     std::string attribution;    ///< whom to name for the map data, with the licence
     double segment_length_m = 20;
     const ClassTable* classes = nullptr;
@@ -73,6 +94,7 @@ struct Report {
     std::size_t stretches = 0;           ///< poor ones in all
     double stretches_m = 0;              ///< and their length
     std::vector<ReportStretch> worst;    ///< the worst of them, worst first
+    std::optional<ReportChange> change;  ///< nothing: not asked for
     std::vector<ReportSection> sections; ///< none: not asked for
     std::vector<ReportVehicle> vehicles; ///< in the order in which they are listed
     DataQuality quality;
@@ -80,9 +102,14 @@ struct Report {
     std::map<std::string, std::size_t> row_reasons; ///< why rows of the logs entered no estimate
 };
 
-/// The report as one HTML page that needs nothing else: style, figures and pictures stand in it, no
-/// script, no address of anything outside. It adapts to a phone's width, to paper (A4) and to dark
-/// screens. The same values give the same bytes.
+/// What the report says, in its language and unit, for any kind of page.
+Document report_document(const Report& report);
+
+/// The document as one HTML page that needs nothing else: style, figures and pictures stand in it,
+/// no script, no address of anything outside. It adapts to a phone's width, to paper (A4) and to
+/// dark screens. The same document gives the same bytes.
+std::string html_of(const Document& document);
+
 std::string report_html(const Report& report);
 
 } // namespace macadam

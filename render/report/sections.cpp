@@ -1,16 +1,16 @@
 #include "render/report/sections.hpp"
 
 #include "render/report/figures.hpp"
-#include "render/report/html.hpp"
-#include "render/report/numbers.hpp"
 #include "render/report/parts.hpp"
-#include "render/scale_bar.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace macadam {
+
+using namespace document;
+
 namespace {
 
 /// Length in the classes that count as poor.
@@ -24,183 +24,245 @@ double poor_m(const Report& report) {
     return length_m;
 }
 
-std::string key(const std::string& what, const std::string& value, const std::string& more) {
-    return fmt::format(
-        "<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n", what, value, more);
+/// Beside mm/m a report says in/mi, too; who asked for in/mi wants nothing else.
+bool says_both_units(const Report& report) {
+    return report.wording.unit == IriUnit::mm_per_m;
 }
 
-/// A bar as wide as its length is on the map, whatever the screen makes of the picture.
-std::string scale_html(double map_width_m) {
-    constexpr double most_percent = 30;
-    if (map_width_m <= 0) {
-        return {};
+Wording in_inches(Wording wording) {
+    wording.unit = IriUnit::in_per_mi;
+    return wording;
+}
+
+KeyNumber measured_key(const Report& report) {
+    const auto& say = report.wording;
+    const auto& all = report.summary.all;
+    return {say("key.measured"),
+            say.km(all.covered_m, all.covered_m) + " km",
+            say("key.measured.more",
+                {{"share", say.percent(all.covered_m, all.network_m)},
+                 {"km", say.km(all.network_m, all.network_m)}})};
+}
+
+KeyNumber mean_key(const Report& report) {
+    const auto& say = report.wording;
+    const auto& mean = report.summary.all.mean;
+    std::vector<Span> more{{say("key.mean.more") + " "},
+                           {say.interval(mean), SpanLook::plain, true}};
+    if (says_both_units(report)) {
+        more.push_back({"; " + in_inches(say).iri_with_unit(mean.iri)});
     }
-    const auto bar = scale_bar(map_width_m / 100, most_percent, false); // in percent, not pixels
-    return fmt::format("<span class=\"scale\"><span style=\"width:{:.2f}%\"></span>{}, north "
-                       "up</span>",
-                       bar.width_px,
-                       bar.label);
+    return {say("key.mean"), say.iri_with_unit(mean.iri), more};
+}
+
+KeyNumber poor_key(const Report& report) {
+    const auto& say = report.wording;
+    const auto& all = report.summary.all;
+    return {say("key.poor"),
+            say.percent(poor_m(report), all.covered_m),
+            say("key.poor.more",
+                {{"km", say.km(poor_m(report), all.covered_m)},
+                 {"border", say.iri_with_unit(report.poor_above_mm_per_m)}})};
+}
+
+KeyNumber stretches_key(const Report& report) {
+    const auto& say = report.wording;
+    return {say("key.stretches"),
+            say.count(report.stretches),
+            say("key.stretches.more",
+                {{"least", say.whole(report.least_stretch_m)},
+                 {"km", say.km(report.stretches_m, report.summary.all.covered_m)}})};
+}
+
+KeyNumber cars_key(const Report& report) {
+    const auto& say = report.wording;
+    const auto total = total_of(report.vehicles);
+    return {say("key.cars"),
+            say.counted("cars", cars_in(report.vehicles)),
+            say("key.cars.more",
+                {{"trips", say.counted("trips", total.trips)},
+                 {"passes", say.counted("passes_over_segments", total.passes)}})};
+}
+
+Table classes_table(const Report& report) {
+    const auto& say = report.wording;
+    const auto& all = report.summary.all;
+    Table table{say("classes.caption"), {{say("column.class")}}, {}};
+    table.columns.push_back({say("column.iri_in", {{"unit", std::string{say.iri_unit()}}}), true});
+    if (says_both_units(report)) {
+        table.columns.push_back({"in/mi", true, true});
+    }
+    table.columns.insert(
+        table.columns.end(),
+        {{"km", true}, {say("column.share"), true}, {say("column.range_of_km"), true}});
+    for (std::size_t c = 0; c < report.colours.size(); ++c) {
+        const auto& range = all.classes[c];
+        Cell name{Rich{{{class_name(report, c), SpanLook::plain, true}}}};
+        name.swatch = report.colours[c];
+        std::vector<Cell> row{name, say.range(*report.classes, c)};
+        if (says_both_units(report)) {
+            row.emplace_back(in_inches(say).range(*report.classes, c));
+        }
+        row.emplace_back(say.km(range.length_m, all.covered_m));
+        row.emplace_back(say.percent(range.length_m, all.covered_m));
+        row.emplace_back(fmt::format(
+            "{} – {}", say.km(range.low_m, all.covered_m), say.km(range.high_m, all.covered_m)));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+Table kinds_table(const Report& report) {
+    const auto& say = report.wording;
+    const auto& all = report.summary.all;
+    Table table{say("kinds.caption", {{"unit", std::string{say.iri_unit()}}}),
+                {{say("column.kind")},
+                 {"km", true},
+                 {say("column.mean"), true},
+                 {say("column.interval"), true},
+                 {say("column.median"), true},
+                 {"P85", true},
+                 {"P95", true},
+                 {say("column.classes")}},
+                {}};
+    const auto add = [&](const RoadSummary& roads, const std::string& name) {
+        table.rows.push_back({name,
+                              say.km(roads.covered_m, all.covered_m),
+                              say.iri(roads.mean.iri),
+                              say.interval(roads.mean),
+                              say.iri(roads.p50),
+                              say.iri(roads.p85),
+                              say.iri(roads.p95),
+                              share_bar(report, roads)});
+    };
+    for (const auto& roads : report.summary.kinds) {
+        if (roads.covered_m > 0) {
+            add(roads, kind_name(report, roads.kind));
+        }
+    }
+    add(all, say("all"));
+    table.sum = true;
+    table.stacks = true;
+    return table;
+}
+
+/// Length of each class in each kind of road, with what it may be.
+Table kind_classes_table(const Report& report) {
+    const auto& say = report.wording;
+    const auto& all = report.summary.all;
+    Table table{say("kind_classes.caption"), {{say("column.kind")}}, {}};
+    for (std::size_t c = 0; c < report.colours.size(); ++c) {
+        table.columns.push_back({class_name(report, c), true});
+    }
+    const auto add = [&](const RoadSummary& roads, const std::string& name) {
+        std::vector<Cell> row{name};
+        for (const auto& range : roads.classes) {
+            row.emplace_back(Rich{{{say.km(range.length_m, all.covered_m)},
+                                   {fmt::format(" ({} – {})",
+                                                say.km(range.low_m, all.covered_m),
+                                                say.km(range.high_m, all.covered_m)),
+                                    SpanLook::quiet}}});
+        }
+        table.rows.push_back(std::move(row));
+    };
+    for (const auto& roads : report.summary.kinds) {
+        if (roads.covered_m > 0) {
+            add(roads, kind_name(report, roads.kind));
+        }
+    }
+    add(all, say("all"));
+    table.sum = true;
+    table.stacks = true;
+    return table;
 }
 
 } // namespace
 
-std::string head_section(const Report& report) {
-    const auto& all = report.summary.all;
-    const auto total = total_of(report.vehicles);
-    auto html = fmt::format("<header>\n<h1>{}</h1>\n<p class=\"quiet\">Road roughness (IRI) from "
-                            "the sensors of ordinary cars. {}</p>\n",
-                            escaped(report.title),
-                            total.trips == 0 ? "Nothing was measured yet."
-                            : report.period.empty()
-                                ? "The trips are not dated."
-                                : fmt::format("Driven {}.", unbroken(escaped(report.period))));
-    html += "<dl class=\"key\">\n";
-    html += key("Measured",
-                km_text(all.covered_m, all.covered_m) + " km",
-                fmt::format("{} of the network of {} km, each direction counted",
-                            percent_text(all.covered_m, all.network_m),
-                            km_text(all.network_m, all.network_m)));
-    if (all.covered_m > 0) {
-        html += key("Mean IRI",
-                    iri_text(all.mean.iri) + " mm/m",
-                    fmt::format("90 % interval {}; {:.0f} in/mi",
-                                unbroken(interval_text(all.mean)),
-                                all.mean.iri * in_per_mi_of_mm_per_m));
-        html += key("Poor",
-                    percent_text(poor_m(report), all.covered_m),
-                    fmt::format("{} km above {} mm/m",
-                                km_text(poor_m(report), all.covered_m),
-                                iri_text(report.poor_above_mm_per_m)));
-        html += key("Poor stretches",
-                    count_text(report.stretches),
-                    fmt::format("of {:.0f} m or more, {} km together",
-                                report.least_stretch_m,
-                                km_text(report.stretches_m, all.covered_m)));
+Rich subtitle_of(const Report& report) {
+    const auto& say = report.wording;
+    const auto period = say.period(report.period.first, report.period.last);
+    const auto about = say("head.about") + " ";
+    if (total_of(report.vehicles).trips == 0) {
+        return about + say("head.nothing");
     }
-    html +=
-        key("Driven by",
-            count_text(cars_in(report.vehicles), "car", "cars"),
-            fmt::format("{}, {}",
-                        count_text(total.trips, "trip", "trips"),
-                        count_text(total.passes, "pass over a segment", "passes over segments")));
-    return html + "</dl>\n</header>\n";
+    if (period.empty()) {
+        return about + say("head.undated");
+    }
+    return std::vector<Span>{
+        {about + say("head.driven") + " "}, {period, SpanLook::plain, true}, {"."}};
 }
 
-std::string condition_section(const Report& report) {
+KeyNumbers key_numbers(const Report& report) {
+    KeyNumbers keys{{measured_key(report)}};
+    if (report.summary.all.covered_m > 0) {
+        keys.numbers.push_back(mean_key(report));
+        keys.numbers.push_back(poor_key(report));
+        keys.numbers.push_back(stretches_key(report));
+    }
+    keys.numbers.push_back(cars_key(report));
+    return keys;
+}
+
+DocumentSection condition_section(const Report& report) {
+    const auto& say = report.wording;
+    return {say("condition"),
+            {classes_table(report),
+             histogram_drawing(report),
+             kinds_table(report),
+             kind_classes_table(report),
+             Paragraph{say("condition.remark"), true}}};
+}
+
+DocumentSection map_section(const Report& report) {
+    const auto& say = report.wording;
     const auto& all = report.summary.all;
-    HtmlTable classes{"Length of road by class of roughness",
-                      {{"Class"},
-                       {"IRI, mm/m", true},
-                       {"in/mi", true, true},
-                       {"km", true},
-                       {"Share", true},
-                       {"90&nbsp;% range of km", true}},
-                      {}};
+    Legend legend{say("map.legend", {{"unit", std::string{say.iri_unit()}}}), {}};
+    std::string words = say("map.words");
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
-        const auto& range = all.classes[c];
-        classes.rows.push_back({unbroken(swatch_svg(report.colours[c]) +
-                                         sentence_case(report.classes->classes[c].name)),
-                                range_text(*report.classes, c, false),
-                                range_text(*report.classes, c, true),
-                                km_text(range.length_m, all.covered_m),
-                                percent_text(range.length_m, all.covered_m),
-                                fmt::format("{} – {}",
-                                            km_text(range.low_m, all.covered_m),
-                                            km_text(range.high_m, all.covered_m))});
+        const auto name = class_name(report, c);
+        legend.entries.push_back({report.colours[c], name, say.range(*report.classes, c)});
+        words += fmt::format("{} {} {} km",
+                             c == 0 ? say("map.words.classes") : ",",
+                             name,
+                             say.km(all.classes[c].length_m, all.covered_m));
     }
-    HtmlTable kinds{"Roughness by kind of road, IRI in mm/m",
-                    {{"Kind of road"},
-                     {"km", true},
-                     {"Mean", true},
-                     {"90&nbsp;% interval", true},
-                     {"Median", true},
-                     {"P85", true},
-                     {"P95", true},
-                     {"Classes"}},
-                    {}};
-    const auto add = [&](const RoadSummary& roads, const std::string& name) {
-        kinds.rows.push_back({name,
-                              km_text(roads.covered_m, all.covered_m),
-                              iri_text(roads.mean.iri),
-                              interval_text(roads.mean),
-                              iri_text(roads.p50),
-                              iri_text(roads.p85),
-                              iri_text(roads.p95),
-                              share_bar_svg(roads, *report.classes, report.colours)});
-    };
-    for (const auto& roads : report.summary.kinds) {
-        if (roads.covered_m > 0) {
-            add(roads, sentence_case(roads.kind));
-        }
-    }
-    add(all, "All");
-    kinds.sum = true;
-    kinds.stacks = true;
-    return "<section>\n<h2>Condition</h2>\n" + html_of(classes) +
-           histogram_svg(report.histogram, all.mean, *report.classes, report.colours) +
-           html_of(kinds) +
-           "<p class=\"small quiet\">P85: 85 % of the length is as smooth as this or smoother. The "
-           "range of a class says how much road would be in it if all readings were too high, or "
-           "too low, together.</p>\n</section>\n";
+    legend.entries.push_back({std::nullopt, say("map.unmeasured"), ""});
+    auto figure = map_figure(report, report.map, report.map_width_m, words);
+    figure.caption = say("map.remark") + " " + figure.caption;
+    return {say("map"), {legend, figure}};
 }
 
-std::string map_section(const Report& report) {
+DocumentSection coverage_section(const Report& report) {
+    const auto& say = report.wording;
     const auto& all = report.summary.all;
-    std::string legend, alt = "Map of the road network";
-    for (std::size_t c = 0; c < report.colours.size(); ++c) {
-        const auto name = sentence_case(report.classes->classes[c].name);
-        legend += fmt::format("<li>{}{} <span class=\"quiet\">{}</span></li>\n",
-                              swatch_svg(report.colours[c]),
-                              name,
-                              range_text(*report.classes, c, false));
-        alt += fmt::format("{} {} {} km",
-                           c == 0 ? " with roughness in colours:" : ",",
-                           name,
-                           km_text(all.classes[c].length_m, all.covered_m));
-    }
-    return fmt::format("<section>\n<h2>Map</h2>\n<ul class=\"legend\" aria-label=\"Legend: IRI in "
-                       "mm/m\">\n<li class=\"quiet\">IRI in mm/m:</li>\n{}"
-                       "<li><span class=\"road\"></span>No measurement</li>\n</ul>\n"
-                       "<figure class=\"map\" style=\"--shape:{:.3f}\">{}<figcaption>{}A thin line "
-                       "has few passes or a wide "
-                       "interval. {}</figcaption></figure>\n</section>\n",
-                       legend,
-                       static_cast<double>(report.map.width_px) / std::max(1, report.map.height_px),
-                       picture_html(report.map, alt),
-                       scale_html(report.map_width_m),
-                       escaped(report.attribution));
-}
-
-std::string coverage_section(const Report& report) {
-    const auto& all = report.summary.all;
-    HtmlTable table{"Kilometres by kind of road, each direction counted",
-                    {{"Kind of road"},
-                     {"On the map", true},
-                     {"At least 1 pass", true},
-                     {"Share", true},
-                     {"At least 3 passes", true},
-                     {"Share", true}},
-                    {}};
+    Table table{say("coverage.caption"),
+                {{say("column.kind")},
+                 {say("column.on_map"), true},
+                 {say("column.one_pass"), true},
+                 {say("column.share"), true},
+                 {say("column.three_passes"), true},
+                 {say("column.share"), true}},
+                {}};
     const auto add = [&](const RoadSummary& roads, const std::string& name) {
         table.rows.push_back({name,
-                              km_text(roads.network_m, all.network_m),
-                              km_text(roads.covered_m, all.network_m),
-                              percent_text(roads.covered_m, roads.network_m),
-                              km_text(roads.thrice_m, all.network_m),
-                              percent_text(roads.thrice_m, roads.network_m)});
+                              say.km(roads.network_m, all.network_m),
+                              say.km(roads.covered_m, all.network_m),
+                              say.percent(roads.covered_m, roads.network_m),
+                              say.km(roads.thrice_m, all.network_m),
+                              say.percent(roads.thrice_m, roads.network_m)});
     };
     for (const auto& roads : report.summary.kinds) {
-        add(roads, sentence_case(roads.kind));
+        add(roads, kind_name(report, roads.kind));
     }
-    add(all, "All");
+    add(all, say("all"));
     table.sum = true;
-    return fmt::format("<section>\n<h2>Coverage</h2>\n{}<p class=\"small quiet\">{} of {} "
-                       "segments of about {:g} m have a pass. Slip roads count with their road. "
-                       "What was driven is no random sample of the network.</p>\n</section>\n",
-                       html_of(table),
-                       count_text(report.segments_with_passes),
-                       count_text(report.segments),
-                       report.segment_length_m);
+    return {say("coverage"),
+            {table,
+             Paragraph{say("coverage.remark",
+                           {{"passed", say.count(report.segments_with_passes)},
+                            {"segments", say.count(report.segments)},
+                            {"length", say.shortest(report.segment_length_m)}}),
+                       true}}};
 }
 
 } // namespace macadam

@@ -131,7 +131,12 @@ TEST_F(ReportProgram, LeavesNoHalfReportOnAFullDisk) {
 TEST_F(ReportProgram, IsMisusedByAnotherNameANumberOrAClassTableThatIsNone) {
     for (const auto& [words, says] : std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{}, "-o report.html is missing"},
-             {{"-o", "a.pdf"}, "-o is 'a.pdf', expected a name that ends in .html"},
+             {{"-o", "a.doc"}, "-o is 'a.doc', expected a name that ends in .html or .pdf"},
+             {{"-o", "a.html", "--paper", "A4"}, "--paper goes with -o FILE.pdf"},
+             {{"-o", "a.pdf", "--paper", "A3"}, "--paper is 'A3', expected A4 or letter"},
+             {{"-o", "a.pdf", "--unit", "m/km"}, "--unit is 'm/km', expected mm/m or in/mi"},
+             {{"-o", "a.pdf", "--language", "xx"}, "--language is 'xx', expected en or de"},
+             {{"-o", "a.pdf", "--since", "spring"}, "--since is 'spring', expected a time such as"},
              {{"-o", "a.html", "--worst", "-1"}, "--worst is -1, expected 0 to 200"},
              {{"-o", "a.html", "--classes", "six"}, "--classes is 'six', expected fhwa or five"}}) {
         std::vector<std::string> call{"report", store_};

@@ -2,13 +2,15 @@
 
 #include "render/report/figures.hpp"
 #include "render/report/html.hpp"
-#include "render/report/numbers.hpp"
+#include "support/sample_report.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <stdexcept>
 #include <string_view>
 
 namespace macadam {
@@ -16,16 +18,21 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::AnyOf;
+using testing::changed_town;
 using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
+using testing::fhwa;
+using ::testing::Gt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using testing::nothing_measured;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
-
-const ClassTable& fhwa = *class_table("fhwa");
+using testing::stretch_named;
+using testing::town;
+using ::testing::UnorderedElementsAreArray;
 
 /// Whether every element that is opened is closed in order; what is wrong first, or nothing. Knows
 /// the elements without content that a report uses.
@@ -68,81 +75,6 @@ between(const std::string& text, std::string_view before, std::string_view after
     return found;
 }
 
-RoadSummary summary_of(double network_m, std::vector<double> class_m) {
-    RoadSummary roads;
-    roads.network_m = network_m;
-    for (const double length_m : class_m) {
-        roads.covered_m += length_m;
-        roads.classes.push_back({length_m, length_m, length_m});
-    }
-    roads.thrice_m = roads.covered_m / 2;
-    roads.mean = {roads.covered_m, 2.5, 0.25, 2.1, 2.9};
-    roads.p50 = 2.2;
-    roads.p85 = 3.3;
-    roads.p95 = 4.4;
-    return roads;
-}
-
-ReportStretch stretch_named(const std::string& name) {
-    RoadStretch stretch{};
-    stretch.name = name;
-    stretch.highway = "residential";
-    stretch.parts = {{123456, true, 100, 240}};
-    stretch.line = {{45.75, 4.85}, {45.751, 4.85}};
-    stretch.length_m = 140;
-    stretch.mean = {140, 4.56, 0.5, 3.74, 5.38};
-    stretch.worst_iri = 7.89;
-    stretch.least_passes = 2;
-    stretch.median_passes = 5;
-    stretch.vehicles = 3;
-    stretch.middle = {45.7505, 4.85};
-    return {stretch, "N", "123456 from 100 to 240 m", "2026-03-01", {{1, 2, 3}, {4, 5}, 480, 360}};
-}
-
-Report town() {
-    Report report;
-    report.title = "Spring survey";
-    report.period = "2026-03-01 to 2026-04-02";
-    report.network_source = "town.osm.pbf";
-    report.attribution = "© OpenStreetMap contributors (ODbL)";
-    report.classes = &fhwa;
-    report.colours = {0x2c7bb6, 0xfee090, 0xd7191c};
-    report.summary.all = summary_of(20000, {1000, 2000, 5000});
-    report.summary.kinds = {summary_of(20000, {1000, 2000, 5000})};
-    report.summary.kinds[0].kind = "living_street";
-    report.histogram = {1, {{1000, 0, 0}, {0, 2000, 500}, {0, 0, 4500}}};
-    report.segments = 1000;
-    report.segments_with_passes = 400;
-    report.map = {{0, 0, 0}, {255, 255}, 1400, 1050};
-    report.map_width_m = 4000;
-    report.poor_above_mm_per_m = poor_above(fhwa);
-    report.least_stretch_m = 100;
-    report.stretches = 12;
-    report.stretches_m = 2345;
-    report.worst = {stretch_named("Rue de l'Épée"), stretch_named("")};
-    report.vehicles = {{"v-0123456789ab", "suv", "kf", 12, 2, 12345, 80, 60, 1000, 900}};
-    report.quality.measured = {400, 8000};
-    report.quality.both_tracks = {100, 2000};
-    report.quality.inferred = {290, 5800};
-    report.quality.lateral_alone = {10, 200};
-    report.quality.start_up = {7, 140};
-    report.lateral_passes = 37;
-    report.row_reasons = {{"too_slow", 20}, {"repeated_fix", 70}};
-    return report;
-}
-
-Report nothing_measured() {
-    Report report;
-    report.title = "Before the first trip";
-    report.network_source = "town.osm.pbf";
-    report.classes = &fhwa;
-    report.colours = {0x2c7bb6, 0xfee090, 0xd7191c};
-    report.summary.all = summary_of(20000, {0, 0, 0});
-    report.histogram = {1, {{0, 0, 0}}};
-    report.map = {{0}, {0}, 1400, 1050};
-    return report;
-}
-
 TEST(Report, ClosesEveryElementThatItOpens) {
     EXPECT_EQ(flaw_in(report_html(town())), "");
     EXPECT_EQ(flaw_in(report_html(nothing_measured())), "");
@@ -156,7 +88,7 @@ TEST(Report, SaysTheNumbersItWasGiven) {
     EXPECT_THAT(html, HasSubstr("2.10 – 2.90</span>; 158 in/mi")); // 2.5 * 63.36
     EXPECT_THAT(html, HasSubstr("<b>62.5 %</b>"));                 // 5 of 8 km
     EXPECT_THAT(html, HasSubstr(">Living street</th>"));
-    EXPECT_THAT(html, HasSubstr("12&#8239;345 passes over segments"));
+    EXPECT_THAT(html, HasSubstr("12\u202F345 passes over segments"));
     EXPECT_THAT(html, HasSubstr("Way 123456 from 100 to 240 m<br>"));
     EXPECT_THAT(html, HasSubstr("Residential road without a name"));
     EXPECT_THAT(html, HasSubstr(">2026-03-01 to 2026-04-02</span>."));
@@ -188,9 +120,11 @@ TEST(Report, AsksForNothingFromOutside) {
 TEST(Report, TakesNoNameForMarkup) {
     const std::string hostile = "\"><script>alert('x')</script>&amp;\x01\xff";
     auto report = town();
-    report.title = report.period = report.network_source = report.attribution = hostile;
+    report.title = report.network_source = report.attribution = hostile;
+    report.period = {hostile, hostile};
     report.worst = {stretch_named(hostile)};
-    report.worst[0].heading = report.worst[0].reference = report.worst[0].seen = hostile;
+    report.worst[0].heading = hostile;
+    report.worst[0].seen = {hostile, hostile};
     report.vehicles[0].name = report.vehicles[0].model = report.vehicles[0].method = hostile;
     report.summary.kinds[0].kind = hostile;
     const auto html = report_html(report);
@@ -206,7 +140,7 @@ TEST(Report, DescribesEveryPictureAndNamesEveryTable) {
         EXPECT_THAT(between(image, " alt=\"Map of ", "\""), SizeIs(1));
     }
     const auto tables = between(html, "<table", "</table>");
-    EXPECT_THAT(tables, SizeIs(7));
+    EXPECT_THAT(tables, SizeIs(8));
     for (const auto& table : tables) {
         EXPECT_THAT(table, HasSubstr(">\n<caption>"));
         EXPECT_THAT(between(table, "<th scope=\"", "\""),
@@ -253,7 +187,7 @@ TEST(Report, LetsOnlyLongTablesGoOverAPage) {
 TEST(Report, SaysOnTheMapsOfStretchesWhatItsTableLeavesOutOnPhones) {
     const auto html = report_html(town());
     EXPECT_THAT(between(html, "<th scope=\"col\" class=\"n else\">", "</th>"),
-                ElementsAre("in/mi", "90&nbsp;% interval", "Worst segment", "Passes", "Cars"));
+                ElementsAre("in/mi", "90\u00A0% interval", "Worst segment", "Passes", "Cars"));
     EXPECT_THAT(html,
                 HasSubstr("(3.74 – 5.38) over 140 m<span class=\"phone\">, at worst 7.89<br>2 – 5 "
                           "passes by 3 cars</span>"));
@@ -261,14 +195,14 @@ TEST(Report, SaysOnTheMapsOfStretchesWhatItsTableLeavesOutOnPhones) {
 
 TEST(Report, NamesEachValueOfACarWherePhonesHaveNoRoomForItsTitles) {
     EXPECT_THAT(report_html(town()),
-                AllOf(HasSubstr("<td data-t=\"Model used\">suv</td>"),
+                AllOf(HasSubstr("<td data-t=\"Model used\">built-in suv</td>"),
                       HasSubstr("<td class=\"n\" data-t=\"Trips\">12</td>")));
 }
 
 TEST(Report, SetsOffTheSumsOfItsTables) {
     const auto sums = between(report_html(town()), "<tr class=\"all\"><th scope=\"row\">", "<");
     EXPECT_THAT(sums,
-                SizeIs(4)); // kinds of road, coverage, basis, reasons; of one car there is none
+                SizeIs(5)); // kinds of road twice, coverage, basis, reasons; of one car none
     EXPECT_THAT(sums, Each(std::string{"All"}));
 }
 
@@ -350,22 +284,37 @@ TEST(Html, EncodesTheVectorsOfRfc4648) {
 }
 
 TEST(ReportNumbers, HaveTheDecimalsThatFit) {
-    EXPECT_EQ(km_text(1234, 9999), "1.23");
-    EXPECT_EQ(km_text(1234, 50000), "1.2");
-    EXPECT_EQ(km_text(1234567, 2e6), "1235");
-    EXPECT_EQ(count_text(9999), "9999");
-    EXPECT_EQ(count_text(1234567), "1&#8239;234&#8239;567");
-    EXPECT_EQ(percent_text(0, 5), "0 %");
-    EXPECT_EQ(percent_text(1, 2000), "&lt; 0.1 %");
-    EXPECT_EQ(percent_text(1, 3), "33.3 %");
-    EXPECT_EQ(percent_text(0, 0), "–");
+    const Wording say;
+    EXPECT_EQ(say.km(1234, 9999), "1.23");
+    EXPECT_EQ(say.km(1234, 50000), "1.2");
+    EXPECT_EQ(say.km(1234567, 2e6), "1235");
+    EXPECT_EQ(say.count(9999), "9999");
+    EXPECT_EQ(say.count(1234567), "1\u202F234\u202F567");
+    EXPECT_EQ(say.percent(0, 5), "0 %");
+    EXPECT_EQ(say.percent(1, 2000), "< 0.1 %");
+    EXPECT_EQ(say.percent(1, 3), "33.3 %");
+    EXPECT_EQ(say.percent(0, 0), "–");
+    EXPECT_EQ(say.iri_change(-0.516), "\u22120.52");
+    EXPECT_EQ(say.iri_change(0.004), "±0.00"); // no sign of what rounds to nothing
 }
 
 TEST(ReportNumbers, SayTheBordersOfTheClassesInBothUnits) {
-    EXPECT_EQ(range_text(fhwa, 0, true), "below 95");
-    EXPECT_EQ(range_text(fhwa, 1, false), "1.50 – 2.68");
-    EXPECT_EQ(range_text(fhwa, 2, true), "above 170");
-    EXPECT_EQ(range_text(*class_table("five"), 0, false), "up to 1.50");
+    const Wording metric{.unit = IriUnit::mm_per_m};
+    const Wording inches{.unit = IriUnit::in_per_mi};
+    EXPECT_EQ(inches.range(fhwa, 0), "below 95");
+    EXPECT_EQ(metric.range(fhwa, 1), "1.50 – 2.68");
+    EXPECT_EQ(inches.range(fhwa, 2), "above 170");
+    EXPECT_EQ(metric.range(*class_table("five"), 0), "up to 1.50");
+}
+
+TEST(ReportNumbers, AreWrittenAsTheLanguageDoes) {
+    const Wording german{.language = language("de")};
+    EXPECT_EQ(german.number(1234.5, 1), "1234,5");
+    EXPECT_EQ(german.percent(1, 3), "33,3 %");
+    EXPECT_EQ(german.day("2026-03-01"), "01.03.2026");
+    EXPECT_EQ(german.period("2026-03-01", "2026-04-02"), "01.03.2026 bis 02.04.2026");
+    EXPECT_EQ(german.counted("cars", 1), "1 Fahrzeug");
+    EXPECT_EQ(german.counted("cars", 12), "12 Fahrzeuge");
 }
 
 /// The attribute's values of all bars, in their order.
@@ -378,8 +327,8 @@ std::vector<double> bars(const std::string& svg, const std::string& attribute) {
 }
 
 TEST(Histogram, DrawsBarsAsHighAsTheRoadIsLong) {
-    const auto report = town();
-    const auto svg = histogram_svg(report.histogram, report.summary.all.mean, fhwa, report.colours);
+    const auto html = report_html(town());
+    const auto svg = between(html, "<svg class=\"histogram\"", "</svg>").at(0);
     const auto heights = bars(svg, "height");
     ASSERT_EQ(heights.size(), 4U); // 1000, 2000 with 500 on top, 4500 m
     EXPECT_NEAR(heights[1] / heights[0], 2, 0.01);
@@ -390,10 +339,132 @@ TEST(Histogram, DrawsBarsAsHighAsTheRoadIsLong) {
 }
 
 TEST(ShareBar, IsPartedAsTheRoadIs) {
-    const auto svg = share_bar_svg(town().summary.all, fhwa, town().colours);
-    EXPECT_THAT(svg, HasSubstr("x=\"12.50\" width=\"25.00\""));
-    EXPECT_THAT(svg, HasSubstr("x=\"37.50\" width=\"62.50\""));
-    EXPECT_THAT(share_bar_svg(nothing_measured().summary.all, fhwa, town().colours), IsEmpty());
+    const auto bar = share_bar(town(), town().summary.all);
+    ASSERT_THAT(bar.shares, SizeIs(3));
+    EXPECT_DOUBLE_EQ(bar.shares[1].percent, 25);
+    EXPECT_DOUBLE_EQ(bar.shares[2].percent, 62.5);
+    EXPECT_THAT(report_html(town()), HasSubstr("x=\"37.50\" width=\"62.50\""));
+    EXPECT_THAT(share_bar(town(), nothing_measured().summary.all).shares, IsEmpty());
+}
+
+// ------------------------------------------------------------------------------- unit, language
+
+/// What people read of a page: its text, with what stands in for figures and pictures.
+std::string text_of(const std::string& html) {
+    auto body = html.substr(html.find("<body>"));
+    std::string text;
+    for (const auto* const attribute : {" aria-label=\"", " alt=\""}) {
+        for (const auto& words : between(body, attribute, "\"")) {
+            text += words + '\n';
+        }
+    }
+    bool in_tag = false;
+    for (const char c : body) {
+        text += in_tag || c == '<' || c == '>' ? "" : std::string{c};
+        in_tag = c == '<' || (in_tag && c != '>');
+    }
+    return text;
+}
+
+TEST(ReportUnit, OfInchesLeavesNoMillimetreAnywhere) {
+    auto report = changed_town();
+    report.wording.unit = IriUnit::in_per_mi;
+    const auto text = text_of(report_html(report));
+    for (const auto* const metric : {"mm/m", "m/km", "2.50", "2.68", "4.56"}) {
+        EXPECT_THAT(text, Not(HasSubstr(metric)));
+    }
+    EXPECT_THAT(text, HasSubstr("158 in/mi")); // 2.5 mm/m times 63.36
+    EXPECT_THAT(text, HasSubstr("95 – 170"));  // FHWA's own borders
+    EXPECT_THAT(text, HasSubstr("IRI 289"));   // 4.56, of a stretch
+    EXPECT_THAT(text, HasSubstr("IRI +95"));   // 1.5, of a change
+    EXPECT_THAT(text, HasSubstr("IRI of a segment, in/mi"));
+}
+
+TEST(ReportUnit, OfMillimetresSaysInchesBesideThem) {
+    EXPECT_THAT(text_of(report_html(town())),
+                AllOf(HasSubstr("2.50 mm/m"), HasSubstr("158 in/mi")));
+}
+
+TEST(ReportChange, SaysHowManyWouldBeCalledByChance) {
+    const auto text = text_of(report_html(changed_town()));
+    EXPECT_THAT(text, HasSubstr("Change since 2026-03-15"));
+    EXPECT_THAT(text, HasSubstr("200 segments. Tested alone, 23 of them"));
+    EXPECT_THAT(text, HasSubstr("about 10 would")); // 5 % of 200
+    EXPECT_THAT(text, HasSubstr("about 5.0 % at most"));
+    EXPECT_THAT(text, HasSubstr("IRI +1.50 (+1.17 to +1.83), from 2.00 to 3.50 over 140 m"));
+    EXPECT_THAT(text, HasSubstr("false discovery rate of 5.0 %"));
+}
+
+TEST(ReportChange, IsNoPartOfAReportThatWasNotAskedForIt) {
+    EXPECT_THAT(text_of(report_html(town())), Not(HasSubstr("Change")));
+}
+
+TEST(Words, HaveTheSameKeysAndPlacesInEveryLanguage) {
+    for (const auto& other : languages()) {
+        EXPECT_THAT(other.messages, SizeIs(languages().front().messages.size())) << other.code;
+        for (const auto& [key, text] : languages().front().messages) {
+            const auto* const message = find_message(other, key);
+            ASSERT_NE(message, nullptr) << other.code << " has no " << key;
+            EXPECT_THAT(places_in(message->text), UnorderedElementsAreArray(places_in(text)))
+                << key;
+        }
+    }
+}
+
+TEST(Words, HaveEveryKeyOnce) {
+    for (const auto& each : languages()) {
+        std::set<std::string_view> keys;
+        for (const auto& message : each.messages) {
+            EXPECT_TRUE(keys.insert(message.key).second) << each.code << ": " << message.key;
+        }
+    }
+}
+
+TEST(Words, RefuseAMissingKeyAndAMissingValue) {
+    EXPECT_THROW(say(languages().front(), "no such key"), std::logic_error);
+    EXPECT_THROW(say(languages().front(), "cars.one"), std::logic_error);
+    EXPECT_EQ(say(languages().front(), "cars.one", {{"count", "1"}}), "1 car");
+}
+
+/// Sentences of the English catalogue between their places, if they are more than a name or a word
+/// that both languages have.
+std::vector<std::string> english_pieces() {
+    std::vector<std::string> pieces;
+    for (const auto& [key, text] : languages().front().messages) {
+        const auto* const german = find_message(*language("de"), key);
+        std::string piece;
+        bool in_place = false;
+        for (const char c : std::string{text} + "{") {
+            if (c == '{') {
+                const bool alike = german->text.find(piece) != std::string_view::npos;
+                if (piece.size() >= 5 && !alike) {
+                    pieces.push_back(piece);
+                }
+                piece.clear();
+            }
+            in_place = c == '{' || (in_place && c != '}');
+            piece += in_place || c == '}' ? "" : std::string{c};
+        }
+    }
+    return pieces;
+}
+
+TEST(Words, OfTheGermanReportHoldNoEnglish) {
+    auto report = changed_town();
+    report.title = "Bericht";
+    report.network_source = "stadt.osm.pbf";
+    report.attribution = "© OpenStreetMap";
+    report.wording.language = language("de");
+    const auto text = text_of(report_html(report));
+    EXPECT_THAT(english_pieces(), SizeIs(Gt(100U)));
+    for (const auto& piece : english_pieces()) {
+        EXPECT_THAT(text, Not(HasSubstr(piece)));
+    }
+    EXPECT_THAT(text, HasSubstr("2,50 mm/m"));
+    EXPECT_THAT(text, HasSubstr("Gefahren 01.03.2026 bis 02.04.2026."));
+    EXPECT_THAT(text, HasSubstr("Änderung seit 15.03.2026"));
+    EXPECT_THAT(text, Not(HasSubstr("2.50")));
+    EXPECT_THAT(report_html(report), HasSubstr("<html lang=\"de\">"));
 }
 
 } // namespace

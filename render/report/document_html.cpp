@@ -1,0 +1,309 @@
+#include "render/report/html.hpp"
+#include "render/report/report.hpp"
+#include "render/report/style.hpp"
+
+#include "estimator/common/utf8.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace macadam {
+
+using namespace document;
+
+namespace {
+
+/// Text in which words that are longer than a column may break, and no others; '\n' as a break.
+std::string breakable(std::string_view text) {
+    constexpr std::size_t longest_word = 24; // letters
+    std::string html, piece;
+    std::size_t letters = 0;
+    const auto flush = [&] {
+        html += escaped(piece);
+        piece.clear();
+    };
+    while (!text.empty()) {
+        const auto length = std::max<std::size_t>(1, utf8_length(text));
+        if (text.front() == '\n') {
+            flush();
+            html += "<br>";
+            letters = 0;
+            text.remove_prefix(1);
+            continue;
+        }
+        letters = text.front() == ' ' ? 0 : letters + 1;
+        if (letters > longest_word) {
+            flush();
+            html += "<wbr>";
+            letters = 1;
+        }
+        piece += text.substr(0, length);
+        text.remove_prefix(length);
+    }
+    flush();
+    return html;
+}
+
+std::string html_of(const Span& span) {
+    auto html = breakable(span.text);
+    if (!span.target.empty()) {
+        html = fmt::format("<a href=\"#{}\">{}</a>", escaped(span.target), html);
+    }
+    if (span.unbroken) {
+        html = "<span class=\"nw\">" + html + "</span>";
+    }
+    switch (span.look) {
+    case SpanLook::strong:
+        return "<b>" + html + "</b>";
+    case SpanLook::quiet:
+        return "<span class=\"quiet\">" + html + "</span>";
+    case SpanLook::phone:
+        return "<span class=\"phone\">" + html + "</span>";
+    case SpanLook::plain:
+        break;
+    }
+    return html;
+}
+
+std::string html_of(const Rich& rich) {
+    std::string html;
+    for (const auto& span : rich.spans) {
+        html += html_of(span);
+    }
+    return html;
+}
+
+std::string words_of(const Rich& rich) {
+    std::string words;
+    for (const auto& span : rich.spans) {
+        words += span.text;
+    }
+    return words;
+}
+
+/// A little square of a colour. Says nothing to those who listen.
+std::string swatch_html(std::uint32_t rgb) {
+    return fmt::format("<svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\">"
+                       "<rect class=\"bar\" width=\"10\" height=\"10\" fill=\"#{:06x}\"/></svg>",
+                       rgb);
+}
+
+std::string html_of(const Cell& cell) {
+    if (cell.shares.empty()) {
+        return (cell.swatch ? swatch_html(*cell.swatch) : "") + html_of(cell.text);
+    }
+    std::string bars;
+    double x = 0;
+    for (const auto& [percent, rgb] : cell.shares) {
+        if (percent > 0) {
+            bars += fmt::format("<rect x=\"{:.2f}\" width=\"{:.2f}\" height=\"10\" "
+                                "fill=\"#{:06x}\"/>",
+                                x,
+                                percent,
+                                rgb);
+        }
+        x += percent;
+    }
+    return fmt::format("<svg class=\"share\" viewBox=\"0 0 100 10\" preserveAspectRatio=\"none\" "
+                       "role=\"img\" aria-label=\"{}\">{}</svg>",
+                       escaped(words_of(cell.text)),
+                       bars);
+}
+
+std::string picture_html(const ReportPicture& picture, const std::string& words) {
+    const auto image = [&](const char* look, const std::vector<std::uint8_t>& png) {
+        return fmt::format("<img{} width=\"{}\" height=\"{}\" alt=\"{}\" "
+                           "src=\"data:image/png;base64,{}\">",
+                           look,
+                           picture.width_px,
+                           picture.height_px,
+                           escaped(words),
+                           base64(png));
+    };
+    return picture.dark_png.empty() ? image("", picture.light_png)
+                                    : image(" class=\"light\"", picture.light_png) +
+                                          image(" class=\"dark\"", picture.dark_png);
+}
+
+// --------------------------------------------------------------------------------------- shapes
+
+std::string svg_of(const Stroke& stroke) {
+    const auto* const look = stroke.look == StrokeLook::mean ? "mean" : "grid";
+    if (stroke.points.size() == 2) {
+        const auto& [from, to] = std::pair{stroke.points[0], stroke.points[1]};
+        return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" "
+                           "y2=\"{:.1f}\"/>\n",
+                           look,
+                           from.first,
+                           from.second,
+                           to.first,
+                           to.second);
+    }
+    std::string points;
+    for (const auto& [x, y] : stroke.points) {
+        points += fmt::format("{:.1f},{:.1f} ", x, y);
+    }
+    return fmt::format("<polyline points=\"{}\" fill=\"none\" class=\"{}\" "
+                       "stroke-width=\"1.5\"/>\n",
+                       points,
+                       look);
+}
+
+std::string svg_of(const Bar& bar) {
+    return fmt::format("<rect{} x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
+                       "fill=\"#{:06x}\"/>\n",
+                       bar.edged ? " class=\"bar\"" : "",
+                       bar.x,
+                       bar.y,
+                       bar.width,
+                       bar.height,
+                       bar.rgb);
+}
+
+std::string svg_of(const Label& label) {
+    const auto* const anchor = label.anchor == Anchor::start    ? "start"
+                               : label.anchor == Anchor::middle ? "middle"
+                                                                : "end";
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
+                       label.x,
+                       label.y,
+                       anchor,
+                       escaped(label.text));
+}
+
+std::string svg_of(const Dots& dots) {
+    std::string path;
+    for (const auto& [x, y] : dots.places) {
+        path += fmt::format("M{:g} {:g}h0", x, y);
+    }
+    return fmt::format("<path d=\"{}\" stroke=\"#{:06x}\" stroke-width=\"{:g}\" "
+                       "stroke-linecap=\"round\" stroke-opacity=\"0.6\" fill=\"none\"/>\n",
+                       path,
+                       dots.rgb,
+                       dots.width);
+}
+
+// --------------------------------------------------------------------------------------- blocks
+
+std::string block_html(const Paragraph& paragraph) {
+    return fmt::format(
+        "<p{}>{}</p>\n", paragraph.small ? " class=\"small quiet\"" : "", html_of(paragraph.text));
+}
+
+std::string block_html(const Bullets& bullets) {
+    std::string html = "<ul>\n";
+    for (const auto& item : bullets.items) {
+        html += "<li>" + html_of(item) + "</li>\n";
+    }
+    return html + "</ul>\n";
+}
+
+std::string block_html(const KeyNumbers& keys) {
+    std::string html = "<dl class=\"key\">\n";
+    for (const auto& [what, value, more] : keys.numbers) {
+        html += fmt::format("<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n",
+                            escaped(what),
+                            escaped(value),
+                            html_of(more));
+    }
+    return html + "</dl>\n";
+}
+
+std::string block_html(const Table& table) {
+    return table_html(table, [](const Cell& cell) { return html_of(cell); });
+}
+
+std::string block_html(const Drawing& drawing) {
+    auto svg = fmt::format("<svg class=\"histogram\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" "
+                           "font-size=\"12\" aria-label=\"{}\">\n",
+                           drawing.width,
+                           drawing.height,
+                           escaped(drawing.words));
+    for (const auto& shape : drawing.shapes) {
+        svg += std::visit([](const auto& of) { return svg_of(of); }, shape);
+    }
+    return svg + "</svg>\n";
+}
+
+std::string block_html(const Legend& legend) {
+    auto html = fmt::format("<ul class=\"legend\" aria-label=\"{0}\">\n<li class=\"quiet\">{0}"
+                            "</li>\n",
+                            escaped(legend.title));
+    for (const auto& [rgb, name, range] : legend.entries) {
+        html += fmt::format("<li>{}{}{}</li>\n",
+                            rgb ? swatch_html(*rgb) : "<span class=\"road\"></span>",
+                            escaped(name),
+                            range.empty() ? ""
+                                          : " <span class=\"quiet\">" + escaped(range) + "</span>");
+    }
+    return html + "</ul>\n";
+}
+
+std::string block_html(const MapFigure& map) {
+    const auto scale = map.scale_percent > 0
+                           ? fmt::format("<span class=\"scale\"><span style=\"width:{:.2f}%\">"
+                                         "</span>{}</span>",
+                                         map.scale_percent,
+                                         escaped(map.scale))
+                           : "";
+    return fmt::format("<figure class=\"map\" style=\"--shape:{:.3f}\">{}<figcaption>{}{}"
+                       "</figcaption></figure>\n",
+                       static_cast<double>(map.picture.width_px) /
+                           std::max(1, map.picture.height_px),
+                       picture_html(map.picture, map.words),
+                       scale,
+                       escaped(map.caption));
+}
+
+std::string block_html(const Cards& cards) {
+    std::string html = "<div class=\"cards\">\n";
+    for (const auto& card : cards.cards) {
+        html += fmt::format("<figure id=\"{}\">{}<figcaption><h3>{}</h3>{}</figcaption></figure>\n",
+                            escaped(card.id),
+                            picture_html(card.picture, card.words),
+                            escaped(card.title),
+                            html_of(card.text));
+    }
+    return html + "</div>\n";
+}
+
+std::string html_of(const DocumentSection& section, const char* element) {
+    auto html = fmt::format("<{}>\n<h2>{}</h2>\n", element, escaped(section.title));
+    for (const auto& block : section.blocks) {
+        html += std::visit([](const auto& of) { return block_html(of); }, block);
+    }
+    return html + fmt::format("</{}>\n", element);
+}
+
+} // namespace
+
+std::string html_of(const Document& document) {
+    // The policy is a promise to the reader: the page asks nobody for anything.
+    auto html = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+        "style-src 'unsafe-inline'; img-src data:\">\n"
+        "<meta name=\"generator\" content=\"Macadam\">\n<title>{}</title>\n<style>\n{}</style>\n"
+        "</head>\n<body>\n<header>\n<h1>{}</h1>\n<p class=\"quiet\">{}</p>\n",
+        document.language,
+        escaped(document.title),
+        report_style(),
+        breakable(document.title),
+        html_of(document.subtitle));
+    if (!document.keys.numbers.empty()) {
+        html += block_html(document.keys);
+    }
+    html += "</header>\n<main>\n";
+    for (const auto& section : document.sections) {
+        html += html_of(section, "section");
+    }
+    html += "</main>\n";
+    for (const auto& section : document.end) {
+        html += html_of(section, "footer");
+    }
+    return html + "</body>\n</html>\n";
+}
+
+} // namespace macadam
