@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace macadam {
 namespace {
 
@@ -79,9 +82,10 @@ private:
             return std::nullopt;
         }
         foreseen.strips = std::move(*strips);
-        auto wanted = foreseen.strips;
-        const auto waiting = dirty_strips(*database_);
-        wanted.insert(wanted.end(), waiting.begin(), waiting.end());
+        auto wanted = dirty_strips(*database_);
+        wanted.insert(wanted.end(), foreseen.strips.begin(), foreseen.strips.end());
+        std::ranges::sort(wanted);
+        wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
         fuse(wanted);
         moment.commit();
         return foreseen;

@@ -67,7 +67,7 @@ std::string select_of(const SegmentFilter& filter, bool rows_in_order) {
         sql += "segment";
         sql += state;
     }
-    sql += " CROSS JOIN way ON way.way_id = segment.way_id WHERE 1";
+    sql += " WHERE 1";
     if (road == Road::box) {
         sql += " AND segment.fid >= :first AND segment.fid <= :last";
     }
@@ -77,9 +77,6 @@ std::string select_of(const SegmentFilter& filter, bool rows_in_order) {
     if (road == Road::range) {
         sql += " AND segment.way_id = :way AND segment.direction = :direction"
                " AND segment.seq >= :first AND segment.seq < :past";
-    }
-    if (!filter.highway.empty()) {
-        sql += " AND way.highway = :highway";
     }
     // The rows of one way always stand in the order of its keys.
     return sql + " ORDER BY " +
@@ -156,9 +153,6 @@ void each_row(Database& database, const SegmentFilter& filter, const Row& row) {
         }
         select.reset();
     };
-    if (!filter.highway.empty()) {
-        select.bind_named(":highway", filter.highway);
-    }
     switch (road_to(filter)) {
     case Road::range:
         for (const auto& range : ranges_of(filter)) {
@@ -189,6 +183,37 @@ void each_row(Database& database, const SegmentFilter& filter, const Row& row) {
 }
 
 // -------------------------------------------------------------------------------------- records
+
+/// What ways are called. Rows of a way come one after the other: joined, it would be looked up for
+/// each of its segments.
+class RoadNames {
+public:
+    explicit RoadNames(Database& database)
+        : select_{database.prepare("SELECT name, highway FROM way WHERE way_id = ?")} {}
+
+    /// \returns false for a way that the store does not have.
+    bool find(std::int64_t way_id) {
+        if (way_id != way_id_) {
+            way_id_ = way_id;
+            is_there_ = select_.bind(way_id).step();
+            name_ = is_there_ ? select_.text(0) : "";
+            highway_ = is_there_ ? select_.text(1) : "";
+            select_.reset();
+        }
+        return is_there_;
+    }
+
+    /// Of the way that was found last.
+    const std::string& name() const { return name_; }
+    const std::string& highway() const { return highway_; }
+
+private:
+    Statement select_;
+    std::optional<std::int64_t> way_id_;
+    bool is_there_ = false;
+    std::string name_;
+    std::string highway_;
+};
 
 void expect_line(const SegmentRecord& record, const Database& database) {
     if (!is_line(record.segment.line)) {
@@ -314,8 +339,15 @@ void RoadStore::visit(const SegmentFilter& filter,
     }
     const Conditions conditions{filter, impl_->classes()};
     Roughest roughest{filter.worst};
+    RoadNames names{database};
     each_row(database, filter, [&](const Statement& row) {
+        if (!names.find(row.integer(0)) ||
+            (!filter.highway.empty() && filter.highway != names.highway())) {
+            return;
+        }
         auto record = record_in(row);
+        record.name = names.name();
+        record.highway = names.highway();
         expect_line(record, database);
         if (chosen) {
             record.state = chosen->of(record.segment.key);

@@ -254,7 +254,7 @@ std::string RoadStore::digest() const {
         add_passes(hash, impl_->database);
         auto select = impl_->database.prepare(fmt::format(
             "SELECT {} FROM segment JOIN segment_state AS state ON state.fid = segment.fid"
-            " JOIN way ON way.way_id = segment.way_id ORDER BY {}",
+            " ORDER BY {}",
             record_columns,
             are_rows_in_order(impl_->database) ? "segment.fid" : order_of_keys));
         while (select.step()) {

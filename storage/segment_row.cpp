@@ -41,7 +41,7 @@ std::optional<RoadChange> known_change_in(const Statement& row, int column) {
     return utc_ms ? std::optional{RoadChange{*utc_ms, um_in(row, column + 1)}} : std::nullopt;
 }
 
-constexpr int first_state_column = 8;
+constexpr int first_state_column = 6;
 
 SegmentState state_in(const Statement& row, const SegmentKey& segment) {
     constexpr int c = first_state_column;
@@ -67,7 +67,7 @@ SegmentState state_in(const Statement& row, const SegmentKey& segment) {
 
 const char* const record_columns =
     "segment.way_id, segment.direction, segment.seq, segment.from_m, segment.to_m, segment.geom,"
-    " way.name, way.highway, state.iri, state.iri_sd, state.iri_low, state.iri_high,"
+    " state.iri, state.iri_sd, state.iri_low, state.iri_high,"
     " state.iri_left, state.iri_right, state.\"index\", state.passes, state.vehicles,"
     " state.first_seen_ms, state.last_seen_ms, state.trend_per_year, state.trend_sd,"
     " state.changed_ms, state.change, state.flags";
@@ -76,8 +76,8 @@ SegmentRecord record_in(const Statement& row) {
     const SegmentKey key{
         row.integer(0), row.text(1) == "forward", static_cast<std::uint32_t>(row.integer(2))};
     return {.segment = {key, row.real(3), row.real(4), line_of_geometry(row.blob(5))},
-            .name = row.text(6),
-            .highway = row.text(7),
+            .name = {},
+            .highway = {},
             .state =
                 row.is_null(first_state_column) ? std::nullopt : std::optional{state_in(row, key)}};
 }

@@ -30,14 +30,15 @@ constexpr std::chrono::milliseconds pause_between_turns{10};
 
 constexpr int most_tries = 3; // the last of them under the lock
 
-constexpr const char* clean_segments =
-    "DELETE FROM segment_dirty WHERE segment >= ?1 AND segment < ?1 + ?2"
-    " AND (SELECT strip FROM segment WHERE fid = segment_dirty.segment) = ?1";
+// The rows of a strip's segments stand one after the other.
+constexpr const char* last_of_strip =
+    "SELECT fid FROM segment WHERE fid >= ?1 AND fid < ?1 + ?2 AND strip = ?1"
+    " ORDER BY fid DESC LIMIT 1";
+
+constexpr const char* clean_segments = "DELETE FROM segment_dirty WHERE segment BETWEEN ? AND ?";
 
 constexpr const char* states_of_strip =
-    "SELECT state.fid, state.iri, state.iri_sd, state.passes FROM segment_state AS state"
-    " CROSS JOIN segment ON segment.fid = state.fid"
-    " WHERE state.fid >= ?1 AND state.fid < ?1 + ?2 AND segment.strip = ?1";
+    "SELECT fid, iri, iri_sd, passes FROM segment_state WHERE fid BETWEEN ? AND ?";
 
 /// What is noted when a state changes.
 struct Number {
@@ -59,7 +60,8 @@ public:
                 std::int64_t segments_in_strip,
                 const ClassTable& classes,
                 std::optional<std::int64_t> audit)
-        : database_{&database}, clean_{database.prepare(clean_segments)},
+        : database_{&database}, last_{database.prepare(last_of_strip)}, clean_{database.prepare(
+                                                                            clean_segments)},
           clean_strip_{database.prepare("DELETE FROM strip_dirty WHERE strip = ?")},
           select_{database.prepare(states_of_strip)}, insert_{database,
                                                               insert_state,
@@ -74,11 +76,16 @@ public:
     /// \param fused  what it comes to, where that is known.
     /// \returns how many of its segments were dirty; none if another importer was quicker.
     std::size_t clean_strip(std::int64_t strip, const std::optional<FusedStrip>& fused) {
-        clean_.run(strip, segments_in_strip_);
+        const auto last = last_of(strip);
+        clean_.run(strip, last);
         const auto cleaned = database_->changes();
         clean_strip_.run(strip);
         if (cleaned > 0 || database_->changes() > 0) {
-            write(strip, fused ? *fused : states().of(strip, segments_in_strip_));
+            if (fused) {
+                write(strip, last, *fused);
+            } else {
+                write(strip, last, states().of(strip, segments_in_strip_));
+            }
         }
         return static_cast<std::size_t>(cleaned);
     }
@@ -95,13 +102,13 @@ public:
 private:
     StripStates& states() { return states_ ? *states_ : states_.emplace(*database_); }
 
-    void write(std::int64_t strip, const FusedStrip& fused) {
+    void write(std::int64_t strip, std::int64_t last, const FusedStrip& fused) {
         if (fused.laid.drives == 0) {
             remove_strip_.run(strip);
         } else {
             write_summary(strip, fused.laid);
         }
-        auto before = numbers_before(strip);
+        auto before = numbers_before(strip, last);
         for (const auto& [fid, state] : fused.segments) {
             write_state(insert_, fid, state, *classes_);
             const Number now{state.iri_um, state.sd_um, state.passes};
@@ -116,9 +123,17 @@ private:
         }
     }
 
-    Numbers numbers_before(std::int64_t strip) {
+    /// Row of its last segment.
+    std::int64_t last_of(std::int64_t strip) {
+        last_.bind(strip, segments_in_strip_).step();
+        const auto last = last_.integer(0);
+        last_.reset();
+        return last;
+    }
+
+    Numbers numbers_before(std::int64_t strip, std::int64_t last) {
         Numbers numbers;
-        for (select_.bind(strip, segments_in_strip_); select_.step();) {
+        for (select_.bind(strip, last); select_.step();) {
             numbers[select_.integer(0)] = {
                 um_of(select_.real(1)), um_of(select_.real(2)), select_.integer(3)};
         }
@@ -148,6 +163,7 @@ private:
 
     Database* database_;
     std::optional<StripStates> states_; ///< made when it is needed
+    Statement last_;
     Statement clean_;
     Statement clean_strip_;
     Statement select_;

@@ -50,11 +50,11 @@ std::optional<double> take_fraction(std::string_view& text) {
     return fraction;
 }
 
-/// With zeros before it; a store writes a million of them.
-std::string padded(std::int64_t number, std::size_t digits) {
-    const auto text = fmt::format_int{number};
-    return std::string(digits - std::min(digits, text.size()), '0')
-        .append(text.data(), text.size());
+/// Writes a number over that many places, with zeros before it; a store writes a million of them.
+void put(char* text, std::int64_t number, int digits) {
+    for (char* place = text + digits; place > text; number /= 10) {
+        *--place = static_cast<char>('0' + number % 10);
+    }
 }
 
 } // namespace
@@ -64,22 +64,26 @@ std::string utc_text(std::int64_t utc_ms) {
     const auto day = chr::floor<chr::days>(time);
     const chr::year_month_day date{day};
     const chr::hh_mm_ss clock{time - day};
-    auto text = padded(static_cast<int>(date.year()), 4);
-    text += '-';
-    text += padded(static_cast<unsigned>(date.month()), 2);
-    text += '-';
-    text += padded(static_cast<unsigned>(date.day()), 2);
-    text += 'T';
-    text += padded(clock.hours().count(), 2);
-    text += ':';
-    text += padded(clock.minutes().count(), 2);
-    text += ':';
-    text += padded(clock.seconds().count(), 2);
-    if (const auto ms = clock.subseconds().count(); ms != 0) {
-        text += '.';
-        text += padded(ms, 3);
+    const auto year = static_cast<int>(date.year());
+    std::string text =
+        year >= 0 && year <= 9999 ? std::string{"0000"} : std::string{fmt::format_int{year}.str()};
+    if (text == "0000") {
+        put(text.data(), year, 4);
     }
-    return text + "Z";
+    const auto after_year = text.size();
+    text += "-00-00T00:00:00";
+    char* const rest = text.data() + after_year;
+    put(rest + 1, static_cast<unsigned>(date.month()), 2);
+    put(rest + 4, static_cast<unsigned>(date.day()), 2);
+    put(rest + 7, clock.hours().count(), 2);
+    put(rest + 10, clock.minutes().count(), 2);
+    put(rest + 13, clock.seconds().count(), 2);
+    if (const auto ms = clock.subseconds().count(); ms != 0) {
+        text += ".000";
+        put(text.data() + text.size() - 3, ms, 3);
+    }
+    text += 'Z';
+    return text;
 }
 
 std::optional<double> parse_utc_s(std::string_view text) {
