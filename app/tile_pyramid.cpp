@@ -362,20 +362,24 @@ private:
 
 } // namespace
 
+void add(TileSource& source, const TileSegment& segment) {
+    each_tile_of(box_of(segment.line), base_zoom, true, [&](const TileId& tile) {
+        source.segments.add(tile, segment);
+    });
+    ++source.count;
+}
+
 void read_tile_source(const RoadStore& store,
                       const SegmentFilter& filter,
                       TileSource& source,
                       const Progress& progress) {
     constexpr std::size_t report_every = 1000;
     store.visit(filter, [&](const SegmentRecord& record) {
-        const auto segment = tile_segment(record, source.words);
-        each_tile_of(box_of(segment.line), base_zoom, true, [&](const TileId& tile) {
-            source.segments.add(tile, segment);
-        });
+        add(source, tile_segment(record, source.words));
         for (const auto& point : record.segment.line) {
             source.box = including(source.box, point);
         }
-        if (++source.count % report_every == 0) {
+        if (source.count % report_every == 0) {
             progress(source.count, 0);
             expect_not_stopped(progress);
         }

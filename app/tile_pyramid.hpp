@@ -33,6 +33,9 @@ struct TileSource {
     std::size_t count = 0;
 };
 
+/// Lays a segment aside; after the last one `source.segments` is to be settled.
+void add(TileSource& source, const TileSegment& segment);
+
 /// Reads the segments with a state. \param source  a new one.
 void read_tile_source(const RoadStore& store,
                       const SegmentFilter& filter,
