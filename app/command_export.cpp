@@ -106,7 +106,7 @@ constexpr std::array options{
     Option{"-o,--output",
            "FILE",
            "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, "
-           ".fgb."},
+           ".fgb, .shp, .kml."},
     bbox_option,
     way_option,
     name_option,
@@ -126,7 +126,7 @@ constexpr std::array options{
 
 const Command export_command{
     .name = "export",
-    .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage, FlatGeobuf",
+    .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage, Shapefile and more",
     .about =
         "One feature a segment and direction, its line in driving direction, with IRI, its 90 "
         "% interval,\n"
