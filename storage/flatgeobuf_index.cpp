@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -198,6 +199,7 @@ void copy_features(std::ifstream& plain,
 void index_flatgeobuf(const std::filesystem::path& plain,
                       std::vector<GeoBox> boxes,
                       const std::filesystem::path& file) {
+    assert(!boxes.empty());
     std::ifstream in{plain, std::ios::binary};
     const auto start = announced(in);
     const auto starts = starts_of(in, start.size(), boxes.size());
