@@ -203,6 +203,9 @@ TEST(ExportRoundTrip, OfCsvLosesNothingButSetsAnApostropheBeforeFormulas) {
                            if (name && (name->starts_with('=') || name->starts_with('-'))) {
                                name = "'" + *name;
                            }
+                           if (name) { // the file has it; GDAL reads a line feed
+                               std::ranges::replace(*name, '\r', '\n');
+                           }
                            return values;
                        }});
 }
