@@ -10,9 +10,12 @@
 #include "support/road_art.hpp"
 #include "support/shell.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace macadam::testing {
@@ -287,6 +290,61 @@ TEST(ExportOverTheAntimeridian, HasTheMiddleInCsvWhereTheRoadIs) {
     all.with_state_only = false;
     export_segments(store, all, folder / "out.csv");
     EXPECT_THAT(content_of(folder / "out.csv"), HasSubstr(",-16.8000000,180.0000000"));
+}
+
+// ----------------------------------------------------------------------------------- FlatGeobuf
+
+/// How many features GDAL finds in a box, by the index of the file.
+std::size_t found_in(const fs::path& folder, const std::string& name, const GeoBox& box) {
+    const auto info = output_of(folder,
+                                fmt::format("ogrinfo -ro -so -al -spat {} {} {} {} {}",
+                                            box.west_deg,
+                                            box.south_deg,
+                                            box.east_deg,
+                                            box.north_deg,
+                                            (folder / name).string()));
+    const std::string label = "Feature Count: ";
+    const auto at = info.find(label);
+    EXPECT_NE(at, std::string::npos) << info;
+    return at == std::string::npos ? 0 : std::stoul(info.substr(at + label.size()));
+}
+
+bool touch(const GeoBox& a, const GeoBox& b) {
+    return a.west_deg <= b.east_deg && b.west_deg <= a.east_deg && a.south_deg <= b.north_deg &&
+           b.south_deg <= a.north_deg;
+}
+
+TEST(FlatGeobufIndex, FindsWhatLiesInABox) {
+    const auto folder = test_folder();
+    const auto store = store_of_names(folder / "store.gpkg");
+    // Trees of two and of three levels, and of a single leaf.
+    std::vector<SegmentFilter> choices(3);
+    choices[0].with_state_only = false;
+    choices[1].with_state_only = false;
+    choices[1].way_id = 2;
+    choices[2].key = SegmentKey{1, true, 0};
+    for (const auto& choice : choices) {
+        std::vector<GeoBox> boxes;
+        GeoBox all;
+        store.visit(choice, [&](const SegmentRecord& record) {
+            boxes.emplace_back();
+            for (const auto& point : record.segment.line) {
+                boxes.back() = including(boxes.back(), point);
+                all = including(all, point);
+            }
+        });
+        EXPECT_EQ(export_segments(store, choice, folder / "out.fgb"), boxes.size());
+        for (const double share : {0.0, 0.3, 0.7, 1.0}) {
+            const GeoBox corner{all.west_deg,
+                                all.south_deg,
+                                std::lerp(all.west_deg, all.east_deg, share) + 1e-5,
+                                std::lerp(all.south_deg, all.north_deg, share) + 1e-5};
+            const auto expected =
+                std::ranges::count_if(boxes, [&](const GeoBox& box) { return touch(box, corner); });
+            EXPECT_EQ(found_in(folder, "out.fgb", corner), std::size_t(expected));
+        }
+        EXPECT_EQ(found_in(folder, "out.fgb", {0, 0, 1, 1}), 0U);
+    }
 }
 
 // ------------------------------------------------------------------------------------ Shapefile
