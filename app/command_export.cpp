@@ -121,7 +121,7 @@ constexpr std::array options{
     Option{"-o,--output",
            "FILE",
            "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, "
-           ".fgb; tiles for the web: .mbtiles, .pmtiles."},
+           ".fgb, .shp, .kml; tiles for the web: .mbtiles, .pmtiles."},
     zoom_option,
     tile_jobs_option,
     bbox_option,
@@ -143,7 +143,7 @@ constexpr std::array options{
 
 const Command export_command{
     .name = "export",
-    .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage, FlatGeobuf, vector tiles",
+    .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage, Shapefile, tiles and more",
     .about =
         "One feature a segment and direction, its line in driving direction, with IRI, its 90 "
         "% interval,\n"

@@ -95,6 +95,9 @@ void expect_fitting(const Arguments& arguments, Kind kind) {
     if (kind != Kind::pdf && (arguments.value("--paper") || arguments.flag("--landscape"))) {
         throw UsageError{"--paper and --landscape go with a .pdf, expected --size with a picture"};
     }
+    if (const auto crs = arguments.value("--crs"); crs && crs->empty()) {
+        throw UsageError{"--crs is '', expected a projection such as EPSG:3006"};
+    }
     if (kind != Kind::png && arguments.flag("--world-file")) {
         throw UsageError{"--world-file goes with a .png; a .tif says itself where it lies"};
     }

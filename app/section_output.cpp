@@ -185,16 +185,11 @@ std::string json_object_of(const NamedSection& named, const ClassTable& classes)
 }
 
 std::string geojson_feature(const NamedSection& named, const ClassTable& classes) {
-    std::vector<std::string> points;
-    for (const auto& point : named.section.line) {
-        points.push_back(fmt::format(
-            "[{:.{}f},{:.{}f}]", point.lon_deg, place_decimals, point.lat_deg, place_decimals));
-    }
-    JsonObject geometry;
-    geometry.add("type", "LineString").add("coordinates", JsonRaw{json_array(points)});
     JsonObject feature;
     feature.add("type", "Feature")
-        .add("geometry", points.empty() ? JsonValue{nullptr} : JsonValue{JsonRaw{geometry.text()}})
+        .add("geometry",
+             named.section.line.empty() ? JsonValue{nullptr}
+                                        : JsonValue{JsonRaw{geojson_geometry(named.section.line)}})
         .add("properties", JsonRaw{json_object_of(named, classes)});
     return feature.text();
 }

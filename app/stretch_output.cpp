@@ -170,17 +170,10 @@ std::string json_of(std::span<const RoadStretch> stretches) {
 }
 
 std::string geojson_feature(const RoadStretch& stretch, std::size_t rank) {
-    std::vector<std::string> points;
-    for (const auto& point : stretch.line) {
-        points.push_back(fmt::format(
-            "[{:.{}f},{:.{}f}]", point.lon_deg, place_decimals, point.lat_deg, place_decimals));
-    }
-    JsonObject geometry;
-    geometry.add("type", "LineString").add("coordinates", JsonRaw{json_array(points)});
     JsonObject feature;
     feature.add("type", "Feature")
         .add("id", static_cast<std::int64_t>(rank))
-        .add("geometry", JsonRaw{geometry.text()})
+        .add("geometry", JsonRaw{geojson_geometry(stretch.line)})
         .add("properties", JsonRaw{json_object_of(stretch, rank)});
     return feature.text();
 }

@@ -252,7 +252,9 @@ void furnish(Pen& canvas,
              const MapStyle& style,
              TypeSetter& setter) {
     const auto colours = palette(style);
-    draw_edges(canvas, layout, colours);
+    if (layout.edges) {
+        draw_edges(canvas, layout, colours);
+    }
     for (const auto& text : layout.texts) {
         canvas.write(setter.mask(text.text, text.look),
                      text.at,

@@ -102,6 +102,7 @@ Layout layout_of(const MapScene& scene, int width_px, int height_px, TypeSetter&
     }
     layout.map = {0, std::round(top), double(width_px), bottom};
     layout.scale_bar = scene.scale_bar;
+    layout.edges = !scene.to_the_edge;
     layout.scale_room = {margin, bottom, margin + scale_width, double(height_px)};
     return layout;
 }

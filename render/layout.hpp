@@ -23,6 +23,7 @@ struct Layout {
     std::vector<PlacedText> texts;
     PixelBox scale_room; ///< for north arrow and scale bar
     bool scale_bar = true;
+    bool edges = true; ///< hairlines between the map and what is around it
 };
 
 /// One thousandth of the shorter side; small pictures get more, so that their text can be read.

@@ -9,12 +9,21 @@
 
 namespace macadam {
 
+/// How a line begins and ends: round, or cut off at the point itself.
+struct LineEnds {
+    bool round_begin = true;
+    bool round_end = true;
+};
+
 /// A page of a PDF file. Shapes stay shapes, and text stays text, in fonts that the file carries:
 /// DejaVu Sans, and for other scripts what the machine has.
 class PdfPage : public Pen {
 public:
-    /// A line through points, with round ends and joins.
-    virtual void draw(std::span<const PixelPoint> line, double radius_px, std::uint32_t rgb) = 0;
+    /// A line through points, with round joins.
+    virtual void draw(std::span<const PixelPoint> line,
+                      double radius_px,
+                      std::uint32_t rgb,
+                      const LineEnds& ends) = 0;
 
     /// A line of text. \param at  left end of the base line
     virtual void write_text(const std::string& utf8,

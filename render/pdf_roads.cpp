@@ -35,15 +35,26 @@ struct Brush {
     std::uint32_t rgb;
 };
 
-/// Neighbouring pieces of the brush's looks are one line.
+bool is_of(const Brush& brush, const Strand& strand, std::size_t piece) {
+    return (brush.looks >> strand.looks[piece] & 1U) != 0;
+}
+
+/// Neighbouring pieces of the brush's looks are one line. What was painted before ends round below
+/// what is painted later, which is cut off where the look changes: so each look has its own length
+/// and no bend has a gap.
 void draw(PdfPage& page, const Strand& strand, const Brush& brush) {
-    for (std::size_t i = 0; i < strand.looks.size();) {
+    const auto& looks = strand.looks;
+    for (std::size_t i = 0; i < looks.size();) {
         std::size_t end = i;
-        while (end < strand.looks.size() && (brush.looks >> strand.looks[end] & 1U) != 0) {
+        while (end < looks.size() && is_of(brush, strand, end)) {
             ++end;
         }
         if (end > i) {
-            page.draw(std::span{strand.points}.subspan(i, end - i + 1), brush.radius_px, brush.rgb);
+            page.draw(std::span{strand.points}.subspan(i, end - i + 1),
+                      brush.radius_px,
+                      brush.rgb,
+                      {.round_begin = i == 0 || looks[i - 1] > looks[i],
+                       .round_end = end == looks.size() || looks[end] > looks[end - 1]});
         }
         i = std::max(end, i + 1);
     }

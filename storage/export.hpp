@@ -33,6 +33,9 @@ std::vector<std::optional<std::string>> field_values(const SegmentRecord& record
 /// over the antimeridian is a MultiLineString that is cut there.
 std::string geojson_feature(const SegmentRecord& record, const ClassTable& classes);
 
+/// A line as the `geometry` of a Feature, in the same way.
+std::string geojson_geometry(const std::vector<GeoPoint>& line);
+
 /// A CSV row of the field values and of the middle of the segment (lat_deg, lon_deg), without the
 /// line's end. Quoted where RFC 4180 needs it, and where text begins as a formula would (= + - @),
 /// which gets an apostrophe before it.

@@ -4,6 +4,7 @@
 #include "estimator/common/late_library.hpp"
 #include "mapping/antimeridian.hpp"
 #include "storage/atomic_file_set.hpp"
+#include "storage/flatgeobuf_index.hpp"
 #include "storage/late/line_file.hpp"
 #include "storage/utc.hpp"
 
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -181,16 +183,33 @@ std::vector<std::string> stale_beside(const std::string& stem) {
 
 std::size_t export_flatgeobuf(const SegmentExport& what) {
     AtomicFileSet files{what.file};
-    const LineFile file{
+    const auto place = files.folder() / what.file.filename();
+    const LineFile plain{
         .driver = "FlatGeobuf",
-        .file = files.folder() / what.file.filename(),
+        .file = files.folder() / "plain.fgb",
         .layer = "roughness",
-        .options = {{"SPATIAL_INDEX", "YES"}, {"DESCRIPTION", description_of(what)}},
+        .options = {{"SPATIAL_INDEX", "NO"}, {"DESCRIPTION", description_of(what)}},
         .columns = flatgeobuf_columns()};
-    const auto written = write_lines(what, file, [](const SegmentRecord& record) -> LineParts {
+    std::vector<GeoBox> boxes;
+    const auto written = write_lines(what, plain, [&](const SegmentRecord& record) -> LineParts {
         const auto& line = record.segment.line; // of a layer of lines, which have one part
-        return {crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line};
+        LineParts parts{crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line};
+        boxes.emplace_back();
+        for (const auto& point : parts.front()) {
+            boxes.back() = including(boxes.back(), point);
+        }
+        return parts;
     });
+    if (written == 0) {
+        std::filesystem::rename(plain.file, place);
+    } else {
+        try {
+            index_flatgeobuf(plain.file, std::move(boxes), place);
+        } catch (const InputError& error) {
+            throw InputError{fmt::format("{}: {}", what.file.string(), error.what())};
+        }
+        std::filesystem::remove(plain.file);
+    }
     files.commit();
     return written;
 }

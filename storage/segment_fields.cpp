@@ -82,20 +82,6 @@ std::string positions_of(const std::vector<GeoPoint>& line) {
     return json_array(points);
 }
 
-JsonObject json_geometry(const std::vector<GeoPoint>& line) {
-    JsonObject geometry;
-    if (!crosses_antimeridian(line)) {
-        geometry.add("type", "LineString").add("coordinates", JsonRaw{positions_of(line)});
-        return geometry;
-    }
-    std::vector<std::string> parts;
-    for (const auto& part : cut_at_antimeridian(line)) {
-        parts.push_back(positions_of(part));
-    }
-    geometry.add("type", "MultiLineString").add("coordinates", JsonRaw{json_array(parts)});
-    return geometry;
-}
-
 JsonValue json_of(const Field& field, const Text& value) {
     if (!value) {
         return nullptr;
@@ -152,6 +138,20 @@ std::vector<Text> field_values(const SegmentRecord& record, const ClassTable& cl
     return values;
 }
 
+std::string geojson_geometry(const std::vector<GeoPoint>& line) {
+    JsonObject geometry;
+    if (!crosses_antimeridian(line)) {
+        geometry.add("type", "LineString").add("coordinates", JsonRaw{positions_of(line)});
+        return geometry.text();
+    }
+    std::vector<std::string> parts;
+    for (const auto& part : cut_at_antimeridian(line)) {
+        parts.push_back(positions_of(part));
+    }
+    geometry.add("type", "MultiLineString").add("coordinates", JsonRaw{json_array(parts)});
+    return geometry.text();
+}
+
 std::string geojson_feature(const SegmentRecord& record, const ClassTable& classes) {
     const auto values = field_values(record, classes);
     JsonObject properties;
@@ -161,7 +161,7 @@ std::string geojson_feature(const SegmentRecord& record, const ClassTable& class
     JsonObject feature;
     feature.add("type", "Feature")
         .add("id", name_of(record.segment.key))
-        .add("geometry", JsonRaw{json_geometry(record.segment.line).text()})
+        .add("geometry", JsonRaw{geojson_geometry(record.segment.line)})
         .add("properties", JsonRaw{properties.text()});
     return feature.text();
 }

@@ -43,7 +43,6 @@ class CairoPage final : public PdfPage {
 public:
     CairoPage(cairo_surface_t* surface, double pt_per_px) : cairo_{cairo_create(surface)} {
         cairo_scale(cairo_.get(), pt_per_px, pt_per_px);
-        cairo_set_line_cap(cairo_.get(), CAIRO_LINE_CAP_ROUND);
         cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
         layout_.reset(pango_cairo_create_layout(cairo_.get()));
         // Letters stand where they are, not on the pixels of some screen.
@@ -67,7 +66,7 @@ public:
                 double radius_px,
                 std::uint32_t rgb) override {
         const PixelPoint line[]{from, to};
-        draw(line, radius_px, rgb);
+        draw(line, radius_px, rgb, {});
     }
 
     void fill_triangle(const PixelPoint& a,
@@ -85,11 +84,22 @@ public:
         write_text(text.text, text.look, at, rgb);
     }
 
-    void draw(std::span<const PixelPoint> line, double radius_px, std::uint32_t rgb) override {
+    void draw(std::span<const PixelPoint> line,
+              double radius_px,
+              std::uint32_t rgb,
+              const LineEnds& ends) override {
+        const bool round = ends.round_begin && ends.round_end;
         follow(line);
         colour(rgb);
         cairo_set_line_width(cairo_.get(), 2 * radius_px);
+        cairo_set_line_cap(cairo_.get(), round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
         cairo_stroke(cairo_.get());
+        if (!round && ends.round_begin) {
+            dot(line.front(), radius_px);
+        }
+        if (!round && ends.round_end) {
+            dot(line.back(), radius_px);
+        }
     }
 
     void write_text(const std::string& utf8,
@@ -126,6 +136,12 @@ private:
     void colour(std::uint32_t rgb) {
         const auto channel = [&](unsigned shift) { return (rgb >> shift & 255U) / 255.0; };
         cairo_set_source_rgb(cairo_.get(), channel(16), channel(8), channel(0));
+    }
+
+    void dot(const PixelPoint& at, double radius_px) {
+        cairo_new_path(cairo_.get());
+        cairo_arc(cairo_.get(), at.x, at.y, radius_px, 0, 2 * std::numbers::pi);
+        cairo_fill(cairo_.get());
     }
 
     void follow(std::span<const PixelPoint> points) {

@@ -74,9 +74,7 @@ void open(const std::string& crs, PlaneProjection& projection) {
     proj_context_set_enable_network(context.get(), 0); // the same on every machine
     const Owned system{proj_create(context.get(), as_system(crs).c_str())};
     if (!system) {
-        const auto* const cause =
-            proj_context_errno_string(context.get(), proj_context_errno(context.get()));
-        refuse(crs, cause != nullptr && *cause != '\0' ? cause : "is not known");
+        refuse(crs, "is not known to PROJ");
     }
     expect_flat(context.get(), system.get(), crs);
     const Owned wgs84{proj_create(context.get(), "EPSG:4326")};

@@ -110,9 +110,10 @@ TEST(PdfMap, LooksLikeThePicture) {
         ASSERT_EQ(page.width, 1754);
         ASSERT_EQ(page.height, 1240);
         const PixelBox whole{0, 0, 1754, 1240};
-        // Another rasteriser draws edges of lines and letters otherwise, nothing else: a road
-        // moved by its own width makes 2, no legend 3.
-        EXPECT_LT(difference(page, picture, whole), 0.6);
+        // Another rasteriser draws the edges of lines and letters otherwise: 0.6 to 0.75 levels
+        // were seen. Without the legend it is 1.2, without the grey road 1.3, with roads 2 m
+        // aside 1.6, with traffic on the other side 3.9.
+        EXPECT_LT(difference(page, picture, whole), 1.0);
     }
 }
 

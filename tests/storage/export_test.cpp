@@ -167,7 +167,7 @@ TEST(Export, RefusesSuffixesItDoesNotKnow) {
     EXPECT_THAT(
         refusal_of([&] { export_segments(store, {}, folder / "out.xls"); }),
         HasSubstr("out.xls: suffix '.xls', expected one of .geojson, .geojsonl, .csv, .gpkg, "
-                  ".fgb"));
+                  ".fgb, .shp, .kml"));
 }
 
 TEST(Export, LeavesNothingOfAFileThatCouldNotBeFinished) {
