@@ -18,24 +18,6 @@ constexpr double margin_share = 0.05; // of the driven extent, so that nothing t
 constexpr double least_margin_m = 50;
 constexpr double certain_sd = 0.5; // of the value; beyond it the line is drawn with a narrower core
 
-/// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
-int rank_of(std::string_view highway) {
-    struct Rank {
-        std::string_view prefix;
-        int rank;
-    };
-    constexpr std::array ranks{Rank{"motorway", 0},
-                               Rank{"trunk", 0},
-                               Rank{"primary", 1},
-                               Rank{"secondary", 2},
-                               Rank{"tertiary", 3},
-                               Rank{"service", 5},
-                               Rank{"track", 5}};
-    const auto found =
-        std::ranges::find_if(ranks, [&](const Rank& r) { return highway.starts_with(r.prefix); });
-    return found != ranks.end() ? found->rank : highway.empty() ? 2 : 4;
-}
-
 GeoBox box_with_margin(const GeoBox& box) {
     const double diagonal_m =
         distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
@@ -69,6 +51,27 @@ std::string subtitle_of(const StoreInfo& info, bool whole) {
 
 } // namespace
 
+int rank_of(std::string_view highway) {
+    struct Rank {
+        std::string_view prefix;
+        int rank;
+    };
+    constexpr std::array ranks{Rank{"motorway", 0},
+                               Rank{"trunk", 0},
+                               Rank{"primary", 1},
+                               Rank{"secondary", 2},
+                               Rank{"tertiary", 3},
+                               Rank{"service", 5},
+                               Rank{"track", 5}};
+    const auto found =
+        std::ranges::find_if(ranks, [&](const Rank& r) { return highway.starts_with(r.prefix); });
+    return found != ranks.end() ? found->rank : highway.empty() ? 2 : 4;
+}
+
+bool is_certain(const SegmentState& state) {
+    return state.sd_um <= certain_sd * state.iri_um;
+}
+
 std::vector<MapLine>
 map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes) {
     // Each direction is a segment of its own; what was driven one way only is still a road of two
@@ -91,7 +94,7 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes) 
         line.name = record.name;
         if (record.state) {
             line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
-            line.certain = record.state->sd_um <= certain_sd * record.state->iri_um;
+            line.certain = is_certain(*record.state);
         }
         lines.push_back(std::move(line));
     });

@@ -5,9 +5,16 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace macadam {
+
+/// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
+int rank_of(std::string_view highway);
+
+/// Whether a line shows it in full width: its standard deviation is at most half of it.
+bool is_certain(const SegmentState& state);
 
 /// The segments of a store that touch a box, in the order of their keys, with their classes; those
 /// without a pass as roads without a measurement.
