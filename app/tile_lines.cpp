@@ -24,7 +24,7 @@ double metres_per_px(const WorldScale& scale) {
     return equator_m / (scale.tile_px * std::exp2(scale.zoom));
 }
 
-std::uint32_t segments_in(double length_m, double segment_length_m) {
+std::uint32_t power_of_two_within(double length_m, double segment_length_m) {
     const double count = std::clamp(length_m / segment_length_m, 1.0, 1e6);
     return std::bit_floor(std::uint32_t(count));
 }
@@ -198,10 +198,10 @@ private:
 
 TileLineRules tile_line_rules(const WorldScale& scale, double segment_length_m, double reach_px) {
     const double px_m = metres_per_px(scale);
-    const auto per_line = segments_in(line_px * px_m, segment_length_m);
+    const auto per_line = power_of_two_within(line_px * px_m, segment_length_m);
     const double longest_m = longest_segment * segment_length_m * per_line;
     return {.per_line = per_line,
-            .per_value = segments_in(value_px * px_m, segment_length_m),
+            .per_value = power_of_two_within(value_px * px_m, segment_length_m),
             .separate_ways = tile_widths(zoom_of_256_px(scale)).separate_ways,
             // A line on the tile, and if lines are made of several segments all of the next one.
             .margin_m = (per_line > 1 ? 2 : 1) * longest_m + reach_px * px_m};
