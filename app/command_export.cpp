@@ -3,14 +3,17 @@
 #include "app/period_options.hpp"
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
+#include "app/tile_export.hpp"
 
 #include "storage/atomic_file.hpp"
 #include "storage/export.hpp"
+#include "storage/tile_archive.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -22,6 +25,7 @@ struct ExportOptions {
     std::filesystem::path output;
     SegmentFilter filter;
     std::optional<SectionOptions> sections;
+    std::optional<TilePlan> tiles;
 };
 
 /// Sections are reported whole, whatever lies in them, and as text.
@@ -44,7 +48,8 @@ ExportOptions parse_export(const Arguments& arguments) {
     if (!output) {
         throw UsageError{"-o FILE is missing"};
     }
-    const auto suffixes = export_suffixes();
+    std::vector<std::string_view> suffixes{export_suffixes().begin(), export_suffixes().end()};
+    std::ranges::copy(tile_archive_suffixes(), std::back_inserter(suffixes));
     if (std::ranges::none_of(suffixes, [&](auto suffix) { return output->ends_with(suffix); })) {
         throw UsageError{fmt::format(
             "-o is '{}', expected a name that ends in {}", *output, fmt::join(suffixes, ", "))};
@@ -52,9 +57,15 @@ ExportOptions parse_export(const Arguments& arguments) {
     ExportOptions options{.store = store_file(arguments),
                           .output = *output,
                           .filter = parse_filter(arguments),
-                          .sections = parse_sections(arguments, false)};
+                          .sections = parse_sections(arguments, false),
+                          .tiles = {}};
     if (options.sections) {
         expect_sections_alone(options);
+    }
+    if (is_tile_archive(options.output)) {
+        options.tiles = parse_tile_plan(arguments);
+    } else {
+        expect_no_tile_options(arguments);
     }
     return options;
 }
@@ -96,6 +107,10 @@ void run_export(const Arguments& arguments, const Console& console) {
         export_sections(store, options, console);
         return;
     }
+    if (options.tiles) {
+        export_tiles(store, options.filter, options.output, *options.tiles, console);
+        return;
+    }
     const auto written =
         export_segments(store, options.filter, options.output, console.progress("writing"));
     console.say(fmt::format("{}: {}", options.output.string(), counted(written, "segment")));
@@ -106,7 +121,9 @@ constexpr std::array options{
     Option{"-o,--output",
            "FILE",
            "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, "
-           ".fgb."},
+           ".fgb; tiles for the web: .mbtiles, .pmtiles."},
+    zoom_option,
+    tile_jobs_option,
     bbox_option,
     way_option,
     name_option,
@@ -126,7 +143,7 @@ constexpr std::array options{
 
 const Command export_command{
     .name = "export",
-    .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage, FlatGeobuf",
+    .summary = "Hand the fused segments on: GeoJSON, CSV, GeoPackage, FlatGeobuf, vector tiles",
     .about =
         "One feature a segment and direction, its line in driving direction, with IRI, its 90 "
         "% interval,\n"
@@ -136,7 +153,8 @@ const Command export_command{
         "file appears when\nit is whole.",
     .example = "  macadam export roads.gpkg -o roads.geojson\n"
                "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02\n"
-               "  macadam export roads.gpkg -o sections.csv --sections routes.csv",
+               "  macadam export roads.gpkg -o sections.csv --sections routes.csv\n"
+               "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2",
     .operands = operands,
     .options = options,
     .run = run_export};

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "app/arguments.hpp"
+#include "app/console.hpp"
+#include "app/tile_pyramid.hpp"
+#include "storage/road_store.hpp"
+
+#include <filesystem>
+
+namespace macadam {
+
+inline constexpr Option zoom_option{
+    "--zoom", "A-B", "Tiles: of these zooms, from 0 to 18 (a segment is told from 14 on).", "6-16"};
+inline constexpr Option tile_jobs_option{"--jobs", "N", "Tiles: to make at once.", "1"};
+
+/// Whether a file of that name holds tiles.
+bool is_tile_archive(const std::filesystem::path& file);
+
+/// Of --zoom and --jobs. \throws UsageError  for values that do not fit.
+TilePlan parse_tile_plan(const Arguments& arguments);
+
+/// \throws UsageError  if one of --zoom and --jobs is there, which go with tiles alone.
+void expect_no_tile_options(const Arguments& arguments);
+
+/// Writes vector tiles of the store's measured segments into an archive (docs/outputs.md) and says
+/// how many.
+void export_tiles(const RoadStore& store,
+                  const SegmentFilter& filter,
+                  const std::filesystem::path& file,
+                  const TilePlan& plan,
+                  const Console& console);
+
+} // namespace macadam

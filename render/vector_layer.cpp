@@ -1,0 +1,267 @@
+#include "render/vector_layer.hpp"
+
+#include <protozero/buffer_string.hpp>
+#include <protozero/pbf_writer.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+// Numbers of the specification's vector_tile.proto.
+namespace tag {
+constexpr protozero::pbf_tag_type layer = 3;
+constexpr protozero::pbf_tag_type name = 1, feature = 2, key = 3, value = 4, extent = 5;
+constexpr protozero::pbf_tag_type version = 15;
+constexpr protozero::pbf_tag_type id = 1, tags = 2, type = 3, geometry = 4;
+constexpr protozero::pbf_tag_type text = 1, real = 3, whole = 6;
+} // namespace tag
+constexpr int extent_bits = 12;
+static_assert(tile_extent == 1 << extent_bits);
+constexpr std::uint32_t line_type = 2;
+constexpr std::uint32_t move_command = 1, line_command = 2;
+
+std::uint32_t command(std::uint32_t id, std::size_t count) {
+    return (id & 7U) | (static_cast<std::uint32_t>(count) << 3U);
+}
+
+std::uint32_t zigzag(std::int32_t value) {
+    return (static_cast<std::uint32_t>(value) << 1U) ^ static_cast<std::uint32_t>(value >> 31);
+}
+
+std::uint64_t mixed(std::uint64_t bits, std::uint64_t kind) {
+    std::uint64_t hash = (bits ^ (kind << 61U)) * 0x9e3779b97f4a7c15U; // 2^64 / golden ratio
+    return hash ^ (hash >> 32U);
+}
+
+/// The part of the way from one place to another that lies within least..most, cut further.
+/// \returns false if nothing is left.
+bool cut(double from, double step, std::pair<double, double>& part) {
+    constexpr double least = -tile_buffer, most = tile_extent + tile_buffer;
+    if (step == 0) {
+        return from >= least && from <= most;
+    }
+    const double a = (least - from) / step, b = (most - from) / step;
+    part.first = std::max(part.first, std::min(a, b));
+    part.second = std::min(part.second, std::max(a, b));
+    return part.first <= part.second;
+}
+
+} // namespace
+
+WorldBox shown_by(const TileId& tile) {
+    const auto side = std::int64_t{1} << static_cast<unsigned>(world_bits - tile.zoom);
+    const auto buffer = side * tile_buffer / tile_extent;
+    const auto held = [](std::int64_t value) {
+        return static_cast<std::uint32_t>(
+            std::clamp<std::int64_t>(value, 0, (std::int64_t{1} << world_bits) - 1));
+    };
+    return {held(tile.x * side - buffer),
+            held(tile.y * side - buffer),
+            held((tile.x + 1) * side + buffer),
+            held((tile.y + 1) * side + buffer)};
+}
+
+bool meet(const WorldBox& a, const WorldBox& b) {
+    return a.least_x <= b.most_x && b.least_x <= a.most_x && a.least_y <= b.most_y &&
+           b.least_y <= a.most_y;
+}
+
+VectorLayer::VectorLayer(std::string_view name,
+                         const TileId& tile,
+                         std::span<const std::string_view> keys)
+    : name_{name}, keys_{keys}, shift_{world_bits - extent_bits - tile.zoom} {
+    assert(shift_ >= 0);
+    const auto side = static_cast<unsigned>(world_bits - tile.zoom);
+    west_ = std::int64_t{tile.x} << side;
+    north_ = std::int64_t{tile.y} << side;
+    slots_.resize(1024, 0);
+}
+
+// ------------------------------------------------------------------------------------- geometry
+
+VectorLayer::Place VectorLayer::place_of(const WorldPoint& point) const {
+    const std::int64_t half = shift_ > 0 ? std::int64_t{1} << (shift_ - 1) : 0;
+    return {static_cast<std::int32_t>((std::int64_t{point.x} - west_ + half) >> shift_),
+            static_cast<std::int32_t>((std::int64_t{point.y} - north_ + half) >> shift_)};
+}
+
+void VectorLayer::move_to(const Place& place) {
+    geometry_.push_back(command(move_command, 1));
+    geometry_.push_back(zigzag(place.x - cursor_.x));
+    geometry_.push_back(zigzag(place.y - cursor_.y));
+    cursor_ = place;
+}
+
+void VectorLayer::line_to(const Place& place) {
+    geometry_.push_back(zigzag(place.x - cursor_.x));
+    geometry_.push_back(zigzag(place.y - cursor_.y));
+    cursor_ = place;
+}
+
+void VectorLayer::end_piece() {
+    if (piece_.size() > 1) {
+        move_to(piece_.front());
+        geometry_.push_back(command(line_command, piece_.size() - 1));
+        std::for_each(piece_.begin() + 1, piece_.end(), [&](const Place& p) { line_to(p); });
+    }
+    piece_.clear();
+}
+
+/// Liang and Barsky, "A new concept and method for line clipping", ACM Transactions on Graphics 3
+/// (1984), pp. 1-22.
+void VectorLayer::put_clipped(const Place& from, const Place& to) {
+    const double dx = to.x - from.x, dy = to.y - from.y;
+    std::pair part{0.0, 1.0};
+    if (!cut(from.x, dx, part) || !cut(from.y, dy, part)) {
+        end_piece();
+        return;
+    }
+    const auto at = [&](double share) {
+        return Place{static_cast<std::int32_t>(std::lround(from.x + share * dx)),
+                     static_cast<std::int32_t>(std::lround(from.y + share * dy))};
+    };
+    if (const auto begin = at(part.first); piece_.empty() || piece_.back() != begin) {
+        end_piece();
+        piece_.push_back(begin);
+    }
+    if (const auto end = at(part.second); piece_.back() != end) {
+        piece_.push_back(end);
+    }
+}
+
+void VectorLayer::put_line(std::span<const Place> line) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        put_clipped(line[i - 1], line[i]);
+    }
+    end_piece();
+}
+
+bool VectorLayer::begin(std::span<const WorldPoint> line) {
+    assert(!line.empty());
+    geometry_.clear();
+    tags_.clear();
+    cursor_ = {0, 0};
+    line_.clear();
+    for (const auto& point : line) {
+        if (const auto place = place_of(point); line_.empty() || line_.back() != place) {
+            line_.push_back(place);
+        }
+    }
+    if (line_.size() == 1) {
+        line_.push_back({line_.front().x + 1, line_.front().y});
+    }
+    put_line(line_);
+    return !geometry_.empty();
+}
+
+// --------------------------------------------------------------------------------------- values
+
+std::uint32_t VectorLayer::put_value(Value::Kind kind, std::uint64_t bits, std::string_view text) {
+    std::string value;
+    protozero::pbf_writer writer{value};
+    switch (kind) {
+    case Value::Kind::text:
+        writer.add_string(tag::text, text.data(), text.size());
+        break;
+    case Value::Kind::whole:
+        writer.add_sint64(tag::whole, static_cast<std::int64_t>(bits));
+        break;
+    case Value::Kind::real:
+        writer.add_double(tag::real, std::bit_cast<double>(bits));
+        break;
+    }
+    protozero::pbf_writer layer{values_};
+    layer.add_message(tag::value, value);
+    const auto size = static_cast<std::uint32_t>(text.size()); // a text is the end of its message
+    known_.push_back({kind, bits, static_cast<std::uint32_t>(values_.size()) - size, size});
+    return static_cast<std::uint32_t>(known_.size()) - 1;
+}
+
+void VectorLayer::make_room() {
+    slots_.assign(slots_.size() * 4, 0);
+    const auto mask = slots_.size() - 1;
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+        auto slot = mixed(known_[i].bits, static_cast<std::uint64_t>(known_[i].kind)) & mask;
+        while (slots_[slot] != 0) {
+            slot = (slot + 1) & mask;
+        }
+        slots_[slot] = static_cast<std::uint32_t>(i) + 1;
+    }
+}
+
+std::uint32_t VectorLayer::number_of(Value::Kind kind, std::uint64_t bits, std::string_view text) {
+    if (2 * known_.size() > slots_.size()) {
+        make_room();
+    }
+    const auto mask = slots_.size() - 1;
+    auto slot = mixed(bits, static_cast<std::uint64_t>(kind)) & mask;
+    for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
+        const auto& value = known_[slots_[slot] - 1];
+        if (value.kind == kind && value.bits == bits &&
+            std::string_view{values_}.substr(value.at, value.size) == text) {
+            return slots_[slot] - 1;
+        }
+    }
+    const auto number = put_value(kind, bits, text);
+    slots_[slot] = number + 1;
+    return number;
+}
+
+void VectorLayer::add(std::uint32_t key, std::string_view text) {
+    tags_.push_back(key);
+    tags_.push_back(number_of(Value::Kind::text, std::hash<std::string_view>{}(text), text));
+}
+
+void VectorLayer::add(std::uint32_t key, std::int64_t whole) {
+    tags_.push_back(key);
+    tags_.push_back(number_of(Value::Kind::whole, static_cast<std::uint64_t>(whole), {}));
+}
+
+void VectorLayer::add_real(std::uint32_t key, double value) {
+    tags_.push_back(key);
+    tags_.push_back(number_of(Value::Kind::real, std::bit_cast<std::uint64_t>(value + 0.0), {}));
+}
+
+void VectorLayer::add_unlike(std::uint32_t key, std::string_view text) {
+    tags_.push_back(key);
+    tags_.push_back(put_value(Value::Kind::text, std::hash<std::string_view>{}(text), text));
+}
+
+// ------------------------------------------------------------------------------------- features
+
+void VectorLayer::end(std::optional<std::uint64_t> id) {
+    protozero::pbf_writer layer{features_};
+    protozero::pbf_writer feature{layer, tag::feature};
+    if (id) {
+        feature.add_uint64(tag::id, *id);
+    }
+    feature.add_packed_uint32(tag::tags, tags_.begin(), tags_.end());
+    feature.add_enum(tag::type, static_cast<std::int32_t>(line_type));
+    feature.add_packed_uint32(tag::geometry, geometry_.begin(), geometry_.end());
+    ++count_;
+}
+
+std::string VectorLayer::tile_bytes() const {
+    std::string layer;
+    protozero::pbf_writer writer{layer};
+    writer.add_uint32(tag::version, 2);
+    writer.add_string(tag::name, name_);
+    layer += features_;
+    for (const auto key : keys_) {
+        writer.add_string(tag::key, key.data(), key.size());
+    }
+    layer += values_;
+    writer.add_uint32(tag::extent, tile_extent);
+    std::string tile;
+    protozero::pbf_writer{tile}.add_message(tag::layer, layer);
+    return tile;
+}
+
+} // namespace macadam

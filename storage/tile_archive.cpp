@@ -1,0 +1,172 @@
+#include "storage/tile_archive.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/atomic_file.hpp"
+#include "storage/json.hpp"
+#include "storage/sqlite.hpp"
+#include "storage/tile_contents.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr std::array<std::string_view, 2> suffixes{".mbtiles", ".pmtiles"};
+
+const std::filesystem::path& expect_known_suffix(const std::filesystem::path& file) {
+    const auto suffix = file.extension().string();
+    if (std::ranges::find(suffixes, suffix) == suffixes.end()) {
+        throw InputError{fmt::format(
+            "{}: suffix '{}', expected {}", file.string(), suffix, fmt::join(suffixes, " or "))};
+    }
+    return file;
+}
+
+} // namespace
+
+// ------------------------------------------------------------------------------------- contents
+
+std::uint64_t tile_number(const TileId& tile) {
+    std::uint64_t number = ((std::uint64_t{1} << (2U * tile.zoom)) - 1) / 3; // of all zooms before
+    std::uint64_t x = tile.x, y = tile.y;
+    for (auto half = (std::uint64_t{1} << tile.zoom) / 2; half > 0; half /= 2) {
+        const bool east = (x & half) != 0, south = (y & half) != 0;
+        number += half * half * ((east ? 3U : 0U) ^ (south ? 1U : 0U));
+        x &= half - 1;
+        y &= half - 1;
+        if (!south) { // the curve within this quarter is mirrored
+            if (east) {
+                x = half - 1 - x;
+                y = half - 1 - y;
+            }
+            std::swap(x, y);
+        }
+    }
+    return number;
+}
+
+std::uint32_t TileContents::content_of(std::string_view bytes) {
+    const auto hash = std::hash<std::string_view>{}(bytes);
+    const auto [first, last] = by_hash_.equal_range(hash);
+    const auto known = std::find_if(first, last, [&](const auto& candidate) {
+        return size_of(candidate.second) == bytes.size() && bytes_of(candidate.second) == bytes;
+    });
+    if (known != last) {
+        return known->second;
+    }
+    assert(places_.size() < std::numeric_limits<std::uint32_t>::max());
+    const auto content = static_cast<std::uint32_t>(places_.size());
+    places_.push_back(spool_.append(bytes));
+    by_hash_.emplace(hash, content);
+    return content;
+}
+
+void TileContents::add(const TileId& tile, std::string_view bytes) {
+    assert(!bytes.empty());
+    entries_.push_back({tile_number(tile), tile, content_of(bytes)});
+}
+
+void TileContents::sort() {
+    by_hash_.clear();
+    std::ranges::sort(entries_, {}, &TileEntry::number);
+    assert(std::ranges::adjacent_find(entries_, {}, &TileEntry::number) == entries_.end());
+    constexpr auto unseen = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> renumbered(places_.size(), unseen);
+    std::vector<SpoolPlace> places;
+    for (auto& entry : entries_) {
+        auto& number = renumbered[entry.content];
+        if (number == unseen) {
+            number = static_cast<std::uint32_t>(places.size());
+            places.push_back(places_[entry.content]);
+        }
+        entry.content = number;
+    }
+    places_ = std::move(places);
+}
+
+std::string layers_json(const TileSetNote& note) {
+    std::vector<std::string> layers;
+    for (const auto& layer : note.layers) {
+        JsonObject fields;
+        for (const auto& field : layer.fields) {
+            fields.add(field.name, field.kind);
+        }
+        JsonObject object;
+        object.add("id", layer.id)
+            .add("description", layer.description)
+            .add("minzoom", std::int64_t{layer.least_zoom})
+            .add("maxzoom", std::int64_t{layer.most_zoom})
+            .add("fields", JsonRaw{fields.text()});
+        layers.push_back(object.text());
+    }
+    return layers.empty() ? std::string{} : json_array(layers);
+}
+
+TileSetCentre centre_of(const TileSetNote& note) {
+    const auto& box = note.bounds;
+    int zoom = note.most_zoom;
+    const auto is_too_wide = [&](int at) {
+        const auto first = tile_place({box.north_deg, box.west_deg}, at);
+        const auto last = tile_place({box.south_deg, box.east_deg}, at);
+        return std::max(last.x - first.x, last.y - first.y) > 2;
+    };
+    while (zoom > note.least_zoom && is_too_wide(zoom)) {
+        --zoom;
+    }
+    return {{(box.south_deg + box.north_deg) / 2, (box.west_deg + box.east_deg) / 2}, zoom};
+}
+
+// -------------------------------------------------------------------------------------- archive
+
+struct TileArchive::Impl {
+    std::filesystem::path file;
+    TileSetNote note;
+    TileContents contents;
+    AtomicFile out;
+
+    Impl(const std::filesystem::path& path, TileSetNote said)
+        : file{expect_known_suffix(path)}, note{std::move(said)}, contents{path}, out{path} {}
+};
+
+TileArchive::TileArchive(const std::filesystem::path& file, TileSetNote note)
+    : impl_{std::make_unique<Impl>(file, std::move(note))} {
+    assert(!is_empty(impl_->note.bounds));
+    assert(impl_->note.least_zoom >= 0 && impl_->note.most_zoom <= most_zoom);
+}
+
+TileArchive::~TileArchive() = default;
+
+void TileArchive::add(const TileId& tile, std::string_view bytes) {
+    assert(tile.zoom >= impl_->note.least_zoom && tile.zoom <= impl_->note.most_zoom);
+    impl_->contents.add(tile, bytes);
+}
+
+TileArchiveSize TileArchive::commit(const Progress& progress) {
+    auto& [file, note, contents, out] = *impl_;
+    if (contents.entries().empty()) {
+        throw InputError{
+            fmt::format("{}: there is nothing to show, expected at least one tile", file.string())};
+    }
+    contents.sort();
+    if (file.extension() == ".pmtiles") {
+        write_pmtiles(out, contents, note, progress);
+    } else {
+        write_mbtiles(out.temporary(), file, contents, note, progress);
+        remove_leftovers_of(file);
+    }
+    out.commit();
+    return {contents.entries().size(), contents.count(), contents.bytes()};
+}
+
+std::span<const std::string_view> tile_archive_suffixes() {
+    return suffixes;
+}
+
+} // namespace macadam
