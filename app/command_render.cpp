@@ -1,8 +1,10 @@
 #include "app/commands.hpp"
 #include "app/map_scene.hpp"
+#include "app/map_style.hpp"
 #include "app/segment_options.hpp"
 
 #include "estimator/common/error.hpp"
+#include "render/colour.hpp"
 #include "storage/atomic_file.hpp"
 
 #include <fmt/format.h>
@@ -43,24 +45,46 @@ std::pair<int, int> size_of(const std::string& text) {
     return {width, height};
 }
 
+std::vector<std::string_view> ramp_names() {
+    std::vector<std::string_view> names;
+    for (const auto& ramp : colour_ramps()) {
+        names.push_back(ramp.name);
+    }
+    return names;
+}
+
+std::optional<int> least_passes_of(const Arguments& arguments) {
+    constexpr std::int64_t most = 1'000'000;
+    const auto passes = arguments.integer("--min-passes");
+    if (passes && (*passes < 1 || *passes > most)) {
+        throw UsageError{fmt::format("--min-passes is {}, expected 1 to {}", *passes, most)};
+    }
+    return passes ? std::optional{static_cast<int>(*passes)} : std::nullopt;
+}
+
 MapStyle style_of(const Arguments& arguments) {
     constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
-    constexpr std::array<std::string_view, 3> ramps{"rdylbu", "cividis", "viridis"};
     constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
 
-    MapStyle style;
-    const auto theme = arguments.choice("--theme", themes);
-    style.theme = theme == "dark"    ? MapStyle::Theme::dark
-                  : theme == "print" ? MapStyle::Theme::print
-                                     : MapStyle::Theme::light;
-    style.ramp = arguments.choice("--ramp", ramps);
-    style.in_per_mi = arguments.choice("--unit", units) == "in/mi";
+    auto style = parse_style_file(arguments);
+    if (arguments.value("--theme")) {
+        const auto theme = arguments.choice("--theme", themes);
+        style.theme = theme == "dark"    ? MapStyle::Theme::dark
+                      : theme == "print" ? MapStyle::Theme::print
+                                         : MapStyle::Theme::light;
+    }
+    if (arguments.value("--ramp")) {
+        style.ramp = arguments.choice("--ramp", ramp_names());
+        style.own_ramp.clear();
+    }
+    if (arguments.value("--unit")) {
+        style.in_per_mi = arguments.choice("--unit", units) == "in/mi";
+    }
     style.left_hand_traffic = arguments.flag("--left-hand");
+    style.labels = !arguments.flag("--no-labels");
+    style.least_passes = least_passes_of(arguments).value_or(style.least_passes);
     if (const auto name = arguments.value("--classes")) {
-        style.classes = class_table(*name);
-        if (style.classes == nullptr) {
-            throw UsageError{fmt::format("--classes is '{}', expected fhwa or five", *name)};
-        }
+        style.classes = class_table_option(*name);
     }
     return style;
 }
@@ -94,7 +118,9 @@ void run_render(const Arguments& arguments, const Console& console) {
     if (options.style.classes == nullptr) {
         options.style.classes = class_table(store.settings().class_table);
     }
-    const auto scene = map_scene(store, options.box, *options.style.classes, options.title);
+    warn_of_look(options.style, console);
+    const auto scene = map_scene(
+        store, options.box, *options.style.classes, options.title, options.style.least_passes);
     const auto png =
         encode_png(render_map(scene, options.style, options.width_px, options.height_px));
 
@@ -119,6 +145,9 @@ constexpr std::array options{
            "rdylbu"},
     Option{"--theme", "NAME", "light, dark or print.", "light"},
     Option{"--unit", "UNIT", "Of the legend: mm/m or in/mi.", "mm/m"},
+    style_option,
+    Option{"--min-passes", "N", "Draw roads with fewer passes of cars in grey.", "1"},
+    Option{"--no-labels", "", "Leave out the names of roads."},
     Option{"--left-hand", "", "Traffic keeps left: draw each direction on that side."}};
 
 } // namespace

@@ -49,6 +49,20 @@ std::string subtitle_of(const StoreInfo& info, bool whole) {
                        counted(info.vehicles.size(), "car"));
 }
 
+/// Of all the store's segments with enough passes.
+std::vector<double>
+class_km_of(const RoadStore& store, const ClassTable& classes, int least_passes) {
+    std::vector<double> km(classes.classes.size());
+    store.visit({}, [&](const SegmentRecord& record) {
+        if (record.state && !has_few_passes(*record.state, least_passes)) {
+            const auto& segment = record.segment;
+            km[class_index(classes, record.state->iri_um / 1000.0)] +=
+                (segment.to_m - segment.from_m) / 1000;
+        }
+    });
+    return km;
+}
+
 } // namespace
 
 int rank_of(std::string_view highway) {
@@ -68,12 +82,16 @@ int rank_of(std::string_view highway) {
     return found != ranks.end() ? found->rank : highway.empty() ? 2 : 4;
 }
 
+bool has_few_passes(const SegmentState& state, int least_passes) {
+    return 0 < state.passes && state.passes < least_passes;
+}
+
 bool is_certain(const SegmentState& state) {
     return state.sd_um <= certain_sd * state.iri_um;
 }
 
 std::vector<MapLine>
-map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes) {
+map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, int least_passes) {
     // Each direction is a segment of its own; what was driven one way only is still a road of two
     // sides where the map lets cars go both ways.
     std::map<std::pair<std::int64_t, std::uint32_t>, int> directions;
@@ -94,6 +112,7 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes) 
         line.name = record.name;
         if (record.state) {
             line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
+            line.few_passes = has_few_passes(*record.state, least_passes);
             line.certain = is_certain(*record.state);
         }
         lines.push_back(std::move(line));
@@ -104,7 +123,8 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes) 
 MapScene map_scene(const RoadStore& store,
                    const std::optional<GeoBox>& box,
                    const ClassTable& classes,
-                   const std::string& title) {
+                   const std::string& title,
+                   int least_passes) {
     const auto info = store.info();
     MapScene scene;
     scene.box = box ? *box : box_with_margin(info.box);
@@ -112,13 +132,15 @@ MapScene map_scene(const RoadStore& store,
     scene.subtitle = subtitle_of(info, !box);
     scene.attribution = info.settings.attribution;
 
-    if (classes.name == info.settings.class_table && !box) {
+    if (!box && least_passes <= 1 && &classes == class_table(info.settings.class_table)) {
         for (const auto& [name, km] : info.classes) {
             scene.class_km.push_back(km);
         }
+    } else if (!box) {
+        scene.class_km = class_km_of(store, classes, least_passes);
     }
 
-    scene.lines = map_lines(store, shown_around(scene.box), classes);
+    scene.lines = map_lines(store, shown_around(scene.box), classes, least_passes);
     if (std::ranges::none_of(scene.lines, [&](const MapLine& line) {
             return std::ranges::any_of(line.line,
                                        [&](auto& point) { return contains(scene.box, point); });

@@ -13,13 +13,19 @@ namespace macadam {
 /// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
 int rank_of(std::string_view highway);
 
+/// Whether it is drawn in grey. References alone have no passes of cars and need none.
+bool has_few_passes(const SegmentState& state, int least_passes);
+
 /// Whether a line shows it in full width: its standard deviation is at most half of it.
 bool is_certain(const SegmentState& state);
 
 /// The segments of a store that touch a box, in the order of their keys, with their classes; those
-/// without a pass as roads without a measurement.
-std::vector<MapLine>
-map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes);
+/// without a pass as roads without a measurement, those with fewer than `least_passes` marked so. A
+/// segment that references alone tell of has enough.
+std::vector<MapLine> map_lines(const RoadStore& store,
+                               const GeoBox& box,
+                               const ClassTable& classes,
+                               int least_passes = 1);
 
 /// What a picture of a store shows: its segments in the box (nothing: all that was driven), with
 /// their classes, the roads without a measurement, and the words around them.
@@ -28,6 +34,7 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes);
 MapScene map_scene(const RoadStore& store,
                    const std::optional<GeoBox>& box,
                    const ClassTable& classes,
-                   const std::string& title);
+                   const std::string& title,
+                   int least_passes = 1);
 
 } // namespace macadam

@@ -34,6 +34,7 @@ struct Bit {
     std::uint32_t index;
     IriUm iri_um; ///< below 0: not measured
     bool certain;
+    bool few_passes;
     std::vector<GeoPoint> line;
 };
 
@@ -41,13 +42,20 @@ struct Bit {
 struct Value {
     double iri_um = -1;
     bool certain = true;
+    bool few_passes = false;
 };
+
+/// A class before the grey of few passes, that before no measurement, and the worse of two classes.
+bool is_worse(const Value& a, const Value& b) {
+    return std::pair{a.iri_um >= 0 && !a.few_passes, a.iri_um} >
+           std::pair{b.iri_um >= 0 && !b.few_passes, b.iri_um};
+}
 
 /// The segments of one way, on their way to lines.
 class WayLines {
 public:
-    WayLines(const TileLineRules& rules, const ClassTable& classes)
-        : rules_{rules}, classes_{classes} {}
+    WayLines(const TileLineRules& rules, const ClassTable& classes, int least_passes)
+        : rules_{rules}, classes_{classes}, least_passes_{least_passes} {}
 
     void add(const SegmentRecord& record) {
         const auto& key = record.segment.key;
@@ -57,10 +65,12 @@ public:
             rank_ = rank_of(record.highway);
             name_ = record.name;
         }
-        bits_[key.forward ? 0 : 1].push_back({key.index,
-                                              record.state ? record.state->iri_um : -1,
-                                              record.state && is_certain(*record.state),
-                                              record.segment.line});
+        bits_[key.forward ? 0 : 1].push_back(
+            {key.index,
+             record.state ? record.state->iri_um : -1,
+             record.state && is_certain(*record.state),
+             record.state && has_few_passes(*record.state, least_passes_),
+             record.segment.line});
     }
 
     std::vector<MapLine> lines() && {
@@ -95,6 +105,7 @@ private:
             double sum_um = 0;
             std::size_t measured = 0;
             std::size_t certain = 0;
+            std::size_t few_passes = 0;
             for (; past < bits.size() &&
                    bits[past].index / rules_.per_value == bits[first].index / rules_.per_value;
                  ++past) {
@@ -102,11 +113,13 @@ private:
                     sum_um += bits[past].iri_um;
                     ++measured;
                     certain += bits[past].certain ? 1 : 0;
+                    few_passes += bits[past].few_passes ? 1 : 0;
                 }
             }
             Value value;
             if (measured > 0 && 2 * measured >= past - first) {
-                value = {sum_um / double(measured), 2 * certain >= measured};
+                value = {
+                    sum_um / double(measured), 2 * certain >= measured, 2 * few_passes > measured};
             }
             values.resize(past, value);
             first = past;
@@ -126,7 +139,7 @@ private:
             }
             if (i == forward.size() || forward[i].index != backward[k].index) {
                 alone.push_back(backward[k]);
-            } else if (others[k].iri_um > values[i].iri_um) {
+            } else if (is_worse(others[k], values[i])) {
                 values[i] = others[k];
             }
         }
@@ -148,6 +161,7 @@ private:
                 bits[i].index / rules_.per_line,
                 values[i].iri_um < 0 ? -1 : int(class_index(classes_, values[i].iri_um / 1000)),
                 values[i].certain,
+                values[i].few_passes,
                 k < others.size() && others[k].index == bits[i].index};
             if (last != look || !goes_on(bits[i].line, forward)) {
                 lines_.push_back({.line = bits[i].line,
@@ -156,6 +170,7 @@ private:
                                   .forward = forward,
                                   .rank = rank_,
                                   .certain = look.certain,
+                                  .few_passes = look.few_passes,
                                   .name = name_});
             }
             last = look;
@@ -166,6 +181,7 @@ private:
         std::uint32_t block;
         int iri_class;
         bool certain;
+        bool few_passes;
         bool both_ways;
         friend bool operator==(const Look&, const Look&) = default;
     };
@@ -187,6 +203,7 @@ private:
 
     const TileLineRules& rules_;
     const ClassTable& classes_;
+    int least_passes_;
     std::int64_t way_id_ = 0;
     int rank_ = 0;
     std::string name_;
@@ -210,11 +227,12 @@ TileLineRules tile_line_rules(const WorldScale& scale, double segment_length_m, 
 std::vector<MapLine> tile_lines(const RoadStore& store,
                                 const GeoBox& box,
                                 const TileLineRules& rules,
-                                const ClassTable& classes) {
+                                const ClassTable& classes,
+                                int least_passes) {
     SegmentFilter filter;
     filter.box = grown(box, rules.margin_m);
     filter.with_state_only = false;
-    WayLines ways{rules, classes};
+    WayLines ways{rules, classes, least_passes};
     store.visit(filter, [&](const SegmentRecord& record) { ways.add(record); });
     return std::move(ways).lines();
 }

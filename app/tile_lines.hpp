@@ -27,10 +27,11 @@ TileLineRules tile_line_rules(const WorldScale& scale, double segment_length_m, 
 
 /// The roads in a box grown by the rules' margin, in the order of keys, as TilePainter wants them.
 /// A line that shows a mean counts as measured if at least half of its segments are, and as certain
-/// if at least half of these are.
+/// if at least half of these are; it has few passes if more than half of these have.
 std::vector<MapLine> tile_lines(const RoadStore& store,
                                 const GeoBox& box,
                                 const TileLineRules& rules,
-                                const ClassTable& classes);
+                                const ClassTable& classes,
+                                int least_passes = 1);
 
 } // namespace macadam

@@ -2,7 +2,7 @@
 
 #include "estimator/common/error.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -38,30 +38,44 @@ std::uint32_t colour_at(std::span<const std::uint32_t> anchors, double fraction)
     return mixed(anchors[before], anchors[before + 1], place - double(before));
 }
 
-std::span<const std::uint32_t> anchors_of(std::string_view ramp, std::size_t classes) {
-    if (ramp == "rdylbu") {
-        return classes == 3 ? std::span<const std::uint32_t>{rdylbu_of_3} : rdylbu;
-    }
-    if (ramp == "viridis") {
-        return viridis;
-    }
-    if (ramp == "cividis") {
-        return cividis;
+constexpr std::array ramps{ColourRamp{"rdylbu", rdylbu, rdylbu_of_3},
+                           ColourRamp{"cividis", cividis, cividis},
+                           ColourRamp{"viridis", viridis, viridis}};
+
+std::span<const std::uint32_t> anchors_of(std::string_view name, std::size_t classes) {
+    std::vector<std::string_view> names;
+    for (const auto& ramp : ramps) {
+        if (ramp.name == name) {
+            return classes == 3 ? ramp.colours_of_three : ramp.colours;
+        }
+        names.push_back(ramp.name);
     }
     throw InputError{
-        fmt::format("unknown colour ramp '{}', expected rdylbu, cividis or viridis", ramp)};
+        fmt::format("unknown colour ramp '{}', expected one of {}", name, fmt::join(names, ", "))};
 }
 
-} // namespace
-
-std::vector<std::uint32_t> ramp_colours(std::string_view ramp, std::size_t classes) {
-    const auto anchors = anchors_of(ramp, classes);
+std::vector<std::uint32_t> spread(std::span<const std::uint32_t> anchors, std::size_t classes) {
     std::vector<std::uint32_t> colours;
     colours.reserve(classes);
     for (std::size_t i = 0; i < classes; ++i) {
         colours.push_back(colour_at(anchors, classes > 1 ? double(i) / double(classes - 1) : 0));
     }
     return colours;
+}
+
+} // namespace
+
+std::span<const ColourRamp> colour_ramps() {
+    return ramps;
+}
+
+std::vector<std::uint32_t> ramp_colours(std::string_view ramp, std::size_t classes) {
+    return spread(anchors_of(ramp, classes), classes);
+}
+
+std::vector<std::uint32_t> class_colours(const MapStyle& style, std::size_t classes) {
+    return style.own_ramp.size() < 2 ? ramp_colours(style.ramp, classes)
+                                     : spread(style.own_ramp, classes);
 }
 
 Palette palette(MapStyle::Theme theme) {
@@ -73,7 +87,8 @@ Palette palette(MapStyle::Theme theme) {
                 .ink = 0xf2f2ef,
                 .quiet_ink = 0xa9adb4,
                 .casing = 0xd4d7da,
-                .unmeasured = 0x55575e};
+                .unmeasured = 0x55575e,
+                .few_passes = 0x5a5a5a};
     case MapStyle::Theme::print:
         return {.page = 0xffffff,
                 .ground = 0xffffff,
@@ -81,7 +96,8 @@ Palette palette(MapStyle::Theme theme) {
                 .ink = 0x000000,
                 .quiet_ink = 0x404040,
                 .casing = 0x1c1c1c,
-                .unmeasured = 0xb4b4b4};
+                .unmeasured = 0xb4b4b4,
+                .few_passes = 0xb2b2b2};
     case MapStyle::Theme::light:
         break;
     }
@@ -91,7 +107,21 @@ Palette palette(MapStyle::Theme theme) {
             .ink = 0x1e2328,
             .quiet_ink = 0x5c646c,
             .casing = 0x333b43,
-            .unmeasured = 0xb7b8b4};
+            .unmeasured = 0xb7b8b4,
+            .few_passes = 0xb2b2b2};
+}
+
+Palette palette(const MapStyle& style) {
+    const auto theme = palette(style.theme);
+    const auto& own = style.colours;
+    return {.page = own.page.value_or(theme.page),
+            .ground = own.ground.value_or(theme.ground),
+            .border = own.border.value_or(theme.border),
+            .ink = own.ink.value_or(theme.ink),
+            .quiet_ink = own.quiet_ink.value_or(theme.quiet_ink),
+            .casing = own.casing.value_or(theme.casing),
+            .unmeasured = own.unmeasured.value_or(theme.unmeasured),
+            .few_passes = own.few_passes.value_or(theme.few_passes)};
 }
 
 } // namespace macadam

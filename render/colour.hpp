@@ -3,8 +3,25 @@
 #include "render/map.hpp"
 
 #include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
 
 namespace macadam {
+
+/// Colours from smooth to rough, between which those of classes are taken at even distances.
+struct ColourRamp {
+    std::string_view name;
+    std::span<const std::uint32_t> colours;          ///< 0xRRGGBB
+    std::span<const std::uint32_t> colours_of_three; ///< where a map has three classes
+};
+
+/// The shipped ones, the default first.
+std::span<const ColourRamp> colour_ramps();
+
+/// The colours of a style's classes, from its own ramp or a shipped one.
+/// \throws InputError for an unknown ramp.
+std::vector<std::uint32_t> class_colours(const MapStyle& style, std::size_t classes);
 
 /// Colours of all that is not a class, 0xRRGGBB.
 struct Palette {
@@ -15,8 +32,12 @@ struct Palette {
     std::uint32_t quiet_ink;  ///< text that does not
     std::uint32_t casing;     ///< beside every measured road
     std::uint32_t unmeasured; ///< roads nobody drove
+    std::uint32_t few_passes; ///< roads driven too seldom, inside a casing
 };
 
 Palette palette(MapStyle::Theme theme);
+
+/// The theme's with the style's own colours in their places.
+Palette palette(const MapStyle& style);
 
 } // namespace macadam

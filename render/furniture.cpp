@@ -170,7 +170,7 @@ void draw_footer(Canvas& canvas,
                  const Layout& layout,
                  const MapFrame& frame,
                  const MapStyle& style) {
-    const auto colours = palette(style.theme);
+    const auto colours = palette(style);
     const auto& room = layout.scale_room;
     const double unit = layout.unit;
     const double base = std::round((room.top + room.bottom) / 2 + 11 * unit);
@@ -222,7 +222,7 @@ Image furnished(Image roads,
                 const Placement& placement,
                 const MapStyle& style,
                 TypeSetter& setter) {
-    const auto colours = palette(style.theme);
+    const auto colours = palette(style);
     Canvas canvas{std::move(roads)};
     draw_edges(canvas, layout, colours);
     for (const auto& text : layout.texts) {

@@ -36,7 +36,15 @@ int decimals_of(const ClassTable& table) {
     return 2;
 }
 
-std::string range_of(const ClassTable& table, std::size_t i, bool in_per_mi) {
+/// The words with a value in the place of their {}.
+std::string with_value(std::string words, const std::string& value) {
+    const auto place = words.find("{}");
+    return place == std::string::npos ? words : words.replace(place, 2, value);
+}
+
+std::string range_of(const ClassTable& table, std::size_t i, const MapStyle& style) {
+    const bool in_per_mi = style.in_per_mi;
+    const auto& words = style.words;
     const double scale = in_per_mi ? in_per_mi_of_mm_per_m : 1;
     const int decimals = in_per_mi ? 0 : decimals_of(table);
     const auto number = [&](std::size_t row) {
@@ -44,10 +52,11 @@ std::string range_of(const ClassTable& table, std::size_t i, bool in_per_mi) {
     };
     const bool last = std::isinf(table.classes[i].to_mm_per_m);
     if (i == 0) {
-        return last ? "all" : (table.classes[i].open ? "below " : "up to ") + number(i);
+        return last ? words.all
+                    : with_value(table.classes[i].open ? words.below : words.up_to, number(i));
     }
     if (last) {
-        return (table.classes[i - 1].open ? "from " : "above ") + number(i - 1);
+        return with_value(table.classes[i - 1].open ? words.from : words.above, number(i - 1));
     }
     return number(i - 1) + " – " + number(i);
 }
@@ -66,6 +75,9 @@ std::string capitalised(std::string_view name) {
 }
 
 std::string title_of(const MapStyle& style) {
+    if (style.words.title) {
+        return *style.words.title;
+    }
     return style.in_per_mi ? "Roughness, IRI in in/mi" : "Roughness, IRI in mm/m";
 }
 
@@ -98,29 +110,38 @@ Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable&
     if (!style.legend) {
         return {};
     }
-    const auto colours = ramp_colours(style.ramp, classes.classes.size());
+    const auto colours = class_colours(style, classes.classes.size());
     Legend legend{.title = title_of(style), .entries = {}};
     for (std::size_t i = 0; i < classes.classes.size(); ++i) {
         legend.entries.push_back({.rgb = colours[i],
                                   .name = capitalised(classes.classes[i].name),
-                                  .range = range_of(classes, i, style.in_per_mi),
+                                  .range = range_of(classes, i, style),
                                   .length = i < scene.class_km.size()
                                                 ? length_text(scene.class_km[i], style.in_per_mi)
                                                 : std::string{}});
     }
     const auto measured = [](const MapLine& line) { return line.iri_class >= 0; };
-    if (std::ranges::any_of(scene.lines,
-                            [&](const MapLine& line) { return measured(line) && !line.certain; })) {
+    const auto is_grey = [&](const MapLine& line) { return measured(line) && line.few_passes; };
+    if (std::ranges::any_of(scene.lines, is_grey)) {
+        legend.entries.push_back(
+            {.rgb = palette(style).few_passes,
+             .name = with_value(style.words.few_passes, fmt::format("{}", style.least_passes)),
+             .range = {},
+             .length = {}});
+    }
+    if (std::ranges::any_of(scene.lines, [&](const MapLine& line) {
+            return measured(line) && !line.few_passes && !line.certain;
+        })) {
         legend.entries.push_back({.swatch = LegendEntry::Swatch::uncertain,
                                   .rgb = colours[colours.size() / 2],
-                                  .name = "Uncertain",
+                                  .name = style.words.uncertain,
                                   .range = {},
                                   .length = {}});
     }
     if (!std::ranges::all_of(scene.lines, measured)) {
         legend.entries.push_back({.swatch = LegendEntry::Swatch::unmeasured,
-                                  .rgb = palette(style.theme).unmeasured,
-                                  .name = "No measurement",
+                                  .rgb = palette(style).unmeasured,
+                                  .name = style.words.unmeasured,
                                   .range = {},
                                   .length = {}});
     }

@@ -60,6 +60,12 @@ Kind kind_of(const MapLine& line) {
     return {line.rank, line.both_ways, line.iri_class < 0};
 }
 
+/// Which of two directions is shown where there is room for one: a class before the grey of few
+/// passes, that before no measurement, and the worse of two classes.
+int weight_of(const MapLine& line) {
+    return line.iri_class < 0 ? 0 : line.few_passes ? 1 : 2 + line.iri_class;
+}
+
 struct Arm {
     std::uint64_t place;
     std::size_t use;
@@ -139,7 +145,7 @@ std::vector<LineUse> worse_of_both_ways(std::span<const MapLine> lines) {
             line.both_ways ? known.try_emplace(track, uses.size()) : std::pair{known.end(), true};
         if (is_new) {
             uses.push_back({index, reversed});
-        } else if (lines[uses[twin->second].line].iri_class < line.iri_class) {
+        } else if (weight_of(lines[uses[twin->second].line]) < weight_of(line)) {
             uses[twin->second] = {index, reversed};
         }
     }

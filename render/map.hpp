@@ -2,8 +2,10 @@
 
 #include "estimator/common/geo.hpp"
 #include "mapping/iri_class.hpp"
+#include "mapping/map_look.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,21 +16,30 @@ namespace macadam {
 /// are joined before they are drawn.
 struct MapLine {
     std::vector<GeoPoint> line;
-    int iri_class = -1;     ///< in the class table; -1: road without a measurement, drawn quietly
-    bool both_ways = false; ///< the other direction is a line of its own: each keeps to its side
-    bool forward = true;    ///< along its way; of a pair of both_ways lines one is false
-    int rank = 0;           ///< 0 motorway .. 5 service: of the width
-    bool certain = true;    ///< false: few passes or a wide interval, drawn thinner
-    std::string name;       ///< of the road, for its label
+    int iri_class = -1;      ///< in the class table; -1: road without a measurement, drawn quietly
+    bool both_ways = false;  ///< the other direction is a line of its own: each keeps to its side
+    bool forward = true;     ///< along its way; of a pair of both_ways lines one is false
+    int rank = 0;            ///< 0 motorway .. 5 service: of the width
+    bool certain = true;     ///< false: few passes or a wide interval, drawn thinner
+    bool few_passes = false; ///< fewer than the picture asks for: grey in a casing, whatever its
+                             ///< class
+    std::string name;        ///< of the road, for its label
 };
 
 struct MapStyle {
     enum class Theme { light, dark, print };
     Theme theme = Theme::light;
-    std::string ramp = "rdylbu";         ///< rdylbu, cividis, viridis
-    const ClassTable* classes = nullptr; ///< null: fhwa
+    std::string ramp = "rdylbu";                ///< one of colour_ramps()
+    std::vector<std::uint32_t> own_ramp{};      ///< 0xRRGGBB from smooth to rough; empty: `ramp`
+    const ClassTable* classes = nullptr;        ///< null: fhwa
+    std::optional<OwnClassTable> own_classes{}; ///< keeps what `classes` points at, where it is own
+    ThemeColours colours{};                     ///< instead of the theme's
+    LineFactors lines{};
+    LegendWords words{};
+    int least_passes = 1; ///< that few_passes of the lines speaks of
     bool left_hand_traffic = false;
     bool in_per_mi = false; ///< legend in in/mi
+    bool labels = true;     ///< the names of roads along them
     bool legend = true;     ///< false: none, where the page around the picture has its own
 };
 

@@ -2,7 +2,9 @@
 
 #include "estimator/common/error.hpp"
 #include "render/furniture.hpp"
+#include "render/label_painter.hpp"
 #include "render/line_joining.hpp"
+#include "render/map_labels.hpp"
 #include "render/road_painter.hpp"
 #include "render/road_strands.hpp"
 
@@ -86,7 +88,9 @@ Roads roads_of(const MapScene& scene,
                const MapFrame& frame,
                const Layout& layout) {
     const double middle_px = (layout.map.top + layout.map.bottom) / 2;
-    const auto wanted = line_widths(metres_per_px(frame, middle_px), layout.unit);
+    auto wanted = line_widths(metres_per_px(frame, middle_px), layout.unit);
+    wanted.core_px *= style.lines.width;
+    wanted.casing_px *= style.lines.casing;
     auto merged = strands_of(scene, worse_of_both_ways(scene.lines), frame);
     const double ink = ink_per_px(merged, layout.map, layout.unit);
     if (!wanted.separate_ways) {
@@ -99,24 +103,34 @@ Roads roads_of(const MapScene& scene,
     return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
 }
 
+Image with_labels(Image roads,
+                  std::span<const Label> labels,
+                  const Palette& colours,
+                  TypeSetter& setter) {
+    Canvas canvas{std::move(roads)};
+    draw_labels(canvas, labels, {}, {colours.ink, colours.quiet_ink, colours.ground}, setter);
+    return std::move(canvas).finished();
+}
+
 } // namespace
 
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
     check_size(width_px, height_px);
     const auto& classes = classes_of(style);
     check_classes(scene, classes);
-    const auto colours = ramp_colours(style.ramp, classes.classes.size());
+    const auto colours = class_colours(style, classes.classes.size());
 
     TypeSetter setter;
     const auto layout = layout_of(scene, width_px, height_px, setter);
     const auto legend = legend_of(scene, style, classes);
     const auto placement = placement_of(scene, legend, layout, setter);
     const auto roads = roads_of(scene, style, placement.frame, layout);
-    auto image = painted_roads({width_px, height_px, layout.map},
-                               roads.strands,
-                               roads.widths,
-                               palette(style.theme),
-                               colours);
+    auto image = painted_roads(
+        {width_px, height_px, layout.map}, roads.strands, roads.widths, palette(style), colours);
+    if (style.labels) {
+        const auto labels = map_labels(scene, layout, placement, roads.widths, setter);
+        image = with_labels(std::move(image), labels, palette(style), setter);
+    }
     return furnished(std::move(image), layout, placement, style, setter);
 }
 

@@ -18,9 +18,9 @@ bool is_measured(const Strand& strand) {
     return strand.looks.front() != unmeasured_look;
 }
 
-/// All classes.
+/// All classes, and what is drawn as wide as they.
 std::uint64_t looks_of(bool certain) {
-    std::uint64_t looks = 0;
+    std::uint64_t looks = certain ? only(few_passes_look) : 0;
     for (int i = 0; i < most_classes; ++i) {
         looks |= only(look_of(i, certain));
     }
@@ -95,6 +95,10 @@ Image painted_roads(const Sheet& sheet,
                      {casing_radius_px(widths, rank, certain), looks_of(certain), sheet.map},
                      palette.casing);
             }
+            draw(painter,
+                 measured,
+                 {core_radius_px(widths, rank, true), only(few_passes_look), sheet.map},
+                 palette.few_passes);
             for (std::size_t i = 0; i < class_colours.size(); ++i) {
                 for (const bool certain : {false, true}) {
                     draw(painter,

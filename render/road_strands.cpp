@@ -87,6 +87,13 @@ private:
 
 } // namespace
 
+int line_look(const MapLine& line) {
+    if (line.iri_class < 0) {
+        return unmeasured_look;
+    }
+    return line.few_passes ? few_passes_look : look_of(line.iri_class, line.certain);
+}
+
 Strand strand_of(std::span<const MapLine> lines,
                  const std::vector<LineUse>& chain,
                  const MapFrame& frame) {
@@ -94,8 +101,7 @@ Strand strand_of(std::span<const MapLine> lines,
     bool begun = false;
     for (const auto& [index, reversed] : chain) {
         const auto& line = lines[index];
-        const int look =
-            line.iri_class < 0 ? unmeasured_look : look_of(line.iri_class, line.certain);
+        const int look = line_look(line);
         for (std::size_t i = 0; i < line.line.size(); ++i) {
             const auto& place = line.line[reversed ? line.line.size() - 1 - i : i];
             const auto point = to_pixel(frame, place);

@@ -1,12 +1,12 @@
 #include "render/text.hpp"
 
-#include "estimator/common/error.hpp"
+#include "render/font_shelf.hpp"
+#include "render/text_runs.hpp"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
-#include <fmt/core.h>
-#include <hb-ft.h>
+
 #include <hb.h>
 
 #include <algorithm>
@@ -16,23 +16,12 @@
 namespace macadam {
 namespace {
 
-constexpr const char* regular_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr const char* bold_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
+constexpr const char* fonts_folder = "/usr/share/fonts/truetype"; // of Debian's packages
+constexpr double units = 64;                                      // FreeType counts in 1/64 px
 
-// Hinted in height only: strokes are crisp and letters keep their distances at any size.
-constexpr FT_Int32 load_flags = FT_LOAD_TARGET_LIGHT;
-
-constexpr double units = 64; // FreeType counts in 1/64 px
-
-struct Glyph {
-    FT_UInt index;
-    double x_px, y_px; ///< y upwards
-};
-
-struct Shaped {
-    std::vector<Glyph> glyphs;
-    double width_px = 0;
-};
+bool continues_character(char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
+}
 
 std::string without_controls(std::string_view utf8) {
     std::string clean{utf8};
@@ -41,111 +30,58 @@ std::string without_controls(std::string_view utf8) {
     return clean;
 }
 
-bool continues_character(char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
+/// Glyphs of one character come one after the other.
+void add_glyph(SetLine& line, const SetGlyph& glyph, bool new_cluster, double right_px) {
+    if (new_cluster) {
+        line.clusters.push_back({line.glyphs.size(), 0, line.width_px, line.width_px});
+    }
+    line.glyphs.push_back(glyph);
+    ++line.clusters.back().count;
+    line.clusters.back().right_px = right_px;
 }
 
-TextMask blank_for(const std::vector<std::pair<int, int>>& columns, int top, int bottom) {
-    TextMask mask;
-    if (columns.empty()) {
-        return mask;
-    }
-    mask.left = std::ranges::min(columns, {}, &std::pair<int, int>::first).first;
-    mask.width = std::ranges::max(columns, {}, &std::pair<int, int>::second).second - mask.left;
-    mask.top = top;
-    mask.height = bottom - top;
-    mask.coverage.resize(std::size_t(mask.width) * std::size_t(mask.height));
-    return mask;
-}
-
-} // namespace
-
-struct TypeSetter::Fonts {
-    Fonts() {
-        if (FT_Init_FreeType(&library) != 0) {
-            throw InputError{"FreeType does not start"};
-        }
-        try {
-            regular = opened(regular_file);
-            bold = opened(bold_file);
-        } catch (...) {
-            FT_Done_FreeType(library);
-            throw;
-        }
-    }
-    ~Fonts() { FT_Done_FreeType(library); }
-    Fonts(const Fonts&) = delete;
-    Fonts& operator=(const Fonts&) = delete;
-
-    FT_Face opened(const char* file) const {
-        FT_Face face = nullptr;
-        if (FT_New_Face(library, file, 0, &face) != 0) {
-            throw InputError{fmt::format(
-                "{}: cannot read the font, expected the package fonts-dejavu-core", file)};
-        }
-        return face;
-    }
-
-    FT_Face sized(const TextLook& look) const {
-        const auto face = look.bold ? bold : regular;
-        FT_Set_Char_Size(face, 0, FT_F26Dot6(std::lround(look.size_px * units)), 72, 72);
-        return face;
-    }
-
-    FT_Library library = nullptr;
-    FT_Face regular = nullptr;
-    FT_Face bold = nullptr;
-};
-
-namespace {
-
-Shaped shaped(FT_Face face, std::string_view utf8) {
-    const auto text = without_controls(utf8);
-    hb_font_t* font = hb_ft_font_create_referenced(face);
-    hb_ft_font_set_load_flags(font, load_flags);
+void add_run(SetLine& line, const TextRun& run, std::u32string_view text, hb_font_t* font) {
     hb_buffer_t* buffer = hb_buffer_create();
-    hb_buffer_add_utf8(buffer, text.data(), int(text.size()), 0, int(text.size()));
-    hb_buffer_guess_segment_properties(buffer);
+    // The whole text, so that letters at the run's ends know their neighbours.
+    hb_buffer_add_utf32(buffer,
+                        reinterpret_cast<const std::uint32_t*>(text.data()), // NOLINT
+                        int(text.size()),
+                        unsigned(run.first),
+                        int(run.count));
+    hb_buffer_set_direction(buffer, run.leftwards ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
+    hb_buffer_set_script(buffer, hb_script_from_iso15924_tag(run.script));
+    hb_buffer_set_language(buffer, hb_language_from_string("und", -1)); // not the machine's
     hb_shape(font, buffer, nullptr, 0);
 
     unsigned count = 0;
     const auto* infos = hb_buffer_get_glyph_infos(buffer, &count);
     const auto* places = hb_buffer_get_glyph_positions(buffer, &count);
-    Shaped result;
     for (unsigned i = 0; i < count; ++i) {
-        result.glyphs.push_back({infos[i].codepoint,
-                                 result.width_px + places[i].x_offset / units,
-                                 places[i].y_offset / units});
-        result.width_px += places[i].x_advance / units;
+        const double right_px = line.width_px + places[i].x_advance / units;
+        add_glyph(line,
+                  {run.font,
+                   infos[i].codepoint,
+                   line.width_px + places[i].x_offset / units,
+                   places[i].y_offset / units},
+                  i == 0 || infos[i].cluster != infos[i - 1].cluster,
+                  right_px);
+        line.width_px = right_px;
     }
     hb_buffer_destroy(buffer);
-    hb_font_destroy(font);
-    return result;
 }
 
-struct Stamp {
-    int left, top, width, height;
-    std::vector<std::uint8_t> coverage;
-};
+bool is_level(const GlyphPose& pose) {
+    return pose.along_x == 1 && pose.along_y == 0;
+}
 
-/// A glyph where it stands, to a fraction of a pixel.
-Stamp stamp(FT_Face face, const Glyph& glyph) {
-    const double whole_px = std::floor(glyph.x_px);
-    FT_Vector shift{FT_Pos(std::lround((glyph.x_px - whole_px) * units)),
-                    FT_Pos(std::lround(glyph.y_px * units))};
-    if (FT_Load_Glyph(face, glyph.index, load_flags) != 0) {
-        return {};
-    }
-    FT_Outline_Translate(&face->glyph->outline, shift.x, shift.y);
-    if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0) {
-        return {};
-    }
-    const auto& bitmap = face->glyph->bitmap;
-    Stamp made{int(whole_px) + face->glyph->bitmap_left,
-               -face->glyph->bitmap_top,
-               int(bitmap.width),
-               int(bitmap.rows),
-               {}};
+FT_Fixed fixed(double value) {
+    return FT_Fixed(std::lround(value * 65536));
+}
+
+TextMask mask_of(const FT_GlyphSlot& slot, int left, int top) {
+    const auto& bitmap = slot->bitmap;
+    TextMask made{
+        left + slot->bitmap_left, top - slot->bitmap_top, int(bitmap.width), int(bitmap.rows), {}};
     for (unsigned row = 0; row < bitmap.rows; ++row) {
         const auto* begin = bitmap.buffer + std::ptrdiff_t(row) * bitmap.pitch;
         made.coverage.insert(made.coverage.end(), begin, begin + bitmap.width);
@@ -155,40 +91,64 @@ Stamp stamp(FT_Face face, const Glyph& glyph) {
 
 } // namespace
 
-TypeSetter::TypeSetter() : fonts_{std::make_unique<Fonts>()} {}
+struct TypeSetter::Desk {
+    explicit Desk(const std::filesystem::path& fonts) : shelf{fonts} {}
+    FontShelf shelf;
+};
+
+TypeSetter::TypeSetter() : TypeSetter{fonts_folder} {}
+TypeSetter::TypeSetter(const std::filesystem::path& fonts) : desk_{std::make_unique<Desk>(fonts)} {}
 TypeSetter::~TypeSetter() = default;
 
+SetLine TypeSetter::set(std::string_view utf8, const TextLook& look) {
+    const auto text = characters_of(without_controls(utf8));
+    SetLine line;
+    for (const auto& run : runs_of(text, look.bold, desk_->shelf)) {
+        if (run.font < 0) {
+            line.whole = false;
+        } else {
+            add_run(line, run, text, desk_->shelf.shaper(run.font, look.size_px));
+        }
+    }
+    return line;
+}
+
+TextMask TypeSetter::stamp(const SetGlyph& glyph, const TextLook& look, const GlyphPose& pose) {
+    const auto face = desk_->shelf.face(glyph.font, look.size_px);
+    const FT_Int32 flags = is_level(pose) ? level_load_flags() : FT_Int32{FT_LOAD_NO_HINTING};
+    if (FT_Load_Glyph(face, glyph.index, flags) != 0 ||
+        face->glyph->format != FT_GLYPH_FORMAT_OUTLINE) {
+        return {};
+    }
+    auto* outline = &face->glyph->outline;
+    if (!is_level(pose)) {
+        const FT_Matrix turn{fixed(pose.along_x),
+                             fixed(pose.along_y),
+                             fixed(-pose.along_y),
+                             fixed(pose.along_x)}; // FreeType's y goes upwards
+        FT_Outline_Transform(outline, &turn);
+    }
+    const double left = std::floor(pose.x_px);
+    const double top = std::floor(pose.y_px);
+    FT_Outline_Translate(outline,
+                         FT_Pos(std::lround((pose.x_px - left) * units)),
+                         -FT_Pos(std::lround((pose.y_px - top) * units)));
+    if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0) {
+        return {};
+    }
+    return mask_of(face->glyph, int(left), int(top));
+}
+
 double TypeSetter::width_px(std::string_view utf8, const TextLook& look) {
-    return shaped(fonts_->sized(look), utf8).width_px;
+    return set(utf8, look).width_px;
 }
 
 TextMask TypeSetter::mask(std::string_view utf8, const TextLook& look) {
-    const auto face = fonts_->sized(look);
-    std::vector<Stamp> stamps;
-    std::vector<std::pair<int, int>> columns;
-    int top = 0;
-    int bottom = 0;
-    for (const auto& glyph : shaped(face, utf8).glyphs) {
-        auto made = stamp(face, glyph);
-        if (made.coverage.empty()) {
-            continue;
-        }
-        columns.emplace_back(made.left, made.left + made.width);
-        top = std::min(top, made.top);
-        bottom = std::max(bottom, made.top + made.height);
-        stamps.push_back(std::move(made));
+    std::vector<TextMask> stamps;
+    for (const auto& glyph : set(utf8, look).glyphs) {
+        stamps.push_back(stamp(glyph, look, {glyph.x_px, -glyph.y_px}));
     }
-    auto mask = blank_for(columns, top, bottom);
-    for (const auto& made : stamps) {
-        for (int y = 0; y < made.height; ++y) {
-            for (int x = 0; x < made.width; ++x) {
-                auto& pixel = mask.coverage[std::size_t(made.top - mask.top + y) * mask.width +
-                                            std::size_t(made.left - mask.left + x)];
-                pixel = std::max(pixel, made.coverage[std::size_t(y) * made.width + x]);
-            }
-        }
-    }
-    return mask;
+    return merged(stamps);
 }
 
 std::vector<std::string>
@@ -226,6 +186,36 @@ TypeSetter::wrapped(std::string_view utf8, const TextLook& look, double room_px)
         lines.push_back(line);
     }
     return lines;
+}
+
+TextMask merged(const std::vector<TextMask>& masks) {
+    TextMask whole;
+    int right = 0;
+    int bottom = 0;
+    bool any = false;
+    for (const auto& mask : masks) {
+        if (mask.coverage.empty()) {
+            continue;
+        }
+        whole.left = any ? std::min(whole.left, mask.left) : mask.left;
+        whole.top = any ? std::min(whole.top, mask.top) : mask.top;
+        right = any ? std::max(right, mask.left + mask.width) : mask.left + mask.width;
+        bottom = any ? std::max(bottom, mask.top + mask.height) : mask.top + mask.height;
+        any = true;
+    }
+    whole.width = right - whole.left;
+    whole.height = bottom - whole.top;
+    whole.coverage.resize(std::size_t(whole.width) * std::size_t(whole.height));
+    for (const auto& mask : masks) {
+        for (int y = 0; y < mask.height; ++y) {
+            for (int x = 0; x < mask.width; ++x) {
+                auto& pixel = whole.coverage[std::size_t(mask.top - whole.top + y) * whole.width +
+                                             std::size_t(mask.left - whole.left + x)];
+                pixel = std::max(pixel, mask.coverage[std::size_t(y) * mask.width + x]);
+            }
+        }
+    }
+    return whole;
 }
 
 } // namespace macadam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,26 +22,67 @@ struct TextMask {
     std::vector<std::uint8_t> coverage;
 };
 
-/// Sets lines of text in DejaVu Sans, in any script it has: glyphs are chosen and placed by
-/// HarfBuzz and drawn by FreeType. Bytes that are not UTF-8 become replacement characters.
+/// A glyph of a line that has been set, from the left end of its base line.
+struct SetGlyph {
+    int font = 0;            ///< of the setter's
+    std::uint32_t index = 0; ///< in the font
+    double x_px = 0;
+    double y_px = 0; ///< upwards
+};
+
+/// A letter with its marks, or letters that are one glyph: what turns as one where a line bends.
+struct SetCluster {
+    std::size_t first = 0, count = 0; ///< of the glyphs
+    double left_px = 0, right_px = 0;
+};
+
+struct SetLine {
+    std::vector<SetGlyph> glyphs;
+    std::vector<SetCluster> clusters; ///< from left to right
+    double width_px = 0;
+    bool whole = true; ///< false: no font has some of its characters, which are left out
+};
+
+/// Where a glyph goes on a picture, x to the right and y downwards.
+struct GlyphPose {
+    double x_px = 0, y_px = 0;       ///< of its origin on the base line
+    double along_x = 1, along_y = 0; ///< direction of the base line, of length 1
+    friend bool operator==(const GlyphPose&, const GlyphPose&) = default;
+};
+
+/// Sets lines of text in any script of the fonts on the shelf (render/font_shelf.hpp): glyphs are
+/// chosen and placed by HarfBuzz and drawn by FreeType, lines that mix directions are ordered by
+/// FriBidi. Bytes that are not UTF-8 become replacement characters; what no font has is left out.
 ///
-/// A line that mixes left-to-right and right-to-left scripts is set in the direction of the first.
+/// Source: Unicode Standard Annex 9, "Unicode Bidirectional Algorithm", revision 46 (2022), rule L2
+/// for the order of runs.
 class TypeSetter {
 public:
-    /// \throws InputError  if the fonts are not installed.
+    /// \throws InputError  if DejaVu Sans is not installed. So do the other functions for the font
+    ///                     of a script that a text needs.
     TypeSetter();
+    explicit TypeSetter(const std::filesystem::path& fonts);
     ~TypeSetter();
+
+    SetLine set(std::string_view utf8, const TextLook& look);
 
     double width_px(std::string_view utf8, const TextLook& look);
     TextMask mask(std::string_view utf8, const TextLook& look);
+
+    /// One glyph at its place on the picture; left and top of the mask count from the picture's
+    /// corner. Level glyphs are fitted to the rows of pixels, turned ones are not.
+    TextMask stamp(const SetGlyph& glyph, const TextLook& look, const GlyphPose& pose);
 
     /// Words broken into lines of at most `room_px`; a word that is wider itself is broken
     /// anywhere.
     std::vector<std::string> wrapped(std::string_view utf8, const TextLook& look, double room_px);
 
 private:
-    struct Fonts;
-    std::unique_ptr<Fonts> fonts_;
+    struct Desk;
+    std::unique_ptr<Desk> desk_;
 };
+
+/// Several masks as one; where they overlap the denser counts.
+TextMask merged(const std::vector<TextMask>& masks);
 
 } // namespace macadam

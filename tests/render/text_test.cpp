@@ -1,13 +1,44 @@
 #include "render/text.hpp"
 
+#include "estimator/common/error.hpp"
+
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <numeric>
+#include <string>
+#include <unistd.h>
 
 namespace macadam::testing {
 namespace {
 
 constexpr TextLook look{.size_px = 20, .bold = false};
+
+std::vector<std::uint32_t> glyphs_of(const SetLine& line) {
+    std::vector<std::uint32_t> glyphs;
+    for (const auto& glyph : line.glyphs) {
+        glyphs.push_back(glyph.index);
+    }
+    return glyphs;
+}
+
+/// A folder of fonts with DejaVu only, as on a machine without Noto.
+class FontsWithoutNoto {
+public:
+    FontsWithoutNoto()
+        : folder{std::filesystem::temp_directory_path() /
+                 ("macadam_fonts_" + std::to_string(::getpid()))} {
+        std::filesystem::create_directories(folder);
+        std::filesystem::create_directory_symlink("/usr/share/fonts/truetype/dejavu",
+                                                  folder / "dejavu");
+    }
+    ~FontsWithoutNoto() { std::filesystem::remove_all(folder); }
+    FontsWithoutNoto(const FontsWithoutNoto&) = delete;
+    FontsWithoutNoto& operator=(const FontsWithoutNoto&) = delete;
+
+    const std::filesystem::path folder;
+};
 
 } // namespace
 
@@ -53,6 +84,108 @@ TEST(Text, LosesNoLetterOfAWordThatIsTooLong) {
     for (const auto& line : lines) {
         EXPECT_LE(setter.width_px(line, look), 100) << line;
     }
+}
+
+TEST(Text, SetsRoadNamesOfManyScriptsInFull) {
+    TypeSetter setter;
+    for (const auto* name : {"Győr–Mosonmagyaróvár, Széchenyi út",
+                             "Λεωφόρος Συγγρού",
+                             "Тверская улица",
+                             "شارع الملك فيصل",
+                             "רחוב דיזנגוף",
+                             "महात्मा गांधी मार्ग",
+                             "ถนนสุขุมวิท",
+                             "Đường Nguyễn Huệ",
+                             "რუსთაველის გამზირი",
+                             "Մաշտոցի պողոտա",
+                             "வீதி 12",
+                             "ဗိုလ်ချုပ်လမ်း"}) {
+        const auto line = setter.set(name, look);
+        EXPECT_TRUE(line.whole) << name;
+        EXPECT_TRUE(std::ranges::none_of(line.glyphs, [](auto& glyph) { return glyph.index == 0; }))
+            << name;
+    }
+}
+
+TEST(Text, WritesHebrewFromRightToLeft) {
+    TypeSetter setter;
+    auto logical = glyphs_of(setter.set("ש", look));
+    for (const auto* letter : {"ל", "ו", "ם"}) {
+        logical.push_back(glyphs_of(setter.set(letter, look)).at(0));
+    }
+    std::ranges::reverse(logical);
+    EXPECT_EQ(glyphs_of(setter.set("שלום", look)), logical);
+}
+
+TEST(Text, JoinsArabicLetters) {
+    TypeSetter setter;
+    const auto alone = glyphs_of(setter.set("س", look));
+    const auto word = glyphs_of(setter.set("سسس", look));
+    ASSERT_EQ(word.size(), 3U);
+    EXPECT_EQ(std::ranges::count(word, alone.at(0)), 0); // initial, medial and final forms
+}
+
+TEST(Text, KeepsNumbersOfARightToLeftNameReadable) {
+    TypeSetter setter;
+    const auto digits = glyphs_of(setter.set("12", look));
+    const auto name = glyphs_of(setter.set("רחוב 12", look));
+    ASSERT_EQ(name.size(), 7U);
+    EXPECT_EQ(name[0], digits[0]); // the number stands left of the word, itself from left to right
+    EXPECT_EQ(name[1], digits[1]);
+}
+
+TEST(Text, PutsALatinWordBeforeARightToLeftOneOnItsLeft) {
+    TypeSetter setter;
+    const auto name = glyphs_of(setter.set("Weg שלום", look));
+    EXPECT_EQ(name.at(0), glyphs_of(setter.set("W", look)).at(0));
+    EXPECT_EQ(name.back(), glyphs_of(setter.set("ש", look)).at(0));
+}
+
+TEST(Text, ReordersVowelsOfDevanagari) {
+    TypeSetter setter;
+    const auto consonant = glyphs_of(setter.set("क", look)).at(0);
+    const auto syllable = glyphs_of(setter.set("कि", look)); // the vowel i stands before its k
+    ASSERT_EQ(syllable.size(), 2U);
+    EXPECT_EQ(syllable[1], consonant);
+}
+
+TEST(Text, KeepsMarksWithTheirLetters) {
+    TypeSetter setter;
+    const auto line = setter.set("ที่", look); // one letter with a vowel and a tone above it
+    ASSERT_EQ(line.clusters.size(), 1U);
+    EXPECT_EQ(line.clusters[0].count, line.glyphs.size());
+    EXPECT_GE(line.glyphs.size(), 3U);
+}
+
+TEST(Text, LeavesOutWhatNoFontHasAndSaysSo) {
+    TypeSetter setter;
+    const auto line = setter.set("路 Lu", look);
+    EXPECT_FALSE(line.whole);
+    EXPECT_EQ(glyphs_of(line), glyphs_of(setter.set(" Lu", look)));
+}
+
+TEST(Text, AsksForThePackageOfAMissingFont) {
+    const FontsWithoutNoto fonts;
+    TypeSetter setter{fonts.folder};
+    EXPECT_TRUE(setter.set("Langenloiser Straße", look).whole); // DejaVu has it
+    EXPECT_THAT([&] { setter.set("ถนน", look); },
+                ::testing::ThrowsMessage<InputError>(::testing::HasSubstr(
+                    ".ttf: cannot read the font, expected the package fonts-noto-core")));
+    EXPECT_THAT([] { TypeSetter{"/nowhere"}; },
+                ::testing::ThrowsMessage<InputError>(
+                    "/nowhere/dejavu/DejaVuSans.ttf: cannot read the font, expected the package "
+                    "fonts-dejavu-core"));
+}
+
+TEST(Text, TurnsAGlyphAboutItsOrigin) {
+    TypeSetter setter;
+    const auto glyph = setter.set("l", {40}).glyphs.at(0);
+    const auto upright = setter.stamp(glyph, {40}, {100, 100});
+    const auto fallen = setter.stamp(glyph, {40}, {100, 100, 0, 1}); // reads downwards
+    EXPECT_NEAR(fallen.width, upright.height, 1); // hinting moves edges by less than a pixel
+    EXPECT_NEAR(fallen.height, upright.width, 1);
+    EXPECT_NEAR(fallen.top - 100, upright.left - 100, 1); // what was right of the origin is below
+    EXPECT_NEAR(fallen.left + fallen.width - 100, 100 - upright.top, 1); // above became right
 }
 
 } // namespace macadam::testing

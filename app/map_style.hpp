@@ -1,0 +1,25 @@
+#pragma once
+
+#include "app/arguments.hpp"
+#include "app/console.hpp"
+#include "render/map.hpp"
+
+#include <string_view>
+
+namespace macadam {
+
+inline constexpr Option style_option{
+    "--style", "FILE", "Classes, colours, widths and words from a TOML file (docs/maps.md)."};
+
+/// Of --style, or as the program has it. What other options say comes on top.
+///
+/// \throws InputError  for a file that is no style.
+MapStyle parse_style_file(const Arguments& arguments);
+
+/// The table of that name. \throws UsageError  naming --classes, if there is none.
+const ClassTable* class_table_option(std::string_view name);
+
+/// Says so where readers could take the look of a map for something else.
+void warn_of_look(const MapStyle& style, const Console& console);
+
+} // namespace macadam

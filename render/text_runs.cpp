@@ -1,0 +1,185 @@
+#include "render/text_runs.hpp"
+
+#include <fribidi.h>
+#include <hb.h>
+
+#include <algorithm>
+#include <iterator>
+#include <new>
+#include <optional>
+
+namespace macadam {
+namespace {
+
+struct Character {
+    std::uint32_t script;
+    int level; ///< of embedding; odd: from right to left
+    int font = -1;
+};
+
+bool belongs_to_no_script(hb_script_t script) {
+    return script == HB_SCRIPT_COMMON || script == HB_SCRIPT_INHERITED ||
+           script == HB_SCRIPT_UNKNOWN;
+}
+
+/// Signs and marks take the script of what stands before them, at the start of what comes.
+std::vector<std::uint32_t> scripts_of(std::u32string_view text) {
+    auto* const unicode = hb_unicode_funcs_get_default();
+    std::vector<std::uint32_t> scripts(text.size(), HB_SCRIPT_COMMON);
+    std::optional<std::uint32_t> known;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto script = hb_unicode_script(unicode, text[i]);
+        if (!belongs_to_no_script(script)) {
+            if (!known) {
+                std::fill_n(scripts.begin(), i, std::uint32_t(script));
+            }
+            known = script;
+        }
+        scripts[i] = known.value_or(HB_SCRIPT_COMMON);
+    }
+    return scripts;
+}
+
+std::vector<int> levels_of(std::u32string_view text) {
+    const auto length = FriBidiStrIndex(text.size());
+    const std::vector<FriBidiChar> characters(text.begin(), text.end());
+    std::vector<FriBidiCharType> types(text.size());
+    std::vector<FriBidiBracketType> brackets(text.size());
+    std::vector<FriBidiLevel> levels(text.size());
+    fribidi_get_bidi_types(characters.data(), length, types.data());
+    fribidi_get_bracket_types(characters.data(), length, types.data(), brackets.data());
+    FriBidiParType direction = FRIBIDI_PAR_ON; // that of the first letter
+    if (fribidi_get_par_embedding_levels_ex(
+            types.data(), brackets.data(), length, &direction, levels.data()) == 0) {
+        throw std::bad_alloc{}; // its only failure
+    }
+    return {levels.begin(), levels.end()};
+}
+
+/// Characters that only steer the others and have no shape of their own.
+bool is_silent(char32_t c) {
+    return c == 0xAD || (0x200B <= c && c <= 0x200F) || (0x202A <= c && c <= 0x202E) ||
+           (0x2060 <= c && c <= 0x206F) || (0xFE00 <= c && c <= 0xFE0F) || c == 0xFEFF;
+}
+
+int first_with(const std::vector<int>& fonts, char32_t c, FontShelf& shelf) {
+    const auto found = std::ranges::find_if(fonts, [&](int font) { return shelf.has(font, c); });
+    return found == fonts.end() ? -1 : *found;
+}
+
+/// The first font that has all letters of a script's run, or most of them: letters of one word
+/// should come from one font.
+int main_font(std::u32string_view run, const std::vector<int>& fonts, FontShelf& shelf) {
+    int best = fonts.front();
+    std::ptrdiff_t most = -1;
+    for (const int font : fonts) {
+        const auto count = std::ranges::count_if(
+            run, [&](char32_t c) { return is_silent(c) || shelf.has(font, c); });
+        if (count > most) {
+            best = font;
+            most = count;
+        }
+        if (count == std::ptrdiff_t(run.size())) {
+            break;
+        }
+    }
+    return best;
+}
+
+void choose_fonts(std::vector<Character>& characters,
+                  std::u32string_view text,
+                  bool bold,
+                  FontShelf& shelf) {
+    for (std::size_t first = 0; first < text.size();) {
+        std::size_t last = first;
+        while (last < text.size() && characters[last].script == characters[first].script) {
+            ++last;
+        }
+        auto fonts = shelf.fonts_for(characters[first].script, bold);
+        const int main = main_font(text.substr(first, last - first), fonts, shelf);
+        for (std::size_t i = first; i < last; ++i) {
+            auto& font = characters[i].font;
+            font = is_silent(text[i]) || shelf.has(main, text[i])
+                       ? main
+                       : first_with(fonts, text[i], shelf);
+            if (font < 0) {
+                font = first_with(FontShelf::symbol_fonts(), text[i], shelf);
+            }
+        }
+        first = last;
+    }
+}
+
+std::vector<Character>
+characters_with_looks(std::u32string_view text, bool bold, FontShelf& shelf) {
+    const auto scripts = scripts_of(text);
+    const auto levels = levels_of(text);
+    std::vector<Character> characters;
+    characters.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        characters.push_back({.script = scripts[i], .level = levels[i]});
+    }
+    choose_fonts(characters, text, bold, shelf);
+    return characters;
+}
+
+struct LevelRun {
+    TextRun run;
+    int level;
+};
+
+/// Rule L2: from the highest level to the lowest odd one, what stands at that level or above is
+/// turned round.
+void order(std::vector<LevelRun>& runs) {
+    int highest = 0;
+    for (const auto& run : runs) {
+        highest = std::max(highest, run.level);
+    }
+    for (int level = highest; level > 0; --level) {
+        for (auto first = runs.begin(); first != runs.end();) {
+            first = std::find_if(first, runs.end(), [&](auto& run) { return run.level >= level; });
+            const auto last =
+                std::find_if(first, runs.end(), [&](auto& run) { return run.level < level; });
+            std::reverse(first, last);
+            first = last;
+        }
+    }
+}
+
+} // namespace
+
+std::u32string characters_of(std::string_view utf8) {
+    hb_buffer_t* buffer = hb_buffer_create();
+    hb_buffer_add_utf8(buffer, utf8.data(), int(utf8.size()), 0, int(utf8.size()));
+    unsigned count = 0;
+    const auto* infos = hb_buffer_get_glyph_infos(buffer, &count);
+    std::u32string characters;
+    for (unsigned i = 0; i < count; ++i) {
+        characters.push_back(infos[i].codepoint);
+    }
+    hb_buffer_destroy(buffer);
+    return characters;
+}
+
+std::vector<TextRun> runs_of(std::u32string_view text, bool bold, FontShelf& shelf) {
+    if (text.empty()) {
+        return {};
+    }
+    const auto characters = characters_with_looks(text, bold, shelf);
+    std::vector<LevelRun> runs;
+    for (std::size_t i = 0; i < characters.size(); ++i) {
+        const auto& [script, level, font] = characters[i];
+        if (i == 0 || script != runs.back().run.script || level != runs.back().level ||
+            font != runs.back().run.font) {
+            runs.push_back({{i, 0, script, font, level % 2 == 1}, level});
+        }
+        ++runs.back().run.count;
+    }
+    order(runs);
+    std::vector<TextRun> ordered;
+    ordered.reserve(runs.size());
+    std::ranges::transform(runs, std::back_inserter(ordered), &LevelRun::run);
+    return ordered;
+}
+
+} // namespace macadam
