@@ -82,6 +82,7 @@ VectorLayer::VectorLayer(std::string_view name,
     west_ = std::int64_t{tile.x} << side;
     north_ = std::int64_t{tile.y} << side;
     slots_.resize(1024, 0);
+    last_.resize(keys.size(), 0);
 }
 
 // ------------------------------------------------------------------------------------- geometry
@@ -168,6 +169,7 @@ std::uint32_t VectorLayer::put_value(Value::Kind kind, std::uint64_t bits, std::
     protozero::pbf_writer writer{value};
     switch (kind) {
     case Value::Kind::text:
+    case Value::Kind::unlike:
         writer.add_string(tag::text, text.data(), text.size());
         break;
     case Value::Kind::whole:
@@ -188,6 +190,9 @@ void VectorLayer::make_room() {
     slots_.assign(slots_.size() * 4, 0);
     const auto mask = slots_.size() - 1;
     for (std::size_t i = 0; i < known_.size(); ++i) {
+        if (known_[i].kind == Value::Kind::unlike) {
+            continue;
+        }
         auto slot = mixed(known_[i].bits, static_cast<std::uint64_t>(known_[i].kind)) & mask;
         while (slots_[slot] != 0) {
             slot = (slot + 1) & mask;
@@ -204,8 +209,7 @@ std::uint32_t VectorLayer::number_of(Value::Kind kind, std::uint64_t bits, std::
     auto slot = mixed(bits, static_cast<std::uint64_t>(kind)) & mask;
     for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
         const auto& value = known_[slots_[slot] - 1];
-        if (value.kind == kind && value.bits == bits &&
-            std::string_view{values_}.substr(value.at, value.size) == text) {
+        if (value.kind == kind && value.bits == bits && text_of(value) == text) {
             return slots_[slot] - 1;
         }
     }
@@ -214,24 +218,59 @@ std::uint32_t VectorLayer::number_of(Value::Kind kind, std::uint64_t bits, std::
     return number;
 }
 
-void VectorLayer::add(std::uint32_t key, std::string_view text) {
+std::string_view VectorLayer::text_of(const Value& value) const {
+    return std::string_view{values_}.substr(value.at, value.size);
+}
+
+void VectorLayer::put_tag(std::uint32_t key, std::uint32_t value) {
     tags_.push_back(key);
-    tags_.push_back(number_of(Value::Kind::text, std::hash<std::string_view>{}(text), text));
+    tags_.push_back(value);
+    last_[key] = value + 1;
+}
+
+/// Neighbours share most of their values, which are then not looked up.
+bool VectorLayer::repeat_last(std::uint32_t key, Value::Kind kind, std::uint64_t bits) {
+    const auto last = last_[key];
+    const bool is_alike =
+        last != 0 && known_[last - 1].kind == kind && known_[last - 1].bits == bits;
+    if (is_alike) {
+        put_tag(key, last - 1);
+    }
+    return is_alike;
+}
+
+bool VectorLayer::repeat_last(std::uint32_t key, std::string_view text) {
+    const auto last = last_[key];
+    const bool is_alike = last != 0 && known_[last - 1].kind == Value::Kind::text &&
+                          text_of(known_[last - 1]) == text;
+    if (is_alike) {
+        put_tag(key, last - 1);
+    }
+    return is_alike;
+}
+
+void VectorLayer::add(std::uint32_t key, std::string_view text) {
+    if (!repeat_last(key, text)) {
+        put_tag(key, number_of(Value::Kind::text, std::hash<std::string_view>{}(text), text));
+    }
 }
 
 void VectorLayer::add(std::uint32_t key, std::int64_t whole) {
-    tags_.push_back(key);
-    tags_.push_back(number_of(Value::Kind::whole, static_cast<std::uint64_t>(whole), {}));
+    const auto bits = static_cast<std::uint64_t>(whole);
+    if (!repeat_last(key, Value::Kind::whole, bits)) {
+        put_tag(key, number_of(Value::Kind::whole, bits, {}));
+    }
 }
 
 void VectorLayer::add_real(std::uint32_t key, double value) {
-    tags_.push_back(key);
-    tags_.push_back(number_of(Value::Kind::real, std::bit_cast<std::uint64_t>(value + 0.0), {}));
+    const auto bits = std::bit_cast<std::uint64_t>(value + 0.0); // -0 as 0
+    if (!repeat_last(key, Value::Kind::real, bits)) {
+        put_tag(key, number_of(Value::Kind::real, bits, {}));
+    }
 }
 
 void VectorLayer::add_unlike(std::uint32_t key, std::string_view text) {
-    tags_.push_back(key);
-    tags_.push_back(put_value(Value::Kind::text, std::hash<std::string_view>{}(text), text));
+    put_tag(key, put_value(Value::Kind::unlike, 0, text));
 }
 
 // ------------------------------------------------------------------------------------- features

@@ -47,7 +47,12 @@ public:
 
 private:
     struct Value {
-        enum class Kind : std::uint8_t { text, whole, real } kind;
+        enum class Kind : std::uint8_t {
+            text,
+            whole,
+            real,
+            unlike
+        } kind;                 ///< unlike: a text that is not looked up
         std::uint64_t bits;     ///< of a number; of a text its hash
         std::uint32_t at, size; ///< in values_
     };
@@ -63,6 +68,10 @@ private:
     void line_to(const Place& place);
     void end_piece();
 
+    bool repeat_last(std::uint32_t key, Value::Kind kind, std::uint64_t bits);
+    bool repeat_last(std::uint32_t key, std::string_view text);
+    void put_tag(std::uint32_t key, std::uint32_t value);
+    std::string_view text_of(const Value& value) const;
     std::uint32_t number_of(Value::Kind kind, std::uint64_t bits, std::string_view text);
     std::uint32_t put_value(Value::Kind kind, std::uint64_t bits, std::string_view text);
     void make_room();
@@ -75,6 +84,7 @@ private:
     std::string values_;        ///< likewise
     std::vector<Value> known_;
     std::vector<std::uint32_t> slots_; ///< places in known_ plus 1 by hash; 0 is free
+    std::vector<std::uint32_t> last_;  ///< by key: the value that it had last, plus 1
     std::vector<std::uint32_t> geometry_, tags_;
     std::vector<Place> line_, piece_;
     Place cursor_{0, 0};
