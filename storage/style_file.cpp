@@ -1,6 +1,7 @@
 #include "storage/style_file.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/colour_ramp.hpp"
 #include "storage/toml.hpp"
 
 #include <fmt/format.h>
@@ -148,7 +149,11 @@ OwnClassTable own_table(const TomlTable& top, const std::string& name, double sc
 /// ramp = "viridis", or [ramp] with colours.
 void read_ramp(const TomlTable& top, MapLook& look) {
     if (top.is_text("ramp")) {
-        look.ramp = top.text("ramp");
+        std::vector<std::string_view> names;
+        for (const auto& ramp : colour_ramps()) {
+            names.push_back(ramp.name);
+        }
+        look.ramp = word_among(top, "ramp", names);
         return;
     }
     constexpr std::array<std::string_view, 1> ramp_keys{"colours"};

@@ -179,6 +179,8 @@ TEST(StyleFile, RefusesAShippedTableBesideItsOwn) {
     EXPECT_EQ(refusal_of_text("classes = \"five\"\n[[class]]\nname = \"a\"\nup_to = 1\n"
                               "[[class]]\nname = \"b\"\n"),
               "mine.toml:1: 'classes' is 'five', expected either classes or tables [[class]]");
+    EXPECT_EQ(refusal_of_text("ramp = \"jet\"\n"),
+              "mine.toml:1: 'ramp' is 'jet', expected one of rdylbu, cividis, viridis");
     EXPECT_EQ(refusal_of_text("classes = \"nine\"\n"),
               "mine.toml:1: 'classes' is 'nine', expected one of fhwa, five");
 }
