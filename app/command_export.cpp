@@ -1,6 +1,8 @@
 #include "app/commands.hpp"
+#include "app/map_style.hpp"
 #include "app/output_guard.hpp"
 #include "app/period_options.hpp"
+#include "app/picture_export.hpp"
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
 #include "app/tile_export.hpp"
@@ -26,6 +28,7 @@ struct ExportOptions {
     SegmentFilter filter;
     std::optional<SectionOptions> sections;
     std::optional<TilePlan> tiles;
+    std::optional<PicturePlan> pictures;
 };
 
 /// Sections are reported whole, whatever lies in them, and as text.
@@ -58,14 +61,17 @@ ExportOptions parse_export(const Arguments& arguments) {
                           .output = *output,
                           .filter = parse_filter(arguments),
                           .sections = parse_sections(arguments, false),
-                          .tiles = {}};
+                          .tiles = {},
+                          .pictures = {}};
     if (options.sections) {
         expect_sections_alone(options);
     }
     if (is_tile_archive(options.output)) {
         options.tiles = parse_tile_plan(arguments);
+        options.pictures = parse_picture_plan(arguments, *options.tiles, options.filter);
     } else {
         expect_no_tile_options(arguments);
+        expect_no_picture_options(arguments);
     }
     return options;
 }
@@ -100,6 +106,11 @@ void export_sections(const RoadStore& store, const ExportOptions& options, const
 void run_export(const Arguments& arguments, const Console& console) {
     const auto options = parse_export(arguments);
     refuse_to_replace(options.output, inputs_of(options));
+    if (options.pictures) {
+        export_picture_tiles(
+            options.store, options.filter.box, options.output, *options.pictures, console);
+        return;
+    }
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
@@ -124,6 +135,12 @@ constexpr std::array options{
            ".fgb, .shp, .kml; tiles for the web: .mbtiles, .pmtiles."},
     zoom_option,
     tile_jobs_option,
+    tiles_option,
+    tile_size_option,
+    tile_theme_option,
+    style_option,
+    tile_left_hand_option,
+    tile_no_labels_option,
     bbox_option,
     way_option,
     name_option,
@@ -154,7 +171,8 @@ const Command export_command{
     .example = "  macadam export roads.gpkg -o roads.geojson\n"
                "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02\n"
                "  macadam export roads.gpkg -o sections.csv --sections routes.csv\n"
-               "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2",
+               "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2\n"
+               "  macadam export roads.gpkg -o pictures.mbtiles --tiles picture --tile-size 512",
     .operands = operands,
     .options = options,
     .run = run_export};

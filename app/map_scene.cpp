@@ -20,24 +20,6 @@ constexpr double margin_share = 0.05; // of the driven extent, so that nothing t
 constexpr double least_margin_m = 50;
 constexpr double certain_sd = 0.5; // of the value; beyond it the line is drawn with a narrower core
 
-/// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
-int rank_of(std::string_view highway) {
-    struct Rank {
-        std::string_view prefix;
-        int rank;
-    };
-    constexpr std::array ranks{Rank{"motorway", 0},
-                               Rank{"trunk", 0},
-                               Rank{"primary", 1},
-                               Rank{"secondary", 2},
-                               Rank{"tertiary", 3},
-                               Rank{"service", 5},
-                               Rank{"track", 5}};
-    const auto found =
-        std::ranges::find_if(ranks, [&](const Rank& r) { return highway.starts_with(r.prefix); });
-    return found != ranks.end() ? found->rank : highway.empty() ? 2 : 4;
-}
-
 GeoBox box_with_margin(const GeoBox& box) {
     const double diagonal_m =
         distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
@@ -69,11 +51,6 @@ std::string subtitle_of(const StoreInfo& info, bool whole) {
                        counted(info.vehicles.size(), "car"));
 }
 
-/// References alone have no passes of cars and need none.
-bool has_few_passes(const SegmentState& state, int least_passes) {
-    return 0 < state.passes && state.passes < least_passes;
-}
-
 /// Of all the store's segments with enough passes.
 std::vector<double>
 class_km_of(const RoadStore& store, const ClassTable& classes, int least_passes) {
@@ -89,6 +66,31 @@ class_km_of(const RoadStore& store, const ClassTable& classes, int least_passes)
 }
 
 } // namespace
+
+int rank_of(std::string_view highway) {
+    struct Rank {
+        std::string_view prefix;
+        int rank;
+    };
+    constexpr std::array ranks{Rank{"motorway", 0},
+                               Rank{"trunk", 0},
+                               Rank{"primary", 1},
+                               Rank{"secondary", 2},
+                               Rank{"tertiary", 3},
+                               Rank{"service", 5},
+                               Rank{"track", 5}};
+    const auto found =
+        std::ranges::find_if(ranks, [&](const Rank& r) { return highway.starts_with(r.prefix); });
+    return found != ranks.end() ? found->rank : highway.empty() ? 2 : 4;
+}
+
+bool has_few_passes(const SegmentState& state, int least_passes) {
+    return 0 < state.passes && state.passes < least_passes;
+}
+
+bool is_certain(const SegmentState& state) {
+    return state.sd_um <= certain_sd * state.iri_um;
+}
 
 std::vector<MapLine>
 map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, int least_passes) {
@@ -112,7 +114,7 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, 
         if (record.state) {
             line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
             line.few_passes = has_few_passes(*record.state, least_passes);
-            line.certain = record.state->sd_um <= certain_sd * record.state->iri_um;
+            line.certain = is_certain(*record.state);
         }
         lines.push_back(std::move(line));
     });

@@ -5,9 +5,19 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace macadam {
+
+/// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
+int rank_of(std::string_view highway);
+
+/// Whether it is drawn in grey. References alone have no passes of cars and need none.
+bool has_few_passes(const SegmentState& state, int least_passes);
+
+/// Whether a line shows it in full width: its standard deviation is at most half of it.
+bool is_certain(const SegmentState& state);
 
 /// The segments of a store that touch a box, in the order of their keys, with their classes; those
 /// without a pass as roads without a measurement, those with fewer than `least_passes` marked so. A

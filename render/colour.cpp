@@ -5,22 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
 namespace macadam {
 namespace {
-
-// ColorBrewer 2.0 by Cynthia A. Brewer, "RdYlBu", 5 and 3 classes from the blue end; of 3 the ends
-// are those of 5, which are stronger, and the middle a yellow that holds on white.
-constexpr std::array<std::uint32_t, 5> rdylbu{0x2c7bb6, 0xabd9e9, 0xffffbf, 0xfdae61, 0xd7191c};
-constexpr std::array<std::uint32_t, 3> rdylbu_of_3{0x2c7bb6, 0xfee090, 0xd7191c};
-
-// Matplotlib's colour maps at 0, 1/4, 1/2, 3/4 and 1. viridis: S. van der Walt and N. Smith (2015);
-// cividis: J. R. Nunez, C. R. Anderton, R. S. Renslow, PLoS ONE 13(7): e0199239 (2018).
-constexpr std::array<std::uint32_t, 5> viridis{0x440154, 0x3b528b, 0x21918c, 0x5ec962, 0xfde725};
-constexpr std::array<std::uint32_t, 5> cividis{0x00224e, 0x434e6c, 0x7d7c78, 0xbcae6c, 0xfee838};
 
 std::uint32_t mixed(std::uint32_t a, std::uint32_t b, double fraction) {
     std::uint32_t rgb = 0;
@@ -38,13 +27,9 @@ std::uint32_t colour_at(std::span<const std::uint32_t> anchors, double fraction)
     return mixed(anchors[before], anchors[before + 1], place - double(before));
 }
 
-constexpr std::array ramps{ColourRamp{"rdylbu", rdylbu, rdylbu_of_3},
-                           ColourRamp{"cividis", cividis, cividis},
-                           ColourRamp{"viridis", viridis, viridis}};
-
 std::span<const std::uint32_t> anchors_of(std::string_view name, std::size_t classes) {
     std::vector<std::string_view> names;
-    for (const auto& ramp : ramps) {
+    for (const auto& ramp : colour_ramps()) {
         if (ramp.name == name) {
             return classes == 3 ? ramp.colours_of_three : ramp.colours;
         }
@@ -64,10 +49,6 @@ std::vector<std::uint32_t> spread(std::span<const std::uint32_t> anchors, std::s
 }
 
 } // namespace
-
-std::span<const ColourRamp> colour_ramps() {
-    return ramps;
-}
 
 std::vector<std::uint32_t> ramp_colours(std::string_view ramp, std::size_t classes) {
     return spread(anchors_of(ramp, classes), classes);

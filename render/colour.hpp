@@ -1,23 +1,12 @@
 #pragma once
 
+#include "mapping/colour_ramp.hpp"
 #include "render/map.hpp"
 
 #include <cstdint>
-#include <span>
-#include <string_view>
 #include <vector>
 
 namespace macadam {
-
-/// Colours from smooth to rough, between which those of classes are taken at even distances.
-struct ColourRamp {
-    std::string_view name;
-    std::span<const std::uint32_t> colours;          ///< 0xRRGGBB
-    std::span<const std::uint32_t> colours_of_three; ///< where a map has three classes
-};
-
-/// The shipped ones, the default first.
-std::span<const ColourRamp> colour_ramps();
 
 /// The colours of a style's classes, from its own ramp or a shipped one.
 /// \throws InputError for an unknown ramp.

@@ -31,13 +31,13 @@ struct MapLine {
 struct MapStyle {
     enum class Theme { light, dark, print };
     Theme theme = Theme::light;
-    std::string ramp = "rdylbu";              ///< one of colour_ramps()
-    std::vector<std::uint32_t> own_ramp;      ///< 0xRRGGBB from smooth to rough; empty: `ramp`
-    const ClassTable* classes = nullptr;      ///< null: fhwa
-    std::optional<OwnClassTable> own_classes; ///< keeps what `classes` points at, if it is its own
-    ThemeColours colours;                     ///< instead of the theme's
-    LineFactors lines;
-    LegendWords words;
+    std::string ramp = "rdylbu";                ///< one of colour_ramps()
+    std::vector<std::uint32_t> own_ramp{};      ///< 0xRRGGBB from smooth to rough; empty: `ramp`
+    const ClassTable* classes = nullptr;        ///< null: fhwa
+    std::optional<OwnClassTable> own_classes{}; ///< keeps what `classes` points at, where it is own
+    ThemeColours colours{};                     ///< instead of the theme's
+    LineFactors lines{};
+    LegendWords words{};
     int least_passes = 1; ///< that few_passes of the lines speaks of
     bool left_hand_traffic = false;
     bool in_per_mi = false; ///< legend in in/mi

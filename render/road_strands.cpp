@@ -11,13 +11,6 @@ constexpr double flat_px =
     0.05; // a point this near the line between its neighbours does not bend it
 constexpr std::size_t most_passed = 64; // so that long straights cost no more than others
 
-int line_look(const MapLine& line) {
-    if (line.iri_class < 0) {
-        return unmeasured_look;
-    }
-    return line.few_passes ? few_passes_look : look_of(line.iri_class, line.certain);
-}
-
 double apart_px(const PixelPoint& a, const PixelPoint& b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
@@ -93,6 +86,13 @@ private:
 };
 
 } // namespace
+
+int line_look(const MapLine& line) {
+    if (line.iri_class < 0) {
+        return unmeasured_look;
+    }
+    return line.few_passes ? few_passes_look : look_of(line.iri_class, line.certain);
+}
 
 Strand strand_of(std::span<const MapLine> lines,
                  const std::vector<LineUse>& chain,

@@ -18,6 +18,8 @@ inline constexpr int most_classes = 31; ///< that looks can tell apart
 constexpr int unmeasured_look = 0;
 constexpr int few_passes_look = 1;
 
+int line_look(const MapLine& line);
+
 /// A chain of lines on the picture, without points that nobody could tell apart.
 Strand
 strand_of(std::span<const MapLine> lines, const std::vector<LineUse>& chain, const MapFrame& frame);

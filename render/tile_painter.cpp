@@ -3,6 +3,8 @@
 #include "estimator/common/error.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_program.hpp"
+#include "render/label_painter.hpp"
+#include "render/tile_labels.hpp"
 #include "render/tile_quads.hpp"
 
 #include <GL/gl.h>
@@ -95,13 +97,37 @@ const ClassTable& classes_of(const MapStyle& style) {
 }
 
 TileColours colours_of(const MapStyle& style) {
-    return {palette(style.theme), ramp_colours(style.ramp, classes_of(style).classes.size())};
+    return {palette(style), class_colours(style, classes_of(style).classes.size())};
+}
+
+LineWidths widths_of(const MapStyle& style, const WorldScale& scale) {
+    auto widths = tile_widths(zoom_of_256_px(scale));
+    widths.core_px *= style.lines.width;
+    widths.casing_px *= style.lines.casing;
+    return widths;
 }
 
 /// Mesa's threads wait for each other more than they draw; whoever wants more draws in processes.
 const TileLook& with_one_thread(const TileLook& look) {
     setenv("LP_NUM_THREADS", "0", 0);
     return look;
+}
+
+Image with_labels(Image roads,
+                  std::span<const Label> labels,
+                  const WorldWindow& window,
+                  const Palette& colours,
+                  TypeSetter& setter) {
+    if (labels.empty()) {
+        return roads;
+    }
+    Canvas canvas{std::move(roads)};
+    draw_labels(canvas,
+                labels,
+                {int(window.left_px), int(window.top_px)},
+                {colours.ink, colours.quiet_ink, colours.ground},
+                setter);
+    return std::move(canvas).finished();
 }
 
 std::size_t pixels_of(const TileLook& look) {
@@ -119,6 +145,7 @@ struct TilePainter::Impl {
     void check_classes(std::span<const MapLine> lines) const;
 
     TileLook look;
+    TypeSetter setter;
     TileColours colours;
     std::vector<std::uint8_t> rgba;
     GlContext context;
@@ -249,7 +276,7 @@ Image TilePainter::draw(const TileId& first, std::span<const MapLine> lines) {
     impl_->check_classes(lines);
     const auto& look = impl_->look;
     const auto window = window_of(first, look.tile_px, look.across);
-    const auto widths = tile_widths(zoom_of_256_px(window.scale));
+    const auto widths = widths_of(look.style, window.scale);
     const auto strands = tile_strands(lines, window, widths, look.style.left_hand_traffic);
     impl_->paint(tile_quads(strands, window, widths, impl_->colours));
 
@@ -259,11 +286,18 @@ Image TilePainter::draw(const TileId& first, std::span<const MapLine> lines) {
         std::copy_n(
             impl_->rgba.begin() + std::ptrdiff_t(i), 3, image.rgb.begin() + std::ptrdiff_t(o));
     }
-    return image;
+    if (!look.style.labels) {
+        return image;
+    }
+    return with_labels(std::move(image),
+                       tile_labels(lines, window, widths, impl_->setter),
+                       window,
+                       impl_->colours.palette,
+                       impl_->setter);
 }
 
 double TilePainter::reach_px(int zoom) const {
-    const auto widths = tile_widths(zoom_of_256_px({zoom, impl_->look.tile_px}));
+    const auto widths = widths_of(impl_->look.style, {zoom, impl_->look.tile_px});
     // A line that is moved aside is thrown out to twice its way at most where it bends.
     return 2 * way_offset_px(widths, 0) + casing_radius_px(widths, 0, true) + 1;
 }

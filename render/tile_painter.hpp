@@ -20,7 +20,8 @@ struct TileLook {
 /// measured road as a core of its class's colour in a casing.
 ///
 /// A pixel depends on its place in the world and on the lines near it, not on the tile: tiles drawn
-/// one by one are, byte for byte, the parts of one large picture. So widths go by the zoom alone.
+/// one by one are, byte for byte, the parts of one large picture. So widths go by the zoom alone,
+/// and names stand wholly in squares of the world that are labelled each for itself.
 /// Below zoom 13 (of tiles of 256 px) the two directions of a road are one line of the worse class;
 /// from there on each lies at its own side.
 ///
@@ -38,7 +39,8 @@ public:
     /// The tiles from `first`, in the north-west, on.
     ///
     /// \param lines  all that come within reach_px() of them, with all that end where one of these
-    ///               ends; in the same order for every tile. What is far away costs little.
+    ///               ends; in the same order for every tile. What is far away costs little. With
+    ///               labels all of every label cell that a tile touches (label_cell_px).
     /// \throws InputError  if a line's class is not in the table
     Image draw(const TileId& first, std::span<const MapLine> lines);
 

@@ -48,14 +48,17 @@ std::uint32_t mixed(std::uint32_t a, std::uint32_t b, double share) {
 
 /// The colours of a style, then steps between those that lie side by side on a tile.
 std::vector<std::uint32_t> palette_of(const MapStyle& style) {
-    const auto other = palette(style.theme);
+    const auto other = palette(style);
     const auto* classes = style.classes != nullptr ? style.classes : class_table("fhwa");
-    const auto ramp = ramp_colours(style.ramp, classes->classes.size());
+    const auto ramp = class_colours(style, classes->classes.size());
 
-    std::vector<std::uint32_t> colours{other.ground, other.casing, other.unmeasured, other.ink};
+    std::vector<std::uint32_t> colours{
+        other.ground, other.casing, other.unmeasured, other.few_passes, other.ink, other.quiet_ink};
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sides{{other.ground, other.casing},
                                                                {other.ground, other.unmeasured},
                                                                {other.casing, other.unmeasured},
+                                                               {other.casing, other.few_passes},
+                                                               {other.ground, other.quiet_ink},
                                                                {other.ground, other.ink}};
     // Any two classes can meet, but of many only the neighbours have room for their steps.
     const std::size_t apart = ramp.size() <= 5 ? ramp.size() : 1;
@@ -138,7 +141,7 @@ private:
 
 struct TilePng::Impl {
     explicit Impl(const MapStyle& style)
-        : nearest{palette_of(style)}, ground{macadam::palette(style.theme).ground},
+        : nearest{palette_of(style)}, ground{macadam::palette(style).ground},
           compressor{libdeflate_alloc_compressor(compression)} {
         if (compressor == nullptr) {
             throw std::bad_alloc{};

@@ -26,14 +26,14 @@ struct Paint {
 };
 
 bool is_certain(int look) {
-    return look % 2 == 0;
+    return look % 2 == 1; // few passes are drawn as wide as what is certain
 }
 
 /// What a strand is painted with, in how many layers, and how they follow each other.
 class Coats {
 public:
     Coats(const LineWidths& widths, const TileColours& colours)
-        : widths_{widths}, colours_{colours}, looks_{int(colours.classes.size()) * 2} {}
+        : widths_{widths}, colours_{colours}, looks_{1 + int(colours.classes.size()) * 2} {}
 
     int layers() const { return ranks + ranks * (2 + looks_); }
 
@@ -51,7 +51,9 @@ public:
     Paint core(int rank, int look) const {
         return {first_of(rank) + 1 + look,
                 core_radius_px(widths_, rank, is_certain(look)),
-                colours_.classes[std::size_t(look - 1) / 2]};
+                look == few_passes_look
+                    ? colours_.palette.few_passes
+                    : colours_.classes[std::size_t(look - look_of(0, false)) / 2]};
     }
 
 private:
@@ -59,7 +61,7 @@ private:
 
     const LineWidths& widths_;
     const TileColours& colours_;
-    int looks_;
+    int looks_; ///< of measured roads
 };
 
 enum class Coat { unmeasured, casing, core };

@@ -204,14 +204,12 @@ private:
             return false;
         }
         made_.strand_of.resize(past, std::uint32_t(made_.strands.size()));
-        made_.strands.push_back(
-            {first,
-             past,
-             std::int8_t(line.iri_class < 0 ? unmeasured_look
-                                            : look_of(line.iri_class, line.certain)),
-             std::int8_t(std::clamp(line.rank, 0, 5)),
-             no_piece,
-             no_piece});
+        made_.strands.push_back({first,
+                                 past,
+                                 std::int8_t(line_look(line)),
+                                 std::int8_t(std::clamp(line.rank, 0, 5)),
+                                 no_piece,
+                                 no_piece});
         return true;
     }
 

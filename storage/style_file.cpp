@@ -1,6 +1,7 @@
 #include "storage/style_file.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/colour_ramp.hpp"
 #include "storage/toml.hpp"
 
 #include <fmt/format.h>
@@ -145,26 +146,35 @@ OwnClassTable own_table(const TomlTable& top, const std::string& name, double sc
     return {name, name, std::move(classes)};
 }
 
-/// A name of a shipped ramp, or colours.
+/// ramp = "viridis", or [ramp] with colours.
 void read_ramp(const TomlTable& top, MapLook& look) {
     if (top.is_text("ramp")) {
-        look.ramp = top.text("ramp");
+        std::vector<std::string_view> names;
+        for (const auto& ramp : colour_ramps()) {
+            names.push_back(ramp.name);
+        }
+        look.ramp = word_among(top, "ramp", names);
         return;
     }
-    constexpr std::string_view expected =
-        "the name of a ramp, or a list of 2 to 64 colours such as \"#2c7bb6\"";
-    for (const auto& text : top.texts("ramp")) {
+    constexpr std::array<std::string_view, 1> ramp_keys{"colours"};
+    const auto ramp = top.table("ramp");
+    ramp->expect_only(ramp_keys);
+    if (!ramp->has("colours")) {
+        ramp->miss("colours");
+    }
+    for (const auto& text : ramp->texts("colours")) {
         const auto rgb = colour_of(text);
         if (!rgb) {
-            throw InputError{fmt::format("{}: 'ramp' has '{}', expected {}",
-                                         top.where("ramp"),
-                                         text,
-                                         "colours such as \"#2c7bb6\"")};
+            throw InputError{
+                fmt::format("{}: 'ramp.colours' has '{}', expected colours such as \"#2c7bb6\"",
+                            ramp->where("colours"),
+                            text)};
         }
         look.own_ramp.push_back(*rgb);
     }
     if (look.own_ramp.size() < 2 || look.own_ramp.size() > most_ramp_colours) {
-        top.refuse("ramp", expected);
+        ramp->refuse("colours",
+                     fmt::format("2 to {} colours such as \"#2c7bb6\"", most_ramp_colours));
     }
 }
 

@@ -1,6 +1,8 @@
 #include "render/colour.hpp"
 
 #include "estimator/common/error.hpp"
+#include "render/colour_difference.hpp"
+#include "render/look_check.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace macadam::testing {
 namespace {
@@ -143,14 +146,88 @@ TEST(Colour, DifferenceMeetsThePublishedPairs) {
 }
 
 TEST(Colour, ClassesStayApartForEveryKindOfColourBlindness) {
-    for (const auto* ramp : {"rdylbu", "cividis", "viridis"}) {
-        for (const std::size_t classes : {3U, 5U}) {
+    for (const auto& ramp : colour_ramps()) {
+        for (const auto& table : class_tables()) {
             for (const auto& deficiency : deficiencies) {
-                EXPECT_GE(least_difference(deficiency, ramp_colours(ramp, classes)), 10)
-                    << ramp << ' ' << classes;
+                EXPECT_GE(
+                    least_difference(deficiency, ramp_colours(ramp.name, table.classes.size())), 10)
+                    << ramp.name << ' ' << table.name;
             }
         }
     }
+}
+
+TEST(Colour, GreyOfFewPassesIsTakenForNoClass) {
+    for (const auto theme : themes) {
+        const auto grey = palette(theme).few_passes;
+        EXPECT_GE(contrast(grey, palette(theme).casing), 3);
+        for (const auto& ramp : colour_ramps()) {
+            for (const auto& table : class_tables()) {
+                for (const auto rgb : ramp_colours(ramp.name, table.classes.size())) {
+                    for (const auto& deficiency : deficiencies) {
+                        EXPECT_GE(least_difference(deficiency, {grey, rgb}), 10)
+                            << ramp.name << ' ' << std::hex << rgb;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Colour, DifferenceIsThatOfTheReferenceForEverySight) {
+    std::mt19937 random{1};
+    for (int i = 0; i < 300; ++i) {
+        const std::uint32_t a = random() & 0xFFFFFFU;
+        const std::uint32_t b = i % 3 == 0 ? a ^ (random() & 0x0F0F0FU) : random() & 0xFFFFFFU;
+        for (std::size_t d = 0; d < deficiencies.size(); ++d) {
+            EXPECT_NEAR(colour_difference(a, b, all_sights[d + 1]),
+                        ciede2000(seen(deficiencies[d], a), seen(deficiencies[d], b)),
+                        1e-9);
+        }
+        EXPECT_NEAR(colour_difference(a, b, Sight::normal),
+                    ciede2000(lab_of(linear(a)), lab_of(linear(b))),
+                    1e-9);
+        EXPECT_NEAR(contrast_ratio(a, b), contrast(a, b), 1e-12);
+    }
+    EXPECT_EQ(colour_difference(0x808080, 0x808080, Sight::tritanopia), 0);
+}
+
+TEST(Colour, ShippedLooksNeedNoWarning) {
+    for (const auto theme : themes) {
+        for (const auto& ramp : colour_ramps()) {
+            for (const auto& table : class_tables()) {
+                EXPECT_THAT(look_warnings({.theme = theme, .ramp = std::string{ramp.name}}, table),
+                            ::testing::IsEmpty());
+            }
+        }
+    }
+}
+
+TEST(Colour, WarnsOfATrafficLight) {
+    MapStyle style;
+    style.own_ramp = {0x1a9641, 0xa6d96a, 0xffffbf, 0xfdae61, 0xd7191c};
+    EXPECT_THAT(look_warnings(style, *class_table("five")),
+                ::testing::ElementsAre(
+                    "the colours of 'good' (#a6d96a) and 'poor' (#fdae61) differ by 2.0 CIEDE2000 "
+                    "with deuteranopia, expected 10 or more"));
+}
+
+TEST(Colour, WarnsOfACasingThatDoesNotShow) {
+    MapStyle style;
+    style.colours.casing = 0xe0e0e0;
+    style.colours.ground = 0xffffff;
+    EXPECT_THAT(look_warnings(style, *class_table("fhwa")),
+                ::testing::ElementsAre("the casing (#e0e0e0) has a contrast of 1.3 to the ground "
+                                       "(#ffffff), expected 3 or more"));
+}
+
+TEST(Colour, OfAStyleComesBeforeThatOfTheThemeAndTheRamp) {
+    MapStyle style;
+    style.colours.ink = 0x123456;
+    style.own_ramp = {0x000000, 0x808080};
+    EXPECT_EQ(palette(style).ink, 0x123456U);
+    EXPECT_EQ(palette(style).page, palette(MapStyle::Theme::light).page);
+    EXPECT_THAT(class_colours(style, 3), ::testing::ElementsAre(0x000000, 0x404040, 0x808080));
 }
 
 TEST(Colour, CasingStandsOutFromTheGround) {

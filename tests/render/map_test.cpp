@@ -245,6 +245,63 @@ TEST(Map, ExplainsUnmeasuredAndUncertainRoadsWhereThereAreAny) {
     EXPECT_EQ(legend_of(scene({}, 400), {}, *class_table("fhwa")).entries.size(), 3U);
 }
 
+TEST(Map, DrawsRoadsWithFewPassesInGreyInsideACasing) {
+    auto line = road({{-400, 0}, {400, 0}}, 2);
+    line.few_passes = true;
+    const auto image = render_map(scene({line}, 400), {.legend = false}, 512, 512);
+    const auto colours = palette(MapStyle::Theme::light);
+    EXPECT_EQ(count_of(image, {0, 0, 512, 512}, poor), 0U);
+    EXPECT_GT(rows_of(image, colours.few_passes).size(), 1U);
+    EXPECT_GT(rows_of(image, colours.casing).size(), 1U);
+}
+
+TEST(Map, ShowsAClassBeforeTheGreyOfFewPassesWhereThereIsNoRoomForBoth) {
+    auto two = both_ways(0, 2, 40000);
+    two.lines[1].few_passes = true;
+    const auto image = render_map(two, {.legend = false}, 512, 512);
+    const auto [bluest, reddest] = range_of_red_over_blue(image);
+    EXPECT_LT(bluest, -40); // good is blue
+    EXPECT_LT(reddest, 40);
+}
+
+TEST(Map, ExplainsGreyRoadsWhereThereAreAny) {
+    auto lines = std::vector{road({{0, 0}, {9, 9}}, 0), road({{0, 0}, {9, -9}}, 1)};
+    lines[0].few_passes = true;
+    const auto legend = legend_of(scene(lines, 400), {.least_passes = 3}, *class_table("fhwa"));
+    ASSERT_EQ(legend.entries.size(), 4U);
+    EXPECT_EQ(legend.entries[3].name, "Fewer than 3 passes");
+    EXPECT_EQ(legend.entries[3].rgb, palette(MapStyle::Theme::light).few_passes);
+}
+
+TEST(Map, SpeaksTheWordsOfItsStyle) {
+    MapStyle style;
+    style.words.title = "Ebenheit";
+    style.words.below = "unter {}";
+    style.words.above = "{} und mehr";
+    const auto legend = legend_of(scene({}, 400), style, *class_table("fhwa"));
+    EXPECT_EQ(legend.title, "Ebenheit");
+    EXPECT_EQ(legend.entries[0].range, "unter 1.50");
+    EXPECT_EQ(legend.entries[2].range, "2.68 und mehr");
+}
+
+TEST(Map, DrawsLinesAsWideAsItsStyleWantsThem) {
+    const auto sheet = scene({road({{-400, 0}, {400, 0}}, 2)}, 400);
+    const auto usual = render_map(sheet, {.legend = false}, 512, 512);
+    const auto wide = render_map(sheet, {.lines = {.width = 2}, .legend = false}, 512, 512);
+    EXPECT_NEAR(double(rows_of(wide, poor).size()), 2.0 * double(rows_of(usual, poor).size()), 2);
+}
+
+TEST(Map, WritesTheNamesOfItsRoadsUnlessTold) {
+    auto line = road({{-400, 0}, {400, 0}}, 2);
+    line.name = "Langenloiser Straße";
+    const auto sheet = scene({line}, 400);
+    const auto ink = palette(MapStyle::Theme::light).ink;
+    const PixelBox above{0, 200, 512, 300};
+    EXPECT_GT(count_of(render_map(sheet, {.legend = false}, 512, 512), above, ink), 10U);
+    EXPECT_EQ(count_of(render_map(sheet, {.labels = false, .legend = false}, 512, 512), above, ink),
+              0U);
+}
+
 TEST(Map, IsTheSameByteForByteEachTime) {
     const auto city = grid(9, 2000);
     const auto once = render_map(city, {}, 700, 400).rgb;

@@ -82,6 +82,9 @@ void leave(const std::string& name, const Image& image) {
 }
 
 int most_difference(const Image& a, const Image& b) {
+    if (a.rgb.size() != b.rgb.size()) {
+        return 256;
+    }
     int most = 0;
     for (std::size_t i = 0; i < a.rgb.size(); ++i) {
         most = std::max(most, std::abs(int(a.rgb[i]) - int(b.rgb[i])));
@@ -98,7 +101,6 @@ TEST(TileGolden, TilesAreThoseThatWereFoundGood) {
         const auto image = drawn(scene);
         leave(scene.name, image);
         const auto kept = golden(scene.name);
-        ASSERT_EQ(image.rgb.size(), kept.rgb.size()) << scene.name;
         EXPECT_LE(most_difference(image, kept), same_mesa ? 0 : other_mesa_levels)
             << "tests/data/golden/" << scene.name << ".png was drawn by " << golden_mesa
             << ", and this is '" << version << "'; another one may differ by " << other_mesa_levels

@@ -110,6 +110,33 @@ TEST(TilePainter, FitsTilesAroundALineThroughTheirCorners) {
     EXPECT_EQ(differing_pixels(first, 128, 4, {diagonal, round_the_world}), 0U);
 }
 
+TEST(TilePainter, DrawsNamesThatAreWholeAcrossTheEdgesOfTiles) {
+    const auto first = tile_at(15);
+    const TileId corner{first.zoom, first.x / 8 * 8, first.y / 8 * 8}; // of a cell of labels
+    auto lines = town_in(window_of(corner, 64, 8), 60);
+    for (auto& line : lines) {
+        line.name = "Hauptstraße";
+    }
+    auto nameless = lines;
+    for (auto& line : nameless) {
+        line.name.clear();
+    }
+    TilePainter painter{{{}, 64, 8}};
+    EXPECT_FALSE(painter.draw(corner, lines).rgb == painter.draw(corner, nameless).rgb);
+    EXPECT_EQ(differing_pixels(corner, 64, 8, lines), 0U);
+}
+
+TEST(TilePainter, LeavesNamesOutWhereTheStyleDoes) {
+    const auto tile = tile_at(15);
+    auto lines = town_in(window_of(tile, 512, 1), 60);
+    TilePainter painter{{{.labels = false}, 512, 1}};
+    const auto nameless = painter.draw(tile, lines).rgb;
+    for (auto& line : lines) {
+        line.name = "Hauptstraße";
+    }
+    EXPECT_TRUE(painter.draw(tile, lines).rgb == nameless);
+}
+
 TEST(TilePainter, NeedsOnlyTheLinesNearTheTile) {
     const auto first = tile_at(15);
     const auto all = town_in(window_of(first, 128, 4), 60);
@@ -190,6 +217,17 @@ TEST(TilePainter, DrawsAnUncertainRoadWithANarrowerCore) {
     });
     EXPECT_THAT(rows_of(image, poor), ::testing::ElementsAre(127, 128));
     EXPECT_EQ(pixel(image, 128, 125), light.casing);
+}
+
+TEST(TilePainter, DrawsRoadsWithFewPassesInGreyInACasing) {
+    const auto image = drawn(16, [](const WorldWindow& window) {
+        std::vector lines{line_at(window, {{-50, 128}, {300, 128}}, 2)};
+        lines[0].few_passes = true;
+        return lines;
+    });
+    EXPECT_THAT(rows_of(image, light.few_passes),
+                ::testing::ElementsAre(125, 126, 127, 128, 129, 130));
+    EXPECT_EQ(pixel(image, 128, 124), light.casing);
 }
 
 TEST(TilePainter, LaysUnmeasuredRoadsBelowAllOthers) {

@@ -106,10 +106,16 @@ public:
     explicit Raster(std::uint32_t ground)
         : pixels_(std::size_t(side_px) * side_px, colour_of(ground)) {}
 
+    /// Where a run ends: nothing goes on; a neighbour that is painted earlier, over which it ends
+    /// softly on the line that halves the bend; one that is painted later, under which it goes on
+    /// for a pixel.
+    enum class End { open, over, under };
+
     /// The pieces first .. past - 1 of a road, as one.
     struct Run {
         std::size_t first, past;
-        bool soft_start, soft_end; ///< ends on the line that halves the bend, over a neighbour
+        End start = End::open;
+        End end = End::open;
     };
 
     void
@@ -123,11 +129,11 @@ public:
                     away_px = std::min(away_px, distance_px(places[i], places[i + 1], at));
                 }
                 double share = covered(away_px, radius_px);
-                if (share > 0 && run.soft_start) {
-                    share *= std::clamp(0.5 + beyond_px(places, run.first, at), 0.0, 1.0);
+                if (share > 0 && run.start != End::open) {
+                    share *= left_over(run.start, -beyond_px(places, run.first, at));
                 }
-                if (share > 0 && run.soft_end) {
-                    share *= std::clamp(0.5 - beyond_px(places, run.past, at), 0.0, 1.0);
+                if (share > 0 && run.end != End::open) {
+                    share *= left_over(run.end, beyond_px(places, run.past, at));
                 }
                 auto& pixel = pixels_[std::size_t(y) * side_px + std::size_t(x)];
                 for (std::size_t c = 0; c < 3; ++c) {
@@ -146,6 +152,10 @@ public:
     }
 
 private:
+    static double left_over(End end, double beyond_px) {
+        return end == End::over ? std::clamp(0.5 - beyond_px, 0.0, 1.0) : beyond_px < 1 ? 1.0 : 0.0;
+    }
+
     std::vector<Colour> pixels_;
 };
 
@@ -161,10 +171,12 @@ std::vector<Raster::Run> runs_of(const Road& road, int iri_class) {
         while (past < classes.size() && classes[past] == iri_class) {
             ++past;
         }
-        runs.push_back({i,
-                        past,
-                        i > 0 && classes[i - 1] < iri_class,
-                        past < classes.size() && classes[past] < iri_class});
+        const auto end_at = [&](bool has_neighbour, std::size_t neighbour) {
+            return !has_neighbour                   ? Raster::End::open
+                   : classes[neighbour] < iri_class ? Raster::End::over
+                                                    : Raster::End::under;
+        };
+        runs.push_back({i, past, end_at(i > 0, i - 1), end_at(past < classes.size(), past)});
         i = past;
     }
     return runs;
@@ -186,7 +198,7 @@ Raster rastered(const std::vector<Road>& roads) {
     for (int rank = 5; rank >= 0; --rank) {
         each(rank, false, [&](const Road& road, const std::vector<PointEn>& places) {
             raster.paint(places,
-                         {0, road.classes.size(), false, false},
+                         {0, road.classes.size()},
                          0.75 * core_radius_px(widths, rank, true),
                          colours.unmeasured);
         });
@@ -196,7 +208,7 @@ Raster rastered(const std::vector<Road>& roads) {
             each(rank, true, [&](const Road& road, const std::vector<PointEn>& places) {
                 if (road.certain == certain) {
                     raster.paint(places,
-                                 {0, road.classes.size(), false, false},
+                                 {0, road.classes.size()},
                                  casing_radius_px(widths, rank, certain),
                                  colours.casing);
                 }
@@ -300,7 +312,6 @@ TEST(TileRaster, AgreesWhereTheClassChanges) {
     std::mt19937 random{4};
     for (int i = 0; i < 12; ++i) {
         auto road = winding(random, 6);
-        // Changes at gentle bends: at sharp ones what lies under may look out by a pixel.
         for (std::size_t k = 2; k < road.places.size(); ++k) {
             const auto step = unit(minus(road.places[k - 1], road.places[k - 2]));
             road.places[k] = plus(plus(road.places[k - 1], step, 20), right_of(step), i % 3 - 1);
@@ -329,14 +340,9 @@ TEST(TileRaster, WouldNoticeALineATenthOfAPixelTooWide) {
     const auto widths = tile_widths(zoom);
     const auto colours = palette(MapStyle::Theme::light);
     Raster raster{colours.ground};
-    raster.paint(road.places,
-                 {0, 1, false, false},
-                 casing_radius_px(widths, 3, true) + 0.05,
-                 colours.casing);
-    raster.paint(road.places,
-                 {0, 1, false, false},
-                 core_radius_px(widths, 3, true),
-                 ramp_colours("rdylbu", 3)[1]);
+    raster.paint(road.places, {0, 1}, casing_radius_px(widths, 3, true) + 0.05, colours.casing);
+    raster.paint(
+        road.places, {0, 1}, core_radius_px(widths, 3, true), ramp_colours("rdylbu", 3)[1]);
     EXPECT_GT(raster.most_difference(painted({road})), most_levels);
 }
 

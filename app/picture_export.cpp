@@ -1,0 +1,136 @@
+#include "app/picture_export.hpp"
+
+#include "app/interruption.hpp"
+#include "app/map_style.hpp"
+#include "app/segment_options.hpp"
+#include "estimator/common/error.hpp"
+#include "storage/tile_archive.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace macadam {
+namespace {
+
+constexpr std::array<std::string_view, 2> tile_kinds{"vector", "picture"};
+constexpr std::array<std::string_view, 2> tile_sizes{"256", "512"};
+constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
+
+void expect_whole_network(const SegmentFilter& filter) {
+    if (filter.way_id || !filter.name_part.empty() || !filter.highway.empty() ||
+        !filter.class_name.empty() || filter.period || !filter.with_state_only) {
+        throw UsageError{"--tiles picture shows all roads of a box: it goes with --bbox and "
+                         "--min-passes, not with what looks for segments"};
+    }
+}
+
+void expect_no_picture_looks(const Arguments& arguments) {
+    if (arguments.value("--tile-size") || arguments.value("--theme") ||
+        arguments.value("--style") || arguments.flag("--left-hand") ||
+        arguments.flag("--no-labels")) {
+        throw UsageError{"--tile-size, --theme, --style, --left-hand and --no-labels go with "
+                         "--tiles picture"};
+    }
+}
+
+MapStyle style_of(const Arguments& arguments, const SegmentFilter& filter) {
+    auto style = parse_style_file(arguments);
+    if (arguments.value("--theme")) {
+        const auto theme = arguments.choice("--theme", themes);
+        style.theme = theme == "dark"    ? MapStyle::Theme::dark
+                      : theme == "print" ? MapStyle::Theme::print
+                                         : MapStyle::Theme::light;
+    }
+    style.left_hand_traffic = arguments.flag("--left-hand");
+    style.labels = !arguments.flag("--no-labels");
+    if (filter.least_passes > 0) {
+        style.least_passes = filter.least_passes;
+    }
+    return style;
+}
+
+TileSetNote note_of(const StoreInfo& info, const std::string& name, const PicturePlan& plan) {
+    return {.name = name,
+            .description = "Roughness of roads (IRI) by class",
+            .attribution = info.settings.attribution,
+            .format = TileSetNote::Format::png,
+            .bounds = plan.box,
+            .least_zoom = plan.least_zoom,
+            .most_zoom = plan.most_zoom,
+            .layers = {}};
+}
+
+/// Reads what concerns the whole store; it is closed again before processes are made.
+StoreInfo info_of(const std::filesystem::path& file, const Console& console) {
+    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    warn_of_waiting(store, file, console);
+    return store.info();
+}
+
+} // namespace
+
+std::optional<PicturePlan>
+parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const SegmentFilter& filter) {
+    if (arguments.choice("--tiles", tile_kinds) != "picture") {
+        expect_no_picture_looks(arguments);
+        return std::nullopt;
+    }
+    expect_whole_network(filter);
+    return PicturePlan{.least_zoom = tiles.least_zoom,
+                       .most_zoom = tiles.most_zoom,
+                       .tile_px = arguments.choice("--tile-size", tile_sizes) == "512" ? 512 : 256,
+                       .jobs = tiles.jobs,
+                       .box = {},
+                       .style = style_of(arguments, filter)};
+}
+
+void expect_no_picture_options(const Arguments& arguments) {
+    if (arguments.value("--tiles")) {
+        throw UsageError{fmt::format("--tiles goes with tiles, expected -o to end in {}",
+                                     fmt::join(tile_archive_suffixes(), " or "))};
+    }
+    expect_no_picture_looks(arguments);
+}
+
+void export_picture_tiles(const std::filesystem::path& store,
+                          const std::optional<GeoBox>& box,
+                          const std::filesystem::path& file,
+                          PicturePlan plan,
+                          const Console& console) {
+    const auto info = info_of(store, console);
+    if (info.segments == 0) {
+        throw InputError{
+            fmt::format("{}: no segment to draw, expected at least one", store.string())};
+    }
+    if (plan.style.classes == nullptr) {
+        plan.style.classes = class_table(info.settings.class_table);
+    }
+    warn_of_look(plan.style, console);
+    plan.box = box.value_or(info.box);
+    const Interruption interruption;
+    const auto stage = [&](const char* label) {
+        auto progress = console.progress(label);
+        progress.stop = interruption.stop();
+        return progress;
+    };
+    TileArchive archive{file, note_of(info, store.stem().string(), plan)};
+    const auto count = make_picture_tiles(
+        store,
+        plan,
+        [&](const TileId& tile, std::string_view bytes) { archive.add(tile, bytes); },
+        stage("drawing tiles"));
+    const auto size = archive.commit(stage("writing tiles"));
+    console.say(
+        fmt::format("{}: {} of {} x {} px, {} different, zooms {} to {}, the largest {:.1f} kB",
+                    file.string(),
+                    counted(count.tiles, "tile"),
+                    plan.tile_px,
+                    plan.tile_px,
+                    size.contents,
+                    plan.least_zoom,
+                    plan.most_zoom,
+                    static_cast<double>(count.largest_bytes) / 1e3));
+}
+
+} // namespace macadam
