@@ -77,18 +77,22 @@ protected:
     }
 };
 
-/// Parted by one blank each, of whatever kind they were.
-std::string words_only(std::string text) {
-    for (const std::string_view blank : {"\u202F", "\u00A0"}) {
-        for (auto at = text.find(blank); at != std::string::npos; at = text.find(blank, at)) {
-            text.replace(at, blank.size(), " ");
-        }
+void replace_all(std::string& text, std::string_view what, std::string_view by) {
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
+        text.replace(at, what.size(), by);
     }
+}
+
+/// Parted by one blank each, of whatever kind they were. Around dashes poppler leaves some out.
+std::string words_only(std::string text) {
+    replace_all(text, "\u202F", " ");
+    replace_all(text, "\u00A0", " ");
     std::string words;
     std::istringstream in{text};
     for (std::string word; in >> word;) {
         words += word + ' ';
     }
+    replace_all(words, " – ", "–");
     return words;
 }
 
