@@ -220,7 +220,11 @@ TEST_F(ReportPdf, OfUndatedTripsHasNoDate) {
 }
 
 TEST_F(ReportPdf, NumbersItsPagesAndRepeatsTitleAndHeads) {
-    const auto report = whole_report();
+    auto report = whole_report();
+    report.sections.assign(100, report.sections[0]); // more than a page of them
+    for (auto& section : report.sections) {
+        section.name = "section-of-many";
+    }
     const auto text = by("pdftotext -layout", report);
     std::istringstream in{text};
     int pages = 0, heads = 0;
@@ -233,12 +237,12 @@ TEST_F(ReportPdf, NumbersItsPagesAndRepeatsTitleAndHeads) {
         EXPECT_THAT(words, HasSubstr(fmt::format("Page {} of ", pages)));
         EXPECT_EQ(pages > 1,
                   words.find("Spring survey · 2026-03-01 to 2026-04-02") != std::string::npos);
-        const bool has_cars = words.find("v-0000") != std::string::npos;
-        heads += has_cars ? 1 : 0;
-        EXPECT_EQ(has_cars, words.find("Undated") != std::string::npos);
+        const bool has_sections = words.find("section-of-many") != std::string::npos;
+        heads += has_sections ? 1 : 0;
+        EXPECT_EQ(has_sections, words.find("Excluded, m") != std::string::npos);
     }
     EXPECT_THAT(text, HasSubstr(fmt::format("Page {0} of {0}", pages)));
-    EXPECT_EQ(heads, 2); // 31 rows do not fit what is left of one page
+    EXPECT_GE(heads, 2);
 }
 
 TEST_F(ReportPdf, WritesAnyScript) {
