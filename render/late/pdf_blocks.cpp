@@ -18,6 +18,7 @@ constexpr double legend_gap_pt = 14;
 constexpr double swatch_pt = 7;
 constexpr double most_line_pt = 440; // of running text: longer ones are hard to follow
 constexpr double scale_height_pt = 4;
+constexpr double room_over_map_pt = 80; // for heading and legend
 
 PdfType body() {
     return {.size_pt = body_size_pt};
@@ -47,11 +48,43 @@ struct CardText {
     double height_pt() const { return picture_pt + 4 + title.height_pt() + text.height_pt(); }
 };
 
+PdfText laid(const PdfSheets& sheets, const Paragraph& paragraph) {
+    return sheets.text(paragraph.text, paragraph.small ? remark() : body(), line_width(sheets));
+}
+
+/// A map as large as the page lets it be.
+struct LaidMap {
+    PdfText caption, scale;
+    double width_pt, height_pt; ///< of the picture
+
+    double whole_pt() const { return height_pt + 6 + scale.height_pt() + caption.height_pt(); }
+};
+
+LaidMap laid(const PdfSheets& sheets, const MapFigure& map) {
+    LaidMap laid{sheets.text(map.caption, remark(), sheets.width_pt()),
+                 sheets.text(map.scale, {.size_pt = small_size_pt}, -1),
+                 0,
+                 0};
+    const double shape =
+        static_cast<double>(map.picture.height_px) / std::max(1, map.picture.width_px);
+    const double room_pt = sheets.height_pt() - laid.whole_pt() - room_over_map_pt;
+    laid.width_pt = std::min(sheets.width_pt(), room_pt / shape);
+    laid.height_pt = laid.width_pt * shape;
+    return laid;
+}
+
 } // namespace
 
+double first_pt(const PdfSheets& sheets, const Paragraph& paragraph) {
+    return laid(sheets, paragraph).height_pt();
+}
+
+double first_pt(const PdfSheets& sheets, const MapFigure& map) {
+    return laid(sheets, map).whole_pt();
+}
+
 void put(PdfSheets& sheets, const Paragraph& paragraph) {
-    const auto text =
-        sheets.text(paragraph.text, paragraph.small ? remark() : body(), line_width(sheets));
+    const auto text = laid(sheets, paragraph);
     sheets.need(std::min(text.height_pt(), sheets.height_pt()));
     sheets.draw(text, sheets.left_pt(), sheets.y_pt());
     sheets.skip(text.height_pt() + block_gap_pt * 0.7);
@@ -127,17 +160,11 @@ void put(PdfSheets& sheets, const Legend& legend) {
 }
 
 void put(PdfSheets& sheets, const MapFigure& map) {
-    const auto caption = sheets.text(map.caption, remark(), sheets.width_pt());
-    const auto scale = sheets.text(map.scale, {.size_pt = small_size_pt}, -1);
-    const double words_pt = 6 + scale.height_pt() + caption.height_pt();
-    const double shape =
-        static_cast<double>(map.picture.height_px) / std::max(1, map.picture.width_px);
-    // Half an inch is left for the heading and the legend above it.
-    const double width_pt =
-        std::min(sheets.width_pt(), (sheets.height_pt() - words_pt - 90) / shape);
-    sheets.need(width_pt * shape + words_pt);
+    const auto map_laid = laid(sheets, map);
+    const auto& [caption, scale, width_pt, height_pt] = map_laid;
+    sheets.need(map_laid.whole_pt());
     sheets.picture(map.picture, sheets.left_pt(), sheets.y_pt(), width_pt);
-    sheets.skip(width_pt * shape + 4);
+    sheets.skip(height_pt + 4);
     if (map.scale_percent > 0) {
         const double bar_pt = width_pt * map.scale_percent / 100;
         const double y_pt = sheets.y_pt() + scale.height_pt() / 2 - scale_height_pt / 2;

@@ -115,6 +115,7 @@ void PdfSheets::draw(const PdfText& text, double x_pt, double y_pt) const {
         cairo_tag_begin(cairo_.get(), CAIRO_TAG_LINK, ("dest=" + quoted(text.target())).c_str());
     }
     pango_cairo_show_layout(cairo_.get(), text.layout());
+    cairo_new_path(cairo_.get()); // no line goes on from where the text began
     if (!text.target().empty()) {
         cairo_tag_end(cairo_.get(), CAIRO_TAG_LINK);
     }

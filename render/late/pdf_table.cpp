@@ -15,6 +15,7 @@ constexpr std::array sizes_pt{8.0, 7.5, 7.0, 6.5, 6.0}; // the first with which 
 constexpr double gap_pt = 9;                            // between columns
 constexpr double padding_pt = 2.6;                      // over and under the text of a row
 constexpr double share_width_pt = 90;
+constexpr double most_head_pt = 80; // wider heads go over several lines
 constexpr double share_height_pt = 8;
 constexpr double swatch_pt = 7;
 constexpr double swatch_gap_pt = 4;
@@ -76,8 +77,10 @@ private:
         least_.assign(table_.columns.size(), 0);
         wanted_.assign(table_.columns.size(), 0);
         for (std::size_t c = 0; c < table_.columns.size(); ++c) {
-            const double head = least_of(table_.columns[c].title, head_type(c));
-            least_[c] = wanted_[c] = head;
+            const auto& title = table_.columns[c].title;
+            const double whole = sheets_.text(title, head_type(c), -1).width_pt();
+            least_[c] = least_of(title, head_type(c));
+            wanted_[c] = std::max(least_[c], std::min(whole, most_head_pt));
             for (const auto& row : table_.rows) {
                 measure(row[c], c);
             }
@@ -194,25 +197,50 @@ void draw_row(PdfSheets& sheets,
     sheets.rule(print::border, sheets.left_pt(), sheets.y_pt(), columns.whole_pt());
 }
 
+/// A table in rows, ready to be drawn.
+struct Laid {
+    Columns columns;
+    PdfText caption;
+    Row head;
+    std::vector<Row> rows;
+
+    /// Of what stays together with the caption.
+    double first_pt() const {
+        const auto together = rows.size() <= rows_that_stay_together
+                                  ? rows.size()
+                                  : std::min(rows.size(), rows_with_the_head);
+        double height_pt = caption.height_pt() + padding_pt + head.height_pt;
+        for (std::size_t i = 0; i < together; ++i) {
+            height_pt += rows[i].height_pt;
+        }
+        return height_pt;
+    }
+};
+
+Laid laid(const PdfSheets& sheets, const Table& table) {
+    const Columns columns{sheets, table};
+    Laid laid{columns,
+              sheets.text(table.caption,
+                          {.size_pt = small_size_pt, .rgb = print::quiet},
+                          sheets.width_pt()),
+              head_of(sheets, table, columns),
+              {}};
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        laid.rows.push_back(row_of(sheets, table, columns, i));
+    }
+    return laid;
+}
+
 } // namespace
 
+double first_pt(const PdfSheets& sheets, const Table& table) {
+    return laid(sheets, table).first_pt();
+}
+
 void put(PdfSheets& sheets, const Table& table) {
-    const Columns columns{sheets, table};
-    const auto caption = sheets.text(
-        table.caption, {.size_pt = small_size_pt, .rgb = print::quiet}, sheets.width_pt());
-    const auto head = head_of(sheets, table, columns);
-    std::vector<Row> rows;
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        rows.push_back(row_of(sheets, table, columns, i));
-    }
-    const auto together = rows.size() <= rows_that_stay_together
-                              ? rows.size()
-                              : std::min(rows.size(), rows_with_the_head);
-    double room_pt = caption.height_pt() + padding_pt + head.height_pt;
-    for (std::size_t i = 0; i < together; ++i) {
-        room_pt += rows[i].height_pt;
-    }
-    sheets.need(std::min(room_pt, sheets.height_pt()));
+    const auto table_laid = laid(sheets, table);
+    const auto& [columns, caption, head, rows] = table_laid;
+    sheets.need(std::min(table_laid.first_pt(), sheets.height_pt()));
     sheets.draw(caption, sheets.left_pt(), sheets.y_pt());
     sheets.skip(caption.height_pt() + padding_pt);
     draw_head(sheets, columns, head);

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double title_size_pt = 20;
 constexpr double heading_size_pt = 13;
-constexpr double room_under_heading_pt = 90; // a heading does not stand alone at a page's end
 
 void put_title(PdfSheets& sheets, const Document& document) {
     const auto title =
@@ -30,19 +29,21 @@ void put_title(PdfSheets& sheets, const Document& document) {
     }
 }
 
-/// How much room the first block wants beside its heading: a map and its legend go with it.
-double room_for(const PdfSheets& sheets, const DocumentSection& section) {
-    const bool has_map =
-        std::ranges::any_of(section.blocks | std::views::take(2), [](const auto& block) {
-            return std::holds_alternative<MapFigure>(block);
-        });
-    if (!has_map) {
-        return room_under_heading_pt;
+/// How much room a heading wants under it, so that it does not stand alone at a page's end.
+double room_under_heading(const PdfSheets& sheets, const DocumentSection& section) {
+    constexpr double of_others_pt = 40;
+    double room_pt = 0;
+    for (const auto& block : section.blocks | std::views::take(2)) {
+        if (const auto* const paragraph = std::get_if<Paragraph>(&block)) {
+            return first_pt(sheets, *paragraph);
+        }
+        if (const auto* const table = std::get_if<Table>(&block)) {
+            return first_pt(sheets, *table);
+        }
+        const auto* const map = std::get_if<MapFigure>(&block); // after its legend
+        room_pt += map != nullptr ? first_pt(sheets, *map) : of_others_pt;
     }
-    const auto& map = std::get<MapFigure>(section.blocks[1]);
-    const double shape =
-        static_cast<double>(map.picture.height_px) / std::max(1, map.picture.width_px);
-    return std::min(sheets.height_pt(), sheets.width_pt() * shape + room_under_heading_pt);
+    return room_pt;
 }
 
 /// Cards as entries under their section's.
@@ -55,8 +56,10 @@ void outline_cards(const PdfSheets& sheets, const Cards& cards, int above) {
 void put_section(PdfSheets& sheets, const DocumentSection& section) {
     const auto heading =
         sheets.text(section.title, {.size_pt = heading_size_pt, .bold = true}, sheets.width_pt());
-    sheets.need(room_for(sheets, section));
-    sheets.skip(sheets.is_at_top() ? 0 : 8);
+    const double gap_pt = sheets.is_at_top() ? 0 : 8;
+    sheets.need(std::min(sheets.height_pt(),
+                         gap_pt + heading.height_pt() + 4 + room_under_heading(sheets, section)));
+    sheets.skip(sheets.is_at_top() ? 0 : gap_pt);
     const int entry = sheets.outline(section.title, CAIRO_PDF_OUTLINE_ROOT);
     sheets.draw(heading, sheets.left_pt(), sheets.y_pt());
     sheets.skip(heading.height_pt() + 4);

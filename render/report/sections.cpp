@@ -157,11 +157,12 @@ Table kind_classes_table(const Report& report) {
     const auto add = [&](const RoadSummary& roads, const std::string& name) {
         std::vector<Cell> row{name};
         for (const auto& range : roads.classes) {
-            row.emplace_back(Rich{{{say.km(range.length_m, all.covered_m)},
-                                   {fmt::format(" ({} – {})",
+            row.emplace_back(Rich{{{say.km(range.length_m, all.covered_m) + " "},
+                                   {fmt::format("({} – {})",
                                                 say.km(range.low_m, all.covered_m),
                                                 say.km(range.high_m, all.covered_m)),
-                                    SpanLook::quiet}}});
+                                    SpanLook::quiet,
+                                    true}}});
         }
         table.rows.push_back(std::move(row));
     };

@@ -99,7 +99,7 @@ std::string stacked(std::string_view kind, int width_rem) {
     std::string css = R"(
 @media screen and (max-width:WIDTHrem){KIND,KIND tbody,KIND caption{display:block}KIND thead,KIND td:empty{display:none}
 KIND tr{display:grid;grid-template-columns:repeat(auto-fill,minmax(5.5rem,1fr));gap:.3rem .8rem;padding:.55rem 0;border-bottom:1px solid var(--rule)}
-KIND th,KIND td{padding:0;border:0;text-align:left;white-space:nowrap}KIND th{grid-column:1/-1;font-weight:600}
+KIND th,KIND td{padding:0;border:0;text-align:left;white-space:normal}KIND th{grid-column:1/-1;font-weight:600}
 KIND td::before{content:attr(data-t);display:block;color:var(--quiet);font-size:.75rem;font-weight:400}}
 )";
     const auto replace = [&css](std::string_view word, std::string_view by) {

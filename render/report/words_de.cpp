@@ -133,7 +133,7 @@ constexpr std::array messages{
 
     Message{"condition", "Zustand"},
     Message{"classes.caption", "Straßenlänge nach Klasse der Unebenheit"},
-    Message{"kinds.caption", "Unebenheit nach Straßenart, IRI in {unit}"},
+    Message{"kinds.caption", "Unebenheit nach Straßenart, IRI ({unit})"},
     Message{"kind_classes.caption",
             "Kilometer jeder Klasse nach Straßenart, mit ihren 90-%-Bereichen"},
     Message{"condition.remark",
@@ -144,7 +144,7 @@ constexpr std::array messages{
     Message{"histogram.words", "Histogramm des IRI nach Straßenlänge: Mittel {iri}"},
 
     Message{"map", "Karte"},
-    Message{"map.legend", "IRI in {unit}:"},
+    Message{"map.legend", "IRI ({unit}):"},
     Message{"map.words", "Karte des Straßennetzes"},
     Message{"map.words.classes", " mit der Unebenheit in Farben:"},
     Message{"map.unmeasured", "Keine Messung"},
@@ -161,7 +161,7 @@ constexpr std::array messages{
     Message{"worst.found.other", "{count} Stellen von mindestens {least} m wurden gefunden;"},
     Message{"worst.listed.one", "die nach mittlerem IRI schlechteste ist aufgeführt."},
     Message{"worst.listed.other", "die nach mittlerem IRI schlechtesten {count} sind aufgeführt."},
-    Message{"worst.caption", "Schlechteste Stellen, IRI in {unit}"},
+    Message{"worst.caption", "Schlechteste Stellen, IRI ({unit})"},
     Message{"worst.remark",
             "Überfahrten: die wenigsten eines Abschnitts und der Median. Fahrzeuge: die meisten "
             "eines Abschnitts. Die Karten zeigen die Stelle in den Farben ihrer Abschnitte, alle "
@@ -188,7 +188,7 @@ constexpr std::array messages{
             "Geändert genannt werden darum weniger: nur so viele, dass unter ihnen höchstens etwa "
             "{share} Zufall zu erwarten sind (Benjamini und Hochberg)."},
     Message{"change.caption",
-            "Kilometer nach dem, was aus ihnen geworden ist; mittlere Änderung des IRI in {unit}, "
+            "Kilometer nach dem, was aus ihnen geworden ist; mittlere Änderung des IRI ({unit}), "
             "mehr als 0 ist unebener"},
     Message{"change.remark",
             "Keine Änderung gezeigt: Der Unterschied kann Zufall sein; das heißt nicht, dass sich "
@@ -199,8 +199,8 @@ constexpr std::array messages{
     Message{"change.not_comparable", "Nicht vergleichbar"},
     Message{"change.words", "Karte der Änderungen seit {day}"},
     Message{"change.mean", " ({interval}), von {before} auf {since} auf {length} m"},
-    Message{"change.worse.caption", "Am stärksten verschlechterte Stellen, IRI in {unit}"},
-    Message{"change.better.caption", "Am stärksten verbesserte Stellen, IRI in {unit}"},
+    Message{"change.worse.caption", "Am stärksten verschlechterte Stellen, IRI ({unit})"},
+    Message{"change.better.caption", "Am stärksten verbesserte Stellen, IRI ({unit})"},
     Message{"change.worse.none",
             "Keine Stelle von mindestens {least} m hat sich als unebener erwiesen."},
     Message{"change.better.none",
@@ -212,7 +212,7 @@ constexpr std::array messages{
         "Mittel nach Länge gewichtet. Die Intervalle zählen Fehler, die entlang einer Strecke "
         "gleich sind, wie die von Fahrzeugen und Verfahren, voll. Stationen fallen, wo eine Straße "
         "gegen sie befahren wird. Überfahrten: die wenigsten eines Abschnitts und der Median."},
-    Message{"sections.caption", "Strecken, IRI in {unit}"},
+    Message{"sections.caption", "Strecken, IRI ({unit})"},
 
     Message{"coverage", "Abdeckung"},
     Message{"coverage.caption", "Kilometer nach Straßenart, jede Richtung gezählt"},

@@ -133,7 +133,7 @@ constexpr std::array messages{
 
     Message{"condition", "Condition"},
     Message{"classes.caption", "Length of road by class of roughness"},
-    Message{"kinds.caption", "Roughness by kind of road, IRI in {unit}"},
+    Message{"kinds.caption", "Roughness by kind of road, IRI ({unit})"},
     Message{"kind_classes.caption",
             "Kilometres of each class by kind of road, with their 90 % ranges"},
     Message{"condition.remark",
@@ -144,7 +144,7 @@ constexpr std::array messages{
     Message{"histogram.words", "Histogram of IRI by length of road: mean {iri}"},
 
     Message{"map", "Map"},
-    Message{"map.legend", "IRI in {unit}:"},
+    Message{"map.legend", "IRI ({unit}):"},
     Message{"map.words", "Map of the road network"},
     Message{"map.words.classes", " with roughness in colours:"},
     Message{"map.unmeasured", "No measurement"},
@@ -160,7 +160,7 @@ constexpr std::array messages{
     Message{"worst.found.other", "{count} stretches of {least} m or more were found;"},
     Message{"worst.listed.one", "the worst by mean IRI is listed."},
     Message{"worst.listed.other", "the worst {count} by mean IRI are listed."},
-    Message{"worst.caption", "Worst stretches, IRI in {unit}"},
+    Message{"worst.caption", "Worst stretches, IRI ({unit})"},
     Message{"worst.remark",
             "Passes: the least that a segment has, and the median. Cars: the most that one segment "
             "has seen. The maps show the stretch in the colours of its segments, all other roads "
@@ -186,7 +186,7 @@ constexpr std::array messages{
             "only so many that of those called about {share} at most are expected to be chance "
             "(Benjamini and Hochberg)."},
     Message{"change.caption",
-            "Kilometres by what has become of them; mean change of IRI in {unit}, more than 0 is "
+            "Kilometres by what has become of them; mean change of IRI ({unit}), more than 0 is "
             "rougher"},
     Message{"change.remark",
             "No change shown: what differs may be chance; it does not say that nothing has "
@@ -196,8 +196,8 @@ constexpr std::array messages{
     Message{"change.not_comparable", "Not comparable"},
     Message{"change.words", "Map of what has changed since {day}"},
     Message{"change.mean", " ({interval}), from {before} to {since} over {length} m"},
-    Message{"change.worse.caption", "Most deteriorated stretches, IRI in {unit}"},
-    Message{"change.better.caption", "Most improved stretches, IRI in {unit}"},
+    Message{"change.worse.caption", "Most deteriorated stretches, IRI ({unit})"},
+    Message{"change.better.caption", "Most improved stretches, IRI ({unit})"},
     Message{"change.worse.none", "No stretch of {least} m or more has shown to be rougher."},
     Message{"change.better.none", "No stretch of {least} m or more has shown to be smoother."},
 
@@ -206,7 +206,7 @@ constexpr std::array messages{
             "Means weighted by length. Intervals count errors that are alike all along a section, "
             "as of cars and method, in full. Stations fall where a road is driven against them. "
             "Passes: the least that a segment has, and the median."},
-    Message{"sections.caption", "Sections, IRI in {unit}"},
+    Message{"sections.caption", "Sections, IRI ({unit})"},
 
     Message{"coverage", "Coverage"},
     Message{"coverage.caption", "Kilometres by kind of road, each direction counted"},

