@@ -117,27 +117,26 @@ void run_export(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{store_operand};
-constexpr std::array options{
-    Option{"-o,--output",
-           "FILE",
-           "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, "
-           ".fgb; tiles for the web: .mbtiles, .pmtiles."},
-    zoom_option,
-    tile_jobs_option,
-    bbox_option,
-    way_option,
-    name_option,
-    highway_option,
-    class_option,
-    least_passes_option,
-    since_option,
-    until_option,
-    sections_option,
-    section_length_option,
-    homogeneous_option,
-    exclude_option,
-    exclude_radius_option,
-    all_option};
+constexpr std::array options{Option{"-o,--output",
+                                    "FILE",
+                                    "Where to; its suffix says what: .geojson, .geojsonl, .csv, "
+                                    ".gpkg, .fgb, .mbtiles, .pmtiles."},
+                             zoom_option,
+                             tile_jobs_option,
+                             bbox_option,
+                             way_option,
+                             name_option,
+                             highway_option,
+                             class_option,
+                             least_passes_option,
+                             since_option,
+                             until_option,
+                             sections_option,
+                             section_length_option,
+                             homogeneous_option,
+                             exclude_option,
+                             exclude_radius_option,
+                             all_option};
 
 } // namespace
 
