@@ -132,7 +132,7 @@ constexpr std::array options{
     Option{"-o,--output",
            "FILE",
            "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, "
-           ".fgb, .shp, .kml; tiles for the web: .mbtiles, .pmtiles."},
+           ".fgb, .shp, .kml, .mbtiles, .pmtiles."},
     zoom_option,
     tile_jobs_option,
     tiles_option,

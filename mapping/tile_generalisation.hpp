@@ -23,7 +23,8 @@ inline constexpr int directions_from_zoom = 12;
 /// What is drawn where segments are not: from zoom 13 on runs of one class and validity as they
 /// are, below it none shorter than 2 pixels and no road smaller than 1.
 ///
-/// \param step  of coarsening, for tiles that would be too large: each doubles lengths and squares.
+/// \param step  of coarsening, for tiles that would be too large: each doubles lengths and squares,
+///              and the first two the tolerance.
 Generalisation generalisation_at(int zoom, int step = 0);
 
 /// Parts joined to as few as the zoom can show. What each part counts, its length by class, is in

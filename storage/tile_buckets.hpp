@@ -12,8 +12,7 @@
 
 namespace macadam {
 
-// What goes into the tiles of a map, laid aside tile by tile while it is sorted
-// (app/tile_pyramid.hpp).
+// What goes into the tiles of a map, laid aside tile by tile while it is sorted.
 
 /// A segment or a part as bytes for the same program, added to those that are there.
 void append_to(std::string& bytes, const TileSegment& segment);

@@ -65,8 +65,7 @@ void write_pmtiles(AtomicFile& out,
                    const TileSetNote& note,
                    const Progress& progress);
 
-/// The layers as both formats tell them: {"vector_layers": [...]} without the braces' content of
-/// others. "" of pictures.
+/// The vector layers as a JSON array, as both formats tell them; "" of pictures.
 std::string layers_json(const TileSetNote& note);
 
 /// Where a viewer begins: in the middle, at the last zoom that has it in two tiles' width.
