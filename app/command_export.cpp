@@ -131,8 +131,8 @@ constexpr std::array operands{store_operand};
 constexpr std::array options{
     Option{"-o,--output",
            "FILE",
-           "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, "
-           ".fgb; tiles for the web: .mbtiles, .pmtiles."},
+           "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, .fgb, "
+           ".mbtiles, .pmtiles."},
     zoom_option,
     tile_jobs_option,
     tiles_option,

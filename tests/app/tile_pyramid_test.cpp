@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <map>
 #include <random>
 #include <set>
@@ -243,6 +245,33 @@ TEST(TileExport, WritesWhatTheStoreHoldsIntoBothKinds) {
         ASSERT_TRUE(select.bind(int{tile.zoom}, int(tile.x), row).step());
         EXPECT_EQ(select.blob(0), bytes);
     }
+}
+
+TEST(TileExport, IsReadByGdal) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    export_tiles(
+        store, {}, folder / "a.mbtiles", {.least_zoom = 12, .most_zoom = 14}, Console{true});
+    const auto command = "ogr2ogr -f CSV -oo ZOOM_LEVEL=14 -select segment,iri " +
+                         (folder / "a.csv").string() + " " + (folder / "a.mbtiles").string();
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream in{folder / "a.csv"};
+    std::map<std::string, double> found;
+    std::string line;
+    std::getline(in, line);
+    EXPECT_EQ(line, "segment,iri");
+    while (std::getline(in, line)) {
+        found[line.substr(0, line.find(','))] = std::stod(line.substr(line.find(',') + 1));
+    }
+    std::size_t segments = 0;
+    store.visit({}, [&](const SegmentRecord& record) {
+        const auto name = name_of(record.segment.key);
+        ASSERT_TRUE(found.contains(name)) << name;
+        EXPECT_NEAR(found.at(name), record.state->iri_um / 1000.0, 0.00501); // of two decimals
+        ++segments;
+    });
+    EXPECT_EQ(found.size(), segments);
 }
 
 TEST(TileExport, AsksForASegmentToShow) {

@@ -7,7 +7,7 @@ BUILD_DIR      a release build with the target `benches`
 WORK_DIR       where the measured data is made and kept between runs
 --keep DOC.md  also puts what was measured in the place of those sections of a document
 --kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
-NAME           start process estimation match store render; all when none is named
+NAME           start process estimation match store render vector_tile; all when none is named
 
 Machines are shared and noisy. So what is to be compared runs turn by turn in one go, the figure is
 the median of the turns, and the ratio is what counts. CPU seconds are user and system together.
@@ -222,7 +222,7 @@ def output_tables(macadam, work, store):
 
 # What something is measured beside: the same work by other means.
 PEERS = {"filter_of_macadam": "filter_as_in_the_paper", "draw_in_macadam": "draw_in_cairo", "make_store": "insert_under_triggers",
-         "add_batch<false>": "insert_bare_rows"}
+         "add_batch<false>": "insert_bare_rows", "export_tiles_in_macadam": "export_tiles_in_gdal"}
 
 
 def peak_mb(program, name):
@@ -268,9 +268,11 @@ PARTS = {
              "traces and states, `<false>` the rows of passes alone, beside SQLite's own insertion of such rows into a bare table.",
     "render": "The streets of towns of growing size at 2048 x 2048, beside Cairo with casing and round joins. "
               "Ours begins by waking the software renderer, which costs the small towns most.",
+    "vector_tile": "A gzipped vector tile from the store by its place and from memory; then all tiles of a zoom of a town, beside GDAL's "
+                   "driver that makes them from a GeoPackage of the same segments, which holds them ready.",
 }
 TITLES = {"start": "Start", "process": "Whole commands", "estimation": "Estimation", "match": "Matching", "store": "Store",
-          "render": "Picture"}
+          "render": "Picture", "vector_tile": "Vector tiles"}
 
 
 def kept(document, sections):

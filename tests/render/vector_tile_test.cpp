@@ -148,8 +148,9 @@ TEST(VectorTile, ListsEveryFieldThatItHas) {
         EXPECT_TRUE(listed.insert(field.name).second) << field.name;
     }
     TileWords words;
-    for (const auto& [key, value] : tile_of({segment(words)}, words).features.at(0).values) {
-        const auto fields = vector_fields(fhwa);
+    const auto fields = vector_fields(fhwa);
+    const auto read = tile_of({segment(words)}, words);
+    for (const auto& [key, value] : read.features.at(0).values) {
         const auto found = std::ranges::find(fields, key, &VectorField::name);
         ASSERT_NE(found, fields.end()) << key;
         EXPECT_EQ(found->is_number, !std::holds_alternative<std::string>(value)) << key;
