@@ -39,13 +39,6 @@ struct Reading {
     PixelPoint at(double px) const { return path->at(start_px + sign * px); }
 };
 
-Reading reading_of(const LabelPath& path, double from_px, double to_px) {
-    const auto a = path.at(from_px);
-    const auto b = path.at(to_px);
-    const bool rightwards = b.x != a.x ? b.x > a.x : b.y < a.y;
-    return rightwards ? Reading{&path, from_px, 1} : Reading{&path, to_px, -1};
-}
-
 } // namespace
 
 LabelPath::LabelPath(std::span<const PixelPoint> line) : line_{line.begin(), line.end()} {
@@ -67,6 +60,33 @@ PixelPoint LabelPath::at(double along_px) const {
     return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
+bool reads_forward(const LabelPath& path, double from_px, double to_px) {
+    const auto a = path.at(from_px);
+    const auto b = path.at(to_px);
+    return b.x != a.x ? b.x > a.x : b.y < a.y;
+}
+
+LabelPath base_line(const LabelPath& road, double left_px, double smooth_px) {
+    const double length_px = road.length_px();
+    const int steps = 1 + int(4 * length_px / smooth_px);
+    std::vector<PixelPoint> line;
+    PixelPoint along{1, 0};
+    for (int i = 0; i <= steps; ++i) {
+        const double here_px = length_px * i / steps;
+        const double reach_px = std::min({smooth_px, here_px, length_px - here_px});
+        const double least_px = smooth_px / 4; // at the ends, where nothing is left to look at
+        along = direction(road.at(here_px - std::max(reach_px, least_px)),
+                          road.at(here_px + std::max(reach_px, least_px)))
+                    .value_or(along);
+        const auto a = road.at(here_px - reach_px);
+        const auto b = road.at(here_px);
+        const auto c = road.at(here_px + reach_px);
+        line.push_back({(a.x + 2 * b.x + c.x) / 4 + along.y * left_px,
+                        (a.y + 2 * b.y + c.y) / 4 - along.x * left_px});
+    }
+    return LabelPath{line};
+}
+
 double base_line_px(const TextLook& look,
                     double half_width_px,
                     const LabelConfig& config,
@@ -77,17 +97,17 @@ double base_line_px(const TextLook& look,
                                     : -away_px - capitals * look.size_px;
 }
 
-std::optional<std::vector<SetPlace>> set_along(const LabelPath& path,
+std::optional<std::vector<SetPlace>> set_along(const LabelPath& base,
                                                const SetLine& line,
                                                double middle_px,
-                                               double beside_px,
+                                               bool forward,
                                                const LabelConfig& config) {
     const double from_px = middle_px - line.width_px / 2;
     const double to_px = middle_px + line.width_px / 2;
-    if (from_px < 0 || to_px > path.length_px()) {
+    if (from_px < 0 || to_px > base.length_px()) {
         return {};
     }
-    const auto reading = reading_of(path, from_px, to_px);
+    const Reading reading{&base, forward ? from_px : to_px, forward ? 1.0 : -1.0};
     const auto whole = direction(reading.at(0), reading.at(line.width_px));
     if (!whole) {
         return {};
@@ -107,8 +127,7 @@ std::optional<std::vector<SetPlace>> set_along(const LabelPath& path,
         }
         const double width_px = cluster.right_px - cluster.left_px;
         const PixelPoint middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-        places.push_back({{middle.x - along.x * width_px / 2 + along.y * beside_px,
-                           middle.y - along.y * width_px / 2 - along.x * beside_px},
+        places.push_back({{middle.x - along.x * width_px / 2, middle.y - along.y * width_px / 2},
                           along,
                           width_px});
     }

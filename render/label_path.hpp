@@ -33,15 +33,21 @@ enum class LabelSide { above, below };
 double
 base_line_px(const TextLook& look, double half_width_px, const LabelConfig& config, LabelSide side);
 
-/// The clusters of a line along a path, read from left to right (straight up if neither is left);
-/// nothing if the path bends too much there, or ends.
+/// Whether a stretch of a path is read in its direction: from left to right, or straight up.
+bool reads_forward(const LabelPath& path, double from_px, double to_px);
+
+/// The base line of names beside a road: so far to its left (negative: right) along the path. Kinks
+/// and bends shorter than `smooth_px` are rounded off, so that letters keep their distances.
+LabelPath base_line(const LabelPath& road, double left_px, double smooth_px);
+
+/// The clusters of a line along its base line; nothing if that bends too much there, or ends.
 ///
-/// \param middle_px  of the label, along the path
-/// \param beside_px  from the path to the base line, upwards as read
-std::optional<std::vector<SetPlace>> set_along(const LabelPath& path,
+/// \param middle_px  of the label, along the base line
+/// \param forward    read in the direction of the base line
+std::optional<std::vector<SetPlace>> set_along(const LabelPath& base,
                                                const SetLine& line,
                                                double middle_px,
-                                               double beside_px,
+                                               bool forward,
                                                const LabelConfig& config);
 
 /// The corners of a cluster's letters: from its descenders to its capitals' tops.

@@ -27,6 +27,14 @@ struct Road {
     LabelPath path;
 };
 
+/// Where the names of a road may stand: to its left and right, for those that are read along it and
+/// against it.
+struct BaseLine {
+    LabelPath path;
+    LabelSide side;
+    bool forward;
+};
+
 /// A label that may come to stand.
 struct Candidate {
     std::vector<SetPlace> places;
@@ -98,13 +106,16 @@ private:
     struct Task {
         const Road* road;
         const SetLine* line;
+        const std::vector<BaseLine>* base_lines;
         TextLook look;
         double ideal_px; ///< where the label's middle would best stand, along the road
         double reach_px; ///< how far from there it may stand
     };
 
     std::optional<Candidate> best_of(const Task& task) const;
-    std::optional<Candidate> candidate(const Task& task, double middle_px, LabelSide side) const;
+    std::optional<Candidate>
+    candidate(const Task& task, double middle_px, const BaseLine& base) const;
+    std::vector<BaseLine> base_lines(const Road& road, const TextLook& look) const;
     bool has_room(const Candidate& candidate, const std::string& name) const;
     double covered(const Candidate& candidate, const TextLook& look) const;
     void take(const Task& task, Candidate candidate);
@@ -129,13 +140,28 @@ void Placing::label(const Road& road) {
     if (!line.whole || line.glyphs.empty() || line.width_px > length_px) {
         return;
     }
+    const auto bases = base_lines(road, look);
     const int count = std::max(1, int(length_px / config_->repeat_px));
     for (int i = 0; i < count; ++i) {
-        const Task task{&road, &line, look, (i + 0.5) * length_px / count, length_px / count / 2};
+        const Task task{
+            &road, &line, &bases, look, (i + 0.5) * length_px / count, length_px / count / 2};
         if (auto best = best_of(task)) {
             take(task, *std::move(best));
         }
     }
+}
+
+std::vector<BaseLine> Placing::base_lines(const Road& road, const TextLook& look) const {
+    std::vector<BaseLine> lines;
+    for (const auto side : {LabelSide::above, LabelSide::below}) {
+        const double upwards_px = base_line_px(look, road.part.half_width_px, *config_, side);
+        for (const bool forward : {true, false}) {
+            lines.push_back({base_line(road.path, forward ? upwards_px : -upwards_px, look.size_px),
+                             side,
+                             forward});
+        }
+    }
+    return lines;
 }
 
 std::optional<Candidate> Placing::best_of(const Task& task) const {
@@ -149,8 +175,13 @@ std::optional<Candidate> Placing::best_of(const Task& task) const {
             if (i == 0 && side < 0) {
                 continue;
             }
-            for (const auto where : {LabelSide::above, LabelSide::below}) {
-                auto found = candidate(task, task.ideal_px + side * i * step_px, where);
+            const double middle_px = task.ideal_px + side * i * step_px;
+            const double half_px = task.line->width_px / 2;
+            const bool forward =
+                reads_forward(task.road->path, middle_px - half_px, middle_px + half_px);
+            for (const auto& base : *task.base_lines) {
+                auto found =
+                    base.forward == forward ? candidate(task, middle_px, base) : std::nullopt;
                 if (found && (!best || found->cost < best->cost)) {
                     best = std::move(found);
                 }
@@ -161,9 +192,9 @@ std::optional<Candidate> Placing::best_of(const Task& task) const {
 }
 
 std::optional<Candidate>
-Placing::candidate(const Task& task, double middle_px, LabelSide side) const {
-    const double beside_px = base_line_px(task.look, task.road->part.half_width_px, *config_, side);
-    auto places = set_along(task.road->path, *task.line, middle_px, beside_px, *config_);
+Placing::candidate(const Task& task, double middle_px, const BaseLine& base) const {
+    const double stretch = base.path.length_px() / task.road->path.length_px();
+    auto places = set_along(base.path, *task.line, middle_px * stretch, base.forward, *config_);
     if (!places) {
         return {};
     }
@@ -189,7 +220,7 @@ Placing::candidate(const Task& task, double middle_px, LabelSide side) const {
     }
     found.cost = cost_of_cover * cover + cost_of_bend * bend / double(found.places.size()) +
                  cost_of_distance * std::abs(middle_px - task.ideal_px) / task.reach_px +
-                 (side == LabelSide::below ? cost_below : 0);
+                 (base.side == LabelSide::below ? cost_below : 0);
     return found;
 }
 

@@ -257,8 +257,8 @@ TEST(LabelPlacement, KeepsOffTheLegend) {
 
 TEST(LabelPlacement, GivesMainRoadsTheirNamesFirst) {
     // The lane has no room above it, so both names want the gap between the two roads.
-    const auto labels = labels_of({road("Gasse", {{100, 12}, {300, 12}}, 5),
-                                   road("Bundesstraße", {{100, 34}, {300, 34}}, 0)});
+    const auto labels = labels_of({road("Kirchengasse", {{100, 12}, {205, 12}}, 5),
+                                   road("Bundesstraße", {{100, 34}, {205, 34}}, 0)});
     ASSERT_EQ(labels.size(), 1U);
     EXPECT_EQ(labels[0].name, "Bundesstraße");
 }

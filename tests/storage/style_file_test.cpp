@@ -172,7 +172,7 @@ TEST(StyleFile, RefusesWordsWithoutAPlaceForTheirValue) {
 TEST(StyleFile, RefusesNumbersOutOfRange) {
     EXPECT_EQ(refusal_of_text("[lines]\nwidth = 0\n"),
               "mine.toml:2: 'lines.width' is '0', expected a number from 0.25 to 4");
-    EXPECT_THAT(refusal_of_text("min_passes = 0\n"), EndsWith("expected 1 to 1000000"));
+    EXPECT_THAT(refusal_of_text("min_passes = 0\n"), EndsWith("expected a whole number from 1 to 1000000"));
 }
 
 TEST(StyleFile, RefusesAShippedTableBesideItsOwn) {
@@ -192,5 +192,5 @@ TEST(StyleFile, OfTheSampleAgencyIsReadInFull) {
     EXPECT_EQ(look.own_table->table().classes[2].name, "mäßig");
     EXPECT_EQ(look.own_ramp.size(), 4U);
     EXPECT_EQ(look.least_passes, 2);
-    EXPECT_EQ(look.words.few_passes, "weniger als {} Fahrten");
+    EXPECT_EQ(look.words.few_passes, "Weniger als {} Fahrten");
 }
