@@ -2,6 +2,7 @@
 
 #include "app/tile_lines.hpp"
 #include "estimator/common/error.hpp"
+#include "render/label_placement.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tile_png.hpp"
 
@@ -86,13 +87,17 @@ public:
     }
 
 private:
+    /// All of the cells of labels in which wanted tiles lie. The others are drawn, but not taken.
     std::vector<MapLine> lines_of(const Square& square) const {
         const WorldScale scale{square.first.zoom, plan_.tile_px};
-        const auto across = static_cast<std::uint32_t>(square_px / plan_.tile_px);
-        const auto end = std::min(std::uint32_t{1} << unsigned(scale.zoom), across) - 1;
-        const auto north_west = tile_box(square.first);
-        const auto south_east =
-            tile_box({square.first.zoom, square.first.x + end, square.first.y + end});
+        const auto cell = static_cast<std::uint32_t>(label_cell_px / plan_.tile_px);
+        const auto last = (std::uint32_t{1} << unsigned(scale.zoom)) - 1;
+        const auto& wanted = square.wanted;
+        const auto north_west = tile_box(
+            {square.first.zoom, wanted.first_x / cell * cell, wanted.first_y / cell * cell});
+        const auto south_east = tile_box({square.first.zoom,
+                                          std::min(wanted.last_x / cell * cell + cell - 1, last),
+                                          std::min(wanted.last_y / cell * cell + cell - 1, last)});
         return tile_lines(store_,
                           {.west_deg = north_west.west_deg,
                            .south_deg = south_east.south_deg,
