@@ -30,9 +30,11 @@ bool has_direction(const MapLine& line) {
     });
 }
 
+/// Longitudes of a map over the antimeridian go on beyond 180 degrees, by a turn at most.
 bool on_the_globe(const MapLine& line) {
+    constexpr double farthest_deg = 540;
     return std::ranges::all_of(line.line, [](const GeoPoint& point) {
-        return std::abs(point.lat_deg) <= 90 && std::abs(point.lon_deg) <= 180;
+        return std::abs(point.lat_deg) <= 90 && std::abs(point.lon_deg) <= farthest_deg;
     });
 }
 
