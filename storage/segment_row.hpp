@@ -15,8 +15,8 @@ namespace macadam {
 
 // How values stand in the rows of a store.
 
-/// Columns of a segment and its state, as `record_in` reads them; the tables go by the names segment
-/// and state. What is known of its way stays open (RoadNames).
+/// Columns of a segment and its state, as `record_in` reads them; the tables go by the names
+/// segment and state. What is known of its way stays open (RoadNames).
 extern const char* const record_columns;
 SegmentRecord record_in(const Statement& row);
 
