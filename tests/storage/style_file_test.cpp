@@ -172,7 +172,8 @@ TEST(StyleFile, RefusesWordsWithoutAPlaceForTheirValue) {
 TEST(StyleFile, RefusesNumbersOutOfRange) {
     EXPECT_EQ(refusal_of_text("[lines]\nwidth = 0\n"),
               "mine.toml:2: 'lines.width' is '0', expected a number from 0.25 to 4");
-    EXPECT_THAT(refusal_of_text("min_passes = 0\n"), EndsWith("expected a whole number from 1 to 1000000"));
+    EXPECT_THAT(refusal_of_text("min_passes = 0\n"),
+                EndsWith("expected a whole number from 1 to 1000000"));
 }
 
 TEST(StyleFile, RefusesAShippedTableBesideItsOwn) {
