@@ -186,6 +186,7 @@ quiet_scene(const RoadStore& store, const RoadStretch& stretch, const ClassTable
     scene.lines = map_lines(store, around, classes);
     for (auto& line : scene.lines) {
         line.iri_class = -1;
+        line.name.clear(); // too small to read, and the words beside say where it is
     }
     return scene;
 }
