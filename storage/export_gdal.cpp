@@ -184,14 +184,13 @@ std::vector<std::string> stale_beside(const std::string& stem) {
 std::size_t export_flatgeobuf(const SegmentExport& what) {
     AtomicFileSet files{what.file};
     const auto place = files.folder() / what.file.filename();
-    const LineFile plain{
-        .driver = "FlatGeobuf",
-        .file = files.folder() / "plain.fgb",
-        .layer = "roughness",
-        .options = {{"SPATIAL_INDEX", "NO"}, {"DESCRIPTION", description_of(what)}},
-        .columns = flatgeobuf_columns()};
+    LineFile plain{.driver = "FlatGeobuf",
+                   .file = files.folder() / "plain.fgb",
+                   .layer = "roughness",
+                   .options = {{"SPATIAL_INDEX", "NO"}, {"DESCRIPTION", description_of(what)}},
+                   .columns = flatgeobuf_columns()};
     std::vector<GeoBox> boxes;
-    const auto written = write_lines(what, plain, [&](const SegmentRecord& record) -> LineParts {
+    const auto parts_of = [&](const SegmentRecord& record) -> LineParts {
         const auto& line = record.segment.line; // of a layer of lines, which have one part
         LineParts parts{crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line};
         boxes.emplace_back();
@@ -199,17 +198,21 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
             boxes.back() = including(boxes.back(), point);
         }
         return parts;
-    });
+    };
+    const auto written = write_lines(what, plain, parts_of);
     if (written == 0) {
-        std::filesystem::rename(plain.file, place);
+        // Without features GDAL writes a header only where it is to write an index.
+        plain.file = place;
+        plain.options.front().second = "YES";
+        write_lines(what, plain, parts_of);
     } else {
         try {
             index_flatgeobuf(plain.file, std::move(boxes), place);
         } catch (const InputError& error) {
             throw InputError{fmt::format("{}: {}", what.file.string(), error.what())};
         }
-        std::filesystem::remove(plain.file);
     }
+    std::filesystem::remove(files.folder() / "plain.fgb");
     files.commit();
     return written;
 }
