@@ -74,7 +74,7 @@ inline constexpr int most_image_px = 32768;
 
 struct PictureSize {
     int width_px, height_px;
-    int band_px = 0; ///< rows that are drawn at a time; 0: as many as make 16 million pixels
+    int band_px = 0; ///< rows that are drawn at a time; 0: as many as make 8 million pixels
 };
 
 /// Takes rows of a picture as they are drawn, from the top, some whole ones at a time: eight-bit

@@ -180,7 +180,7 @@ private:
 };
 
 int rows_of_band(const PictureSize& size) {
-    constexpr int pixels = 16'777'216; // 48 MB, and as much again that OpenGL draws into
+    constexpr int pixels = 8'388'608; // 25 MB, and 67 MB that OpenGL draws into
     return size.band_px > 0 ? size.band_px : std::max(1, pixels / size.width_px);
 }
 
