@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/interruption.hpp"
 #include "app/map_box.hpp"
 #include "app/map_scene.hpp"
 #include "app/map_style.hpp"
@@ -93,11 +94,15 @@ void run_render(const Arguments& arguments, const Console& console) {
                             .projection = projection_of(options.output),
                             .width_px = options.output.width_px,
                             .height_px = options.output.height_px});
+    const Interruption interruption;
+    auto progress = console.progress("drawing");
+    progress.stop = interruption.stop();
     const auto last_seen_ms = store.seen().last_ms;
     const auto words = write_picture(std::move(scene),
                                      options.style,
                                      options.output,
-                                     last_seen_ms ? utc_text(*last_seen_ms) : std::string{});
+                                     last_seen_ms ? utc_text(*last_seen_ms) : std::string{},
+                                     progress);
     console.say(fmt::format("{}: {}", options.output.file.string(), words));
 }
 

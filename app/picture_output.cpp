@@ -1,6 +1,8 @@
 #include "app/picture_output.hpp"
 
+#include "estimator/common/error.hpp"
 #include "render/pdf_map.hpp"
+#include "render/png.hpp"
 #include "render/projection.hpp"
 #include "storage/atomic_file.hpp"
 #include "storage/picture_file.hpp"
@@ -20,6 +22,7 @@ using Kind = PictureOutput::Kind;
 
 constexpr double px_per_inch = 150; // letters of a map of 1240 px, on A4, can be read
 constexpr double mm_per_inch = 25.4;
+constexpr int most_geotiff_px = 16384;
 constexpr std::string_view web_mercator = "EPSG:3857";
 
 // ISO 216 and ANSI/ASME Y14.1.
@@ -43,20 +46,24 @@ std::string in_lower_case(std::string text) {
     return text;
 }
 
-std::pair<int, int> size_of(const std::string& text) {
+std::pair<int, int> size_of(const std::string& text, Kind kind) {
+    // GDAL takes a picture as a whole, so the memory of a GeoTIFF grows with it.
+    const int most_px = kind == Kind::geotiff ? most_geotiff_px : most_image_px;
     int width = 0;
     int height = 0;
     const auto* const end = text.data() + text.size();
     const auto first = std::from_chars(text.data(), end, width);
     const bool crossed = first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x';
     const auto second = crossed ? std::from_chars(first.ptr + 1, end, height) : first;
-    const auto fits = [](int px) { return px >= least_image_px && px <= most_image_px; };
+    const auto fits = [&](int px) { return px >= least_image_px && px <= most_px; };
     if (!crossed || second.ec != std::errc{} || second.ptr != end || !fits(width) ||
         !fits(height)) {
-        throw UsageError{fmt::format("--size is '{}', expected WxH with both from {} to {} pixels",
-                                     text,
-                                     least_image_px,
-                                     most_image_px)};
+        throw UsageError{
+            fmt::format("--size is '{}', expected WxH with both from {} to {} pixels{}",
+                        text,
+                        least_image_px,
+                        most_px,
+                        kind == Kind::geotiff ? " in a .tif" : "")};
     }
     return {width, height};
 }
@@ -123,12 +130,13 @@ void make_bare(MapScene& scene, MapStyle& style) {
     style.legend = false;
 }
 
-PlacedPicture placed(const Image& image, const MapScene& scene, const PlanePlace& place) {
+PlacedPicture placed(const MapScene& scene, const MapStyle& style, const PictureSize& size) {
+    const auto place = place_of(scene, style, size.width_px, size.height_px);
     const auto wkt =
         scene.projection ? scene.projection->wkt : plane_projection(std::string{web_mercator})->wkt;
-    return {.width_px = image.width,
-            .height_px = image.height,
-            .rgb = image.rgb,
+    return {.width_px = size.width_px,
+            .height_px = size.height_px,
+            .rgb = {},
             .left = place.left,
             .top = place.top,
             .per_px = place.per_px,
@@ -142,8 +150,56 @@ void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
     file.commit();
 }
 
-std::string_view text_of(const std::vector<std::uint8_t>& bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; // NOLINT(*-cast)
+void expect_not_stopped(const Progress& progress) {
+    if (progress.stop.stop_requested()) {
+        throw InputError{"stopped before the picture was whole"};
+    }
+}
+
+/// A map that is drawn as pixels, and how large.
+struct PixelMap {
+    const MapScene& scene;
+    const MapStyle& style;
+    PictureSize size;
+};
+
+void give_png(const PixelMap& map, const PngWriter::PutBytes& put, const Progress& progress) {
+    PngWriter png{map.size.width_px, map.size.height_px, put};
+    draw_map(
+        map.scene, map.style, map.size, [&](auto rows) { png.add(rows); }, progress);
+    png.finish();
+}
+
+void write_png(const PixelMap& map, const PictureOutput& output, const Progress& progress) {
+    if (output.world_file) {
+        write_png_with_world_file([&](const auto& take) { give_png(map, take, progress); },
+                                  placed(map.scene, map.style, map.size),
+                                  output.file);
+        return;
+    }
+    AtomicFile file{output.file};
+    give_png(
+        map, [&](std::string_view bytes) { file.write(bytes); }, progress);
+    file.commit();
+}
+
+void write_tif(const PixelMap& map,
+               const std::string& copyright,
+               const std::filesystem::path& file,
+               const Progress& progress) {
+    auto picture = placed(map.scene, map.style, map.size);
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(std::size_t(map.size.width_px) * std::size_t(map.size.height_px) * 3);
+    draw_map(
+        map.scene,
+        map.style,
+        map.size,
+        [&](auto rows) { rgb.insert(rgb.end(), rows.begin(), rows.end()); },
+        progress);
+    picture.rgb = rgb;
+    picture.copyright = copyright;
+    expect_not_stopped(progress);
+    write_geotiff(picture, file);
 }
 
 } // namespace
@@ -159,7 +215,7 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
         kind == Kind::pdf
             ? paper_size(arguments.value("--paper").value_or(std::string{default_paper}),
                          arguments.flag("--landscape"))
-            : size_of(arguments.value("--size").value_or(std::string{default_picture_size}));
+            : size_of(arguments.value("--size").value_or(std::string{default_picture_size}), kind);
     return {.file = *file,
             .kind = kind,
             .width_px = size.first,
@@ -178,22 +234,24 @@ std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output
 std::string write_picture(MapScene scene,
                           MapStyle style,
                           const PictureOutput& output,
-                          const std::string& made) {
+                          const std::string& made,
+                          const Progress& progress) {
     const auto copyright = scene.attribution;
     const auto title = scene.title;
     if (output.bare) {
         make_bare(scene, style);
     }
     if (output.kind == Kind::pdf) {
-        write_bytes(output.file,
-                    map_pdf(scene,
-                            style,
-                            {.width_px = double(output.width_px),
-                             .height_px = double(output.height_px),
-                             .px_per_inch = px_per_inch,
-                             .title = title,
-                             .author = copyright,
-                             .made = made}));
+        const auto pdf = map_pdf(scene,
+                                 style,
+                                 {.width_px = double(output.width_px),
+                                  .height_px = double(output.height_px),
+                                  .px_per_inch = px_per_inch,
+                                  .title = title,
+                                  .author = copyright,
+                                  .made = made});
+        expect_not_stopped(progress);
+        write_bytes(output.file, pdf);
         return fmt::format("{:.0f} x {:.0f} mm",
                            output.width_px / px_per_inch * mm_per_inch,
                            output.height_px / px_per_inch * mm_per_inch);
@@ -201,17 +259,11 @@ std::string write_picture(MapScene scene,
 
     const auto [width, height] =
         output.bare ? bare_size(scene, output) : std::pair{output.width_px, output.height_px};
-    const auto image = render_map(scene, style, width, height);
-    if (output.kind == Kind::png && !output.world_file) {
-        write_bytes(output.file, text_of(encode_png(image)));
+    const PixelMap map{scene, style, {width, height}};
+    if (output.kind == Kind::geotiff) {
+        write_tif(map, copyright, output.file, progress);
     } else {
-        auto picture = placed(image, scene, place_of(scene, style, width, height));
-        picture.copyright = copyright;
-        if (output.kind == Kind::geotiff) {
-            write_geotiff(picture, output.file);
-        } else {
-            write_png_with_world_file(text_of(encode_png(image)), picture, output.file);
-        }
+        write_png(map, output, progress);
     }
     return fmt::format("{} x {} pixels", width, height);
 }

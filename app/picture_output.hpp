@@ -31,7 +31,10 @@ inline constexpr Option picture_output_option{
     "FILE",
     "The map: .png, .tif (Cloud Optimized GeoTIFF) or .pdf (lines and text)."};
 inline constexpr Option picture_size_option{
-    "--size", "WxH", "Pixels; lines and letters grow with it.", default_picture_size};
+    "--size",
+    "WxH",
+    "Pixels, 256 to 32768 a side (.tif: 16384); lines and letters grow with it.",
+    default_picture_size};
 inline constexpr Option world_file_option{
     "--world-file", "", "Beside a .png: .pgw and .png.aux.xml, which say where its pixels lie."};
 inline constexpr Option bare_option{
@@ -51,7 +54,11 @@ std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output
 ///
 /// \param made  when, ISO 8601 in UTC, as a PDF says it; "" = not known
 /// \returns     what was written, for people: "1600 x 1200 pixels".
-std::string
-write_picture(MapScene scene, MapStyle style, const PictureOutput& output, const std::string& made);
+/// \throws InputError   also when `progress`, which counts rows of pixels, is told to stop.
+std::string write_picture(MapScene scene,
+                          MapStyle style,
+                          const PictureOutput& output,
+                          const std::string& made,
+                          const Progress& progress);
 
 } // namespace macadam

@@ -42,13 +42,14 @@ double left_of_px(const PixelPoint& a, const PixelPoint& b, const PixelPoint& at
 template <typename Coverage>
 void Canvas::blend(const PixelBox& box, std::uint32_t rgb, Coverage coverage) {
     const int left = std::max(0, int(std::floor(box.left)));
-    const int top = std::max(0, int(std::floor(box.top)));
+    const int top = std::max(top_px_, int(std::floor(box.top)));
     const int right = std::min(image_.width, int(std::ceil(box.right)));
-    const int bottom = std::min(image_.height, int(std::ceil(box.bottom)));
+    const int bottom = std::min(top_px_ + image_.height, int(std::ceil(box.bottom)));
     for (int y = top; y < bottom; ++y) {
         for (int x = left; x < right; ++x) {
             const double share = std::clamp(coverage(x, y), 0.0, 1.0);
-            auto* pixel = image_.rgb.data() + (std::size_t(y) * image_.width + std::size_t(x)) * 3;
+            auto* pixel =
+                image_.rgb.data() + (std::size_t(y - top_px_) * image_.width + std::size_t(x)) * 3;
             pixel[0] = mixed(pixel[0], rgb >> 16 & 255U, share);
             pixel[1] = mixed(pixel[1], rgb >> 8 & 255U, share);
             pixel[2] = mixed(pixel[2], rgb & 255U, share);

@@ -7,10 +7,11 @@
 
 namespace macadam {
 
-/// Draws shapes and text onto a picture, with smooth edges.
+/// Draws shapes and text onto a picture, or onto some rows of one, with smooth edges.
 class Canvas final : public Pen {
 public:
-    explicit Canvas(Image image) : image_{std::move(image)} {}
+    /// \param top_px  of the picture's rows, the first that `image` has
+    explicit Canvas(Image image, int top_px = 0) : image_{std::move(image)}, top_px_{top_px} {}
 
     void fill(const RoundedBox& shape, std::uint32_t rgb) override;
     void stroke(const PixelPoint& from,
@@ -30,6 +31,7 @@ private:
     void blend(const PixelBox& box, std::uint32_t rgb, Coverage coverage);
 
     Image image_;
+    int top_px_;
 };
 
 } // namespace macadam

@@ -268,14 +268,4 @@ void furnish(Pen& canvas,
     }
 }
 
-Image furnished(Image roads,
-                const Layout& layout,
-                const Placement& placement,
-                const MapStyle& style,
-                TypeSetter& setter) {
-    Canvas canvas{std::move(roads)};
-    furnish(canvas, layout, placement, style, setter);
-    return std::move(canvas).finished();
-}
-
 } // namespace macadam

@@ -26,11 +26,4 @@ void furnish(Pen& canvas,
              const MapStyle& style,
              TypeSetter& setter);
 
-/// Everything but the roads, and the roads' picture below it.
-Image furnished(Image roads,
-                const Layout& layout,
-                const Placement& placement,
-                const MapStyle& style,
-                TypeSetter& setter);
-
 } // namespace macadam

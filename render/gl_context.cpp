@@ -2,7 +2,6 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/common/late_library.hpp"
-#include "render/map.hpp"
 
 #include <GL/osmesa.h>
 #include <fmt/core.h>
@@ -23,9 +22,9 @@ Function* mesa(const char* name) {
 
 void check_size(int width_px, int height_px) {
     for (const int side_px : {width_px, height_px}) {
-        if (side_px < 1 || side_px > most_image_px) {
+        if (side_px < 1 || side_px > most_window_px) {
             throw InputError{fmt::format(
-                "'{}x{}', expected sides of 1 to {} px", width_px, height_px, most_image_px)};
+                "'{}x{}', expected sides of 1 to {} px", width_px, height_px, most_window_px)};
         }
     }
 }

@@ -5,6 +5,8 @@
 
 namespace macadam {
 
+inline constexpr int most_window_px = 16384; ///< what OSMesa can draw; more silently fails
+
 /// An OpenGL 3.3 core context without a window, drawing into memory. It is current in the thread
 /// that made it until it ends or another one is.
 ///
@@ -14,7 +16,7 @@ class GlContext {
 public:
     /// \param rgba  width_px * height_px * 4 bytes, to live longer than the context; its first
     ///              row is the one at the bottom of OpenGL's window.
-    /// \throws InputError  if a side is not 1 .. most_image_px (OSMesa accepts more and then draws
+    /// \throws InputError  if a side is not 1 .. most_window_px (OSMesa accepts more and then draws
     ///                     wrongly or crashes), or if OSMesa is missing or refuses.
     GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px);
     ~GlContext();

@@ -1,13 +1,16 @@
 #pragma once
 
 #include "estimator/common/geo.hpp"
+#include "estimator/common/progress.hpp"
 #include "mapping/iri_class.hpp"
 #include "mapping/map_look.hpp"
 #include "render/plane_projection.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,7 +70,16 @@ struct Image {
 };
 
 inline constexpr int least_image_px = 256;
-inline constexpr int most_image_px = 16384; ///< what OSMesa can draw; more silently fails
+inline constexpr int most_image_px = 32768;
+
+struct PictureSize {
+    int width_px, height_px;
+    int band_px = 0; ///< rows that are drawn at a time; 0: as many as make 8 million pixels
+};
+
+/// Takes rows of a picture as they are drawn, from the top, some whole ones at a time: eight-bit
+/// RGB.
+using TakeRows = std::function<void(std::span<const std::uint8_t> rgb)>;
 
 /// The map with title, legend, scale bar, north arrow and attribution. Text and lines scale with
 /// the picture, so that 512 and 8192 px read alike.
@@ -75,6 +87,16 @@ inline constexpr int most_image_px = 16384; ///< what OSMesa can draw; more sile
 /// \throws InputError  for a size out of range, an empty box, an unknown ramp, a missing font, or
 ///                     if OSMesa cannot draw.
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
+
+/// The same picture, to the last byte, row by row: held are the roads and the rows of one band.
+/// `progress` counts rows.
+///
+/// \throws InputError  as render_map does, and when it is told to stop.
+void draw_map(const MapScene& scene,
+              const MapStyle& style,
+              const PictureSize& size,
+              const TakeRows& take,
+              const Progress& progress = {});
 
 /// What of the globe that picture shows, up to its edges, also under title and legend; less than
 /// nothing beyond is drawn. In spherical Mercator alone: it leaves the scene's projection out.

@@ -12,7 +12,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -132,35 +134,85 @@ MapFrame frame_of(const MapScene& scene, const MapStyle& style, int width_px, in
     return placement_of(scene, legend, layout, setter).frame;
 }
 
-Image with_labels(Image roads,
-                  std::span<const Label> labels,
-                  const Palette& colours,
-                  TypeSetter& setter) {
-    Canvas canvas{std::move(roads)};
-    draw_labels(canvas, labels, {}, {colours.ink, colours.quiet_ink, colours.ground}, setter);
-    return std::move(canvas).finished();
+/// Of all that a picture shows, what is in some of its rows.
+class Picture {
+public:
+    Picture(const MapScene& scene, const MapStyle& style, const PictureSize& size)
+        : style_{style}, classes_{classes_of(style)}, colours_{palette(style)},
+          layout_{layout_of(scene, size.width_px, size.height_px, setter_)},
+          placement_{placement_of(scene, legend_of(scene, style, classes_), layout_, setter_)},
+          roads_{shown_roads(scene, style, placement_.frame, layout_)},
+          painter_{{size.width_px, size.height_px, layout_.map},
+                   roads_.strands,
+                   roads_.widths,
+                   colours_,
+                   class_colours(style, classes_.classes.size())} {
+        if (style.labels) {
+            labels_ = map_labels(scene, layout_, placement_, roads_.widths, setter_);
+        }
+    }
+
+    Image rows(int top_px, int count) {
+        Canvas canvas{painter_.rows(top_px, count), top_px};
+        for (const auto& label : labels_) {
+            if (label.box.bottom >= top_px && label.box.top <= top_px + count) {
+                draw_labels(canvas,
+                            {&label, 1},
+                            {},
+                            {colours_.ink, colours_.quiet_ink, colours_.ground},
+                            setter_);
+            }
+        }
+        furnish(canvas, layout_, placement_, style_, setter_);
+        return std::move(canvas).finished();
+    }
+
+private:
+    const MapStyle& style_;
+    const ClassTable& classes_;
+    Palette colours_;
+    TypeSetter setter_;
+    Layout layout_;
+    Placement placement_;
+    Roads roads_;
+    RoadPainter painter_;
+    std::vector<Label> labels_;
+};
+
+int rows_of_band(const PictureSize& size) {
+    constexpr int pixels = 8'388'608; // 25 MB, and 67 MB that OpenGL draws into
+    return size.band_px > 0 ? size.band_px : std::max(1, pixels / size.width_px);
 }
 
 } // namespace
 
+void draw_map(const MapScene& scene,
+              const MapStyle& style,
+              const PictureSize& size,
+              const TakeRows& take,
+              const Progress& progress) {
+    check_size(size.width_px, size.height_px);
+    check_classes(scene, classes_of(style));
+    Picture picture{scene, style, size};
+    const int band_px = rows_of_band(size);
+    for (int top_px = 0; top_px < size.height_px; top_px += band_px) {
+        if (progress.stop.stop_requested()) {
+            throw InputError{"stopped before the picture was whole"};
+        }
+        const int count = std::min(band_px, size.height_px - top_px);
+        take(picture.rows(top_px, count).rgb);
+        progress(std::size_t(top_px + count), std::size_t(size.height_px));
+    }
+}
+
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
     check_size(width_px, height_px);
-    const auto& classes = classes_of(style);
-    check_classes(scene, classes);
-    const auto colours = class_colours(style, classes.classes.size());
-
-    TypeSetter setter;
-    const auto layout = layout_of(scene, width_px, height_px, setter);
-    const auto legend = legend_of(scene, style, classes);
-    const auto placement = placement_of(scene, legend, layout, setter);
-    const auto roads = shown_roads(scene, style, placement.frame, layout);
-    auto image = painted_roads(
-        {width_px, height_px, layout.map}, roads.strands, roads.widths, palette(style), colours);
-    if (style.labels) {
-        const auto labels = map_labels(scene, layout, placement, roads.widths, setter);
-        image = with_labels(std::move(image), labels, palette(style), setter);
-    }
-    return furnished(std::move(image), layout, placement, style, setter);
+    Image image{width_px, height_px, {}};
+    image.rgb.reserve(std::size_t(width_px) * std::size_t(height_px) * 3);
+    draw_map(scene, style, {width_px, height_px}, [&](std::span<const std::uint8_t> rgb) {
+        image.rgb.insert(image.rgb.end(), rgb.begin(), rgb.end());
+    });
+    return image;
 }
 
 std::string map_pdf(const MapScene& scene, const MapStyle& style, const PdfSheet& sheet) {

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace macadam {
 namespace {
 
 constexpr double fringe_px = 0.75;   // half a pixel of antialiasing and a little for rounding
 constexpr double overlap_px = 1.0;   // of neighbours that look different
-constexpr double far_px = 1e5;       // more than any picture
+constexpr float far_px = 1e5;        // more than any picture
 constexpr double most_mitre = 0.6;   // tan of half the bend: 62 degrees
 constexpr double most_stretch = 2.0; // of a mitre when a line is moved aside
+constexpr double part_px = 1024;     // of a quad: long ones would be cut by OpenGL, each half anew
+constexpr double grid_per_px = 256;  // where OSMesa's rasteriser puts corners
 
 PixelPoint plus(const PixelPoint& a, const PixelPoint& b, double times) {
     return {a.x + b.x * times, a.y + b.y * times};
@@ -28,6 +31,10 @@ double dot(const PixelPoint& a, const PixelPoint& b) {
 /// To the right of a direction; y grows downwards.
 PixelPoint right_of(const PixelPoint& direction) {
     return {-direction.y, direction.x};
+}
+
+double on_grid(double px) {
+    return std::round(px * grid_per_px) / grid_per_px;
 }
 
 struct Piece {
@@ -98,23 +105,52 @@ Join join_of(const Strand& strand, const RibbonPass& pass, std::size_t mine, std
     return strand.looks[mine] > strand.looks[other] ? Join::over : Join::under;
 }
 
-float beyond(const End& end, const PixelPoint& corner) {
-    const bool matters = end.join == Join::round || end.join == Join::over;
-    return float(matters ? dot(minus(corner, end.at), end.outward) : -far_px);
+/// Along `direction`, from a line through `origin`.
+LineDistance
+distance(const PixelPoint& origin, const PixelPoint& direction, const PixelPoint& anchor) {
+    return {float(direction.x), float(direction.y), float(dot(minus(anchor, origin), direction))};
 }
 
-RibbonQuad quad_of(const Piece& piece, const End& start, const End& end) {
-    const auto side = right_of(piece.direction);
+LineDistance beyond(const End& end, const PixelPoint& anchor) {
+    const bool matters = end.join == Join::round || end.join == Join::over;
+    return matters ? distance(end.at, end.outward, anchor) : LineDistance{0, 0, -far_px};
+}
+
+PixelPoint between(const PixelPoint& a, const PixelPoint& b, double share) {
+    return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share)};
+}
+
+/// A part of a piece, of its length from 0 to 1.
+struct Part {
+    double begin, end;
+};
+
+RibbonQuad quad_of(const Piece& piece,
+                   const End& start,
+                   const End& end,
+                   const Part& part,
+                   const RibbonPass& pass) {
+    const std::array corners{between(start.left, end.left, part.begin),
+                             between(start.right, end.right, part.begin),
+                             between(start.left, end.left, part.end),
+                             between(start.right, end.right, part.end)};
+    const auto middle = between(corners[0], corners[3], 0.5);
+    const PixelPoint anchor{std::floor(middle.x) + 0.5, std::floor(middle.y) + 0.5};
+    const auto across = distance(piece.from, right_of(piece.direction), anchor);
+    const auto before = beyond(start, anchor);
+    const auto after = beyond(end, anchor);
     const auto vertex = [&](const PixelPoint& corner) {
-        return RibbonVertex{float(corner.x),
-                            float(corner.y),
-                            float(dot(minus(corner, piece.from), side)),
-                            beyond(start, corner),
-                            beyond(end, corner),
+        return RibbonVertex{float(on_grid(corner.x) - pass.left_px),
+                            float(on_grid(corner.y) - pass.top_px),
+                            float(anchor.x - pass.left_px),
+                            float(anchor.y - pass.top_px),
+                            across,
+                            before,
+                            after,
                             start.join == Join::round ? 1.F : 0.F,
                             end.join == Join::round ? 1.F : 0.F};
     };
-    return {vertex(start.left), vertex(start.right), vertex(end.left), vertex(end.right)};
+    return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2]), vertex(corners[3])};
 }
 
 bool outside(const Piece& piece, const PixelBox& box, double reach_px) {
@@ -122,6 +158,28 @@ bool outside(const Piece& piece, const PixelBox& box, double reach_px) {
     const auto [top, bottom] = std::minmax(piece.from.y, piece.to.y);
     return right + reach_px < box.left || left - reach_px > box.right ||
            bottom + reach_px < box.top || top - reach_px > box.bottom;
+}
+
+/// Narrows a part to where a + (b - a) t lies between low and high.
+void narrow(Part& part, double a, double b, double low, double high) {
+    if (a == b) {
+        return; // all of it or, where `outside` has not said so, none
+    }
+    const double at_low = (low - a) / (b - a);
+    const double at_high = (high - a) / (b - a);
+    part.begin = std::max(part.begin, std::min(at_low, at_high));
+    part.end = std::min(part.end, std::max(at_low, at_high));
+}
+
+/// Which of its `parts` equal parts of a piece can be seen: from the first to before the last.
+std::pair<int, int>
+seen_parts(const Piece& piece, int parts, const PixelBox& box, double reach_px) {
+    Part seen{0, 1};
+    narrow(seen, piece.from.x, piece.to.x, box.left - reach_px, box.right + reach_px);
+    narrow(seen, piece.from.y, piece.to.y, box.top - reach_px, box.bottom + reach_px);
+    // Some more at either side: ends reach beyond their piece, and slanting ones across parts.
+    return {std::max(0, int(std::floor(seen.begin * parts)) - 2),
+            std::min(parts, int(std::ceil(seen.end * parts)) + 2)};
 }
 
 } // namespace
@@ -152,7 +210,12 @@ std::vector<RibbonQuad> ribbon(const Strand& strand, const RibbonPass& pass) {
                 end = mitred_end(piece.to, *shared, 1, join_of(strand, pass, i, i + 1), reach_px);
             }
         }
-        quads.push_back(quad_of(piece, start, end));
+        const int parts = std::max(1, int(std::ceil(piece.length_px / part_px)));
+        const auto [first, last] = seen_parts(piece, parts, pass.visible, reach_px + overlap_px);
+        for (int part = first; part < last; ++part) {
+            quads.push_back(
+                quad_of(piece, start, end, {double(part) / parts, double(part + 1) / parts}, pass));
+        }
     }
     return quads;
 }

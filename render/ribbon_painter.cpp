@@ -16,36 +16,57 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t quads_per_call = 16384; // 1.8 MB of vertices
+constexpr std::size_t quads_per_call = 16384; // 4 MB of vertices
+
+// OpenGL cuts what leaves its view, and cut triangles need not meet as the whole ones do. So the
+// view is larger than the window by more than a quad is long. Its side is a power of two, so that
+// places in 1/256 px come to the rasteriser without a rounding.
+constexpr int view_px = most_window_px;
+constexpr int beyond_px = (view_px - most_ribbon_window_px) / 2;
 
 // The picture's first row is OpenGL's bottom row, so y needs no turning over.
 constexpr const char* vertex_shader = R"(#version 330 core
-uniform vec2 size_px;
+uniform float half_views_per_px;
+uniform float beyond_px;
 layout(location = 0) in vec2 place_px;
-layout(location = 1) in vec3 distance_px;
-layout(location = 2) in vec2 round_ends;
-out vec3 distances;
+layout(location = 1) in vec2 anchor_px;
+layout(location = 2) in vec3 across_line;
+layout(location = 3) in vec3 before_line;
+layout(location = 4) in vec3 after_line;
+layout(location = 5) in vec2 round_ends;
+flat out vec2 anchor;
+flat out vec3 across_piece;
+flat out vec3 before_piece;
+flat out vec3 after_piece;
 flat out vec2 rounds;
 void main() {
-    distances = distance_px;
+    anchor = anchor_px;
+    across_piece = across_line;
+    before_piece = before_line;
+    after_piece = after_line;
     rounds = round_ends;
-    gl_Position = vec4(2.0 * place_px / size_px - 1.0, 0.0, 1.0);
+    gl_Position = vec4((place_px + beyond_px) * half_views_per_px - 1.0, 0.0, 1.0);
 }
 )";
 
 // Coverage is the part of a one pixel wide window across the line that lies on the ribbon: right
-// for lines thinner than a pixel too.
+// for lines thinner than a pixel too. Nothing is interpolated: the pixel's place less the anchor's
+// is exact, so the outcome does not depend on where in the window both are.
 constexpr const char* fragment_shader = R"(#version 330 core
 uniform vec3 colour;
 uniform float radius_px;
-in vec3 distances;
+flat in vec2 anchor;
+flat in vec3 across_piece;
+flat in vec3 before_piece;
+flat in vec3 after_piece;
 flat in vec2 rounds;
 out vec4 pixel;
 void main() {
-    vec2 past = distances.yz;
+    vec3 place = vec3(gl_FragCoord.xy - anchor, 1.0);
+    vec2 past = vec2(dot(place, before_piece), dot(place, after_piece));
     vec2 cap = max(past, 0.0) * rounds;
     vec2 cut = mix(clamp(0.5 - past, 0.0, 1.0), vec2(1.0), rounds);
-    float away = length(vec2(max(cap.x, cap.y), distances.x));
+    float away = length(vec2(max(cap.x, cap.y), dot(place, across_piece)));
     float across = min(away + 0.5, radius_px) - max(away - 0.5, -radius_px);
     pixel = vec4(colour, clamp(across, 0.0, 1.0) * cut.x * cut.y);
 }
@@ -79,7 +100,6 @@ struct RibbonPainter::Gl {
     MACADAM_GL(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays);
     MACADAM_GL(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation);
     MACADAM_GL(PFNGLUNIFORM1FPROC, Uniform1f);
-    MACADAM_GL(PFNGLUNIFORM2FPROC, Uniform2f);
     MACADAM_GL(PFNGLUNIFORM3FPROC, Uniform3f);
     MACADAM_GL(PFNGLUSEPROGRAMPROC, UseProgram);
     MACADAM_GL(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer);
@@ -113,8 +133,11 @@ void RibbonPainter::Gl::describe_vertices() const {
                             reinterpret_cast<const void*>(offset)); // NOLINT
     };
     part(0, 2, offsetof(RibbonVertex, x_px));
-    part(1, 3, offsetof(RibbonVertex, across_px));
-    part(2, 2, offsetof(RibbonVertex, round_before));
+    part(1, 2, offsetof(RibbonVertex, anchor_x_px));
+    part(2, 3, offsetof(RibbonVertex, across));
+    part(3, 3, offsetof(RibbonVertex, before));
+    part(4, 3, offsetof(RibbonVertex, after));
+    part(5, 2, offsetof(RibbonVertex, round_before));
 }
 
 void RibbonPainter::Gl::number_corners() const {
@@ -134,16 +157,16 @@ void RibbonPainter::Gl::number_corners() const {
                GL_STATIC_DRAW);
 }
 
-RibbonPainter::RibbonPainter(const GlContext& context, int width_px, int height_px)
-    : gl_{std::make_unique<Gl>(context)} {
+RibbonPainter::RibbonPainter(const GlContext& context) : gl_{std::make_unique<Gl>(context)} {
     const GLuint program = linked_program(context, vertex_shader, fragment_shader);
     gl_->UseProgram(program);
     gl_->colour = gl_->GetUniformLocation(program, "colour");
     gl_->radius_px = gl_->GetUniformLocation(program, "radius_px");
-    gl_->Uniform2f(gl_->GetUniformLocation(program, "size_px"), float(width_px), float(height_px));
+    gl_->Uniform1f(gl_->GetUniformLocation(program, "half_views_per_px"), 2.F / view_px);
+    gl_->Uniform1f(gl_->GetUniformLocation(program, "beyond_px"), float(beyond_px));
     gl_->describe_vertices();
     gl_->number_corners();
-    gl_->Viewport(0, 0, width_px, height_px);
+    gl_->Viewport(-beyond_px, -beyond_px, view_px, view_px);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->Enable(GL_BLEND);
     gl_->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

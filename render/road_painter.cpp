@@ -4,6 +4,8 @@
 #include "render/road_strands.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <utility>
 
 namespace macadam {
@@ -27,12 +29,80 @@ std::uint64_t looks_of(bool certain) {
     return looks;
 }
 
-Strands strands_of(std::span<const Strand> strands, int rank, bool measured) {
-    Strands found;
+/// A part of the sheet that OpenGL draws at once.
+struct Window {
+    int left_px, top_px, width_px, height_px;
+};
+
+PixelBox box_of(const Window& window) {
+    return {double(window.left_px),
+            double(window.top_px),
+            double(window.left_px + window.width_px),
+            double(window.top_px + window.height_px)};
+}
+
+PixelBox common(const PixelBox& a, const PixelBox& b) {
+    const double left = std::max(a.left, b.left);
+    const double top = std::max(a.top, b.top);
+    return {left,
+            top,
+            std::max(left, std::min(a.right, b.right)),
+            std::max(top, std::min(a.bottom, b.bottom))};
+}
+
+PixelBox moved(const PixelBox& box, double right_px, double down_px) {
+    return {box.left + right_px, box.top + down_px, box.right + right_px, box.bottom + down_px};
+}
+
+bool meet(const PixelBox& a, const PixelBox& b, double apart_px) {
+    return a.left <= b.right + apart_px && b.left <= a.right + apart_px &&
+           a.top <= b.bottom + apart_px && b.top <= a.bottom + apart_px;
+}
+
+PixelBox box_around(const Strand& strand) {
+    PixelBox box{strand.points.front().x,
+                 strand.points.front().y,
+                 strand.points.front().x,
+                 strand.points.front().y};
+    for (const auto& point : strand.points) {
+        box = {std::min(box.left, point.x),
+               std::min(box.top, point.y),
+               std::max(box.right, point.x),
+               std::max(box.bottom, point.y)};
+    }
+    return box;
+}
+
+struct Road {
+    const Strand* strand;
+    PixelBox box;
+};
+
+/// What is painted together.
+struct Layer {
+    std::vector<Road> measured, unmeasured;
+};
+
+std::array<Layer, lowest_rank + 1> layers_of(std::span<const Strand> strands) {
+    std::array<Layer, lowest_rank + 1> layers;
     for (const auto& strand : strands) {
-        if (!strand.looks.empty() && std::clamp(strand.rank, 0, lowest_rank) == rank &&
-            is_measured(strand) == measured) {
-            found.push_back(&strand);
+        if (!strand.looks.empty()) {
+            auto& layer = layers[std::size_t(std::clamp(strand.rank, 0, lowest_rank))];
+            (is_measured(strand) ? layer.measured : layer.unmeasured)
+                .push_back({&strand, box_around(strand)});
+        }
+    }
+    return layers;
+}
+
+/// Beyond the line itself: half a pixel of antialiasing, the overlap of looks, and some rounding.
+constexpr double beyond_line_px = 4;
+
+Strands near(const std::vector<Road>& roads, const PixelBox& box, double radius_px) {
+    Strands found;
+    for (const auto& road : roads) {
+        if (meet(road.box, box, radius_px + beyond_line_px)) {
+            found.push_back(road.strand);
         }
     }
     return found;
@@ -43,7 +113,7 @@ void draw(RibbonPainter& painter,
           const RibbonPass& pass,
           std::uint32_t rgb) {
     // A few strands at a time, so that the quads of a large city need not be held at once.
-    constexpr std::size_t enough = 65536;
+    constexpr std::size_t enough = 16384;
     std::vector<RibbonQuad> quads;
     for (const auto* strand : strands) {
         const auto more = ribbon(*strand, pass);
@@ -56,63 +126,151 @@ void draw(RibbonPainter& painter,
     painter.draw(quads, rgb, pass.radius_px);
 }
 
-/// Four bytes a pixel to three, where they stand.
-std::vector<std::uint8_t> without_alpha(std::vector<std::uint8_t> rgba) {
-    const std::size_t pixels = rgba.size() / 4;
-    for (std::size_t i = 1; i < pixels; ++i) {
-        std::copy_n(rgba.begin() + std::ptrdiff_t(4 * i), 3, rgba.begin() + std::ptrdiff_t(3 * i));
+/// OpenGL, and the memory that it draws into.
+struct Easel {
+    Easel(int width, int height)
+        : width_px{width}, height_px{height}, rgba(std::size_t(width) * std::size_t(height) * 4),
+          context{rgba, width, height}, painter{context} {}
+
+    int width_px, height_px;
+    std::vector<std::uint8_t> rgba;
+    GlContext context;
+    RibbonPainter painter;
+};
+
+/// Four bytes a pixel to three, onto a band of the sheet, `down` rows below its first.
+void lay(const Easel& easel, const Window& window, int down, Image& band) {
+    for (int y = 0; y < window.height_px; ++y) {
+        const auto* from = easel.rgba.data() + std::size_t(y) * std::size_t(easel.width_px) * 4;
+        auto* to =
+            band.rgb.data() +
+            (std::size_t(down + y) * std::size_t(band.width) + std::size_t(window.left_px)) * 3;
+        for (int x = 0; x < window.width_px; ++x, from += 4, to += 3) {
+            std::copy_n(from, 3, to);
+        }
     }
-    rgba.resize(pixels * 3);
-    return rgba;
 }
 
 } // namespace
+
+struct RoadPainter::Impl {
+    void paint(const Window& window);
+    void paint_unmeasured(int rank, const RibbonPass& view);
+    void paint_measured(int rank, const RibbonPass& view);
+    void prepare(int width_px, int height_px);
+
+    Sheet sheet;
+    std::array<Layer, lowest_rank + 1> layers;
+    LineWidths widths;
+    Palette palette;
+    std::vector<std::uint32_t> class_colours;
+    std::unique_ptr<Easel> easel{};
+};
+
+/// The easel is kept as long as it is large enough.
+void RoadPainter::Impl::prepare(int width_px, int height_px) {
+    if (easel == nullptr || easel->width_px < width_px || easel->height_px < height_px) {
+        easel.reset();
+        easel = std::make_unique<Easel>(width_px, height_px);
+    }
+    easel->context.make_current();
+}
+
+void RoadPainter::Impl::paint_unmeasured(int rank, const RibbonPass& view) {
+    auto pass = view;
+    pass.radius_px = core_radius_px(widths, rank, true) * unmeasured_core;
+    pass.looks = every_look;
+    draw(easel->painter,
+         near(layers[std::size_t(rank)].unmeasured, view.visible, pass.radius_px),
+         pass,
+         palette.unmeasured);
+}
+
+void RoadPainter::Impl::paint_measured(int rank, const RibbonPass& view) {
+    const double widest_px =
+        std::max(casing_radius_px(widths, rank, true), casing_radius_px(widths, rank, false));
+    const auto strands = near(layers[std::size_t(rank)].measured, view.visible, widest_px);
+    const auto paint = [&](double radius_px, std::uint64_t looks, std::uint32_t rgb) {
+        auto pass = view;
+        pass.radius_px = radius_px;
+        pass.looks = looks;
+        draw(easel->painter, strands, pass, rgb);
+    };
+    for (const bool certain : {false, true}) {
+        paint(casing_radius_px(widths, rank, certain), looks_of(certain), palette.casing);
+    }
+    paint(core_radius_px(widths, rank, true), only(few_passes_look), palette.few_passes);
+    for (std::size_t i = 0; i < class_colours.size(); ++i) {
+        for (const bool certain : {false, true}) {
+            paint(core_radius_px(widths, rank, certain),
+                  only(look_of(int(i), certain)),
+                  class_colours[i]);
+        }
+    }
+}
+
+void RoadPainter::Impl::paint(const Window& window) {
+    const auto whole = box_of(window);
+    const auto map = common(whole, sheet.map);
+    easel->painter.clear(moved(whole, -whole.left, -whole.top), palette.page);
+    easel->painter.clear(moved(map, -whole.left, -whole.top), palette.ground);
+    const RibbonPass view{.radius_px = 0,
+                          .looks = 0,
+                          .visible = map,
+                          .left_px = window.left_px,
+                          .top_px = window.top_px};
+    if (map.width() > 0 && map.height() > 0) {
+        for (int rank = lowest_rank; rank >= 0; --rank) {
+            paint_unmeasured(rank, view);
+        }
+        for (int rank = lowest_rank; rank >= 0; --rank) {
+            paint_measured(rank, view);
+        }
+    }
+    easel->painter.finish();
+}
+
+RoadPainter::RoadPainter(const Sheet& sheet,
+                         std::span<const Strand> strands,
+                         const LineWidths& widths,
+                         const Palette& palette,
+                         std::span<const std::uint32_t> class_colours)
+    : impl_{std::make_unique<Impl>(
+          Impl{.sheet = sheet,
+               .layers = layers_of(strands),
+               .widths = widths,
+               .palette = palette,
+               .class_colours = {class_colours.begin(), class_colours.end()}})} {}
+
+RoadPainter::~RoadPainter() = default;
+
+Image RoadPainter::rows(int top_px, int count) {
+    assert(top_px >= 0 && count > 0 && top_px + count <= impl_->sheet.height_px);
+    const int width_px = impl_->sheet.width_px;
+    Image image{width_px, count, {}};
+    image.rgb.resize(std::size_t(width_px) * std::size_t(count) * 3);
+    const int window_width_px = std::min(width_px, most_ribbon_window_px);
+    const int window_height_px = std::min(count, most_ribbon_window_px);
+    impl_->prepare(window_width_px, window_height_px);
+    for (int down = 0; down < count; down += window_height_px) {
+        for (int left = 0; left < width_px; left += window_width_px) {
+            const Window window{left,
+                                top_px + down,
+                                std::min(window_width_px, width_px - left),
+                                std::min(window_height_px, count - down)};
+            impl_->paint(window);
+            lay(*impl_->easel, window, down, image);
+        }
+    }
+    return image;
+}
 
 Image painted_roads(const Sheet& sheet,
                     std::span<const Strand> strands,
                     const LineWidths& widths,
                     const Palette& palette,
                     std::span<const std::uint32_t> class_colours) {
-    std::vector<std::uint8_t> rgba(std::size_t(sheet.width_px) * std::size_t(sheet.height_px) * 4);
-    {
-        const GlContext context{rgba, sheet.width_px, sheet.height_px};
-        RibbonPainter painter{context, sheet.width_px, sheet.height_px};
-        painter.clear({0, 0, double(sheet.width_px), double(sheet.height_px)}, palette.page);
-        painter.clear(sheet.map, palette.ground);
-
-        for (int rank = lowest_rank; rank >= 0; --rank) {
-            const double radius_px = core_radius_px(widths, rank, true) * unmeasured_core;
-            draw(painter,
-                 strands_of(strands, rank, false),
-                 {radius_px, every_look, sheet.map},
-                 palette.unmeasured);
-        }
-        for (int rank = lowest_rank; rank >= 0; --rank) {
-            const auto measured = strands_of(strands, rank, true);
-            for (const bool certain : {false, true}) {
-                draw(painter,
-                     measured,
-                     {casing_radius_px(widths, rank, certain), looks_of(certain), sheet.map},
-                     palette.casing);
-            }
-            draw(painter,
-                 measured,
-                 {core_radius_px(widths, rank, true), only(few_passes_look), sheet.map},
-                 palette.few_passes);
-            for (std::size_t i = 0; i < class_colours.size(); ++i) {
-                for (const bool certain : {false, true}) {
-                    draw(painter,
-                         measured,
-                         {core_radius_px(widths, rank, certain),
-                          only(look_of(int(i), certain)),
-                          sheet.map},
-                         class_colours[i]);
-                }
-            }
-        }
-        painter.finish();
-    }
-    return {sheet.width_px, sheet.height_px, without_alpha(std::move(rgba))};
+    return RoadPainter{sheet, strands, widths, palette, class_colours}.rows(0, sheet.height_px);
 }
 
 } // namespace macadam

@@ -2,7 +2,11 @@
 
 #include "render/colour.hpp"
 #include "render/line_widths.hpp"
+#include "render/map.hpp"
+#include "render/ribbon.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,10 +18,31 @@ struct Sheet {
     PixelBox map; ///< whole pixels; the rest is page
 };
 
-/// The sheet with its roads: those without a measurement below all others; then rank by rank,
-/// service roads first, all casings of a rank before all its cores.
-///
-/// \param class_colours  of the classes that the strands' looks speak of
+/// Paints a sheet with its roads, as many rows at a time as wanted: those without a measurement
+/// below all others; then rank by rank, service roads first, all casings of a rank before all its
+/// cores. A row is the same, to the last byte, whichever rows are painted with it.
+class RoadPainter {
+public:
+    /// \param strands        to live longer than the painter
+    /// \param class_colours  of the classes that the strands' looks speak of
+    RoadPainter(const Sheet& sheet,
+                std::span<const Strand> strands,
+                const LineWidths& widths,
+                const Palette& palette,
+                std::span<const std::uint32_t> class_colours);
+    ~RoadPainter();
+
+    /// Some rows of the sheet, which lie on it.
+    ///
+    /// \throws InputError  if OSMesa is missing or cannot draw.
+    Image rows(int top_px, int count);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// All rows of the sheet.
 Image painted_roads(const Sheet& sheet,
                     std::span<const Strand> strands,
                     const LineWidths& widths,

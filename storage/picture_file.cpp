@@ -9,17 +9,29 @@
 #include <fmt/core.h>
 
 #include <fstream>
+#include <utility>
 
 namespace macadam {
 namespace {
 
-void put(const std::filesystem::path& file, std::string_view bytes) {
+void put(const std::filesystem::path& file, const GiveBytes& give) {
     std::ofstream out{file, std::ios::binary};
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    const auto expect_written = [&] {
+        if (!out) {
+            throw InputError{
+                fmt::format("{}: cannot be written; the disk may be full", file.string())};
+        }
+    };
+    give([&](std::string_view bytes) {
+        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        expect_written();
+    });
     out.close();
-    if (!out) {
-        throw InputError{fmt::format("{}: cannot be written; the disk may be full", file.string())};
-    }
+    expect_written();
+}
+
+GiveBytes all_of(std::string text) {
+    return [text = std::move(text)](const auto& take) { take(text); };
 }
 
 /// Six lines, for the middle of the first pixel.
@@ -51,14 +63,14 @@ void write_geotiff(const PlacedPicture& picture, const std::filesystem::path& fi
     files.commit();
 }
 
-void write_png_with_world_file(std::string_view png,
+void write_png_with_world_file(const GiveBytes& png,
                                const PlacedPicture& picture,
                                const std::filesystem::path& file) {
     AtomicFileSet files{file};
     const auto name = file.filename();
     put(files.folder() / name, png);
-    put(files.folder() / world_file_of(name), world_text(picture));
-    put(files.folder() / (name.string() + ".aux.xml"), auxiliary_text(picture));
+    put(files.folder() / world_file_of(name), all_of(world_text(picture)));
+    put(files.folder() / (name.string() + ".aux.xml"), all_of(auxiliary_text(picture)));
     files.commit();
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,13 +25,16 @@ struct PlacedPicture {
 /// \throws InputError  if it cannot be written.
 void write_geotiff(const PlacedPicture& picture, const std::filesystem::path& file);
 
+/// Hands the bytes of a file to who takes them, some at a time.
+using GiveBytes = std::function<void(const std::function<void(std::string_view)>& take)>;
+
 /// Writes a PNG file, beside it the world file that says where its pixels lie (map.png: map.pgw),
 /// and map.png.aux.xml that says on which plane, as GDAL reads it. All three or none.
 ///
 /// \param png      the bytes of the PNG file
 /// \param picture  without the colours
 /// \throws InputError  if one of them cannot be written.
-void write_png_with_world_file(std::string_view png,
+void write_png_with_world_file(const GiveBytes& png,
                                const PlacedPicture& picture,
                                const std::filesystem::path& file);
 

@@ -126,6 +126,11 @@ TEST_F(RenderProgram, DrawsThePictureOfMercatorByteForByteAsWithoutAProjection) 
     EXPECT_TRUE(read_file(out("a.png")) == read_file(out("b.png")));
 }
 
+TEST_F(RenderProgram, DrawsPicturesThatAreWiderThanOneWindow) {
+    expect_done({"-o", out("wide.png"), "--size", "32768x600"});
+    EXPECT_EQ(info(out("wide.png"))["size"], Json::parse("[32768, 600]"));
+}
+
 TEST_F(RenderProgram, WritesAMapOnPaper) {
     expect_done({"-o", out("map.pdf"), "--paper", "a3", "--landscape", "--title", "Lyon"});
     EXPECT_THAT(output_of(folder_, "pdfinfo " + out("map.pdf")), HasSubstr("(A3)"));
@@ -171,6 +176,12 @@ TEST_F(RenderProgram, SaysWhatIsWrongAndLeavesNothing) {
         {{"-o", "OUT/a.pdf", "--size", "512x512"},
          2,
          "--size goes with pictures, expected --paper"},
+        {{"-o", "OUT/a.png", "--size", "32769x512"},
+         2,
+         "--size is '32769x512', expected WxH with both from 256 to 32768 pixels"},
+        {{"-o", "OUT/a.tif", "--size", "512x16385"},
+         2,
+         "--size is '512x16385', expected WxH with both from 256 to 16384 pixels in a .tif"},
         {{"-o", "OUT/a.png", "--paper", "A4"}, 2, "--paper and --landscape go with a .pdf"},
         {{"-o", "OUT/a.png", "--landscape"}, 2, "--paper and --landscape go with a .pdf"},
         {{"-o", "OUT/a.pdf", "--paper", "A9"},
@@ -214,7 +225,7 @@ TEST_F(RenderProgram, SaysWhatIsWrongAndLeavesNothing) {
 }
 
 TEST_F(RenderProgram, LeavesNothingOnAFullDisk) {
-    for (const auto* name : {"a.png", "a.tif", "a.pdf"}) {
+    for (const auto* name : {"a.png", "b.png", "a.tif", "a.pdf"}) {
         for (const std::size_t most_bytes : {1000, 6000}) {
             std::vector<std::string> words{"-o", out(name)};
             if (name == std::string{"a.png"}) {

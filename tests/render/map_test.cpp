@@ -338,10 +338,10 @@ TEST(Map, IsDrawnInEveryThemeOnItsOwnGround) {
 TEST(Map, RefusesPicturesThatAreTooSmallOrTooLarge) {
     EXPECT_THAT([] { render_map(scene({}, 400), {}, 0, 512); },
                 ::testing::ThrowsMessage<InputError>(
-                    "picture size '0x512', expected sides of 256 to 16384 px"));
-    EXPECT_THAT([] { render_map(scene({}, 400), {}, 512, 20000); },
+                    "picture size '0x512', expected sides of 256 to 32768 px"));
+    EXPECT_THAT([] { render_map(scene({}, 400), {}, 512, 32769); },
                 ::testing::ThrowsMessage<InputError>(
-                    "picture size '512x20000', expected sides of 256 to 16384 px"));
+                    "picture size '512x32769', expected sides of 256 to 32768 px"));
 }
 
 TEST(Map, RefusesAnEmptyBox) {

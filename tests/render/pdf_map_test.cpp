@@ -180,7 +180,7 @@ TEST(PdfMap, RefusesWhatAPictureRefuses) {
                     "the box of the map is empty, expected west <= east and south <= north"));
     EXPECT_THAT([] { map_pdf(crossing(), {.ramp = "jet"}, a4_landscape()); },
                 ::testing::ThrowsMessage<InputError>(
-                    "unknown colour ramp 'jet', expected rdylbu, cividis or viridis"));
+                    "unknown colour ramp 'jet', expected one of rdylbu, cividis, viridis"));
 }
 
 } // namespace

@@ -148,6 +148,16 @@ TEST(RoadPainter, AgreesWithDistancesAlongACurve) {
     EXPECT_LE(difference_from_reference({curve}), 12);
 }
 
+TEST(RoadPainter, AgreesWithDistancesOnAPieceThatIsLongerThanAnyPicture) {
+    for (const double far : {1e4, 1e5, 1e6}) {
+        EXPECT_LE(
+            difference_from_reference({strand(
+                {{30 - 2 * far, 20.3 - far}, {30 + far, 20.3 + far / 2}}, {look_of(0, true)})}),
+            3)
+            << far;
+    }
+}
+
 TEST(RoadPainter, FillsSharpBendsAndPiecesShorterThanTheirWidth) {
     const Strand zigzag = strand({{12, 12}, {40, 14}, {40.5, 14.8}, {39, 15.5}, {14, 30}, {50, 38}},
                                  std::vector(5, look_of(1, true)));

@@ -120,7 +120,13 @@ TEST(WorldFile, SaysWhereThePictureLies) {
         "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\0\0\0\0\x3a\x7e\x9b\x55"
         "\0\0\0\nIDAT\x08\xd7\x63\x68\0\0\0\x82\0\x81\xdd\x43\x6a\xf4\0\0\0\0IEND\xae\x42\x60\x82",
         67};
-    write_png_with_world_file(png, picture({}), folder / "out" / "map.png");
+    write_png_with_world_file(
+        [&](const auto& take) {
+            take(png.substr(0, 40));
+            take(png.substr(40));
+        },
+        picture({}),
+        folder / "out" / "map.png");
     EXPECT_EQ(content_of(folder / "out" / "map.pgw"), "2.5\n0\n0\n-2.5\n500001.25\n5599998.75\n");
     const auto info = info_by_gdal(folder, folder / "out" / "map.png");
     EXPECT_EQ(info["geoTransform"], json::parse("[500000.0, 2.5, 0.0, 5600000.0, 0.0, -2.5]"));
@@ -132,9 +138,11 @@ TEST(WorldFile, SaysWhereThePictureLies) {
 TEST(WorldFile, LeavesNothingWhereOneOfTheSetCannotBeWritten) {
     const auto folder = test_folder();
     fs::create_directories(folder / "map.pgw" / "in the way");
-    EXPECT_THAT(
-        refusal_of([&] { write_png_with_world_file("png", picture({}), folder / "map.png"); }),
-        HasSubstr("map.pgw: cannot be written: Is a directory"));
+    EXPECT_THAT(refusal_of([&] {
+                    write_png_with_world_file(
+                        [](const auto& take) { take("png"); }, picture({}), folder / "map.png");
+                }),
+                HasSubstr("map.pgw: cannot be written: Is a directory"));
     EXPECT_FALSE(fs::exists(folder / "map.png"));
     EXPECT_FALSE(fs::exists(folder / "map.png.aux.xml"));
 }
