@@ -340,12 +340,13 @@ void RoadStore::visit(const SegmentFilter& filter,
     const Conditions conditions{filter, impl_->classes()};
     Roughest roughest{filter.worst};
     RoadNames names{database};
+    SegmentRecord record; // of one row after the other, in the same memory
     each_row(database, filter, [&](const Statement& row) {
         if (!names.find(row.integer(0)) ||
             (!filter.highway.empty() && filter.highway != names.highway())) {
             return;
         }
-        auto record = record_in(row);
+        put_record_in(row, record);
         record.name = names.name();
         record.highway = names.highway();
         expect_line(record, database);
