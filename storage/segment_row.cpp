@@ -41,9 +41,15 @@ std::optional<RoadChange> known_change_in(const Statement& row, int column) {
     return utc_ms ? std::optional{RoadChange{*utc_ms, um_in(row, column + 1)}} : std::nullopt;
 }
 
+// Words are compared as the bytes that they are: no string is made of them.
+
+/// Of the first three columns.
+SegmentKey key_in(const Statement& row) {
+    return {row.integer(0), row.blob(1) == "forward", static_cast<std::uint32_t>(row.integer(2))};
+}
+
 constexpr int first_state_column = 6;
 
-/// Words are compared as the bytes that they are: no string is made of them.
 SegmentState state_in(const Statement& row, const SegmentKey& segment) {
     constexpr int c = first_state_column;
     return {.segment = segment,
@@ -81,8 +87,7 @@ SegmentRecord record_in(const Statement& row) {
 
 void put_record_in(const Statement& row, SegmentRecord& record) {
     auto& segment = record.segment;
-    segment.key = {
-        row.integer(0), row.blob(1) == "forward", static_cast<std::uint32_t>(row.integer(2))};
+    segment.key = key_in(row);
     segment.from_m = row.real(3);
     segment.to_m = row.real(4);
     put_line_of_geometry(row.blob(5), segment.line);
@@ -90,6 +95,23 @@ void put_record_in(const Statement& row, SegmentRecord& record) {
         record.state.reset();
     } else {
         record.state = state_in(row, segment.key);
+    }
+}
+
+const char* const glance_columns = "segment.way_id, segment.direction, segment.seq, segment.geom,"
+                                   " state.iri, state.iri_sd, state.passes";
+
+void put_glance_in(const Statement& row, SegmentRecord& record) {
+    constexpr int c = 4;
+    record.segment.key = key_in(row);
+    put_line_of_geometry(row.blob(3), record.segment.line);
+    record.state.reset();
+    if (!row.is_null(c)) {
+        auto& state = record.state.emplace();
+        state.segment = record.segment.key;
+        state.iri_um = um_in(row, c);
+        state.sd_um = um_in(row, c + 1);
+        state.passes = static_cast<std::int32_t>(row.integer(c + 2));
     }
 }
 
