@@ -86,11 +86,14 @@ void run_render(const Arguments& arguments, const Console& console) {
         options.style.classes = class_table(store.settings().class_table);
     }
     warn_of_look(options.style, console);
-    const auto projection = projection_of(options.output);
-    auto scene = map_scene(
-        store, options.box, *options.style.classes, options.title, options.style.least_passes);
-    scene.projection = projection;
-    const auto last_seen_ms = store.info().last_seen_ms;
+    auto scene = map_scene(store,
+                           {.box = options.box,
+                            .title = options.title,
+                            .style = options.style,
+                            .projection = projection_of(options.output),
+                            .width_px = options.output.width_px,
+                            .height_px = options.output.height_px});
+    const auto last_seen_ms = store.seen().last_ms;
     const auto words = write_picture(std::move(scene),
                                      options.style,
                                      options.output,

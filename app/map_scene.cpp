@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
 #include <utility>
 
 namespace macadam {
@@ -18,6 +18,7 @@ namespace {
 
 constexpr double margin_share = 0.05; // of the driven extent, so that nothing touches the frame
 constexpr double least_margin_m = 50;
+constexpr double edge_share = 0.02; // of a picture's diagonal
 constexpr double certain_sd = 0.5; // of the value; beyond it the line is drawn with a narrower core
 
 GeoBox box_with_margin(const GeoBox& box) {
@@ -26,26 +27,24 @@ GeoBox box_with_margin(const GeoBox& box) {
     return grown(box, std::max(least_margin_m, margin_share * diagonal_m));
 }
 
-/// More than the box: what a picture of another shape than the box also shows, with the room that
-/// it makes for the legend. What lies outside the picture is cut off by it.
+/// More than the box by far: for planes on which nobody knows what else comes into sight.
 GeoBox shown_around(const GeoBox& box) {
     return grown_over(
         box, 1.5 * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
 }
 
-/// \param whole  the picture shows all of the store, so its numbers are the picture's.
-std::string subtitle_of(const StoreInfo& info, bool whole) {
-    std::string period = "dates not known";
-    if (info.first_seen_ms && info.last_seen_ms) {
-        const auto first = utc_text(*info.first_seen_ms).substr(0, 10);
-        const auto last = utc_text(*info.last_seen_ms).substr(0, 10);
-        period = first == last ? first : first + " to " + last;
+std::string period_of(const SeenSpan& seen) {
+    if (!seen.first_ms || !seen.last_ms) {
+        return "dates not known";
     }
-    if (!whole) {
-        return period;
-    }
+    const auto first = utc_text(*seen.first_ms).substr(0, 10);
+    const auto last = utc_text(*seen.last_ms).substr(0, 10);
+    return first == last ? first : first + " to " + last;
+}
+
+std::string subtitle_of(const StoreInfo& info) {
     return fmt::format("{}  ·  {:.1f} km  ·  {}  ·  {}",
-                       period,
+                       period_of({info.first_seen_ms, info.last_seen_ms}),
                        info.km,
                        counted(info.trips, "trip"),
                        counted(info.vehicles.size(), "car"));
@@ -63,6 +62,80 @@ class_km_of(const RoadStore& store, const ClassTable& classes, int least_passes)
         }
     });
     return km;
+}
+
+const ClassTable& classes_of(const MapRequest& request) {
+    return *request.style.classes;
+}
+
+/// The words of a scene without its lines.
+MapScene scene_around(const RoadStore& store, const MapRequest& request) {
+    MapScene scene;
+    scene.title = request.title;
+    scene.attribution = store.settings().attribution;
+    if (request.box) {
+        scene.box = *request.box;
+        scene.subtitle = period_of(store.seen());
+        return scene;
+    }
+    const auto info = store.info();
+    const auto& classes = classes_of(request);
+    scene.box = box_with_margin(info.box);
+    scene.subtitle = subtitle_of(info);
+    if (request.style.least_passes <= 1 && &classes == class_table(info.settings.class_table)) {
+        for (const auto& [name, km] : info.classes) {
+            scene.class_km.push_back(km);
+        }
+    } else {
+        scene.class_km = class_km_of(store, classes, request.style.least_passes);
+    }
+    return scene;
+}
+
+/// With what reaches over the picture's edges, thick lines and the ends of names.
+GeoBox ground_of(const MapScene& scene, const MapRequest& request) {
+    const auto box = ground_shown(scene, request.style, request.width_px, request.height_px);
+    return grown_over(
+        box, edge_share * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
+}
+
+bool holds(const GeoBox& outer, const GeoBox& inner) {
+    return outer.west_deg <= inner.west_deg && outer.south_deg <= inner.south_deg &&
+           inner.east_deg <= outer.east_deg && inner.north_deg <= outer.north_deg;
+}
+
+void expect_roads(const MapScene& scene) {
+    const auto& box = scene.box;
+    const auto touches = [&](const MapLine& line) {
+        return std::ranges::any_of(line.line, [&](auto& point) { return contains(box, point); });
+    };
+    if (std::ranges::none_of(scene.lines, touches)) {
+        throw InputError{fmt::format(
+            "nothing to draw: the store has no road between {:.5f},{:.5f} and {:.5f},{:.5f}",
+            box.south_deg,
+            box.west_deg,
+            box.north_deg,
+            box.east_deg)};
+    }
+}
+
+struct Place {
+    std::int64_t way_id;
+    std::uint32_t index;
+    std::size_t line;
+};
+
+/// Each direction is a segment of its own; what was driven one way only is still a road of two
+/// sides where the map lets cars go both ways.
+void pair_directions(std::vector<MapLine>& lines, std::vector<Place> places) {
+    const auto key = [](const Place& place) { return std::pair{place.way_id, place.index}; };
+    std::ranges::sort(places, {}, key);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        if (key(places[i]) == key(places[i - 1])) {
+            lines[places[i].line].both_ways = true;
+            lines[places[i - 1].line].both_ways = true;
+        }
+    }
 }
 
 } // namespace
@@ -94,21 +167,15 @@ bool is_certain(IriUm iri_um, IriUm sd_um) {
 
 std::vector<MapLine>
 map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, int least_passes) {
-    // Each direction is a segment of its own; what was driven one way only is still a road of two
-    // sides where the map lets cars go both ways.
-    std::map<std::pair<std::int64_t, std::uint32_t>, int> directions;
     SegmentFilter filter;
     filter.with_state_only = false;
-    visit_box(store, filter, box, [&](const SegmentRecord& record) {
-        ++directions[{record.segment.key.way_id, record.segment.key.index}];
-    });
     std::vector<MapLine> lines;
+    std::vector<Place> places;
     visit_box(store, filter, box, [&](const SegmentRecord& record) {
         const auto& key = record.segment.key;
         MapLine line;
         line.line = record.segment.line;
         line.forward = key.forward;
-        line.both_ways = directions.at({key.way_id, key.index}) == 2;
         line.rank = rank_of(record.highway);
         line.name = record.name;
         if (record.state) {
@@ -116,43 +183,31 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, 
             line.few_passes = has_few_passes(record.state->passes, least_passes);
             line.certain = is_certain(record.state->iri_um, record.state->sd_um);
         }
+        places.push_back({key.way_id, key.index, lines.size()});
         lines.push_back(std::move(line));
     });
+    pair_directions(lines, std::move(places));
     return lines;
 }
 
-MapScene map_scene(const RoadStore& store,
-                   const std::optional<GeoBox>& box,
-                   const ClassTable& classes,
-                   const std::string& title,
-                   int least_passes) {
-    const auto info = store.info();
-    MapScene scene;
-    scene.box = box ? *box : box_with_margin(info.box);
-    scene.title = title;
-    scene.subtitle = subtitle_of(info, !box);
-    scene.attribution = info.settings.attribution;
-
-    if (!box && least_passes <= 1 && &classes == class_table(info.settings.class_table)) {
-        for (const auto& [name, km] : info.classes) {
-            scene.class_km.push_back(km);
+MapScene map_scene(const RoadStore& store, const MapRequest& request) {
+    auto scene = scene_around(store, request);
+    scene.projection = request.projection;
+    const auto lines_in = [&](const GeoBox& box) {
+        return map_lines(store, box, classes_of(request), request.style.least_passes);
+    };
+    if (scene.projection) {
+        scene.lines = lines_in(shown_around(scene.box));
+    } else {
+        // Where the legend finds no corner without roads, the map makes room for it and shows more
+        // ground.
+        auto shown = ground_of(scene, request);
+        scene.lines = lines_in(shown);
+        if (const auto with_roads = ground_of(scene, request); !holds(shown, with_roads)) {
+            scene.lines = lines_in(with_roads);
         }
-    } else if (!box) {
-        scene.class_km = class_km_of(store, classes, least_passes);
     }
-
-    scene.lines = map_lines(store, shown_around(scene.box), classes, least_passes);
-    if (std::ranges::none_of(scene.lines, [&](const MapLine& line) {
-            return std::ranges::any_of(line.line,
-                                       [&](auto& point) { return contains(scene.box, point); });
-        })) {
-        throw InputError{fmt::format(
-            "nothing to draw: the store has no road between {:.5f},{:.5f} and {:.5f},{:.5f}",
-            scene.box.south_deg,
-            scene.box.west_deg,
-            scene.box.north_deg,
-            scene.box.east_deg)};
-    }
+    expect_roads(scene);
     return scene;
 }
 

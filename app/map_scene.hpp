@@ -4,6 +4,7 @@
 #include "storage/road_store.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,14 +29,19 @@ std::vector<MapLine> map_lines(const RoadStore& store,
                                const ClassTable& classes,
                                int least_passes = 1);
 
-/// What a picture of a store shows: its segments in the box (nothing: all that was driven), with
-/// their classes, the roads without a measurement, and the words around them.
+/// What a picture shows.
+struct MapRequest {
+    std::optional<GeoBox> box{}; ///< nothing: all that was driven
+    std::string title{};
+    MapStyle style{};                                            ///< with its class table
+    std::shared_ptr<const PlaneProjection> projection = nullptr; ///< null: spherical Mercator
+    int width_px = 0, height_px = 0;
+};
+
+/// What a picture of a store shows: the segments that come to lie on it, with their classes, the
+/// roads without a measurement, and the words around them.
 ///
-/// \throws InputError  if the store has no segment there.
-MapScene map_scene(const RoadStore& store,
-                   const std::optional<GeoBox>& box,
-                   const ClassTable& classes,
-                   const std::string& title,
-                   int least_passes = 1);
+/// \throws InputError  if the store has no segment in the box.
+MapScene map_scene(const RoadStore& store, const MapRequest& request);
 
 } // namespace macadam

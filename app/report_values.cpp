@@ -37,6 +37,9 @@ constexpr PictureSizes on_paper{2100, 700}; // 300 dots an inch on A4, of which 
                                             // share the width
 constexpr double least_map_shape = 0.625;   // height by width
 constexpr double most_map_shape = 0.893;
+
+// A picture of the highest shape shows at least what lower ones show of the same box.
+constexpr int most_width_px = 1120, most_height_px = 1000;
 constexpr double stretch_shape = 0.75;
 constexpr std::size_t most_changed = 10; // stretches of each kind
 constexpr double least_margin_m = 60;    // around a stretch: the next side streets
@@ -151,7 +154,10 @@ private:
 };
 
 MapScene whole_map(const RoadStore& store, const ClassTable& classes) {
-    auto scene = map_scene(store, std::nullopt, classes, "");
+    MapRequest request{.width_px = most_width_px, .height_px = most_height_px};
+    request.style.classes = &classes;
+    request.style.legend = false; // the page has its own
+    auto scene = map_scene(store, request);
     scene.subtitle.clear();    // the page says it
     scene.attribution.clear(); // likewise
     scene.scale_bar = false;   // likewise, in letters that a phone shows as large as all others
@@ -180,6 +186,7 @@ quiet_scene(const RoadStore& store, const RoadStretch& stretch, const ClassTable
     scene.lines = map_lines(store, around, classes);
     for (auto& line : scene.lines) {
         line.iri_class = -1;
+        line.name.clear(); // too small to read, and the words beside say where it is
     }
     return scene;
 }

@@ -76,6 +76,10 @@ inline constexpr int most_image_px = 16384; ///< what OSMesa can draw; more sile
 ///                     if OSMesa cannot draw.
 Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
 
+/// What of the globe that picture shows, up to its edges, also under title and legend; less than
+/// nothing beyond is drawn. In spherical Mercator alone: it leaves the scene's projection out.
+GeoBox ground_shown(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
+
 /// How much ground that picture shows from side to side, at half its height.
 double ground_width_m(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
 

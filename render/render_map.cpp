@@ -191,6 +191,16 @@ PlanePlace place_of(const MapScene& scene, const MapStyle& style, int width_px, 
     return plane_place(frame_of(scene, style, width_px, height_px));
 }
 
+GeoBox ground_shown(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
+    const auto frame = frame_of(scene, style, width_px, height_px);
+    const auto north_west = to_geo(frame, {0, 0});
+    const auto south_east = to_geo(frame, {double(width_px), double(height_px)});
+    return {.west_deg = north_west.lon_deg,
+            .south_deg = south_east.lat_deg,
+            .east_deg = south_east.lon_deg,
+            .north_deg = north_west.lat_deg};
+}
+
 double ground_width_m(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
     return width_px * metres_per_px(frame_of(scene, style, width_px, height_px), height_px / 2.0);
 }

@@ -190,6 +190,12 @@ struct StoreInfo {
     GeoBox box; ///< of segments with passes; of all if there are none
 };
 
+/// When the road was seen: the first and the last dated pass of all; nothing if none is dated.
+struct SeenSpan {
+    std::optional<std::int64_t> first_ms;
+    std::optional<std::int64_t> last_ms;
+};
+
 /// Where a network is from.
 struct NetworkSource {
     std::string name;        ///< as StoreSettings::network_source
@@ -356,6 +362,8 @@ public:
     std::vector<PassRecord> history(const SegmentKey& key) const;
 
     StoreInfo info() const;
+
+    SeenSpan seen() const;
 
     /// Each direction counted; in the order of (highway, class from smooth to rough).
     std::vector<RoadClassLength> road_class_lengths() const;

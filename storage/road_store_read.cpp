@@ -183,12 +183,18 @@ std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
     return passes;
 }
 
+SeenSpan RoadStore::seen() const {
+    auto select =
+        impl_->database.prepare("SELECT min(first_seen_ms), max(last_seen_ms) FROM segment_state");
+    select.step();
+    return {known_utc_ms(select, 0), known_utc_ms(select, 1)};
+}
+
 StoreInfo RoadStore::info() const {
     auto& database = impl_->database;
     Transaction one_moment{database, Transaction::Kind::read};
     const auto cover = cover_of(database);
-    auto seen = database.prepare("SELECT min(first_seen_ms), max(last_seen_ms) FROM segment_state");
-    seen.step();
+    const auto span = seen();
     return {.settings = impl_->settings,
             .trips = count(database, "SELECT count(*) FROM trip WHERE reference_ppm IS NULL"),
             .undated_trips = count(database,
@@ -206,8 +212,8 @@ StoreInfo RoadStore::info() const {
             .km = cover.length_m / 1000,
             .network_km = real_meta(database, "network_m") / 1000,
             .classes = lengths_of(database, impl_->classes()),
-            .first_seen_ms = known_utc_ms(seen, 0),
-            .last_seen_ms = known_utc_ms(seen, 1),
+            .first_seen_ms = span.first_ms,
+            .last_seen_ms = span.last_ms,
             .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
             .laid = laid_in(database),
             .generation = read_generation(database),
