@@ -55,7 +55,7 @@ std::vector<double>
 class_km_of(const RoadStore& store, const ClassTable& classes, int least_passes) {
     std::vector<double> km(classes.classes.size());
     store.visit({}, [&](const SegmentRecord& record) {
-        if (record.state && !has_few_passes(*record.state, least_passes)) {
+        if (record.state && !has_few_passes(record.state->passes, least_passes)) {
             const auto& segment = record.segment;
             km[class_index(classes, record.state->iri_um / 1000.0)] +=
                 (segment.to_m - segment.from_m) / 1000;
@@ -157,12 +157,12 @@ int rank_of(std::string_view highway) {
     return found != ranks.end() ? found->rank : highway.empty() ? 2 : 4;
 }
 
-bool has_few_passes(const SegmentState& state, int least_passes) {
-    return 0 < state.passes && state.passes < least_passes;
+bool has_few_passes(std::int32_t passes, int least_passes) {
+    return 0 < passes && passes < least_passes;
 }
 
-bool is_certain(const SegmentState& state) {
-    return state.sd_um <= certain_sd * state.iri_um;
+bool is_certain(IriUm iri_um, IriUm sd_um) {
+    return sd_um <= certain_sd * iri_um;
 }
 
 std::vector<MapLine>
@@ -180,8 +180,8 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, 
         line.name = record.name;
         if (record.state) {
             line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
-            line.few_passes = has_few_passes(*record.state, least_passes);
-            line.certain = is_certain(*record.state);
+            line.few_passes = has_few_passes(record.state->passes, least_passes);
+            line.certain = is_certain(record.state->iri_um, record.state->sd_um);
         }
         places.push_back({key.way_id, key.index, lines.size()});
         lines.push_back(std::move(line));

@@ -3,6 +3,7 @@
 #include "render/map.hpp"
 #include "storage/road_store.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,10 +16,10 @@ namespace macadam {
 int rank_of(std::string_view highway);
 
 /// Whether it is drawn in grey. References alone have no passes of cars and need none.
-bool has_few_passes(const SegmentState& state, int least_passes);
+bool has_few_passes(std::int32_t passes, int least_passes);
 
 /// Whether a line shows it in full width: its standard deviation is at most half of it.
-bool is_certain(const SegmentState& state);
+bool is_certain(IriUm iri_um, IriUm sd_um);
 
 /// The segments of a store that touch a box, in the order of their keys, with their classes; those
 /// without a pass as roads without a measurement, those with fewer than `least_passes` marked so. A

@@ -57,20 +57,21 @@ public:
     WayLines(const TileLineRules& rules, const ClassTable& classes, int least_passes)
         : rules_{rules}, classes_{classes}, least_passes_{least_passes} {}
 
-    void add(const SegmentRecord& record) {
-        const auto& key = record.segment.key;
+    void add(const SegmentGlance& segment) {
+        const auto& key = segment.key;
         if (key.way_id != way_id_) {
             finish();
             way_id_ = key.way_id;
-            rank_ = rank_of(record.highway);
-            name_ = record.name;
+            rank_ = rank_of(segment.highway);
+            name_ = segment.name;
         }
+        const auto& roughness = segment.roughness;
         bits_[key.forward ? 0 : 1].push_back(
             {key.index,
-             record.state ? record.state->iri_um : -1,
-             record.state && is_certain(*record.state),
-             record.state && has_few_passes(*record.state, least_passes_),
-             record.segment.line});
+             roughness ? roughness->iri_um : -1,
+             roughness && is_certain(roughness->iri_um, roughness->sd_um),
+             roughness && has_few_passes(roughness->passes, least_passes_),
+             {segment.line.begin(), segment.line.end()}});
     }
 
     std::vector<MapLine> lines() && {
@@ -233,7 +234,7 @@ std::vector<MapLine> tile_lines(const RoadStore& store,
     filter.box = grown(box, rules.margin_m);
     filter.with_state_only = false;
     WayLines ways{rules, classes, least_passes};
-    store.visit(filter, [&](const SegmentRecord& record) { ways.add(record); });
+    store.glance(filter, [&](const SegmentGlance& segment) { ways.add(segment); });
     return std::move(ways).lines();
 }
 

@@ -133,22 +133,27 @@ std::optional<GeoBox> box_of_geometry(std::string_view geometry) {
 }
 
 std::vector<GeoPoint> line_of_geometry(std::string_view geometry) {
+    std::vector<GeoPoint> line;
+    put_line_of_geometry(geometry, line);
+    return line;
+}
+
+void put_line_of_geometry(std::string_view geometry, std::vector<GeoPoint>& line) {
     constexpr std::size_t head = header_bytes + envelope_bytes;
+    line.clear();
     if (!is_ours(geometry) || number_at<std::uint32_t>(geometry, head + 1) != wkb_line_string) {
-        return {};
+        return;
     }
     const auto count = number_at<std::uint32_t>(geometry, head + 1 + sizeof(std::uint32_t));
     if (geometry.size() != head + line_head_bytes + count * point_bytes) {
-        return {};
+        return;
     }
-    std::vector<GeoPoint> line;
     line.reserve(count);
     for (std::size_t place = head + line_head_bytes; place < geometry.size();
          place += point_bytes) {
         line.push_back({.lat_deg = number_at<double>(geometry, place + sizeof(double)),
                         .lon_deg = number_at<double>(geometry, place)});
     }
-    return line;
 }
 
 } // namespace macadam

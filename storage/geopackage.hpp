@@ -55,4 +55,7 @@ std::optional<GeoBox> box_of_geometry(std::string_view geometry);
 /// The line of such a value. Empty if it is none.
 std::vector<GeoPoint> line_of_geometry(std::string_view geometry);
 
+/// Puts it in the place of a line that is not needed any more, whose memory it takes.
+void put_line_of_geometry(std::string_view geometry, std::vector<GeoPoint>& line);
+
 } // namespace macadam

@@ -354,6 +354,10 @@ public:
     void visit(const SegmentFilter& filter,
                const std::function<void(const SegmentRecord&)>& visit) const;
 
+    /// The same segments in the same order, in less time: only what a map shows of them.
+    void glance(const SegmentFilter& filter,
+                const std::function<void(const SegmentGlance&)>& visit) const;
+
     /// Passes over one segment, in the order of (trip hash, occurrence).
     std::vector<PassRecord> history(const SegmentKey& key) const;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "storage/geopackage.hpp"
+#include "storage/kept_statements.hpp"
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/store_schema.hpp"
@@ -28,6 +29,7 @@ struct RoadStore::Impl {
     void expect_same_network();
 
     Database database;
+    KeptStatements statements{database};
     StoreSettings settings;
     std::string network_hash; ///< as it was when the store was opened
 };

@@ -2,6 +2,7 @@
 #include "storage/fold_case.hpp"
 #include "storage/network_rows.hpp"
 #include "storage/road_store_impl.hpp"
+#include "storage/segment_lookup.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/strip_states.hpp"
 
@@ -41,164 +42,23 @@ bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
     return false;
 }
 
-// ------------------------------------------------------------------------------------ statements
-
-/// What leads to the rows, each by an index of its own.
-enum class Road { range, way, box, all };
-
-Road road_to(const SegmentFilter& filter) {
-    return filter.ranges || filter.key                                   ? Road::range
-           : filter.way_id || (!filter.name_part.empty() && !filter.box) ? Road::way
-           : filter.box                                                  ? Road::box
-                                                                         : Road::all;
-}
-
-/// The joins stand in the order in which they are to be done. Only fixed words come together here,
-/// never a value: those are bound by name.
-std::string select_of(const SegmentFilter& filter, bool rows_in_order) {
-    const auto road = road_to(filter);
-    const auto* const state = filter.with_state_only
-                                  ? " CROSS JOIN segment_state AS state ON state.fid = segment.fid"
-                                  : " LEFT JOIN segment_state AS state ON state.fid = segment.fid";
-    std::string sql = fmt::format("SELECT {} FROM ", record_columns);
-    if (road == Road::all && filter.with_state_only) {
-        sql += "segment_state AS state CROSS JOIN segment ON segment.fid = state.fid";
-    } else {
-        sql += "segment";
-        sql += state;
-    }
-    sql += " WHERE 1";
-    if (road == Road::box) {
-        sql += " AND segment.fid >= :first AND segment.fid <= :last";
-    }
-    if (road == Road::way) {
-        sql += " AND segment.way_id = :way";
-    }
-    if (road == Road::range) {
-        sql += " AND segment.way_id = :way AND segment.direction = :direction"
-               " AND segment.seq >= :first AND segment.seq < :past";
-    }
-    // The rows of one way always stand in the order of its keys.
-    return sql + " ORDER BY " +
-           (rows_in_order || road != Road::all ? "segment.fid" : order_of_keys);
-}
-
-/// Ways whose name holds the text in any case, in the order of their ids.
-std::vector<std::int64_t> ways_named(Database& database, const std::string& part) {
-    const auto folded_part = case_folded(part);
-    auto select = database.prepare("SELECT name, way_id FROM way WHERE name IS NOT NULL");
-    std::vector<std::int64_t> ways;
-    std::string name;
-    bool holds = false;
-    while (select.step()) {
-        if (auto other = select.text(0); other != name) { // neighbours in the index share names
-            name = std::move(other);
-            holds = case_folded(name).find(folded_part) != std::string::npos;
-        }
-        if (holds) {
-            ways.push_back(select.integer(1));
-        }
-    }
-    std::ranges::sort(ways);
-    return ways;
-}
-
-/// Rows that stand one after the other.
-struct RowRange {
-    std::int64_t first;
-    std::int64_t last;
-};
-
-/// Rows of segments that may meet the box, in the order of keys: SQLite would sort them with all
-/// their columns. Each range is of one way where rows as such are in no order.
-std::vector<RowRange> rows_near(Database& database, const GeoBox& box, bool rows_in_order) {
-    auto select = database.prepare(
-        fmt::format("SELECT id, {} FROM rtree_segment_geom AS place {} WHERE place.maxx >= ?"
-                    " AND place.minx <= ? AND place.maxy >= ? AND place.miny <= ?",
-                    rows_in_order ? "0" : "segment.way_id",
-                    rows_in_order ? "" : "CROSS JOIN segment ON segment.fid = place.id"));
-    std::vector<std::pair<std::int64_t, std::int64_t>> rows; // way, row
-    for (select.bind(box.west_deg, box.east_deg, box.south_deg, box.north_deg); select.step();) {
-        rows.emplace_back(select.integer(1), select.integer(0));
-    }
-    std::ranges::sort(rows);
-    std::vector<RowRange> ranges;
-    std::int64_t way = 0;
-    for (const auto& [way_of_row, row] : rows) {
-        if (ranges.empty() || way_of_row != way || row != ranges.back().last + 1) {
-            ranges.push_back({row, row});
-        }
-        way = way_of_row;
-        ranges.back().last = row;
-    }
-    return ranges;
-}
-
-std::vector<SegmentRange> ranges_of(const SegmentFilter& filter) {
-    if (filter.ranges) {
-        return *filter.ranges;
-    }
-    const auto& [way_id, forward, index] = *filter.key;
-    return {{way_id, forward, index, index + 1}};
-}
-
-/// Runs the statement for each look-up in turn. \param row  is given the statement at each row.
-template <typename Row>
-void each_row(Database& database, const SegmentFilter& filter, const Row& row) {
-    const bool rows_in_order = are_rows_in_order(database);
-    auto select = database.prepare(select_of(filter, rows_in_order));
-    const auto run = [&] {
-        while (select.step()) {
-            row(select);
-        }
-        select.reset();
-    };
-    switch (road_to(filter)) {
-    case Road::range:
-        for (const auto& range : ranges_of(filter)) {
-            select.bind_named(":way", range.way_id);
-            select.bind_named(":direction", range.forward ? "forward" : "backward");
-            select.bind_named(":first", std::int64_t{range.first});
-            select.bind_named(":past", std::int64_t{range.past});
-            run();
-        }
-        return;
-    case Road::way:
-        for (const auto way :
-             filter.way_id ? std::vector{*filter.way_id} : ways_named(database, filter.name_part)) {
-            select.bind_named(":way", way);
-            run();
-        }
-        return;
-    case Road::box:
-        for (const auto& [first, last] : rows_near(database, *filter.box, rows_in_order)) {
-            select.bind_named(":first", first);
-            select.bind_named(":last", last);
-            run();
-        }
-        return;
-    case Road::all:
-        run();
-    }
-}
-
 // -------------------------------------------------------------------------------------- records
 
 /// What ways are called. Rows of a way come one after the other: joined, it would be looked up for
 /// each of its segments.
 class RoadNames {
 public:
-    explicit RoadNames(Database& database)
-        : select_{database.prepare("SELECT name, highway FROM way WHERE way_id = ?")} {}
+    explicit RoadNames(KeptStatements& statements)
+        : select_{statements, "SELECT name, highway FROM way WHERE way_id = ?"} {}
 
     /// \returns false for a way that the store does not have.
     bool find(std::int64_t way_id) {
         if (way_id != way_id_) {
             way_id_ = way_id;
-            is_there_ = select_.bind(way_id).step();
-            name_ = is_there_ ? select_.text(0) : "";
-            highway_ = is_there_ ? select_.text(1) : "";
-            select_.reset();
+            is_there_ = select_->bind(way_id).step();
+            name_ = is_there_ ? select_->text(0) : "";
+            highway_ = is_there_ ? select_->text(1) : "";
+            select_->reset();
         }
         return is_there_;
     }
@@ -208,7 +68,7 @@ public:
     const std::string& highway() const { return highway_; }
 
 private:
-    Statement select_;
+    KeptStatements::Loan select_;
     std::optional<std::int64_t> way_id_;
     bool is_there_ = false;
     std::string name_;
@@ -325,30 +185,45 @@ private:
     std::vector<SegmentRecord> records_; ///< a heap, the least rough at its front
 };
 
-} // namespace
+// -------------------------------------------------------------------------------------- reading
 
-void RoadStore::visit(const SegmentFilter& filter,
-                      const std::function<void(const SegmentRecord&)>& visitor) const {
-    auto& database = impl_->database;
-    Transaction one_moment{database, Transaction::Kind::read};
+/// A store that is read.
+struct Source {
+    Database& database;
+    KeptStatements& statements;
+    double segment_length_m;
+    const ClassTable& classes;
+};
+
+/// What is read of each row.
+struct Detail {
+    const char* columns;
+    void (*put_in)(const Statement& row, SegmentRecord& record);
+};
+
+void each_record(const Source& source,
+                 const Detail& detail,
+                 const SegmentFilter& filter,
+                 const std::function<void(const SegmentRecord&)>& visitor) {
+    Transaction one_moment{source.database, Transaction::Kind::read};
     std::optional<ChosenStates> chosen;
     if (filter.period || filter.cars_alone) {
-        chosen.emplace(database,
-                       impl_->settings.segment_length_m,
-                       PassChoice{filter.period, filter.cars_alone});
+        chosen.emplace(
+            source.database, source.segment_length_m, PassChoice{filter.period, filter.cars_alone});
     }
-    const Conditions conditions{filter, impl_->classes()};
+    const Conditions conditions{filter, source.classes};
     Roughest roughest{filter.worst};
-    RoadNames names{database};
-    each_row(database, filter, [&](const Statement& row) {
+    RoadNames names{source.statements};
+    SegmentRecord record; // of one row after the other, in the same memory
+    const auto take = [&](const Statement& row) {
         if (!names.find(row.integer(0)) ||
             (!filter.highway.empty() && filter.highway != names.highway())) {
             return;
         }
-        auto record = record_in(row);
+        detail.put_in(row, record);
         record.name = names.name();
         record.highway = names.highway();
-        expect_line(record, database);
+        expect_line(record, source.database);
         if (chosen) {
             record.state = chosen->of(record.segment.key);
         }
@@ -360,10 +235,40 @@ void RoadStore::visit(const SegmentFilter& filter,
         } else {
             visitor(record);
         }
-    });
-    for (const auto& record : std::move(roughest).sorted()) {
-        visitor(record);
+    };
+    each_segment_row(source.statements, source.database, filter, detail.columns, take);
+    for (const auto& each : std::move(roughest).sorted()) {
+        visitor(each);
     }
+}
+
+SegmentGlance glance_of(const SegmentRecord& record) {
+    SegmentGlance glance{
+        record.segment.key, record.segment.line, record.name, record.highway, std::nullopt};
+    if (const auto& state = record.state) {
+        glance.roughness = {state->iri_um, state->sd_um, state->passes};
+    }
+    return glance;
+}
+
+} // namespace
+
+void RoadStore::visit(const SegmentFilter& filter,
+                      const std::function<void(const SegmentRecord&)>& visitor) const {
+    each_record(
+        {impl_->database, impl_->statements, impl_->settings.segment_length_m, impl_->classes()},
+        {record_columns, put_record_in},
+        filter,
+        visitor);
+}
+
+void RoadStore::glance(const SegmentFilter& filter,
+                       const std::function<void(const SegmentGlance&)>& visitor) const {
+    each_record(
+        {impl_->database, impl_->statements, impl_->settings.segment_length_m, impl_->classes()},
+        {glance_columns, put_glance_in},
+        filter,
+        [&](const SegmentRecord& record) { visitor(glance_of(record)); });
 }
 
 } // namespace macadam

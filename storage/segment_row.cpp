@@ -41,6 +41,13 @@ std::optional<RoadChange> known_change_in(const Statement& row, int column) {
     return utc_ms ? std::optional{RoadChange{*utc_ms, um_in(row, column + 1)}} : std::nullopt;
 }
 
+// Words are compared as the bytes that they are: no string is made of them.
+
+/// Of the first three columns.
+SegmentKey key_in(const Statement& row) {
+    return {row.integer(0), row.blob(1) == "forward", static_cast<std::uint32_t>(row.integer(2))};
+}
+
 constexpr int first_state_column = 6;
 
 SegmentState state_in(const Statement& row, const SegmentKey& segment) {
@@ -52,7 +59,7 @@ SegmentState state_in(const Statement& row, const SegmentKey& segment) {
             .high_um = um_in(row, c + 3),
             .left_um = known_um_in(row, c + 4),
             .right_um = known_um_in(row, c + 5),
-            .centre_only = row.text(c + 6) != "MRI",
+            .centre_only = row.blob(c + 6) != "MRI",
             .validity = static_cast<std::uint8_t>(row.integer(c + 15)),
             .passes = static_cast<std::int32_t>(row.integer(c + 7)),
             .vehicles = static_cast<std::int32_t>(row.integer(c + 8)),
@@ -73,13 +80,39 @@ const char* const record_columns =
     " state.changed_ms, state.change, state.flags";
 
 SegmentRecord record_in(const Statement& row) {
-    const SegmentKey key{
-        row.integer(0), row.text(1) == "forward", static_cast<std::uint32_t>(row.integer(2))};
-    return {.segment = {key, row.real(3), row.real(4), line_of_geometry(row.blob(5))},
-            .name = {},
-            .highway = {},
-            .state =
-                row.is_null(first_state_column) ? std::nullopt : std::optional{state_in(row, key)}};
+    SegmentRecord record;
+    put_record_in(row, record);
+    return record;
+}
+
+void put_record_in(const Statement& row, SegmentRecord& record) {
+    auto& segment = record.segment;
+    segment.key = key_in(row);
+    segment.from_m = row.real(3);
+    segment.to_m = row.real(4);
+    put_line_of_geometry(row.blob(5), segment.line);
+    if (row.is_null(first_state_column)) {
+        record.state.reset();
+    } else {
+        record.state = state_in(row, segment.key);
+    }
+}
+
+const char* const glance_columns = "segment.way_id, segment.direction, segment.seq, segment.geom,"
+                                   " state.iri, state.iri_sd, state.passes";
+
+void put_glance_in(const Statement& row, SegmentRecord& record) {
+    constexpr int c = 4;
+    record.segment.key = key_in(row);
+    put_line_of_geometry(row.blob(3), record.segment.line);
+    record.state.reset();
+    if (!row.is_null(c)) {
+        auto& state = record.state.emplace();
+        state.segment = record.segment.key;
+        state.iri_um = um_in(row, c);
+        state.sd_um = um_in(row, c + 1);
+        state.passes = static_cast<std::int32_t>(row.integer(c + 2));
+    }
 }
 
 const char* const insert_state = "INSERT OR REPLACE INTO segment_state";

@@ -20,6 +20,14 @@ namespace macadam {
 extern const char* const record_columns;
 SegmentRecord record_in(const Statement& row);
 
+/// The same in the place of a record that is not needed any more, whose memory it takes; the name
+/// and the class of its way stay.
+void put_record_in(const Statement& row, SegmentRecord& record);
+
+/// The same as far as a SegmentGlance tells of it: each column takes its time.
+extern const char* const glance_columns;
+void put_glance_in(const Statement& row, SegmentRecord& record);
+
 extern const char* const insert_state;
 inline constexpr int state_column_count = 22;
 void write_state(BulkInsert& insert,

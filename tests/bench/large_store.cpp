@@ -157,17 +157,15 @@ SegmentFilter around(const Segment& segment, double lat_deg, double lon_deg) {
     return filter;
 }
 
-template <typename Question>
-void ask(std::string_view what,
-         const RoadStore& store,
-         const RoadNetwork& roads,
-         Question question) {
+/// \param answer  asks the store by a filter; returns how many segments it got.
+template <typename Question, typename Answer>
+void ask(std::string_view what, const RoadNetwork& roads, Question question, Answer answer) {
     std::vector<double> ms;
     std::size_t found = 0;
     for (int i = 0; i < questions; ++i) {
         const auto filter = question(place(roads, i));
         const double begin_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
-        store.visit(filter, [&](const SegmentRecord&) { ++found; });
+        found += answer(filter);
         ms.push_back(1e3 * (cpu_s(CLOCK_THREAD_CPUTIME_ID) - begin_s));
     }
     row(fmt::format("{} ({} segments), CPU", what, found / questions), spread(ms));
@@ -175,18 +173,33 @@ void ask(std::string_view what,
 
 void ask_all(const fs::path& file, const RoadNetwork& roads) {
     const auto store = RoadStore::open(file, RoadStore::Access::read);
-    ask("box", store, roads, [](const Segment& at) { return around(at, 0.0034, 0.0068); });
-    ask("near", store, roads, [](const Segment& at) { return around(at, 0.0002, 0.0003); });
-    ask("way", store, roads, [](const Segment& at) {
+    const auto all_of = [&](const SegmentFilter& filter) {
+        std::size_t count = 0;
+        store.visit(filter, [&](const SegmentRecord&) { ++count; });
+        return count;
+    };
+    const auto glance_at = [&](const SegmentFilter& filter) {
+        std::size_t count = 0;
+        store.glance(filter, [&](const SegmentGlance&) { ++count; });
+        return count;
+    };
+    const auto box = [](const Segment& at) { return around(at, 0.0034, 0.0068); };
+    ask("box", roads, box, all_of);
+    ask("box, at a glance", roads, box, glance_at);
+    ask(
+        "near", roads, [](const Segment& at) { return around(at, 0.0002, 0.0003); }, all_of);
+    const auto way = [](const Segment& at) {
         SegmentFilter filter;
         filter.way_id = at.key.way_id;
         return filter;
-    });
-    ask("segment", store, roads, [](const Segment& at) {
+    };
+    ask("way", roads, way, all_of);
+    const auto segment = [](const Segment& at) {
         SegmentFilter filter;
         filter.key = at.key;
         return filter;
-    });
+    };
+    ask("segment", roads, segment, all_of);
 }
 
 /// A reader opens the store and asks by box, again and again, while a writer adds trips and fuses.

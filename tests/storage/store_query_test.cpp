@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
 
 namespace macadam {
 namespace {
@@ -65,6 +66,69 @@ TEST(StoreQuery, FindsNamesInAnyCaseWithAccents) {
     EXPECT_EQ(named("_lane_"),
               keys_where(store, [](auto& record) { return record.segment.key.way_id == 2; }));
     EXPECT_THAT(named("x_lane"), IsEmpty()); // no wildcard
+}
+
+TEST(StoreQuery, ShowsAtAGlanceWhatAVisitTells) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    import_trips(store, 3);
+    store.refresh();
+    SegmentFilter everything;
+    everything.with_state_only = false;
+    SegmentFilter worst;
+    worst.worst = 3;
+    SegmentFilter of_a_time;
+    of_a_time.period = Period{.from_ms = 0, .until_ms = {}};
+    for (const auto& filter : {SegmentFilter{}, everything, worst, of_a_time}) {
+        const auto records = records_of(store, filter);
+        ASSERT_THAT(records, Not(IsEmpty()));
+        std::size_t seen = 0;
+        store.glance(filter, [&](const SegmentGlance& glance) {
+            ASSERT_LT(seen, records.size());
+            const auto& [segment, name, highway, state] = records[seen++];
+            EXPECT_EQ(glance.key, segment.key);
+            EXPECT_TRUE(std::ranges::equal(glance.line, segment.line));
+            EXPECT_EQ(glance.name, name);
+            EXPECT_EQ(glance.highway, highway);
+            ASSERT_EQ(glance.roughness.has_value(), state.has_value());
+            if (state) {
+                EXPECT_EQ(glance.roughness->iri_um, state->iri_um);
+                EXPECT_EQ(glance.roughness->sd_um, state->sd_um);
+                EXPECT_EQ(glance.roughness->passes, state->passes);
+            }
+        });
+        EXPECT_EQ(seen, records.size());
+    }
+}
+
+TEST(StoreQuery, AnswersWhileItIsStillTelling) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    import_trips(store, 2);
+    store.refresh();
+    SegmentFilter everywhere;
+    everywhere.box = GeoBox{-180, -90, 180, 90};
+    const auto keys = keys_of(records_of(store, everywhere));
+    std::vector<std::string> outer;
+    store.visit(everywhere, [&](const SegmentRecord& record) {
+        EXPECT_EQ(keys_of(records_of(store, everywhere)), keys);
+        outer.push_back(name_of(record.segment.key));
+    });
+    EXPECT_EQ(outer, keys);
+}
+
+TEST(StoreQuery, AnswersAnewAfterItWasInterrupted) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    import_trips(store, 2);
+    store.refresh();
+    SegmentFilter everywhere;
+    everywhere.box = GeoBox{-180, -90, 180, 90};
+    const auto before = keys_of(records_of(store, everywhere));
+    ASSERT_GT(before.size(), 1U);
+    const auto interrupt = [](const SegmentRecord&) { throw std::runtime_error{"enough"}; };
+    EXPECT_THROW(store.visit(everywhere, interrupt), std::runtime_error);
+    import_trips(store, 3); // a reading that went on would be of the moment before
+    store.refresh();
+    EXPECT_EQ(keys_of(records_of(store, everywhere)),
+              keys_where(store, [](const auto& record) { return record.state.has_value(); }));
 }
 
 TEST(StoreQuery, AddsUpConditions) {

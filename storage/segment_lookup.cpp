@@ -1,0 +1,153 @@
+#include "storage/segment_lookup.hpp"
+
+#include "storage/fold_case.hpp"
+#include "storage/store_schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+/// What leads to the rows, each by an index of its own.
+enum class Road { range, way, box, all };
+
+Road road_to(const SegmentFilter& filter) {
+    return filter.ranges || filter.key                                   ? Road::range
+           : filter.way_id || (!filter.name_part.empty() && !filter.box) ? Road::way
+           : filter.box                                                  ? Road::box
+                                                                         : Road::all;
+}
+
+/// The joins stand in the order in which they are to be done. Only fixed words come together here,
+/// never a value: those are bound.
+std::string select_of(const SegmentFilter& filter, const char* columns, bool rows_in_order) {
+    const auto road = road_to(filter);
+    const auto* const state = filter.with_state_only
+                                  ? " CROSS JOIN segment_state AS state ON state.fid = segment.fid"
+                                  : " LEFT JOIN segment_state AS state ON state.fid = segment.fid";
+    std::string sql = fmt::format("SELECT {} FROM ", columns);
+    if (road == Road::all && filter.with_state_only) {
+        sql += "segment_state AS state CROSS JOIN segment ON segment.fid = state.fid";
+    } else {
+        sql += "segment";
+        sql += state;
+    }
+    sql += " WHERE 1";
+    if (road == Road::box) {
+        sql += " AND segment.fid >= ? AND segment.fid <= ?";
+    }
+    if (road == Road::way) {
+        sql += " AND segment.way_id = ?";
+    }
+    if (road == Road::range) {
+        sql += " AND segment.way_id = ? AND segment.direction = ?"
+               " AND segment.seq >= ? AND segment.seq < ?";
+    }
+    // The rows of one way always stand in the order of its keys.
+    return sql + " ORDER BY " +
+           (rows_in_order || road != Road::all ? "segment.fid" : order_of_keys);
+}
+
+/// Ways whose name holds the text in any case, in the order of their ids.
+std::vector<std::int64_t> ways_named(Database& database, const std::string& part) {
+    const auto folded_part = case_folded(part);
+    auto select = database.prepare("SELECT name, way_id FROM way WHERE name IS NOT NULL");
+    std::vector<std::int64_t> ways;
+    std::string name;
+    bool holds = false;
+    while (select.step()) {
+        if (auto other = select.text(0); other != name) { // neighbours in the index share names
+            name = std::move(other);
+            holds = case_folded(name).find(folded_part) != std::string::npos;
+        }
+        if (holds) {
+            ways.push_back(select.integer(1));
+        }
+    }
+    std::ranges::sort(ways);
+    return ways;
+}
+
+/// Rows that stand one after the other.
+struct RowRange {
+    std::int64_t first;
+    std::int64_t last;
+};
+
+/// Rows of segments that may meet the box, in the order of keys: SQLite would sort them with all
+/// their columns. Each range is of one way where rows as such are in no order.
+std::vector<RowRange> rows_near(KeptStatements& statements, const GeoBox& box, bool rows_in_order) {
+    KeptStatements::Loan select{
+        statements,
+        fmt::format("SELECT id, {} FROM rtree_segment_geom AS place {} WHERE place.maxx >= ?"
+                    " AND place.minx <= ? AND place.maxy >= ? AND place.miny <= ?",
+                    rows_in_order ? "0" : "segment.way_id",
+                    rows_in_order ? "" : "CROSS JOIN segment ON segment.fid = place.id")};
+    std::vector<std::pair<std::int64_t, std::int64_t>> rows; // way, row
+    for (select->bind(box.west_deg, box.east_deg, box.south_deg, box.north_deg); select->step();) {
+        rows.emplace_back(select->integer(1), select->integer(0));
+    }
+    std::ranges::sort(rows);
+    std::vector<RowRange> ranges;
+    std::int64_t way = 0;
+    for (const auto& [way_of_row, row] : rows) {
+        if (ranges.empty() || way_of_row != way || row != ranges.back().last + 1) {
+            ranges.push_back({row, row});
+        }
+        way = way_of_row;
+        ranges.back().last = row;
+    }
+    return ranges;
+}
+
+std::vector<SegmentRange> ranges_of(const SegmentFilter& filter) {
+    if (filter.ranges) {
+        return *filter.ranges;
+    }
+    const auto& [way_id, forward, index] = *filter.key;
+    return {{way_id, forward, index, index + 1}};
+}
+
+} // namespace
+
+void each_segment_row(KeptStatements& statements,
+                      Database& database,
+                      const SegmentFilter& filter,
+                      const char* columns,
+                      const std::function<void(const Statement&)>& row) {
+    const bool rows_in_order = are_rows_in_order(database);
+    KeptStatements::Loan select{statements, select_of(filter, columns, rows_in_order)};
+    const auto run = [&](const auto&... values) {
+        for (select->bind(values...); select->step();) {
+            row(*select);
+        }
+    };
+    switch (road_to(filter)) {
+    case Road::range:
+        for (const auto& [way_id, forward, first, past] : ranges_of(filter)) {
+            run(way_id, forward ? "forward" : "backward", std::int64_t{first}, std::int64_t{past});
+        }
+        return;
+    case Road::way:
+        for (const auto way :
+             filter.way_id ? std::vector{*filter.way_id} : ways_named(database, filter.name_part)) {
+            run(way);
+        }
+        return;
+    case Road::box:
+        for (const auto& [first, last] : rows_near(statements, *filter.box, rows_in_order)) {
+            run(first, last);
+        }
+        return;
+    case Road::all:
+        run();
+    }
+}
+
+} // namespace macadam

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "storage/kept_statements.hpp"
+#include "storage/road_store.hpp"
+#include "storage/sqlite.hpp"
+
+#include <functional>
+
+namespace macadam {
+
+/// Finds the rows of all segments that a filter means, each by an index where there is one, in the
+/// order in which RoadStore::visit tells of them. There may be others among them: conditions that
+/// no index serves are left to the caller.
+///
+/// \param columns  of the tables segment and state (storage/segment_row.hpp)
+/// \param row      is given the statement at each row
+void each_segment_row(KeptStatements& statements,
+                      Database& database,
+                      const SegmentFilter& filter,
+                      const char* columns,
+                      const std::function<void(const Statement&)>& row);
+
+} // namespace macadam
