@@ -5,7 +5,7 @@
 
 namespace macadam {
 
-LabelGround::LabelGround(const PixelBox& cell, std::span<const RoadPart> parts, double square_px)
+LabelGround::LabelGround(const PixelBox& cell, std::span<const NamedPart> parts, double square_px)
     : square_px_{square_px}, columns_{int(std::ceil(cell.width() / square_px))},
       rows_{int(std::ceil(cell.height() / square_px))},
       road_(std::size_t(columns_) * std::size_t(rows_)) {
@@ -14,7 +14,7 @@ LabelGround::LabelGround(const PixelBox& cell, std::span<const RoadPart> parts, 
     }
 }
 
-void LabelGround::mark(const RoadPart& part) {
+void LabelGround::mark(const NamedPart& part) {
     const double reach = part.half_width_px / square_px_;
     const auto mark_around = [&](double x, double y) {
         const int left = std::max(0, int(std::floor(x - reach)));

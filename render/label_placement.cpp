@@ -23,7 +23,7 @@ constexpr double cost_of_distance = 0.6; // at half way to the next label
 constexpr double cost_below = 0.08;      // names above their road are more usual
 
 struct Road {
-    RoadPart part;
+    NamedPart part;
     LabelPath path;
 };
 
@@ -67,7 +67,7 @@ bool overlap(const PixelBox& a, const PixelBox& b) {
     return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
 
-std::vector<Road> roads_by_weight(const std::vector<RoadPart>& parts) {
+std::vector<Road> roads_by_weight(const std::vector<NamedPart>& parts) {
     std::vector<Road> roads;
     for (auto& chain : named_chains(parts)) {
         LabelPath path{chain.line};
@@ -84,7 +84,7 @@ class Placing {
 public:
     Placing(const LabelCell& cell,
             const LabelConfig& config,
-            const std::vector<RoadPart>& parts,
+            const std::vector<NamedPart>& parts,
             TypeSetter& setter)
         : cell_{&cell}, config_{&config}, setter_{&setter}, ground_{
                                                                 cell.box,

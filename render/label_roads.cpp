@@ -127,7 +127,7 @@ bool may_touch(const RoadName& road, const PixelBox& cell) {
            box.top <= cell.bottom && cell.top <= box.bottom;
 }
 
-bool part_before(const RoadPart& a, const RoadPart& b) {
+bool part_before(const NamedPart& a, const NamedPart& b) {
     if (a.name != b.name) {
         return a.name < b.name;
     }
@@ -160,7 +160,7 @@ std::pair<std::int64_t, std::int64_t> place_of(const PixelPoint& point) {
 
 using Places = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Arm>>;
 
-Places places_of(std::span<const RoadPart> parts) {
+Places places_of(std::span<const NamedPart> parts) {
     Places places;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto& line = parts[i].line;
@@ -201,7 +201,7 @@ void join_at(const std::vector<Arm>& arms, Partners& partners) {
     }
 }
 
-Partners partners_of(std::span<const RoadPart> parts) {
+Partners partners_of(std::span<const NamedPart> parts) {
     Partners partners(parts.size(), {std::pair{nothing, false}, std::pair{nothing, false}});
     for (const auto& [place, arms] : places_of(parts)) {
         join_at(arms, partners);
@@ -209,7 +209,7 @@ Partners partners_of(std::span<const RoadPart> parts) {
     return partners;
 }
 
-void append(RoadPart& chain, const RoadPart& part, bool backwards) {
+void append(NamedPart& chain, const NamedPart& part, bool backwards) {
     auto line = part.line;
     if (backwards) {
         std::ranges::reverse(line);
@@ -221,10 +221,10 @@ void append(RoadPart& chain, const RoadPart& part, bool backwards) {
 }
 
 /// All of one name.
-std::vector<RoadPart> chains_of(std::span<const RoadPart> parts) {
+std::vector<NamedPart> chains_of(std::span<const NamedPart> parts) {
     const auto partners = partners_of(parts);
     std::vector<bool> taken(parts.size(), false);
-    std::vector<RoadPart> chains;
+    std::vector<NamedPart> chains;
     const auto follow = [&](std::size_t start, bool backwards) {
         auto chain = parts[start];
         chain.line.clear();
@@ -254,9 +254,9 @@ std::vector<RoadPart> chains_of(std::span<const RoadPart> parts) {
 
 } // namespace
 
-std::vector<RoadPart> parts_in(std::span<const RoadName> roads, const PixelBox& cell) {
+std::vector<NamedPart> parts_in(std::span<const RoadName> roads, const PixelBox& cell) {
     const PixelBox room{0, 0, cell.width(), cell.height()};
-    std::vector<RoadPart> parts;
+    std::vector<NamedPart> parts;
     for (const auto& road : roads) {
         if (!may_touch(road, cell)) {
             continue;
@@ -267,15 +267,15 @@ std::vector<RoadPart> parts_in(std::span<const RoadName> roads, const PixelBox& 
         }
     }
     std::ranges::sort(parts, part_before);
-    const auto twins = std::ranges::unique(parts, [](const RoadPart& a, const RoadPart& b) {
+    const auto twins = std::ranges::unique(parts, [](const NamedPart& a, const NamedPart& b) {
         return a.name == b.name && a.line == b.line;
     });
     parts.erase(twins.begin(), twins.end());
     return parts;
 }
 
-std::vector<RoadPart> named_chains(const std::vector<RoadPart>& parts) {
-    std::vector<RoadPart> chains;
+std::vector<NamedPart> named_chains(const std::vector<NamedPart>& parts) {
+    std::vector<NamedPart> chains;
     for (std::size_t first = 0; first < parts.size();) {
         std::size_t last = first;
         while (last < parts.size() && parts[last].name == parts[first].name) {

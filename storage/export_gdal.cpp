@@ -13,8 +13,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace macadam {
@@ -179,6 +181,49 @@ std::vector<std::string> stale_beside(const std::string& stem) {
     return names;
 }
 
+std::string bytes_of(const std::filesystem::path& file, std::size_t count) {
+    std::ifstream in{file, std::ios::binary};
+    std::string bytes(count, '\0');
+    in.read(bytes.data(), static_cast<std::streamsize>(count));
+    return bytes;
+}
+
+/// An unsigned number of so many bytes, the most significant first; reversed: last.
+std::uint64_t number_in(std::string_view bytes) {
+    std::uint64_t number = 0;
+    for (const char byte : bytes) {
+        number = number << 8U | static_cast<unsigned char>(byte);
+    }
+    return number;
+}
+
+std::uint64_t reversed_number_in(std::string_view bytes) {
+    return number_in(std::string{bytes.rbegin(), bytes.rend()});
+}
+
+/// GDAL is silent where the end of a Shapefile did not reach a full disk; but the heads of its
+/// files say how long they are.
+///
+/// Source: ESRI Shapefile Technical Description (1998), pp. 4 and 23 (length in words of 16 bits at
+/// byte 24); dBASE III: records at byte 4, length of the head at 8, of a record at 10.
+bool is_whole_shapefile(std::filesystem::path shp, std::size_t features) {
+    const auto is_as_long_as = [](const std::filesystem::path& file, std::uint64_t bytes) {
+        return bytes <= std::filesystem::file_size(file);
+    };
+    const auto shapes = 2 * number_in(bytes_of(shp, 28).substr(24));
+    auto shx = shp;
+    shx.replace_extension(".shx");
+    const auto index = 2 * number_in(bytes_of(shx, 28).substr(24));
+    auto dbf = shp;
+    dbf.replace_extension(".dbf");
+    const auto head = bytes_of(dbf, 12);
+    const auto records = reversed_number_in(head.substr(4, 4));
+    const auto table =
+        reversed_number_in(head.substr(8, 2)) + records * reversed_number_in(head.substr(10, 2));
+    return is_as_long_as(shp, shapes) && index == 100 + 8 * features && is_as_long_as(shx, index) &&
+           records == features && is_as_long_as(dbf, table);
+}
+
 } // namespace
 
 std::size_t export_flatgeobuf(const SegmentExport& what) {
@@ -232,6 +277,10 @@ std::size_t export_shapefile(const SegmentExport& what) {
     const auto written = write_lines(what, file, [](const SegmentRecord& record) {
         return cut_at_antimeridian(record.segment.line);
     });
+    if (!is_whole_shapefile(file.file, written)) {
+        throw InputError{
+            fmt::format("{}: cannot be written; the disk may be full", what.file.string())};
+    }
     files.commit(stale_beside(stem));
     return written;
 }

@@ -251,7 +251,7 @@ TEST_F(Reference, RefusesWithWords) {
     EXPECT_THAT(report.err, HasSubstr("holds no reference survey and no control section"));
     const auto picture = run_macadam({"report", store_, "--against-reference", "-o", "a.png"});
     EXPECT_EQ(picture.exit_status, 2);
-    EXPECT_THAT(picture.err, HasSubstr("expected a name that ends in .html, .json or .csv"));
+    EXPECT_THAT(picture.err, HasSubstr("expected a name that ends in .html, .pdf, .json or .csv"));
 }
 
 } // namespace
