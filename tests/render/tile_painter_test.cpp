@@ -179,9 +179,11 @@ TEST(TilePainter, KeepsEachDirectionToItsSideFromZoom13On) {
 }
 
 TEST(TilePainter, ShowsTheWorseDirectionBelowZoom13) {
-    for (const auto& image :
-         {drawn(12, [](const WorldWindow& window) { return there_and_back(window, 0, 2); }),
-          drawn(12, [](const WorldWindow& window) { return there_and_back(window, 2, 0); })}) {
+    TilePainter painter{{{}, 256, 1}};
+    const auto tile = tile_at(12);
+    const auto window = window_of(tile, 256, 1);
+    for (const auto& [there, back] : {std::pair{0, 2}, std::pair{2, 0}}) {
+        const auto image = painter.draw(tile, there_and_back(window, there, back));
         EXPECT_FALSE(rows_of(image, poor).empty());
         EXPECT_TRUE(rows_of(image, good).empty());
     }
