@@ -178,7 +178,15 @@ TEST(TilePainter, KeepsEachDirectionToItsSideFromZoom13On) {
     EXPECT_LT(rows_of(left, good).back(), rows_of(left, poor).front());
 }
 
-TEST(TilePainter, ShowsTheWorseDirectionBelowZoom13) {
+TEST(TilePainter, TakesTilesOf512PixelsForTheZoomAtWhichTheyAreDrawn) {
+    const auto tile = tile_at(12);
+    TilePainter painter{{{}, 512, 1}};
+    const auto image = painter.draw(tile, there_and_back(window_of(tile, 512, 1), 0, 2));
+    EXPECT_FALSE(rows_of(image, poor).empty());
+    EXPECT_FALSE(rows_of(image, good).empty());
+}
+
+TEST(TilePainter, ShowsTheWorseOfTwoDirectionsFarAway) {
     TilePainter painter{{{}, 256, 1}};
     const auto tile = tile_at(12);
     const auto window = window_of(tile, 256, 1);
@@ -187,14 +195,6 @@ TEST(TilePainter, ShowsTheWorseDirectionBelowZoom13) {
         EXPECT_FALSE(rows_of(image, poor).empty());
         EXPECT_TRUE(rows_of(image, good).empty());
     }
-}
-
-TEST(TilePainter, TakesTilesOf512PixelsForTheZoomAtWhichTheyAreDrawn) {
-    const auto tile = tile_at(12);
-    TilePainter painter{{{}, 512, 1}};
-    const auto image = painter.draw(tile, there_and_back(window_of(tile, 512, 1), 0, 2));
-    EXPECT_FALSE(rows_of(image, poor).empty());
-    EXPECT_FALSE(rows_of(image, good).empty());
 }
 
 TEST(TilePainter, WidensLinesFrom1PixelAtZoom10To6AtZoom16) {
