@@ -214,7 +214,7 @@ VectorXd weights_of(const Readings& readings, const Trust& trust) {
 }
 
 /// By how much the passes scatter more than they claim, at least 1.
-double excess(const Readings& readings, const RoadLevel& level, const VectorXd& weights) {
+double excess(const Readings& readings, const RoughnessLevel& level, const VectorXd& weights) {
     const VectorXd variances = variances_of(readings);
     const VectorXd trust = weights.cwiseProduct(variances);
     const VectorXd off = readings.values - level.expected_um;
@@ -270,7 +270,7 @@ SegmentState gathered(std::span<const FusionInput> passes) {
     return state;
 }
 
-SegmentState with_level(SegmentState state, const RoadLevel& level, double sd_um) {
+SegmentState with_level(SegmentState state, const RoughnessLevel& level, double sd_um) {
     state.iri_um = std::max(0, whole_um(level.um));
     state.sd_um = std::max(1, whole_um(sd_um));
     state.low_um = std::max(0, whole_um(level.um - interval_90 * sd_um));
@@ -335,7 +335,7 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     }
     auto tail = config.tail;
     tail.scatter_sd = scatter_um(values, variances_of(weighed));
-    const auto level = road_level(weighed, times_of(sorted), middle_um, tail, config.change);
+    const auto level = roughness_level(weighed, times_of(sorted), middle_um, tail, config.change);
 
     const auto weights = weights_of(weighed, level.trust);
     const auto apart =

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mapping/fusion/road_level.hpp"
+#include "mapping/fusion/roughness_level.hpp"
 #include "mapping/pass.hpp"
 
 #include <cstdint>
@@ -75,7 +75,7 @@ struct FusionConfig {
 /// The state of one segment: the level of a road that changes with time, on the day of the newest
 /// pass, from passes whose errors are in part those of the method, the car and the trip, under a
 /// t distribution, so that one broken car or pass among several hardly counts
-/// (mapping/fusion/road_level.hpp).
+/// (mapping/fusion/roughness_level.hpp).
 ///
 /// What all cars share does not average out, nor over the passes of one car what that car reads
 /// wrong. Where passes scatter more than they claim, sd grows by as much (R. T. Birge, "The

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -60,12 +59,14 @@ std::vector<LineFileColumn> flatgeobuf_columns() {
 
 // ESRI Shapefile Technical Description (1998), pp. 4-10: a file header of 100 bytes; before each
 // record 8; of a PolyLine 44 and 4 for each part and 16 for each point. dBASE III: 32 bytes of
-// header and 32 for each column, an end mark, and a deletion mark before each row.
+// header and 32 for each column, an end mark, a deletion mark before each row, and an end mark.
 constexpr std::uint64_t shp_header_bytes = 100;
 constexpr std::uint64_t shp_record_bytes = 8 + 44;
 constexpr std::uint64_t shp_part_bytes = 4;
 constexpr std::uint64_t shp_point_bytes = 16;
+constexpr std::uint64_t shx_record_bytes = 8;
 constexpr std::uint64_t dbf_header_bytes = 33;
+constexpr std::uint64_t dbf_end_bytes = 1;
 constexpr std::uint64_t dbf_column_bytes = 32;
 constexpr std::uint64_t most_file_bytes = std::numeric_limits<std::int32_t>::max();
 
@@ -136,7 +137,8 @@ std::uint64_t dbf_bytes(const Measure& measure, const std::vector<LineFileColumn
     for (const auto& column : columns) {
         row_bytes += static_cast<std::uint64_t>(column.width);
     }
-    return dbf_header_bytes + columns.size() * dbf_column_bytes + measure.rows * row_bytes;
+    return dbf_header_bytes + columns.size() * dbf_column_bytes + measure.rows * row_bytes +
+           dbf_end_bytes;
 }
 
 void expect_room(const SegmentExport& what,
@@ -181,47 +183,18 @@ std::vector<std::string> stale_beside(const std::string& stem) {
     return names;
 }
 
-std::string bytes_of(const std::filesystem::path& file, std::size_t count) {
-    std::ifstream in{file, std::ios::binary};
-    std::string bytes(count, '\0');
-    in.read(bytes.data(), static_cast<std::streamsize>(count));
-    return bytes;
-}
-
-/// An unsigned number of so many bytes, the most significant first; reversed: last.
-std::uint64_t number_in(std::string_view bytes) {
-    std::uint64_t number = 0;
-    for (const char byte : bytes) {
-        number = number << 8U | static_cast<unsigned char>(byte);
-    }
-    return number;
-}
-
-std::uint64_t reversed_number_in(std::string_view bytes) {
-    return number_in(std::string{bytes.rbegin(), bytes.rend()});
-}
-
-/// GDAL is silent where the end of a Shapefile did not reach a full disk; but the heads of its
-/// files say how long they are.
-///
-/// Source: ESRI Shapefile Technical Description (1998), pp. 4 and 23 (length in words of 16 bits at
-/// byte 24); dBASE III: records at byte 4, length of the head at 8, of a record at 10.
-bool is_whole_shapefile(std::filesystem::path shp, std::size_t features) {
-    const auto is_as_long_as = [](const std::filesystem::path& file, std::uint64_t bytes) {
-        return bytes <= std::filesystem::file_size(file);
+/// GDAL is silent where the end of a Shapefile did not reach a full disk, and its own reader too;
+/// but how long the files must be is known before the first row.
+bool is_whole_shapefile(const std::filesystem::path& shp,
+                        const Measure& measure,
+                        const std::vector<LineFileColumn>& columns) {
+    const auto has_bytes = [&](const char* suffix, std::uint64_t bytes) {
+        auto file = shp;
+        return std::filesystem::file_size(file.replace_extension(suffix)) == bytes;
     };
-    const auto shapes = 2 * number_in(bytes_of(shp, 28).substr(24));
-    auto shx = shp;
-    shx.replace_extension(".shx");
-    const auto index = 2 * number_in(bytes_of(shx, 28).substr(24));
-    auto dbf = shp;
-    dbf.replace_extension(".dbf");
-    const auto head = bytes_of(dbf, 12);
-    const auto records = reversed_number_in(head.substr(4, 4));
-    const auto table =
-        reversed_number_in(head.substr(8, 2)) + records * reversed_number_in(head.substr(10, 2));
-    return is_as_long_as(shp, shapes) && index == 100 + 8 * features && is_as_long_as(shx, index) &&
-           records == features && is_as_long_as(dbf, table);
+    return has_bytes(".shp", measure.shp_bytes) &&
+           has_bytes(".shx", shp_header_bytes + measure.rows * shx_record_bytes) &&
+           has_bytes(".dbf", dbf_bytes(measure, columns));
 }
 
 } // namespace
@@ -277,7 +250,7 @@ std::size_t export_shapefile(const SegmentExport& what) {
     const auto written = write_lines(what, file, [](const SegmentRecord& record) {
         return cut_at_antimeridian(record.segment.line);
     });
-    if (!is_whole_shapefile(file.file, written)) {
+    if (!is_whole_shapefile(file.file, measure, columns)) {
         throw InputError{
             fmt::format("{}: cannot be written; the disk may be full", what.file.string())};
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mapping/fusion/road_level.hpp"
+#include "mapping/fusion/roughness_level.hpp"
 
 #include <limits>
 #include <span>

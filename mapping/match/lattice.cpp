@@ -210,9 +210,9 @@ private:
                 add({from, to, static_cast<float>(std::min(cost, gap_nats)), false});
                 continue;
             }
-            const auto passage = passage_of(roads_, *reached, candidate, target, between, config_);
-            if (passage) {
-                double cost = cost_of(*passage, between) + turn_nats(candidate, target, between);
+            const auto move = move_of(roads_, *reached, candidate, target, between, config_);
+            if (move) {
+                double cost = cost_of(*move, between) + turn_nats(candidate, target, between);
                 if (cost < gap_nats) {
                     cost += sliding_nats(candidate, target, between, spread_.close_sd_m);
                     add({from, to, static_cast<float>(cost), true});

@@ -25,7 +25,7 @@ struct Candidate {
 };
 
 /// How a car may have come from one candidate to another.
-struct Passage {
+struct Move {
     enum class Kind : std::uint8_t {
         along,  ///< on one edge
         turned, ///< round on the edge itself
@@ -49,16 +49,16 @@ const std::vector<Reached>& reached_from(Routes& routes,
                                          const Between& between,
                                          const MatchConfig& config);
 
-/// The cheapest passage; nothing if there is none. `reached` is what reached_from gave.
-std::optional<Passage> passage_of(const RoadNetwork& roads,
-                                  const std::vector<Reached>& reached,
-                                  const Candidate& from,
-                                  const Candidate& to,
-                                  const Between& between,
-                                  const MatchConfig& config);
+/// The cheapest move; nothing if there is none. `reached` is what reached_from gave.
+std::optional<Move> move_of(const RoadNetwork& roads,
+                            const std::vector<Reached>& reached,
+                            const Candidate& from,
+                            const Candidate& to,
+                            const Between& between,
+                            const MatchConfig& config);
 
 /// In nats; what the gyro says of the turn is not in it.
-double cost_of(const Passage& passage, const Between& between);
+double cost_of(const Move& move, const Between& between);
 
 /// -log likelihood of what the gyro measured if the car went from one candidate to the other.
 double turn_nats(const Candidate& from, const Candidate& to, const Between& between);
@@ -74,7 +74,7 @@ struct Transition {
     std::uint32_t from; ///< states of the whole lattice
     std::uint32_t to;
     float cost;
-    bool joined; ///< by a passage
+    bool joined; ///< by a move
 };
 
 struct State {
@@ -120,7 +120,7 @@ std::vector<double> posteriors(const Lattice& lattice);
 struct Chosen {
     std::size_t position; ///< in Positions::all
     Candidate candidate;
-    bool joined;       ///< a passage leads here from the sample before
+    bool joined;       ///< a move leads here from the sample before
     double confidence; ///< posterior of the edge and direction
 };
 

@@ -9,11 +9,11 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t longest_bad_run = 2; // samples
-constexpr double bad_run_nats = 6;         // of the passage over it: more is an excursion
+constexpr double bad_run_nats = 6;         // of the move over it: more is an excursion
 
-/// A passage with the edges between.
+/// A move with the edges between.
 struct Connection {
-    Passage passage;
+    Move move;
     std::vector<EdgeId> edges;
 };
 
@@ -90,7 +90,7 @@ private:
         const auto between =
             between_samples(positions_, chain_[last].position, chain_[sample].position, config_);
         const auto connection = connect(last, sample, between);
-        if (!connection || (skipped > 0 && cost_of(connection->passage, between) > bad_run_nats)) {
+        if (!connection || (skipped > 0 && cost_of(connection->move, between) > bad_run_nats)) {
             return false;
         }
         follow(*connection, last, sample);
@@ -104,12 +104,12 @@ private:
         const auto& to = chain_[to_sample].candidate;
         const auto& reached =
             reached_from(routes_, from.edge, std::span{&to.edge, 1}, between, config_);
-        const auto passage = passage_of(roads_, reached, from, to, between, config_);
-        if (!passage) {
+        const auto move = move_of(roads_, reached, from, to, between, config_);
+        if (!move) {
             return {};
         }
-        return Connection{*passage,
-                          passage->kind == Passage::Kind::around
+        return Connection{*move,
+                          move->kind == Move::Kind::around
                               ? edges_before(reached, from.edge, to.edge)
                               : std::vector<EdgeId>{}};
     }
@@ -117,18 +117,18 @@ private:
     void follow(const Connection& connection, std::size_t last, std::size_t sample) {
         const auto& from = chain_[last].candidate;
         const auto& to = chain_[sample].candidate;
-        switch (connection.passage.kind) {
-        case Passage::Kind::along:
+        switch (connection.move.kind) {
+        case Move::Kind::along:
             break;
-        case Passage::Kind::turned: {
+        case Move::Kind::turned: {
             // The way there and back is what was travelled; it leaves the turning point open.
             const double edge_m = length_m(roads_, from.edge);
             const double turn_m =
-                (from.offset_m + edge_m - to.offset_m + connection.passage.way_m) / 2;
+                (from.offset_m + edge_m - to.offset_m + connection.move.way_m) / 2;
             go_on(to.edge, turn_m, edge_m - turn_m);
             break;
         }
-        case Passage::Kind::around:
+        case Move::Kind::around:
             for (const auto edge : connection.edges) {
                 go_on(edge, length_m(roads_, paths_.back().legs.back().edge), 0);
             }

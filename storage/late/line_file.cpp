@@ -109,11 +109,14 @@ void put_line(OGRLayer& layer,
 }
 
 /// GDAL says nothing of a full disk that shows only when the file is closed.
-void expect_lines(const std::filesystem::path& file, std::size_t count) {
-    const GDALDatasetUniquePtr dataset{GDALDataset::Open(std::filesystem::absolute(file).c_str(),
-                                                         GDAL_OF_VECTOR | GDAL_OF_READONLY)};
+void expect_lines(const LineFile& what, std::size_t count) {
+    const GDALDatasetUniquePtr dataset{GDALDataset::Open(
+        std::filesystem::absolute(what.file).c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY)};
     std::size_t found = 0;
-    if (dataset && dataset->GetLayerCount() == 1) {
+    const auto has_columns = [&](OGRLayer& layer) {
+        return layer.GetLayerDefn()->GetFieldCount() >= static_cast<int>(what.columns.size());
+    };
+    if (dataset && dataset->GetLayerCount() == 1 && has_columns(*dataset->GetLayer(0))) {
         for (const auto& feature : dataset->GetLayer(0)) {
             found += feature->GetGeometryRef() != nullptr ? 1 : 0;
         }
@@ -141,7 +144,7 @@ void write(const LineFile& what, const std::function<void(const LinePut& put)>& 
     if (CPLGetLastErrorType() == CE_Failure) {
         fail();
     }
-    expect_lines(what.file, count);
+    expect_lines(what, count);
 }
 
 } // namespace

@@ -225,7 +225,7 @@ TEST_F(RenderProgram, SaysWhatIsWrongAndLeavesNothing) {
 }
 
 TEST_F(RenderProgram, LeavesNothingOnAFullDisk) {
-    for (const auto* name : {"a.png", "b.png", "a.pdf"}) {
+    for (const auto* name : {"a.png", "b.png", "a.tif", "a.pdf"}) {
         for (const std::size_t most_bytes : {1000, 6000}) {
             std::vector<std::string> words{"-o", out(name)};
             if (name == std::string{"a.png"}) {

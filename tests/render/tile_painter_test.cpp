@@ -186,6 +186,15 @@ TEST(TilePainter, TakesTilesOf512PixelsForTheZoomAtWhichTheyAreDrawn) {
     EXPECT_FALSE(rows_of(image, good).empty());
 }
 
+TEST(TilePainter, ShowsTheWorseDirectionBelowZoom13) {
+    const auto there_good = [](const WorldWindow& window) { return there_and_back(window, 0, 2); };
+    const auto back_good = [](const WorldWindow& window) { return there_and_back(window, 2, 0); };
+    for (const auto& image : {drawn(12, there_good), drawn(12, back_good)}) {
+        EXPECT_FALSE(rows_of(image, poor).empty());
+        EXPECT_TRUE(rows_of(image, good).empty());
+    }
+}
+
 TEST(TilePainter, WidensLinesFrom1PixelAtZoom10To6AtZoom16) {
     EXPECT_DOUBLE_EQ(tile_widths(10).core_px, 1);
     EXPECT_DOUBLE_EQ(tile_widths(16).core_px, 6);

@@ -27,25 +27,25 @@ constexpr double hurry_piece_m = 30; // ... and so does each of the next ones
 constexpr double most_hurry_pieces = 8;
 
 /// What driving the way in that time says against it.
-double hurry_nats(const Passage& passage, const Between& between) {
-    const double over = passage.least_s - hurry_from * between.took_s;
+double hurry_nats(const Move& move, const Between& between) {
+    const double over = move.least_s - hurry_from * between.took_s;
     if (over <= 0 || between.took_s <= 0) {
         return 0;
     }
     const double sds = over / (hurry_sd * between.took_s);
     return std::min(most_hurry_nats, sds * sds) *
-           std::clamp(passage.way_m / hurry_piece_m, 1.0, most_hurry_pieces);
+           std::clamp(move.way_m / hurry_piece_m, 1.0, most_hurry_pieces);
 }
 
 /// Round on the edge itself: at the farther of the two places, or beyond it if there was the time.
-Passage turned(double length_m,
-               const Candidate& from,
-               const Candidate& to,
-               const Between& between,
-               const MatchConfig& config) {
+Move turned(double length_m,
+            const Candidate& from,
+            const Candidate& to,
+            const Between& between,
+            const MatchConfig& config) {
     const double apart_m = std::abs(length_m - to.offset_m - from.offset_m);
     const double room_m = 2 * (length_m - std::max(from.offset_m, length_m - to.offset_m));
-    return {Passage::Kind::turned,
+    return {Move::Kind::turned,
             std::clamp(between.travelled_m, apart_m, apart_m + room_m),
             config.u_turn_cost_m,
             0};
@@ -68,30 +68,30 @@ const std::vector<Reached>& reached_from(Routes& routes,
     return bound_m <= Routes::kept_m ? routes.around(edge) : routes.towards(edge, targets, bound_m);
 }
 
-std::optional<Passage> passage_of(const RoadNetwork& roads,
-                                  const std::vector<Reached>& reached,
-                                  const Candidate& from,
-                                  const Candidate& to,
-                                  const Between& between,
-                                  const MatchConfig& config) {
-    std::optional<Passage> best;
-    const auto take = [&](const Passage& passage) {
-        if (!best || cost_of(passage, between) < cost_of(*best, between)) {
-            best = passage;
+std::optional<Move> move_of(const RoadNetwork& roads,
+                            const std::vector<Reached>& reached,
+                            const Candidate& from,
+                            const Candidate& to,
+                            const Between& between,
+                            const MatchConfig& config) {
+    std::optional<Move> best;
+    const auto take = [&](const Move& move) {
+        if (!best || cost_of(move, between) < cost_of(*best, between)) {
+            best = move;
         }
     };
     const double edge_m = length_m(roads, from.edge);
     const auto limit_mps = [&](EdgeId edge) { return speed_limit_mps(roads, link_of(edge)); };
     if (from.edge == to.edge && to.offset_m >= from.offset_m - set_back_m) {
         const double way_m = to.offset_m - from.offset_m;
-        take({Passage::Kind::along, way_m, 0, way_m / limit_mps(from.edge)});
+        take({Move::Kind::along, way_m, 0, way_m / limit_mps(from.edge)});
     }
     if (to.edge == reversed(from.edge)) {
         take(turned(edge_m, from, to, between, config));
     }
     if (const auto* way = find(reached, to.edge)) {
         const double rest_m = edge_m - from.offset_m;
-        take({Passage::Kind::around,
+        take({Move::Kind::around,
               rest_m + static_cast<double>(way->way_m) + to.offset_m,
               way->turn_m,
               rest_m / limit_mps(from.edge) + static_cast<double>(way->least_s) +
@@ -100,13 +100,12 @@ std::optional<Passage> passage_of(const RoadNetwork& roads,
     return best;
 }
 
-double cost_of(const Passage& passage, const Between& between) {
-    const double turn_m = between.standing ? standing_turn_share * passage.turn_m : passage.turn_m;
+double cost_of(const Move& move, const Between& between) {
+    const double turn_m = between.standing ? standing_turn_share * move.turn_m : move.turn_m;
     const double seen_m = std::max(between.travelled_m, between.drawn_m);
-    const double unseen =
-        between.dense ? std::max(0.0, passage.way_m - seen_m) / seen_detour_sd_m : 0;
-    return std::abs(passage.way_m - between.travelled_m) / between.scale_m + turn_m / turn_scale_m +
-           unseen * unseen / 2 + hurry_nats(passage, between);
+    const double unseen = between.dense ? std::max(0.0, move.way_m - seen_m) / seen_detour_sd_m : 0;
+    return std::abs(move.way_m - between.travelled_m) / between.scale_m + turn_m / turn_scale_m +
+           unseen * unseen / 2 + hurry_nats(move, between);
 }
 
 double turn_nats(const Candidate& from, const Candidate& to, const Between& between) {

@@ -31,7 +31,7 @@ struct Trend {
 };
 
 /// A road's roughness on the day of its newest reading, seasons aside.
-struct RoadLevel {
+struct RoughnessLevel {
     double um;
     Eigen::VectorXd influence;  ///< of each reading on it
     double change_variance_um2; ///< of it: what is not known of how the road changed
@@ -48,10 +48,10 @@ struct RoadLevel {
 ///
 /// \param utc_ms    of each reading; nothing: undated.
 /// \param level_um  about what the readings are, > 0: what is relative is relative to it.
-RoadLevel road_level(const Readings& readings,
-                     const std::vector<std::optional<std::int64_t>>& utc_ms,
-                     double level_um,
-                     const TailModel& tail,
-                     const ChangeModel& change);
+RoughnessLevel roughness_level(const Readings& readings,
+                               const std::vector<std::optional<std::int64_t>>& utc_ms,
+                               double level_um,
+                               const TailModel& tail,
+                               const ChangeModel& change);
 
 } // namespace macadam

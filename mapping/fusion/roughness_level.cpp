@@ -1,4 +1,4 @@
-#include "mapping/fusion/road_level.hpp"
+#include "mapping/fusion/roughness_level.hpp"
 
 #include "mapping/fusion/time_columns.hpp"
 
@@ -244,11 +244,11 @@ std::vector<Step> steps_of(const Ages& ages, const Trial& trial) {
 
 } // namespace
 
-RoadLevel road_level(const Readings& readings,
-                     const std::vector<std::optional<std::int64_t>>& utc_ms,
-                     double level_um,
-                     const TailModel& tail,
-                     const ChangeModel& change) {
+RoughnessLevel roughness_level(const Readings& readings,
+                               const std::vector<std::optional<std::int64_t>>& utc_ms,
+                               double level_um,
+                               const TailModel& tail,
+                               const ChangeModel& change) {
     const auto ages = ages_of(utc_ms);
     const Problem problem{readings, ages, level_um, tail, change};
     auto trial = with_steps(problem);
