@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 namespace macadam {
@@ -142,15 +141,6 @@ std::vector<bool> verdicts(std::span<const Difference> differences, double rate)
     return called(chances, rate);
 }
 
-/// What both sides say of a road that has not changed, weighted by their relative variances.
-double level_if_unchanged(const RatedLength& first, const RatedLength& second) {
-    const double doubt1 = first.sd * second.iri;
-    const double doubt2 = second.sd * first.iri;
-    const double both = doubt1 * doubt1 + doubt2 * doubt2;
-    return both > 0 ? std::lerp(first.iri, second.iri, doubt1 * doubt1 / both)
-                    : std::midpoint(first.iri, second.iri);
-}
-
 } // namespace
 
 double common_variance(const SegmentState& state, const FusionConfig& config) {
@@ -170,17 +160,12 @@ Difference
 difference_of(const SegmentRecord& before, const SegmentRecord& after, const FusionConfig& config) {
     const auto first = rated_length(before);
     const auto second = rated_length(after);
-    const double level = level_if_unchanged(first, second);
-    const double scale1 = first.iri > 0 ? level / first.iri : 1;
-    const double scale2 = second.iri > 0 ? level / second.iri : 1;
-    const double common1 = scale1 * std::sqrt(common_variance(*before.state, config));
-    const double common2 = scale2 * std::sqrt(common_variance(*after.state, config));
-    const double sd1 = scale1 * first.sd;
-    const double sd2 = scale2 * second.sd;
-    const double apart = sd1 * sd1 - common1 * common1 + sd2 * sd2 - common2 * common2;
+    const double common1 = common_variance(*before.state, config);
+    const double common2 = common_variance(*after.state, config);
+    const double apart = first.sd * first.sd - common1 + second.sd * second.sd - common2;
     return {second.length_m,
             second.iri - first.iri,
-            std::hypot(std::sqrt(std::max(0.0, apart)), common1 - common2)};
+            std::hypot(std::sqrt(apart), std::sqrt(common1) - std::sqrt(common2))};
 }
 
 double chance_of(const Difference& difference) {

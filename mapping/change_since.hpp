@@ -34,14 +34,12 @@ struct Difference {
 /// solved for s. 0 where references alone tell.
 double common_variance(const SegmentState& state, const FusionConfig& config);
 
-/// The noise of a difference. What all cars read wrong alike (c) is there on both sides, for the
-/// model of the cars and the method have stayed the same, and cancels as far as it is equally
-/// large: the variance is s1^2 - c1^2 + s2^2 - c2^2 + (c1 - c2)^2. Deviations grow with what was
-/// read, so that who reads too low is also too sure: each is scaled to the level that both sides
-/// have together. That a car may have driven on both sides, so that its own error cancels too, is
-/// not counted: the variance is rather too large then.
-///
-/// \param before, after  of the same segment, from different passes, with states.
+/// \param before, after  of the same segment, from different passes, with states. What all cars
+/// read
+///        wrong alike (c) is there on both sides, for the model of the cars and the method have
+///        stayed the same, and cancels as far as it is equally large: the variance is
+///        s1^2 - c1^2 + s2^2 - c2^2 + (c1 - c2)^2. That a car may have driven on both sides, so
+///        that its own error cancels too, is not counted: the variance is rather too large then.
 Difference
 difference_of(const SegmentRecord& before, const SegmentRecord& after, const FusionConfig& config);
 
