@@ -26,6 +26,8 @@ struct FontFile {
     std::string_view regular;
     std::string_view bold; ///< the regular one where there is none
     std::string_view package;
+    std::string_view kind = ".ttf";
+    long face = 0; ///< of a file of several
 };
 
 constexpr FontFile noto(std::string_view script, std::string_view name) {
@@ -36,62 +38,79 @@ constexpr FontFile noto_without_bold(std::string_view script, std::string_view n
     return {script, name, "-Regular", "-Regular", "fonts-noto-core"};
 }
 
+constexpr long japanese = 0;
+constexpr long korean = 1;
+constexpr long simplified_chinese = 2;
+constexpr long traditional_chinese = 3;
+
+/// Which of the shapes that Han characters have in China, Japan and Korea (order of the faces: Noto
+/// CJK's README).
+constexpr FontFile noto_cjk(std::string_view script, long face) {
+    return {
+        script, "opentype/noto/NotoSansCJK", "-Regular", "-Bold", "fonts-noto-cjk", ".ttc", face};
+}
+
 // Where a script has several fonts in the package the one for plain running text is taken.
 constexpr std::array files{
-    FontFile{"", "dejavu/DejaVuSans", "", "-Bold", "fonts-dejavu-core"},
-    noto("", "noto/NotoSans"), // what DejaVu lacks of Latin, Greek and Cyrillic
-    noto_without_bold("Zyyy", "noto/NotoSansSymbols2"),
-    noto("Zyyy", "noto/NotoSansSymbols"),
-    noto_without_bold("Zyyy", "noto/NotoSansMath"),
-    noto("Adlm", "noto/NotoSansAdlam"),
-    noto("Arab", "noto/NotoSansArabic"),
-    noto("Armn", "noto/NotoSansArmenian"),
-    noto("Bali", "noto/NotoSansBalinese"),
-    noto("Beng", "noto/NotoSansBengali"),
-    noto_without_bold("Bugi", "noto/NotoSansBuginese"),
-    noto_without_bold("Cakm", "noto/NotoSansChakma"),
-    noto("Cans", "noto/NotoSansCanadianAboriginal"),
-    noto("Cham", "noto/NotoSansCham"),
-    noto("Cher", "noto/NotoSansCherokee"),
-    noto_without_bold("Copt", "noto/NotoSansCoptic"),
-    noto("Deva", "noto/NotoSansDevanagari"),
-    noto("Ethi", "noto/NotoSansEthiopic"),
-    noto("Geor", "noto/NotoSansGeorgian"),
-    noto("Gujr", "noto/NotoSansGujarati"),
-    noto("Guru", "noto/NotoSansGurmukhi"),
-    noto("Hebr", "noto/NotoSansHebrew"),
-    noto("Java", "noto/NotoSansJavanese"),
-    noto("Khmr", "noto/NotoSansKhmer"),
-    noto("Knda", "noto/NotoSansKannada"),
-    noto("Lana", "noto/NotoSansTaiTham"),
-    noto("Laoo", "noto/NotoSansLao"),
-    noto_without_bold("Lepc", "noto/NotoSansLepcha"),
-    noto_without_bold("Limb", "noto/NotoSansLimbu"),
-    noto("Lisu", "noto/NotoSansLisu"),
-    noto("Mlym", "noto/NotoSansMalayalam"),
-    noto_without_bold("Mong", "noto/NotoSansMongolian"),
-    noto("Mtei", "noto/NotoSansMeeteiMayek"),
-    noto("Mymr", "noto/NotoSansMyanmar"),
-    noto_without_bold("Nkoo", "noto/NotoSansNKo"),
-    noto("Olck", "noto/NotoSansOlChiki"),
-    noto("Orya", "noto/NotoSansOriya"),
-    noto_without_bold("Osge", "noto/NotoSansOsage"),
-    noto("Rohg", "noto/NotoSansHanifiRohingya"),
-    noto_without_bold("Saur", "noto/NotoSansSaurashtra"),
-    noto("Sinh", "noto/NotoSansSinhala"),
-    noto("Sund", "noto/NotoSansSundanese"),
-    noto_without_bold("Syrc", "noto/NotoSansSyriac"),
-    noto_without_bold("Tale", "noto/NotoSansTaiLe"),
-    noto_without_bold("Talu", "noto/NotoSansNewTaiLue"),
-    noto("Taml", "noto/NotoSansTamil"),
-    noto("Telu", "noto/NotoSansTelugu"),
-    noto_without_bold("Tfng", "noto/NotoSansTifinagh"),
-    noto_without_bold("Tglg", "noto/NotoSansTagalog"),
-    noto("Thaa", "noto/NotoSansThaana"),
-    noto("Thai", "noto/NotoSansThai"),
-    noto("Tibt", "noto/NotoSerifTibetan"),
-    noto_without_bold("Vaii", "noto/NotoSansVai"),
-    noto_without_bold("Yiii", "noto/NotoSansYi"),
+    FontFile{"", "truetype/dejavu/DejaVuSans", "", "-Bold", "fonts-dejavu-core"},
+    noto("", "truetype/noto/NotoSans"), // what DejaVu lacks of Latin, Greek and Cyrillic
+    noto_without_bold("Zyyy", "truetype/noto/NotoSansSymbols2"),
+    noto("Zyyy", "truetype/noto/NotoSansSymbols"),
+    noto_without_bold("Zyyy", "truetype/noto/NotoSansMath"),
+    noto("Adlm", "truetype/noto/NotoSansAdlam"),
+    noto("Arab", "truetype/noto/NotoSansArabic"),
+    noto("Armn", "truetype/noto/NotoSansArmenian"),
+    noto("Bali", "truetype/noto/NotoSansBalinese"),
+    noto("Beng", "truetype/noto/NotoSansBengali"),
+    noto_cjk("Bopo", traditional_chinese),
+    noto_without_bold("Bugi", "truetype/noto/NotoSansBuginese"),
+    noto_without_bold("Cakm", "truetype/noto/NotoSansChakma"),
+    noto("Cans", "truetype/noto/NotoSansCanadianAboriginal"),
+    noto("Cham", "truetype/noto/NotoSansCham"),
+    noto("Cher", "truetype/noto/NotoSansCherokee"),
+    noto_without_bold("Copt", "truetype/noto/NotoSansCoptic"),
+    noto("Deva", "truetype/noto/NotoSansDevanagari"),
+    noto("Ethi", "truetype/noto/NotoSansEthiopic"),
+    noto("Geor", "truetype/noto/NotoSansGeorgian"),
+    noto("Gujr", "truetype/noto/NotoSansGujarati"),
+    noto("Guru", "truetype/noto/NotoSansGurmukhi"),
+    noto_cjk("Hang", korean),
+    noto_cjk("Hani", simplified_chinese),
+    noto("Hebr", "truetype/noto/NotoSansHebrew"),
+    noto_cjk("Hira", japanese),
+    noto("Java", "truetype/noto/NotoSansJavanese"),
+    noto_cjk("Kana", japanese),
+    noto("Khmr", "truetype/noto/NotoSansKhmer"),
+    noto("Knda", "truetype/noto/NotoSansKannada"),
+    noto("Lana", "truetype/noto/NotoSansTaiTham"),
+    noto("Laoo", "truetype/noto/NotoSansLao"),
+    noto_without_bold("Lepc", "truetype/noto/NotoSansLepcha"),
+    noto_without_bold("Limb", "truetype/noto/NotoSansLimbu"),
+    noto("Lisu", "truetype/noto/NotoSansLisu"),
+    noto("Mlym", "truetype/noto/NotoSansMalayalam"),
+    noto_without_bold("Mong", "truetype/noto/NotoSansMongolian"),
+    noto("Mtei", "truetype/noto/NotoSansMeeteiMayek"),
+    noto("Mymr", "truetype/noto/NotoSansMyanmar"),
+    noto_without_bold("Nkoo", "truetype/noto/NotoSansNKo"),
+    noto("Olck", "truetype/noto/NotoSansOlChiki"),
+    noto("Orya", "truetype/noto/NotoSansOriya"),
+    noto_without_bold("Osge", "truetype/noto/NotoSansOsage"),
+    noto("Rohg", "truetype/noto/NotoSansHanifiRohingya"),
+    noto_without_bold("Saur", "truetype/noto/NotoSansSaurashtra"),
+    noto("Sinh", "truetype/noto/NotoSansSinhala"),
+    noto("Sund", "truetype/noto/NotoSansSundanese"),
+    noto_without_bold("Syrc", "truetype/noto/NotoSansSyriac"),
+    noto_without_bold("Tale", "truetype/noto/NotoSansTaiLe"),
+    noto_without_bold("Talu", "truetype/noto/NotoSansNewTaiLue"),
+    noto("Taml", "truetype/noto/NotoSansTamil"),
+    noto("Telu", "truetype/noto/NotoSansTelugu"),
+    noto_without_bold("Tfng", "truetype/noto/NotoSansTifinagh"),
+    noto_without_bold("Tglg", "truetype/noto/NotoSansTagalog"),
+    noto("Thaa", "truetype/noto/NotoSansThaana"),
+    noto("Thai", "truetype/noto/NotoSansThai"),
+    noto("Tibt", "truetype/noto/NotoSerifTibetan"),
+    noto_without_bold("Vaii", "truetype/noto/NotoSansVai"),
+    noto_without_bold("Yiii", "truetype/noto/NotoSansYi"),
 };
 
 /// Fonts are numbered regular, bold, regular, bold, ... in the order of the table.
@@ -105,7 +124,7 @@ const FontFile& file_of(int font) {
 
 std::string path_of(int font) {
     const auto& file = file_of(font);
-    return fmt::format("{}{}.ttf", file.name, font % 2 == 1 ? file.bold : file.regular);
+    return fmt::format("{}{}{}", file.name, font % 2 == 1 ? file.bold : file.regular, file.kind);
 }
 
 } // namespace
@@ -141,7 +160,7 @@ FontShelf::Open& FontShelf::opened(int font) {
     auto& entry = open_.at(static_cast<std::size_t>(font));
     if (entry.face == nullptr) {
         const auto file = (folder_ / path_of(font)).string();
-        if (FT_New_Face(library_, file.c_str(), 0, &entry.face) != 0) {
+        if (FT_New_Face(library_, file.c_str(), file_of(font).face, &entry.face) != 0) {
             entry.face = nullptr;
             throw InputError{fmt::format(
                 "{}: cannot read the font, expected the package {}", file, file_of(font).package)};

@@ -15,7 +15,7 @@ namespace macadam {
 /// font for the script, then from Noto's symbols. Each is opened when it is first needed.
 class FontShelf {
 public:
-    /// \param folder  with the folders dejavu and truetype/noto of Debian's packages
+    /// \param folder  /usr/share/fonts, laid out as Debian's packages lay it out
     /// \throws InputError  if DejaVu Sans is not there.
     explicit FontShelf(std::filesystem::path folder);
     ~FontShelf();

@@ -16,7 +16,7 @@
 namespace macadam {
 namespace {
 
-constexpr const char* fonts_folder = "/usr/share/fonts/truetype"; // of Debian's packages
+constexpr const char* fonts_folder = "/usr/share/fonts"; // of Debian's packages
 constexpr double units = 64;                                      // FreeType counts in 1/64 px
 
 bool continues_character(char c) {

@@ -22,13 +22,29 @@ bool belongs_to_no_script(hb_script_t script) {
            script == HB_SCRIPT_UNKNOWN;
 }
 
+/// Han characters look otherwise in Japan, Korea, Taiwan and China. Which is meant shows in the
+/// letters beside them: they take their script. By themselves they are taken for China's.
+std::uint32_t script_of_han(std::u32string_view text) {
+    auto* const unicode = hb_unicode_funcs_get_default();
+    for (const auto script :
+         {HB_SCRIPT_HIRAGANA, HB_SCRIPT_KATAKANA, HB_SCRIPT_HANGUL, HB_SCRIPT_BOPOMOFO}) {
+        if (std::ranges::any_of(
+                text, [&](char32_t c) { return hb_unicode_script(unicode, c) == script; })) {
+            return script;
+        }
+    }
+    return HB_SCRIPT_HAN;
+}
+
 /// Signs and marks take the script of what stands before them, at the start of what comes.
 std::vector<std::uint32_t> scripts_of(std::u32string_view text) {
     auto* const unicode = hb_unicode_funcs_get_default();
+    const auto han = script_of_han(text);
     std::vector<std::uint32_t> scripts(text.size(), HB_SCRIPT_COMMON);
     std::optional<std::uint32_t> known;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto script = hb_unicode_script(unicode, text[i]);
+        auto script = hb_unicode_script(unicode, text[i]);
+        script = script == HB_SCRIPT_HAN ? static_cast<hb_script_t>(han) : script;
         if (!belongs_to_no_script(script)) {
             if (!known) {
                 std::fill_n(scripts.begin(), i, std::uint32_t(script));

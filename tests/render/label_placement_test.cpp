@@ -272,8 +272,12 @@ TEST(LabelPlacement, KeepsOffOtherRoads) {
 }
 
 TEST(LabelPlacement, LeavesOutNamesThatNoFontHas) {
-    // Han characters, of which neither DejaVu nor Noto's core has any.
-    EXPECT_TRUE(labels_of({road("中山路 Zhongshan", {{20, 200}, {480, 200}})}).empty());
+    // The last character of Unicode, for private use, which no font on the shelf has.
+    EXPECT_TRUE(labels_of({road("\U0010FFFD Zhongshan", {{20, 200}, {480, 200}})}).empty());
+}
+
+TEST(LabelPlacement, SetsNamesInChineseCharacters) {
+    EXPECT_EQ(labels_of({road("中山路 Zhongshan", {{20, 200}, {480, 200}})}).size(), 1U);
 }
 
 TEST(LabelPlacement, SurvivesRoadsThatAreNone) {

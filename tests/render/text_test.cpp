@@ -23,19 +23,21 @@ std::vector<std::uint32_t> glyphs_of(const SetLine& line) {
     return glyphs;
 }
 
-/// A folder of fonts with DejaVu only, as on a machine without Noto.
-class FontsWithoutNoto {
+/// A folder with those folders of fonts alone, as on a machine without the other packages.
+class FontsOf {
 public:
-    FontsWithoutNoto()
+    explicit FontsOf(std::initializer_list<std::string_view> folders)
         : folder{std::filesystem::temp_directory_path() /
                  ("macadam_fonts_" + std::to_string(::getpid()))} {
-        std::filesystem::create_directories(folder);
-        std::filesystem::create_directory_symlink("/usr/share/fonts/truetype/dejavu",
-                                                  folder / "dejavu");
+        std::filesystem::create_directories(folder / "truetype");
+        for (const auto below : folders) {
+            std::filesystem::create_directory_symlink(
+                std::filesystem::path{"/usr/share/fonts"} / below, folder / below);
+        }
     }
-    ~FontsWithoutNoto() { std::filesystem::remove_all(folder); }
-    FontsWithoutNoto(const FontsWithoutNoto&) = delete;
-    FontsWithoutNoto& operator=(const FontsWithoutNoto&) = delete;
+    ~FontsOf() { std::filesystem::remove_all(folder); }
+    FontsOf(const FontsOf&) = delete;
+    FontsOf& operator=(const FontsOf&) = delete;
 
     const std::filesystem::path folder;
 };
@@ -99,12 +101,32 @@ TEST(Text, SetsRoadNamesOfManyScriptsInFull) {
                              "რუსთაველის გამზირი",
                              "Մաշտոցի պողոտա",
                              "வீதி 12",
-                             "ဗိုလ်ချုပ်လမ်း"}) {
+                             "ဗိုလ်ချုပ်လမ်း",
+                             "中山北路三段",
+                             "明治通り",
+                             "테헤란로 12"}) {
         const auto line = setter.set(name, look);
         EXPECT_TRUE(line.whole) << name;
         EXPECT_TRUE(std::ranges::none_of(line.glyphs, [](auto& glyph) { return glyph.index == 0; }))
             << name;
     }
+}
+
+TEST(Text, GivesHanCharactersTheShapesOfTheLettersBesideThem) {
+    // U+9AA8, whose inner corner opens to the other side in China than in Japan and Korea. The
+    // faces of the font share their glyphs, so another index is another shape.
+    TypeSetter setter;
+    const auto bone = [&](std::string_view beside) {
+        const auto line = setter.set(std::string{"骨"}.append(beside), look);
+        EXPECT_TRUE(line.whole) << beside;
+        return line.glyphs.at(0).index;
+    };
+    const auto chinese = bone("路");
+    EXPECT_EQ(bone(""), chinese);
+    EXPECT_NE(bone("の"), chinese);
+    EXPECT_EQ(bone("カ"), bone("の"));
+    EXPECT_EQ(bone("로"), bone("の"));
+    EXPECT_NE(bone("ㄅ"), chinese); // Taiwan's
 }
 
 TEST(Text, WritesHebrewFromRightToLeft) {
@@ -159,22 +181,33 @@ TEST(Text, KeepsMarksWithTheirLetters) {
 
 TEST(Text, LeavesOutWhatNoFontHasAndSaysSo) {
     TypeSetter setter;
-    const auto line = setter.set("路 Lu", look);
+    const auto line = setter.set("\U0010FFFD Lu", look);
     EXPECT_FALSE(line.whole);
     EXPECT_EQ(glyphs_of(line), glyphs_of(setter.set(" Lu", look)));
 }
 
 TEST(Text, AsksForThePackageOfAMissingFont) {
-    const FontsWithoutNoto fonts;
-    TypeSetter setter{fonts.folder};
+    const FontsOf dejavu{"truetype/dejavu"};
+    TypeSetter setter{dejavu.folder};
     EXPECT_TRUE(setter.set("Langenloiser Straße", look).whole); // DejaVu has it
     EXPECT_THAT([&] { setter.set("ถนน", look); },
                 ::testing::ThrowsMessage<InputError>(::testing::HasSubstr(
                     ".ttf: cannot read the font, expected the package fonts-noto-core")));
-    EXPECT_THAT([] { TypeSetter{"/nowhere"}; },
-                ::testing::ThrowsMessage<InputError>(
-                    "/nowhere/dejavu/DejaVuSans.ttf: cannot read the font, expected the package "
-                    "fonts-dejavu-core"));
+    EXPECT_THAT(
+        [] { TypeSetter{"/nowhere"}; },
+        ::testing::ThrowsMessage<InputError>(
+            "/nowhere/truetype/dejavu/DejaVuSans.ttf: cannot read the font, expected the package "
+            "fonts-dejavu-core"));
+}
+
+TEST(Text, AsksForThePackageOfTheFontOfChineseCharacters) {
+    const FontsOf small{"truetype/dejavu", "truetype/noto"};
+    TypeSetter setter{small.folder};
+    EXPECT_TRUE(setter.set("ถนน", look).whole);
+    EXPECT_THAT([&] { setter.set("明治通り", look); },
+                ::testing::ThrowsMessage<InputError>(::testing::HasSubstr(
+                    "NotoSansCJK-Regular.ttc: cannot read the font, expected the package "
+                    "fonts-noto-cjk")));
 }
 
 TEST(Text, TurnsAGlyphAboutItsOrigin) {
