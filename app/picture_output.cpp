@@ -22,7 +22,6 @@ using Kind = PictureOutput::Kind;
 
 constexpr double px_per_inch = 150; // letters of a map of 1240 px, on A4, can be read
 constexpr double mm_per_inch = 25.4;
-constexpr int most_geotiff_px = 16384;
 constexpr std::string_view web_mercator = "EPSG:3857";
 
 // ISO 216 and ANSI/ASME Y14.1.
@@ -46,24 +45,20 @@ std::string in_lower_case(std::string text) {
     return text;
 }
 
-std::pair<int, int> size_of(const std::string& text, Kind kind) {
-    // GDAL takes a picture as a whole, so the memory of a GeoTIFF grows with it.
-    const int most_px = kind == Kind::geotiff ? most_geotiff_px : most_image_px;
+std::pair<int, int> size_of(const std::string& text) {
     int width = 0;
     int height = 0;
     const auto* const end = text.data() + text.size();
     const auto first = std::from_chars(text.data(), end, width);
     const bool crossed = first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x';
     const auto second = crossed ? std::from_chars(first.ptr + 1, end, height) : first;
-    const auto fits = [&](int px) { return px >= least_image_px && px <= most_px; };
+    const auto fits = [&](int px) { return px >= least_image_px && px <= most_image_px; };
     if (!crossed || second.ec != std::errc{} || second.ptr != end || !fits(width) ||
         !fits(height)) {
-        throw UsageError{
-            fmt::format("--size is '{}', expected WxH with both from {} to {} pixels{}",
-                        text,
-                        least_image_px,
-                        most_px,
-                        kind == Kind::geotiff ? " in a .tif" : "")};
+        throw UsageError{fmt::format("--size is '{}', expected WxH with both from {} to {} pixels",
+                                     text,
+                                     least_image_px,
+                                     most_image_px)};
     }
     return {width, height};
 }
@@ -136,7 +131,6 @@ PlacedPicture placed(const MapScene& scene, const MapStyle& style, const Picture
         scene.projection ? scene.projection->wkt : plane_projection(std::string{web_mercator})->wkt;
     return {.width_px = size.width_px,
             .height_px = size.height_px,
-            .rgb = {},
             .left = place.left,
             .top = place.top,
             .per_px = place.per_px,
@@ -188,18 +182,11 @@ void write_tif(const PixelMap& map,
                const std::filesystem::path& file,
                const Progress& progress) {
     auto picture = placed(map.scene, map.style, map.size);
-    std::vector<std::uint8_t> rgb;
-    rgb.reserve(std::size_t(map.size.width_px) * std::size_t(map.size.height_px) * 3);
-    draw_map(
-        map.scene,
-        map.style,
-        map.size,
-        [&](auto rows) { rgb.insert(rgb.end(), rows.begin(), rows.end()); },
-        progress);
-    picture.rgb = rgb;
     picture.copyright = copyright;
-    expect_not_stopped(progress);
-    write_geotiff(picture, file);
+    write_geotiff(
+        picture,
+        [&](const auto& take) { draw_map(map.scene, map.style, map.size, take, progress); },
+        file);
 }
 
 } // namespace
@@ -215,7 +202,7 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
         kind == Kind::pdf
             ? paper_size(arguments.value("--paper").value_or(std::string{default_paper}),
                          arguments.flag("--landscape"))
-            : size_of(arguments.value("--size").value_or(std::string{default_picture_size}), kind);
+            : size_of(arguments.value("--size").value_or(std::string{default_picture_size}));
     return {.file = *file,
             .kind = kind,
             .width_px = size.first,

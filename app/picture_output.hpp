@@ -33,7 +33,7 @@ inline constexpr Option picture_output_option{
 inline constexpr Option picture_size_option{
     "--size",
     "WxH",
-    "Pixels, 256 to 32768 a side (.tif: 16384); lines and letters grow with it.",
+    "Pixels, 256 to 32768 a side; lines and letters grow with it.",
     default_picture_size};
 inline constexpr Option world_file_option{
     "--world-file", "", "Beside a .png: .pgw and .png.aux.xml, which say where its pixels lie."};

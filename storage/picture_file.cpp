@@ -52,11 +52,13 @@ std::string auxiliary_text(const PlacedPicture& picture) {
 
 } // namespace
 
-void write_geotiff(const PlacedPicture& picture, const std::filesystem::path& file) {
+void write_geotiff(const PlacedPicture& picture,
+                   const GiveRows& give,
+                   const std::filesystem::path& file) {
     auto* const write = late_function<GeotiffWrite>("macadam_gdal.so", geotiff_write_name);
     AtomicFileSet files{file};
     try {
-        write(picture, files.folder() / file.filename());
+        write(picture, give, files.folder() / file.filename());
     } catch (const InputError& error) {
         throw InputError{fmt::format("{}: {}", file.string(), error.what())};
     }

@@ -12,6 +12,8 @@
 #include <array>
 #include <fstream>
 #include <span>
+#include <string>
+#include <utility>
 
 namespace macadam {
 
@@ -28,33 +30,6 @@ GDALDriver& driver(const char* name) {
         throw InputError{fmt::format("cannot be written: this GDAL knows no {}", name)};
     }
     return *found;
-}
-
-/// The picture's own bytes as a dataset.
-GDALDatasetUniquePtr dataset_of(const PlacedPicture& picture) {
-    GDALDatasetUniquePtr dataset{
-        driver("MEM").Create("", picture.width_px, picture.height_px, 0, GDT_Byte, nullptr)};
-    if (!dataset) {
-        fail();
-    }
-    constexpr int bands = 3;
-    for (int band = 0; band < bands; ++band) {
-        std::array<char, 64> pointer{};
-        // GDAL takes no pointer to const; the driver that copies from it only reads.
-        auto* const bytes = const_cast<std::uint8_t*>(picture.rgb.data()) + band; // NOLINT(*-cast)
-        CPLPrintPointer(pointer.data(), bytes, int(pointer.size()) - 1);
-        CPLStringList options;
-        options.SetNameValue("DATAPOINTER", pointer.data());
-        options.SetNameValue("PIXELOFFSET", "3");
-        options.SetNameValue("LINEOFFSET",
-                             std::to_string(std::int64_t{3} * picture.width_px).c_str());
-        if (dataset->AddBand(GDT_Byte, options.List()) != CE_None) {
-            fail();
-        }
-        dataset->GetRasterBand(band + 1)->SetColorInterpretation(
-            static_cast<GDALColorInterp>(GCI_RedBand + band));
-    }
-    return dataset;
 }
 
 void place(GDALDataset& dataset, const PlacedPicture& picture) {
@@ -75,40 +50,93 @@ void place(GDALDataset& dataset, const PlacedPicture& picture) {
 /// crashes while it makes overviews), so that it never meets one.
 class FileInMemory {
 public:
-    FileInMemory() = default;
+    explicit FileInMemory(std::string name) : name_{"/vsimem/macadam/" + std::move(name)} {}
     FileInMemory(const FileInMemory&) = delete;
     FileInMemory& operator=(const FileInMemory&) = delete;
     ~FileInMemory() { VSIUnlink(name()); }
 
-    static const char* name() { return "/vsimem/macadam/picture.tif"; }
+    const char* name() const { return name_.c_str(); }
 
     std::span<const char> bytes() const {
         vsi_l_offset count = 0;
         const auto* const data = VSIGetMemFileBuffer(name(), &count, FALSE);
         return {reinterpret_cast<const char*>(data), count};
     }
+
+private:
+    std::string name_;
 };
 
-void write(const PlacedPicture& picture, const std::filesystem::path& file) {
-    const Quiet quiet;
-    GDALAllRegister();
-    auto source = dataset_of(picture);
-    place(*source, picture);
-    CPLStringList options;
-    options.SetNameValue("COMPRESS", "DEFLATE");
-    options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
-    CPLErrorReset();
-    const FileInMemory made;
-    GDALDatasetUniquePtr copy{driver("COG").CreateCopy(
-        made.name(), source.get(), FALSE, options.List(), nullptr, nullptr)};
-    if (!copy) {
-        fail();
+/// Bounds what GDAL holds of its files as pixels, which else is a twentieth of the machine's
+/// memory.
+class SmallCache {
+public:
+    SmallCache() { GDALSetCacheMax64(bytes); }
+    SmallCache(const SmallCache&) = delete;
+    SmallCache& operator=(const SmallCache&) = delete;
+    ~SmallCache() { GDALSetCacheMax64(before_); }
+
+private:
+    static constexpr GIntBig bytes = 160 << 20; // three rows of tiles of 512 px, 32,768 px wide
+    GIntBig before_ = GDALGetCacheMax64();
+};
+
+/// Takes rows of a picture, from the top.
+class RowWriter {
+public:
+    RowWriter(const PlacedPicture& picture, const char* name) {
+        CPLStringList options;
+        options.SetNameValue("TILED", "YES");
+        options.SetNameValue("BLOCKXSIZE", "512");
+        options.SetNameValue("BLOCKYSIZE", "512");
+        options.SetNameValue("COMPRESS", "DEFLATE");
+        options.SetNameValue("ZLEVEL", "1"); // it is read once, a moment later
+        options.SetNameValue("INTERLEAVE", "PIXEL");
+        dataset_.reset(driver("GTiff").Create(
+            name, picture.width_px, picture.height_px, bands, GDT_Byte, options.List()));
+        if (!dataset_) {
+            fail();
+        }
+        place(*dataset_, picture);
     }
-    copy.reset();
-    if (CPLGetLastErrorType() == CE_Failure) {
-        fail();
+
+    void add(std::span<const std::uint8_t> rgb) {
+        const int width = dataset_->GetRasterXSize();
+        const int rows = int(rgb.size() / (std::size_t(bands) * std::size_t(width)));
+        // GDAL takes no pointer to const; it only reads.
+        auto* const bytes = const_cast<std::uint8_t*>(rgb.data()); // NOLINT(*-const-cast)
+        if (dataset_->RasterIO(GF_Write,
+                               0,
+                               next_,
+                               width,
+                               rows,
+                               bytes,
+                               width,
+                               rows,
+                               GDT_Byte,
+                               bands,
+                               nullptr,
+                               bands,
+                               GSpacing(bands) * width,
+                               1,
+                               nullptr) != CE_None) {
+            fail();
+        }
+        next_ += rows;
     }
-    const auto bytes = made.bytes();
+
+    GDALDatasetUniquePtr finished() && {
+        dataset_->FlushCache(true);
+        return std::move(dataset_);
+    }
+
+private:
+    static constexpr int bands = 3;
+    GDALDatasetUniquePtr dataset_;
+    int next_ = 0;
+};
+
+void copy_to_disk(std::span<const char> bytes, const std::filesystem::path& file) {
     std::ofstream out{file, std::ios::binary};
     out.write(bytes.data(), std::ssize(bytes));
     out.close();
@@ -117,11 +145,38 @@ void write(const PlacedPicture& picture, const std::filesystem::path& file) {
     }
 }
 
+void write(const PlacedPicture& picture, const GiveRows& give, const std::filesystem::path& file) {
+    const Quiet quiet;
+    GDALAllRegister();
+    const SmallCache cache;
+    CPLErrorReset();
+    const FileInMemory made{"picture.tif"};
+    {
+        const FileInMemory drawn{"rows.tif"};
+        RowWriter writer{picture, drawn.name()};
+        give([&](auto rows) { writer.add(rows); });
+        const auto source = std::move(writer).finished();
+        CPLStringList options;
+        options.SetNameValue("COMPRESS", "DEFLATE");
+        options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
+        const GDALDatasetUniquePtr copy{driver("COG").CreateCopy(
+            made.name(), source.get(), FALSE, options.List(), nullptr, nullptr)};
+        if (!copy) {
+            fail();
+        }
+    }
+    if (CPLGetLastErrorType() == CE_Failure) {
+        fail();
+    }
+    copy_to_disk(made.bytes(), file);
+}
+
 } // namespace
 
 } // namespace macadam
 
 extern "C" void macadam_geotiff_write(const macadam::PlacedPicture& picture,
+                                      const macadam::GiveRows& give,
                                       const std::filesystem::path& file) {
-    macadam::write(picture, file);
+    macadam::write(picture, give, file);
 }

@@ -7,8 +7,12 @@ namespace macadam {
 // What storage/picture_file.cpp asks of the late library macadam_gdal.
 
 /// \param file  not there yet, in a folder of its own.
-/// \throws InputError  with GDAL's complaint, without the file's name. Half a file may be left.
-using GeotiffWrite = void(const PlacedPicture& picture, const std::filesystem::path& file);
+/// \throws InputError  with GDAL's complaint, without the file's name, and as `give` throws. Half a
+/// file may be
+///                     left.
+using GeotiffWrite = void(const PlacedPicture& picture,
+                          const GiveRows& give,
+                          const std::filesystem::path& file);
 inline constexpr const char* geotiff_write_name = "macadam_geotiff_write";
 
 } // namespace macadam

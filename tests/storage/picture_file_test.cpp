@@ -37,10 +37,20 @@ std::vector<std::uint8_t> colours() {
     return rgb;
 }
 
-PlacedPicture picture(const std::vector<std::uint8_t>& rgb) {
+/// Row by row, and then the rest at once.
+GiveRows rows_of(const std::vector<std::uint8_t>& rgb, std::size_t width_px) {
+    return [&rgb, row = 3 * width_px](const auto& take) {
+        const std::span all{rgb};
+        for (std::size_t i = 0; i < 5; ++i) {
+            take(all.subspan(i * row, row));
+        }
+        take(all.subspan(5 * row));
+    };
+}
+
+PlacedPicture picture() {
     return {.width_px = 600,
             .height_px = 400,
-            .rgb = rgb,
             .left = 500'000,
             .top = 5'600'000,
             .per_px = 2.5,
@@ -56,7 +66,7 @@ json info_by_gdal(const fs::path& folder, const fs::path& file) {
 TEST(GeoTiff, LiesWhereItShould) {
     const auto folder = test_folder();
     const auto rgb = colours();
-    write_geotiff(picture(rgb), folder / "map.tif");
+    write_geotiff(picture(), rows_of(rgb, 600), folder / "map.tif");
     const auto info = info_by_gdal(folder, folder / "map.tif");
     EXPECT_EQ(info["size"], json::parse("[600, 400]"));
     EXPECT_EQ(info["geoTransform"], json::parse("[500000.0, 2.5, 0.0, 5600000.0, 0.0, -2.5]"));
@@ -69,7 +79,7 @@ TEST(GeoTiff, LiesWhereItShould) {
 TEST(GeoTiff, HoldsEveryPixel) {
     const auto folder = test_folder();
     const auto rgb = colours();
-    write_geotiff(picture(rgb), folder / "map.tif");
+    write_geotiff(picture(), rows_of(rgb, 600), folder / "map.tif");
     ASSERT_EQ(output_of(folder,
                         "gdal_translate -q -of PNM " + (folder / "map.tif").string() + " " +
                             (folder / "map.ppm").string()),
@@ -81,10 +91,10 @@ TEST(GeoTiff, HoldsEveryPixel) {
 TEST(GeoTiff, PassesTheValidatorOfCloudOptimizedFiles) {
     const auto folder = test_folder();
     const std::vector<std::uint8_t> rgb(3 * 1500 * 1200, 200); // large enough for smaller copies
-    auto large = picture(rgb);
+    auto large = picture();
     large.width_px = 1500;
     large.height_px = 1200;
-    write_geotiff(large, folder / "map.tif");
+    write_geotiff(large, rows_of(rgb, 1500), folder / "map.tif");
     EXPECT_THAT(
         output_of(folder,
                   "/usr/bin/python3 -m osgeo_utils.samples.validate_cloud_optimized_geotiff " +
@@ -95,21 +105,35 @@ TEST(GeoTiff, PassesTheValidatorOfCloudOptimizedFiles) {
 TEST(GeoTiff, IsTheSameByteForByteEachTime) {
     const auto folder = test_folder();
     const auto rgb = colours();
-    write_geotiff(picture(rgb), folder / "a.tif");
-    write_geotiff(picture(rgb), folder / "b.tif");
+    write_geotiff(picture(), rows_of(rgb, 600), folder / "a.tif");
+    write_geotiff(picture(), rows_of(rgb, 600), folder / "b.tif");
     EXPECT_TRUE(content_of(folder / "a.tif") == content_of(folder / "b.tif"));
 }
 
 TEST(GeoTiff, LeavesNothingWhereItCannotBeWritten) {
     const auto folder = test_folder();
     const auto rgb = colours();
-    auto lost = picture(rgb);
+    auto lost = picture();
     lost.wkt = "nonsense";
-    EXPECT_THAT(refusal_of([&] { write_geotiff(lost, folder / "map.tif"); }),
+    EXPECT_THAT(refusal_of([&] { write_geotiff(lost, rows_of(rgb, 600), folder / "map.tif"); }),
                 HasSubstr("map.tif: cannot be written"));
     EXPECT_TRUE(fs::is_empty(folder));
-    EXPECT_THAT(refusal_of([&] { write_geotiff(picture(rgb), folder / "none" / "map.tif"); }),
+    EXPECT_THAT(refusal_of([&] {
+                    write_geotiff(picture(), rows_of(rgb, 600), folder / "none" / "map.tif");
+                }),
                 HasSubstr("map.tif: cannot be written: No such file or directory"));
+}
+
+TEST(GeoTiff, LeavesNothingWhereItIsStopped) {
+    const auto folder = test_folder();
+    const auto rgb = colours();
+    const auto stopped = [&](const auto& take) {
+        take(std::span{rgb}.first(3 * 600));
+        throw InputError{"stopped before the picture was whole"};
+    };
+    EXPECT_THAT(refusal_of([&] { write_geotiff(picture(), stopped, folder / "map.tif"); }),
+                HasSubstr("stopped before the picture was whole"));
+    EXPECT_TRUE(fs::is_empty(folder));
 }
 
 TEST(WorldFile, SaysWhereThePictureLies) {
@@ -125,7 +149,7 @@ TEST(WorldFile, SaysWhereThePictureLies) {
             take(png.substr(0, 40));
             take(png.substr(40));
         },
-        picture({}),
+        picture(),
         folder / "out" / "map.png");
     EXPECT_EQ(content_of(folder / "out" / "map.pgw"), "2.5\n0\n0\n-2.5\n500001.25\n5599998.75\n");
     const auto info = info_by_gdal(folder, folder / "out" / "map.png");
@@ -140,7 +164,7 @@ TEST(WorldFile, LeavesNothingWhereOneOfTheSetCannotBeWritten) {
     fs::create_directories(folder / "map.pgw" / "in the way");
     EXPECT_THAT(refusal_of([&] {
                     write_png_with_world_file(
-                        [](const auto& take) { take("png"); }, picture({}), folder / "map.png");
+                        [](const auto& take) { take("png"); }, picture(), folder / "map.png");
                 }),
                 HasSubstr("map.pgw: cannot be written: Is a directory"));
     EXPECT_FALSE(fs::exists(folder / "map.png"));
