@@ -140,11 +140,11 @@ FontShelf::~FontShelf() {
 FontShelf::Open& FontShelf::opened(int font) {
     auto& entry = open_.at(static_cast<std::size_t>(font));
     if (entry.face == nullptr) {
-        const auto file = (folder_ / path_of(font)).string();
-        if (FT_New_Face(library_, file.c_str(), 0, &entry.face) != 0) {
+        const auto path = file(font);
+        if (FT_New_Face(library_, path.c_str(), 0, &entry.face) != 0) {
             entry.face = nullptr;
             throw InputError{fmt::format(
-                "{}: cannot read the font, expected the package {}", file, file_of(font).package)};
+                "{}: cannot read the font, expected the package {}", path, file_of(font).package)};
         }
     }
     return entry;
@@ -186,6 +186,10 @@ std::vector<int> FontShelf::symbol_fonts() {
         }
     }
     return fonts;
+}
+
+std::string FontShelf::file(int font) const {
+    return (folder_ / path_of(font)).string();
 }
 
 bool FontShelf::has(int font, char32_t character) {

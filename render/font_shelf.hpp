@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 struct FT_LibraryRec_;
@@ -32,6 +33,8 @@ public:
 
     /// \throws InputError  naming the package, if the font's file is not there.
     bool has(int font, char32_t character);
+
+    std::string file(int font) const;
 
     /// A font at a size, until the next call for it. \throws InputError  likewise.
     FT_FaceRec_* face(int font, double size_px);

@@ -139,6 +139,14 @@ TextMask TypeSetter::stamp(const SetGlyph& glyph, const TextLook& look, const Gl
     return mask_of(face->glyph, int(left), int(top));
 }
 
+std::string TypeSetter::as_it_stands(std::string_view utf8) {
+    return utf8_of(in_visual_order(characters_of(without_controls(utf8))));
+}
+
+std::string TypeSetter::font_file(int font) const {
+    return desk_->shelf.file(font);
+}
+
 double TypeSetter::width_px(std::string_view utf8, const TextLook& look) {
     return set(utf8, look).width_px;
 }

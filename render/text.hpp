@@ -71,6 +71,13 @@ public:
     double width_px(std::string_view utf8, const TextLook& look);
     TextMask mask(std::string_view utf8, const TextLook& look);
 
+    /// Its characters in the order in which they stand, from left to right: the other way round
+    /// where they are read from right to left.
+    static std::string as_it_stands(std::string_view utf8);
+
+    /// The file of a SetGlyph's font.
+    std::string font_file(int font) const;
+
     /// One glyph at its place on the picture; left and top of the mask count from the picture's
     /// corner. Level glyphs are fitted to the rows of pixels, turned ones are not.
     TextMask stamp(const SetGlyph& glyph, const TextLook& look, const GlyphPose& pose);
