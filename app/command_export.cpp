@@ -53,9 +53,12 @@ ExportOptions parse_export(const Arguments& arguments) {
     }
     std::vector<std::string_view> suffixes{export_suffixes().begin(), export_suffixes().end()};
     std::ranges::copy(tile_archive_suffixes(), std::back_inserter(suffixes));
-    if (std::ranges::none_of(suffixes, [&](auto suffix) { return output->ends_with(suffix); })) {
-        throw UsageError{fmt::format(
-            "-o is '{}', expected a name that ends in {}", *output, fmt::join(suffixes, ", "))};
+    if (std::ranges::none_of(suffixes, [&](auto suffix) { return output->ends_with(suffix); }) &&
+        !is_tile_folder(*output)) {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in {}, or in / for a "
+                                     "folder of tiles",
+                                     *output,
+                                     fmt::join(suffixes, ", "))};
     }
     ExportOptions options{.store = store_file(arguments),
                           .output = *output,
@@ -131,8 +134,8 @@ constexpr std::array operands{store_operand};
 constexpr std::array options{
     Option{"-o,--output",
            "FILE",
-           "Where to; its suffix says what: .geojson, .geojsonl, .csv, .gpkg, "
-           ".fgb, .shp, .kml, .mbtiles, .pmtiles."},
+           "Its suffix says: .geojson, .geojsonl, .csv, .gpkg, .fgb, .shp, "
+           ".kml, .mbtiles, .pmtiles; DIR/: tiles."},
     zoom_option,
     tile_jobs_option,
     tiles_option,
@@ -168,11 +171,13 @@ const Command export_command{
         "no cars.\n"
         "With --sections: a mean for each of your own sections instead (docs/sections.md). The "
         "file appears when\nit is whole.",
-    .example = "  macadam export roads.gpkg -o roads.geojson\n"
-               "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02\n"
-               "  macadam export roads.gpkg -o sections.csv --sections routes.csv\n"
-               "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2\n"
-               "  macadam export roads.gpkg -o pictures.mbtiles --tiles picture --tile-size 512",
+    .example =
+        "  macadam export roads.gpkg -o roads.geojson\n"
+        "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02\n"
+        "  macadam export roads.gpkg -o sections.csv --sections routes.csv\n"
+        "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2\n"
+        "  macadam export roads.gpkg -o pictures.mbtiles --tiles picture --tile-size 512\n"
+        "  macadam export roads.gpkg -o tiles/                   z/x/y.pbf and metadata.json",
     .operands = operands,
     .options = options,
     .run = run_export};

@@ -3,6 +3,7 @@
 #include "app/interruption.hpp"
 #include "app/map_style.hpp"
 #include "app/segment_options.hpp"
+#include "app/tile_export.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/tile_archive.hpp"
 
@@ -58,7 +59,8 @@ TileSetNote note_of(const StoreInfo& info, const std::string& name, const Pictur
             .bounds = plan.box,
             .least_zoom = plan.least_zoom,
             .most_zoom = plan.most_zoom,
-            .layers = {}};
+            .layers = {},
+            .tile_px = plan.tile_px};
 }
 
 /// Reads what concerns the whole store; it is closed again before processes are made.
@@ -87,8 +89,8 @@ parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const Segm
 
 void expect_no_picture_options(const Arguments& arguments) {
     if (arguments.value("--tiles")) {
-        throw UsageError{fmt::format("--tiles goes with tiles, expected -o to end in {}",
-                                     fmt::join(tile_archive_suffixes(), " or "))};
+        throw UsageError{
+            fmt::format("--tiles goes with tiles, expected -o to end in {}", tile_endings())};
     }
     expect_no_picture_looks(arguments);
 }

@@ -70,9 +70,14 @@ std::string size_text(std::uint64_t bytes) {
 
 } // namespace
 
-bool is_tile_archive(const std::filesystem::path& file) {
+bool is_tile_archive(const std::filesystem::path& place) {
     const auto suffixes = tile_archive_suffixes();
-    return std::ranges::find(suffixes, file.extension().string()) != suffixes.end();
+    return is_tile_folder(place) ||
+           std::ranges::find(suffixes, place.extension().string()) != suffixes.end();
+}
+
+std::string tile_endings() {
+    return fmt::format("{} or /", fmt::join(tile_archive_suffixes(), ", "));
 }
 
 TilePlan parse_tile_plan(const Arguments& arguments) {
@@ -98,7 +103,7 @@ TilePlan parse_tile_plan(const Arguments& arguments) {
 void expect_no_tile_options(const Arguments& arguments) {
     if (arguments.value("--zoom") || arguments.value("--jobs")) {
         throw UsageError{fmt::format("--zoom and --jobs go with tiles, expected -o to end in {}",
-                                     fmt::join(tile_archive_suffixes(), " or "))};
+                                     tile_endings())};
     }
 }
 
@@ -116,7 +121,7 @@ void export_tiles(const RoadStore& store,
         progress.stop = interruption.stop();
         return progress;
     };
-    TileSource source{file};
+    TileSource source{beside_tiles(file)};
     read_tile_source(store, filter, source, stage("reading segments"));
     if (source.count == 0) {
         throw InputError{fmt::format("{}: no measured segment is asked for, expected at least one",

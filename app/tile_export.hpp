@@ -6,6 +6,7 @@
 #include "storage/road_store.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace macadam {
 
@@ -13,8 +14,11 @@ inline constexpr Option zoom_option{
     "--zoom", "A-B", "Tiles: of these zooms, from 0 to 18 (a segment is told from 14 on).", "6-16"};
 inline constexpr Option tile_jobs_option{"--jobs", "N", "Tiles: to make at once.", "1"};
 
-/// Whether a file of that name holds tiles.
-bool is_tile_archive(const std::filesystem::path& file);
+/// Whether tiles are written there: into a file of such a suffix, or a folder.
+bool is_tile_archive(const std::filesystem::path& place);
+
+/// How -o says that tiles are wanted: ".mbtiles, .pmtiles or /".
+std::string tile_endings();
 
 /// Of --zoom and --jobs. \throws UsageError  for values that do not fit.
 TilePlan parse_tile_plan(const Arguments& arguments);
@@ -22,8 +26,8 @@ TilePlan parse_tile_plan(const Arguments& arguments);
 /// \throws UsageError  if one of --zoom and --jobs is there, which go with tiles alone.
 void expect_no_tile_options(const Arguments& arguments);
 
-/// Writes vector tiles of the store's measured segments into an archive (docs/outputs.md) and says
-/// how many.
+/// Writes vector tiles of the store's measured segments into an archive or a folder
+/// (docs/outputs.md) and says how many.
 void export_tiles(const RoadStore& store,
                   const SegmentFilter& filter,
                   const std::filesystem::path& file,

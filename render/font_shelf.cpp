@@ -159,8 +159,8 @@ FontShelf::~FontShelf() {
 FontShelf::Open& FontShelf::opened(int font) {
     auto& entry = open_.at(static_cast<std::size_t>(font));
     if (entry.face == nullptr) {
-        const auto file = (folder_ / path_of(font)).string();
-        if (FT_New_Face(library_, file.c_str(), file_of(font).face, &entry.face) != 0) {
+        const auto [file, index] = source(font);
+        if (FT_New_Face(library_, file.c_str(), index, &entry.face) != 0) {
             entry.face = nullptr;
             throw InputError{fmt::format(
                 "{}: cannot read the font, expected the package {}", file, file_of(font).package)};
@@ -205,6 +205,10 @@ std::vector<int> FontShelf::symbol_fonts() {
         }
     }
     return fonts;
+}
+
+FontSource FontShelf::source(int font) const {
+    return {(folder_ / path_of(font)).string(), file_of(font).face};
 }
 
 bool FontShelf::has(int font, char32_t character) {

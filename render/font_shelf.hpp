@@ -1,7 +1,10 @@
 #pragma once
 
+#include "render/font_source.hpp"
+
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 struct FT_LibraryRec_;
@@ -32,6 +35,8 @@ public:
 
     /// \throws InputError  naming the package, if the font's file is not there.
     bool has(int font, char32_t character);
+
+    FontSource source(int font) const;
 
     /// A font at a size, until the next call for it. \throws InputError  likewise.
     FT_FaceRec_* face(int font, double size_px);

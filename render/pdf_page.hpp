@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -13,6 +14,23 @@ namespace macadam {
 struct LineEnds {
     bool round_begin = true;
     bool round_end = true;
+};
+
+/// A glyph of a font, where it goes on a page.
+struct PageGlyph {
+    FontSource font;
+    std::uint32_t index = 0; ///< in the font
+    GlyphPose pose{};
+};
+
+/// A line of text whose letters have been set before, each in a direction of its own.
+struct TurnedText {
+    std::string standing; ///< what it says, UTF-8, from left to right as it stands
+    double size_px = 0;   ///< of the em
+    std::vector<PageGlyph> glyphs;
+    std::uint32_t rgb = 0;
+    double halo_px = 0; ///< how far the ground around letters is painted over
+    std::uint32_t halo_rgb = 0;
 };
 
 /// A page of a PDF file. Shapes stay shapes, and text stays text, in fonts that the file carries:
@@ -30,6 +48,9 @@ public:
                             const TextLook& look,
                             const PixelPoint& at,
                             std::uint32_t rgb) = 0;
+
+    /// A line of text along a curve. Who searches or copies text finds it whole.
+    virtual void write_turned(const TurnedText& text) = 0;
     virtual double width_px(const std::string& utf8, const TextLook& look) = 0;
 
     /// What is drawn from now on shows only inside the box; nothing else until end_clip().

@@ -5,6 +5,7 @@
 #include "render/label_painter.hpp"
 #include "render/line_joining.hpp"
 #include "render/map_labels.hpp"
+#include "render/pdf_labels.hpp"
 #include "render/pdf_map.hpp"
 #include "render/pdf_roads.hpp"
 #include "render/road_painter.hpp"
@@ -126,6 +127,10 @@ Roads shown_roads(const MapScene& scene,
                             : roads_of(scene, style, frame, layout); // without a copy of all lines
 }
 
+LabelInks label_inks(const Palette& colours) {
+    return {colours.ink, colours.quiet_ink, colours.ground};
+}
+
 MapFrame frame_of(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
     check_size(width_px, height_px);
     TypeSetter setter;
@@ -156,11 +161,7 @@ public:
         Canvas canvas{painter_.rows(top_px, count), top_px};
         for (const auto& label : labels_) {
             if (label.box.bottom >= top_px && label.box.top <= top_px + count) {
-                draw_labels(canvas,
-                            {&label, 1},
-                            {},
-                            {colours_.ink, colours_.quiet_ink, colours_.ground},
-                            setter_);
+                draw_labels(canvas, {&label, 1}, {}, label_inks(colours_), setter_);
             }
         }
         furnish(canvas, layout_, placement_, style_, setter_);
@@ -229,12 +230,15 @@ std::string map_pdf(const MapScene& scene, const MapStyle& style, const PdfSheet
     const auto legend = legend_of(scene, style, classes);
     const auto placement = placement_of(scene, legend, layout, setter);
     const auto roads = shown_roads(scene, style, placement.frame, layout);
+    const auto labels = style.labels ? map_labels(scene, layout, placement, roads.widths, setter)
+                                     : std::vector<Label>{};
     return pdf_file(sheet, [&](PdfPage& page) {
         page.fill({{0, 0, sheet.width_px, sheet.height_px}}, theme.page);
         page.fill({layout.map}, theme.ground);
         page.begin_clip(layout.map);
         draw_roads(page, roads.strands, roads.widths, theme, colours);
         page.end_clip();
+        draw_labels(page, labels, label_inks(theme), setter);
         furnish(page, layout, placement, style, setter);
     });
 }

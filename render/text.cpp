@@ -17,7 +17,7 @@ namespace macadam {
 namespace {
 
 constexpr const char* fonts_folder = "/usr/share/fonts"; // of Debian's packages
-constexpr double units = 64;                                      // FreeType counts in 1/64 px
+constexpr double units = 64;                             // FreeType counts in 1/64 px
 
 bool continues_character(char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
@@ -137,6 +137,14 @@ TextMask TypeSetter::stamp(const SetGlyph& glyph, const TextLook& look, const Gl
         return {};
     }
     return mask_of(face->glyph, int(left), int(top));
+}
+
+std::string TypeSetter::as_it_stands(std::string_view utf8) {
+    return utf8_of(in_visual_order(characters_of(without_controls(utf8))));
+}
+
+FontSource TypeSetter::source(int font) const {
+    return desk_->shelf.source(font);
 }
 
 double TypeSetter::width_px(std::string_view utf8, const TextLook& look) {

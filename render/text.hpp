@@ -1,5 +1,7 @@
 #pragma once
 
+#include "render/font_source.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -70,6 +72,13 @@ public:
 
     double width_px(std::string_view utf8, const TextLook& look);
     TextMask mask(std::string_view utf8, const TextLook& look);
+
+    /// Its characters in the order in which they stand, from left to right: the other way round
+    /// where they are read from right to left.
+    static std::string as_it_stands(std::string_view utf8);
+
+    /// Where a SetGlyph's font is read from.
+    FontSource source(int font) const;
 
     /// One glyph at its place on the picture; left and top of the mask count from the picture's
     /// corner. Level glyphs are fitted to the rows of pixels, turned ones are not.

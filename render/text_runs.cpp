@@ -7,6 +7,7 @@
 #include <iterator>
 #include <new>
 #include <optional>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -56,7 +57,14 @@ std::vector<std::uint32_t> scripts_of(std::u32string_view text) {
     return scripts;
 }
 
-std::vector<int> levels_of(std::u32string_view text) {
+/// What the bidirectional algorithm says of a line.
+struct LineOrder {
+    std::vector<FriBidiLevel> levels; ///< of embedding
+    std::vector<FriBidiCharType> types;
+    FriBidiParType direction;
+};
+
+LineOrder order_of(std::u32string_view text) {
     const auto length = FriBidiStrIndex(text.size());
     const std::vector<FriBidiChar> characters(text.begin(), text.end());
     std::vector<FriBidiCharType> types(text.size());
@@ -69,7 +77,7 @@ std::vector<int> levels_of(std::u32string_view text) {
             types.data(), brackets.data(), length, &direction, levels.data()) == 0) {
         throw std::bad_alloc{}; // its only failure
     }
-    return {levels.begin(), levels.end()};
+    return {std::move(levels), std::move(types), direction};
 }
 
 /// Characters that only steer the others and have no shape of their own.
@@ -129,7 +137,7 @@ void choose_fonts(std::vector<Character>& characters,
 std::vector<Character>
 characters_with_looks(std::u32string_view text, bool bold, FontShelf& shelf) {
     const auto scripts = scripts_of(text);
-    const auto levels = levels_of(text);
+    const auto levels = order_of(text).levels;
     std::vector<Character> characters;
     characters.reserve(text.size());
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -175,6 +183,35 @@ std::u32string characters_of(std::string_view utf8) {
     }
     hb_buffer_destroy(buffer);
     return characters;
+}
+
+std::string utf8_of(std::u32string_view characters) {
+    constexpr std::size_t most_bytes = 4; // of a character
+    std::string utf8(characters.size() * most_bytes + 1, '\0');
+    const std::vector<FriBidiChar> plain(characters.begin(), characters.end());
+    const auto size = fribidi_unicode_to_charset(
+        FRIBIDI_CHAR_SET_UTF8, plain.data(), FriBidiStrIndex(plain.size()), utf8.data());
+    utf8.resize(std::size_t(size));
+    return utf8;
+}
+
+std::u32string in_visual_order(std::u32string text) {
+    if (text.empty()) {
+        return text;
+    }
+    auto [levels, types, direction] = order_of(text);
+    std::vector<FriBidiChar> standing(text.begin(), text.end());
+    if (fribidi_reorder_line(0,
+                             types.data(),
+                             FriBidiStrIndex(standing.size()),
+                             0,
+                             direction,
+                             levels.data(),
+                             standing.data(),
+                             nullptr) == 0) {
+        throw std::bad_alloc{}; // its only failure
+    }
+    return {standing.begin(), standing.end()};
 }
 
 std::vector<TextRun> runs_of(std::u32string_view text, bool bold, FontShelf& shelf) {

@@ -20,6 +20,11 @@ struct TextRun {
 /// UTF-8 as characters; bytes that are none become U+FFFD.
 std::u32string characters_of(std::string_view utf8);
 
+std::string utf8_of(std::u32string_view characters);
+
+/// The characters of a line from left to right as they stand on the picture.
+std::u32string in_visual_order(std::u32string text);
+
 /// The runs of a line from left to right as they stand on the picture.
 std::vector<TextRun> runs_of(std::u32string_view text, bool bold, FontShelf& shelf);
 

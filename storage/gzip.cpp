@@ -3,8 +3,10 @@
 #include <libdeflate.h>
 
 #include <algorithm>
+#include <cassert>
 #include <memory>
 #include <new>
+#include <ranges>
 #include <vector>
 
 namespace macadam {
@@ -27,6 +29,30 @@ Compressor new_compressor() {
     return compressor;
 }
 
+struct FreeDecompressor {
+    void operator()(libdeflate_decompressor* decompressor) const {
+        libdeflate_free_decompressor(decompressor);
+    }
+};
+using Decompressor = std::unique_ptr<libdeflate_decompressor, FreeDecompressor>;
+
+Decompressor new_decompressor() {
+    Decompressor decompressor{libdeflate_alloc_decompressor()};
+    if (!decompressor) {
+        throw std::bad_alloc{};
+    }
+    return decompressor;
+}
+
+/// The last four bytes of a gzip member, the lowest first (RFC 1952, ISIZE).
+std::size_t size_of_content(std::string_view bytes) {
+    std::size_t size = 0;
+    for (const char byte : bytes.substr(bytes.size() - 4) | std::views::reverse) {
+        size = size << 8U | static_cast<unsigned char>(byte);
+    }
+    return size;
+}
+
 } // namespace
 
 std::string gzipped(std::string_view bytes) {
@@ -37,6 +63,15 @@ std::string gzipped(std::string_view bytes) {
     const auto size = libdeflate_gzip_compress(
         compressor.get(), bytes.data(), bytes.size(), room.data(), room.size());
     return {room.data(), size};
+}
+
+std::string gunzipped(std::string_view bytes) {
+    thread_local const auto decompressor = new_decompressor();
+    std::string content(size_of_content(bytes), '\0');
+    [[maybe_unused]] const auto result = libdeflate_gzip_decompress(
+        decompressor.get(), bytes.data(), bytes.size(), content.data(), content.size(), nullptr);
+    assert(result == LIBDEFLATE_SUCCESS);
+    return content;
 }
 
 } // namespace macadam

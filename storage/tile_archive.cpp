@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/atomic_folder.hpp"
 #include "storage/json.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/tile_contents.hpp"
@@ -13,6 +14,7 @@
 #include <cassert>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace macadam {
@@ -23,8 +25,10 @@ constexpr std::array<std::string_view, 2> suffixes{".mbtiles", ".pmtiles"};
 const std::filesystem::path& expect_known_suffix(const std::filesystem::path& file) {
     const auto suffix = file.extension().string();
     if (std::ranges::find(suffixes, suffix) == suffixes.end()) {
-        throw InputError{fmt::format(
-            "{}: suffix '{}', expected {}", file.string(), suffix, fmt::join(suffixes, " or "))};
+        throw InputError{fmt::format("{}: suffix '{}', expected {} or a folder, as in tiles/",
+                                     file.string(),
+                                     suffix,
+                                     fmt::join(suffixes, ", "))};
     }
     return file;
 }
@@ -126,17 +130,39 @@ TileSetCentre centre_of(const TileSetNote& note) {
 // -------------------------------------------------------------------------------------- archive
 
 struct TileArchive::Impl {
-    std::filesystem::path file;
+    std::filesystem::path place;
     TileSetNote note;
+    std::optional<AtomicFolder> folder; ///< or else
+    std::optional<AtomicFile> file;
     TileContents contents;
-    AtomicFile out;
 
     Impl(const std::filesystem::path& path, TileSetNote said)
-        : file{expect_known_suffix(path)}, note{std::move(said)}, contents{path}, out{path} {}
+        : place{path}, note{std::move(said)}, contents{beside_tiles(path)} {
+        if (is_tile_folder(place)) {
+            folder.emplace(place);
+        } else {
+            file.emplace(expect_known_suffix(place));
+        }
+    }
+
+    void write(const Progress& progress) {
+        if (folder) {
+            write_tile_folder(folder->temporary(), place, contents, note, progress);
+            folder->commit();
+            return;
+        }
+        if (place.extension() == ".pmtiles") {
+            write_pmtiles(*file, contents, note, progress);
+        } else {
+            write_mbtiles(file->temporary(), place, contents, note, progress);
+            remove_leftovers_of(place);
+        }
+        file->commit();
+    }
 };
 
-TileArchive::TileArchive(const std::filesystem::path& file, TileSetNote note)
-    : impl_{std::make_unique<Impl>(file, std::move(note))} {
+TileArchive::TileArchive(const std::filesystem::path& place, TileSetNote note)
+    : impl_{std::make_unique<Impl>(place, std::move(note))} {
     assert(!is_empty(impl_->note.bounds));
     assert(impl_->note.least_zoom >= 0 && impl_->note.most_zoom <= most_zoom);
 }
@@ -149,20 +175,30 @@ void TileArchive::add(const TileId& tile, std::string_view bytes) {
 }
 
 TileArchiveSize TileArchive::commit(const Progress& progress) {
-    auto& [file, note, contents, out] = *impl_;
+    auto& contents = impl_->contents;
     if (contents.entries().empty()) {
-        throw InputError{
-            fmt::format("{}: there is nothing to show, expected at least one tile", file.string())};
+        throw InputError{fmt::format("{}: there is nothing to show, expected at least one tile",
+                                     impl_->place.string())};
     }
     contents.sort();
-    if (file.extension() == ".pmtiles") {
-        write_pmtiles(out, contents, note, progress);
-    } else {
-        write_mbtiles(out.temporary(), file, contents, note, progress);
-        remove_leftovers_of(file);
-    }
-    out.commit();
+    impl_->write(progress);
     return {contents.entries().size(), contents.count(), contents.bytes()};
+}
+
+bool is_tile_folder(const std::filesystem::path& place) {
+    const bool is_known = std::ranges::find(suffixes, place.extension().string()) != suffixes.end();
+    std::error_code none;
+    return !place.has_filename() || (!is_known && std::filesystem::is_directory(place, none));
+}
+
+std::filesystem::path beside_tiles(const std::filesystem::path& place) {
+    if (!is_tile_folder(place)) {
+        return place;
+    }
+    // What is there may be on a disk of its own, and its parent somebody else's.
+    std::error_code none;
+    const auto name = place.has_filename() ? place : place.parent_path();
+    return std::filesystem::is_directory(name, none) ? name / "" : name;
 }
 
 std::span<const std::string_view> tile_archive_suffixes() {

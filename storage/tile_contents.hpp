@@ -65,7 +65,15 @@ void write_pmtiles(AtomicFile& out,
                    const TileSetNote& note,
                    const Progress& progress);
 
-/// The vector layers as a JSON array, as both formats tell them; "" of pictures.
+/// \param temporary  where the folder grows
+/// \param called     how it is called when it is whole
+void write_tile_folder(const std::filesystem::path& temporary,
+                       const std::filesystem::path& called,
+                       const TileContents& contents,
+                       const TileSetNote& note,
+                       const Progress& progress);
+
+/// The vector layers as a JSON array, as all formats tell them; "" of pictures.
 std::string layers_json(const TileSetNote& note);
 
 /// Where a viewer begins: in the middle, at the last zoom that has it in two tiles' width.

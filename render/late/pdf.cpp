@@ -1,6 +1,7 @@
 #include "render/pdf_page.hpp"
 
 #include "estimator/common/error.hpp"
+#include "render/late/pdf_turned_text.hpp"
 
 #include <cairo-pdf.h>
 #include <fmt/core.h>
@@ -113,6 +114,8 @@ public:
                                      pango_layout_get_line_readonly(layout_.get(), 0));
     }
 
+    void write_turned(const TurnedText& text) override { draw_turned(cairo_.get(), fonts_, text); }
+
     double width_px(const std::string& utf8, const TextLook& look) override {
         set(utf8, look);
         int width = 0;
@@ -181,6 +184,7 @@ private:
 
     Owned<cairo_t> cairo_;
     Owned<PangoLayout> layout_;
+    PdfFonts fonts_;
 };
 
 void describe(cairo_surface_t* surface, const PdfSheet& sheet) {

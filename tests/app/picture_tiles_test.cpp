@@ -191,9 +191,28 @@ TEST(PictureTiles, GoIntoAnArchiveWhereTheSameBytesAreKeptOnce) {
     EXPECT_LT(counts.integer(1), counts.integer(0)); // most of the box is empty
 }
 
+TEST(PictureTiles, AreTheSameInAFolder) {
+    const auto file = town_store();
+    const auto place = file.parent_path() / "tiles/";
+    run(*command_named("export"),
+        {file.string(), "-o", place.string(), "--tiles", "picture", "--zoom", "13-15"});
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator{place}) {
+        files += entry.is_regular_file() ? 1 : 0;
+    }
+    const auto tiles = drawn(file, plan_of(file, 13, 15));
+    EXPECT_EQ(files, tiles.size() + 1); // and metadata.json
+    for (const auto& [tile, bytes] : tiles) {
+        std::ifstream in{place / std::to_string(tile.zoom) / std::to_string(tile.x) /
+                             (std::to_string(tile.y) + ".png"),
+                         std::ios::binary};
+        EXPECT_TRUE((std::string{std::istreambuf_iterator<char>{in}, {}} == bytes));
+    }
+}
+
 TEST(PictureTiles, RefuseOptionsThatDoNotFit) {
     EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.csv", "--tiles", "picture"}),
-              "--tiles goes with tiles, expected -o to end in .mbtiles or .pmtiles");
+              "--tiles goes with tiles, expected -o to end in .mbtiles, .pmtiles or /");
     EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.mbtiles", "--theme", "dark"}),
               "--tile-size, --theme, --style, --left-hand and --no-labels go with --tiles picture");
     EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.mbtiles", "--tiles", "picture", "--name", "Ring"}),

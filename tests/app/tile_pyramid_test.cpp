@@ -5,6 +5,7 @@
 #include "mapping/tile_generalisation.hpp"
 #include "render/vector_tile.hpp"
 #include "storage/files.hpp"
+#include "storage/gzip.hpp"
 #include "storage/pmtiles_reader.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/store_world.hpp"
@@ -247,6 +248,47 @@ TEST(TileExport, WritesWhatTheStoreHoldsIntoBothKinds) {
     }
 }
 
+TEST(TileExport, WritesTheSameTilesIntoAFolder) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    for (const auto* name : {"tiles/", "a.pmtiles"}) {
+        export_tiles(store, {}, folder / name, {.least_zoom = 12, .most_zoom = 15}, Console{true});
+    }
+    const auto read = read_pmtiles(folder / "a.pmtiles");
+    for (const auto& [tile, bytes] : read.tiles) {
+        std::ifstream in{folder / "tiles" / std::to_string(tile.zoom) / std::to_string(tile.x) /
+                             (std::to_string(tile.y) + ".pbf"),
+                         std::ios::binary};
+        ASSERT_TRUE(in.is_open());
+        const std::string plain{std::istreambuf_iterator<char>{in}, {}};
+        EXPECT_TRUE(gzipped(plain) == bytes);
+    }
+    const auto files = std::filesystem::recursive_directory_iterator{folder / "tiles"};
+    EXPECT_EQ(std::ranges::count_if(files, [](auto& entry) { return entry.is_regular_file(); }),
+              std::ptrdiff_t(read.tiles.size()) + 1); // and metadata.json
+}
+
+TEST(TileExport, IntoAFolderIsReadByGdal) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    import_trips(store, 6);
+    export_tiles(store, {}, folder / "tiles/", {.least_zoom = 12, .most_zoom = 14}, Console{true});
+    const auto command = "ogr2ogr -f CSV -select segment " + (folder / "a.csv").string() + " " +
+                         (folder / "tiles/14").string();
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream in{folder / "a.csv"};
+    std::set<std::string> found;
+    for (std::string line; std::getline(in, line);) {
+        found.insert(line.substr(0, line.find(',')));
+    }
+    found.erase("segment");
+    std::set<std::string> expected;
+    store.visit({},
+                [&](const SegmentRecord& record) { expected.insert(name_of(record.segment.key)); });
+    EXPECT_EQ(found, expected);
+}
+
 TEST(TileExport, IsReadByGdal) {
     const auto folder = test_folder();
     auto store = new_store(folder / "a.gpkg");
@@ -301,7 +343,7 @@ TEST(TileExport, RefusesOptionsThatDoNotFit) {
     EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.mbtiles", "--jobs", "0"}),
               "--jobs is 0, expected 1 to 256");
     EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.csv", "--zoom", "6-9"}),
-              "--zoom and --jobs go with tiles, expected -o to end in .mbtiles or .pmtiles");
+              "--zoom and --jobs go with tiles, expected -o to end in .mbtiles, .pmtiles or /");
 }
 
 } // namespace

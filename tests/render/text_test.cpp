@@ -163,6 +163,15 @@ TEST(Text, PutsALatinWordBeforeARightToLeftOneOnItsLeft) {
     EXPECT_EQ(name.back(), glyphs_of(setter.set("ש", look)).at(0));
 }
 
+TEST(Text, TellsItsCharactersAsTheyStand) {
+    EXPECT_EQ(TypeSetter::as_it_stands("Széchenyi út"), "Széchenyi út");
+    EXPECT_EQ(TypeSetter::as_it_stands("שלום"), "םולש");
+    EXPECT_EQ(TypeSetter::as_it_stands("רחוב 12"), "12 בוחר");
+    EXPECT_EQ(TypeSetter::as_it_stands("Weg שלום"), "Weg םולש");
+    EXPECT_EQ(TypeSetter::as_it_stands("\xff\x01"), "\uFFFD ");
+    EXPECT_EQ(TypeSetter::as_it_stands(""), "");
+}
+
 TEST(Text, ReordersVowelsOfDevanagari) {
     TypeSetter setter;
     const auto consonant = glyphs_of(setter.set("क", look)).at(0);

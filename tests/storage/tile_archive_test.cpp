@@ -310,7 +310,7 @@ TEST(TileArchive, RefusesWhatItCannotBe) {
     EXPECT_EQ(refusal_of([&] {
                   TileArchive{folder / "a.zip", note_of(mvt)};
               }),
-              (folder / "a.zip").string() + ": suffix '.zip', expected .mbtiles or .pmtiles");
+              (folder / "a.zip").string() + ": suffix '.zip', expected .mbtiles, .pmtiles or a folder, as in tiles/");
     EXPECT_EQ(refusal_of([&] {
                   TileArchive{folder / "none" / "a.pmtiles", note_of(mvt)};
               }),
@@ -348,6 +348,7 @@ TEST(Gzip, ComesBackAsItWas) {
             byte = static_cast<char>(random() % 20);
         }
         EXPECT_EQ(unzipped(gzipped(bytes)), bytes);
+        EXPECT_EQ(gunzipped(gzipped(bytes)), bytes);
     }
 }
 
