@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/base_map.hpp"
 #include "render/pen.hpp"
 
 #include <cstdint>
@@ -30,6 +31,12 @@ public:
                             const TextLook& look,
                             const PixelPoint& at,
                             std::uint32_t rgb) = 0;
+
+    /// A picture, one of its pixels to one of the page.
+    ///
+    /// \param rgba  opaque, top row first
+    virtual void lay(const PicturePart& part, std::span<const std::uint8_t> rgba) = 0;
+
     virtual double width_px(const std::string& utf8, const TextLook& look) = 0;
 
     /// What is drawn from now on shows only inside the box; nothing else until end_clip().
