@@ -1,3 +1,4 @@
+#include "app/base_map_option.hpp"
 #include "app/commands.hpp"
 #include "app/interruption.hpp"
 #include "app/map_box.hpp"
@@ -7,6 +8,7 @@
 #include "app/picture_output.hpp"
 #include "app/segment_options.hpp"
 
+#include "estimator/common/error.hpp"
 #include "render/colour.hpp"
 #include "storage/utc.hpp"
 
@@ -14,6 +16,7 @@
 
 #include <array>
 #include <utility>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -24,6 +27,7 @@ struct RenderOptions {
     std::optional<GeoBox> box;
     std::string title;
     MapStyle style;
+    std::optional<BaseMapChoice> base;
 };
 
 std::vector<std::string_view> ramp_names() {
@@ -75,23 +79,44 @@ RenderOptions parse_render(const Arguments& arguments) {
             .output = parse_picture_output(arguments),
             .box = map_box(arguments),
             .title = arguments.value("--title").value_or("Road roughness"),
-            .style = style_of(arguments)};
+            .style = style_of(arguments),
+            .base = parse_base_map(arguments)};
+}
+
+/// What is read is neither written to nor taken for something else.
+void expect_files_apart(const RenderOptions& options) {
+    std::vector<std::filesystem::path> inputs{options.store};
+    if (options.base) {
+        std::error_code none;
+        if (std::filesystem::equivalent(options.base->file, options.store, none)) {
+            throw InputError{fmt::format("{}: is the store itself, expected a raster after --base",
+                                         options.base->file.string())};
+        }
+        inputs.push_back(options.base->file);
+    }
+    refuse_to_replace(options.output.file, inputs);
 }
 
 void run_render(const Arguments& arguments, const Console& console) {
     auto options = parse_render(arguments);
-    refuse_to_replace(options.output.file, {options.store});
+    expect_files_apart(options);
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     warn_of_waiting(store, options.store, console);
     if (options.style.classes == nullptr) {
         options.style.classes = class_table(store.settings().class_table);
     }
     warn_of_look(options.style, console);
+    WatchedBaseMap base;
+    if (options.base) {
+        base = opened_base_map(options.base->file);
+        options.style.base_opacity = options.base->opacity.value_or(options.style.base_opacity);
+    }
     auto scene = map_scene(store,
                            {.box = options.box,
                             .title = options.title,
                             .style = options.style,
                             .projection = projection_of(options.output),
+                            .base = base.map,
                             .width_px = options.output.width_px,
                             .height_px = options.output.height_px});
     const Interruption interruption;
@@ -103,6 +128,10 @@ void run_render(const Arguments& arguments, const Console& console) {
                                      options.output,
                                      last_seen_ms ? utc_text(*last_seen_ms) : std::string{},
                                      progress);
+    if (base.map && !*base.is_seen) {
+        console.warn(fmt::format("{}: nothing of it lies on the map, which is drawn without it",
+                                 options.base->file.string()));
+    }
     console.say(fmt::format("{}: {}", options.output.file.string(), words));
 }
 
@@ -128,6 +157,8 @@ constexpr std::array options{
     Option{"--theme", "NAME", "light, dark or print.", "light"},
     Option{"--unit", "UNIT", "Of the legend: mm/m or in/mi.", "mm/m"},
     style_option,
+    base_option,
+    base_opacity_option,
     Option{"--min-passes", "N", "Draw roads with fewer passes of cars in grey.", "1"},
     Option{"--no-labels", "", "Leave out the names of roads."},
     Option{"--left-hand", "", "Traffic keeps left: draw each direction on that side."}};
@@ -147,6 +178,8 @@ const Command render_command{.name = "render",
                                         "EPSG:3006\n"
                                         "  macadam render roads.gpkg -o map.pdf --paper A3 "
                                         "--landscape\n"
+                                        "  macadam render roads.gpkg -o map.png --base "
+                                        "aerial.mbtiles\n"
                                         "  macadam render roads.gpkg -o map.png --classes five "
                                         "--theme dark --title \"Winter 2026\"",
                              .operands = operands,

@@ -1,5 +1,6 @@
 #include "app/map_scene.hpp"
 
+#include "app/base_map_option.hpp"
 #include "app/console.hpp"
 #include "app/map_box.hpp"
 #include "estimator/common/error.hpp"
@@ -73,6 +74,10 @@ MapScene scene_around(const RoadStore& store, const MapRequest& request) {
     MapScene scene;
     scene.title = request.title;
     scene.attribution = store.settings().attribution;
+    if (request.base) {
+        scene.base = request.base;
+        scene.attribution = attribution_with(scene.attribution, *request.base);
+    }
     if (request.box) {
         scene.box = *request.box;
         scene.subtitle = period_of(store.seen());

@@ -35,6 +35,7 @@ struct MapRequest {
     std::string title{};
     MapStyle style{};                                            ///< with its class table
     std::shared_ptr<const PlaneProjection> projection = nullptr; ///< null: spherical Mercator
+    std::shared_ptr<const BaseMap> base = nullptr;               ///< null: none
     int width_px = 0, height_px = 0;
 };
 

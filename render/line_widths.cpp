@@ -19,8 +19,9 @@ constexpr double ink_to_separate = 0.6;
 constexpr double least_core_px = 1.3; // a thinner line is more casing than colour
 constexpr double thinnest_core_px = 0.9;
 constexpr double thinnest_casing_px = 0.35;
-constexpr double uncertain_part = 0.55; // of the width of a certain one
-constexpr double cell_px = 64;          // "near", in a picture of 1000 px
+constexpr double uncertain_part = 0.55;  // of the width of a certain one
+constexpr double unmeasured_core = 0.75; // of a measured one: quieter
+constexpr double cell_px = 64;           // "near", in a picture of 1000 px
 
 double grown_width_px(double zoom) {
     const double share = (std::pow(zoom_base, zoom - 10) - 1) / (std::pow(zoom_base, 6) - 1);
@@ -99,6 +100,14 @@ double core_radius_px(const LineWidths& widths, int rank, bool certain) {
 
 double casing_radius_px(const LineWidths& widths, int rank, bool certain) {
     return core_radius_px(widths, rank, certain) + widths.casing_px;
+}
+
+double unmeasured_radius_px(const LineWidths& widths, int rank) {
+    return core_radius_px(widths, rank, true) * unmeasured_core;
+}
+
+double unmeasured_edge_radius_px(const LineWidths& widths, int rank) {
+    return unmeasured_radius_px(widths, rank) + widths.casing_px;
 }
 
 double way_offset_px(const LineWidths& widths, int rank) {

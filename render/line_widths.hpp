@@ -36,6 +36,10 @@ LineWidths uncrowded(const LineWidths& widths, double ink_per_px, double unit);
 double core_radius_px(const LineWidths& widths, int rank, bool certain);
 double casing_radius_px(const LineWidths& widths, int rank, bool certain);
 
+/// Of a road without a measurement, which is quieter, and of its edge on a base map.
+double unmeasured_radius_px(const LineWidths& widths, int rank);
+double unmeasured_edge_radius_px(const LineWidths& widths, int rank);
+
 /// From the centre line of the road to that of one direction.
 double way_offset_px(const LineWidths& widths, int rank);
 

@@ -2,6 +2,7 @@
 
 #include "estimator/common/geo.hpp"
 #include "estimator/common/progress.hpp"
+#include "mapping/base_map.hpp"
 #include "mapping/iri_class.hpp"
 #include "mapping/map_look.hpp"
 #include "render/plane_projection.hpp"
@@ -43,9 +44,10 @@ struct MapStyle {
     LegendWords words{};
     int least_passes = 1; ///< that few_passes of the lines speaks of
     bool left_hand_traffic = false;
-    bool in_per_mi = false; ///< legend in in/mi
-    bool labels = true;     ///< the names of roads along them
-    bool legend = true;     ///< false: none, where the page around the picture has its own
+    bool in_per_mi = false;    ///< legend in in/mi
+    bool labels = true;        ///< the names of roads along them
+    bool legend = true;        ///< false: none, where the page around the picture has its own
+    double base_opacity = 0.5; ///< of the base map: 0 none of it, 1 none of the ground
 };
 
 struct MapScene {
@@ -60,6 +62,7 @@ struct MapScene {
     bool scale_bar = true;        ///< with north arrow; false: the words around say how large it is
     bool to_the_edge = false;     ///< the box fills the map; else it keeps away from its edges
     std::shared_ptr<const PlaneProjection> projection{}; ///< null: spherical Mercator
+    std::shared_ptr<const BaseMap> base{}; ///< under the roads; null: the ground is of one colour
 };
 
 /// Eight-bit RGB, top row first.

@@ -16,6 +16,7 @@ constexpr double legend_air_px = 8;
 
 constexpr double least_label_px = 10; // smaller letters cannot be read
 constexpr double least_halo_px = 1.5;
+constexpr double base_map_halo = 1.6; // of one on ground that is even
 
 std::vector<RoadName>
 road_names(const MapScene& scene, const MapFrame& frame, const LineWidths& widths) {
@@ -67,8 +68,11 @@ std::vector<Label> map_labels(const MapScene& scene,
                                         corner.y + placement.card.height_px},
                                        -legend_air_px * layout.unit));
     }
-    return placed_labels(
-        road_names(scene, placement.frame, widths), cell, label_config(layout.unit), setter);
+    auto config = label_config(layout.unit);
+    if (scene.base) {
+        config.halo_px *= base_map_halo;
+    }
+    return placed_labels(road_names(scene, placement.frame, widths), cell, config, setter);
 }
 
 } // namespace macadam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/base_map.hpp"
 #include "render/pen.hpp"
 
 #include <cstdint>
@@ -51,6 +52,12 @@ public:
 
     /// A line of text along a curve. Who searches or copies text finds it whole.
     virtual void write_turned(const TurnedText& text) = 0;
+
+    /// A picture, one of its pixels to one of the page.
+    ///
+    /// \param rgba  opaque, top row first
+    virtual void lay(const PicturePart& part, std::span<const std::uint8_t> rgba) = 0;
+
     virtual double width_px(const std::string& utf8, const TextLook& look) = 0;
 
     /// What is drawn from now on shows only inside the box; nothing else until end_clip().

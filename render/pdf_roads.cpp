@@ -10,7 +10,6 @@ namespace macadam {
 namespace {
 
 constexpr int lowest_rank = 5;
-constexpr double unmeasured_core = 0.75; // as in the picture
 
 using Strands = std::vector<const Strand*>;
 
@@ -80,16 +79,26 @@ std::uint64_t looks_of(std::size_t classes, bool certain) {
 
 } // namespace
 
+void draw_unmeasured_edges(PdfPage& page,
+                           std::span<const Strand> strands,
+                           const LineWidths& widths,
+                           std::uint32_t rgb) {
+    for (int rank = lowest_rank; rank >= 0; --rank) {
+        draw(page,
+             strands_of(strands, rank, false),
+             {unmeasured_edge_radius_px(widths, rank), ~std::uint64_t{0}, rgb});
+    }
+}
+
 void draw_roads(PdfPage& page,
                 std::span<const Strand> strands,
                 const LineWidths& widths,
                 const Palette& palette,
                 std::span<const std::uint32_t> class_colours) {
     for (int rank = lowest_rank; rank >= 0; --rank) {
-        const double radius_px = core_radius_px(widths, rank, true) * unmeasured_core;
         draw(page,
              strands_of(strands, rank, false),
-             {radius_px, ~std::uint64_t{0}, palette.unmeasured});
+             {unmeasured_radius_px(widths, rank), ~std::uint64_t{0}, palette.unmeasured});
     }
     for (int rank = lowest_rank; rank >= 0; --rank) {
         const auto measured = strands_of(strands, rank, true);

@@ -4,6 +4,7 @@
 #include "render/line_widths.hpp"
 #include "render/pdf_page.hpp"
 
+#include <cstdint>
 #include <span>
 
 namespace macadam {
@@ -15,5 +16,11 @@ void draw_roads(PdfPage& page,
                 const LineWidths& widths,
                 const Palette& palette,
                 std::span<const std::uint32_t> class_colours);
+
+/// What is below them on a base map: edges of the roads without a measurement.
+void draw_unmeasured_edges(PdfPage& page,
+                           std::span<const Strand> strands,
+                           const LineWidths& widths,
+                           std::uint32_t rgb);
 
 } // namespace macadam

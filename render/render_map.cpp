@@ -1,6 +1,7 @@
 #include "render/map.hpp"
 
 #include "estimator/common/error.hpp"
+#include "render/base_ground.hpp"
 #include "render/furniture.hpp"
 #include "render/label_painter.hpp"
 #include "render/line_joining.hpp"
@@ -139,6 +140,28 @@ MapFrame frame_of(const MapScene& scene, const MapStyle& style, int width_px, in
     return placement_of(scene, legend, layout, setter).frame;
 }
 
+/// The base map as it lies on a picture; empty where the scene has none.
+PaintPart ground_of(const MapScene& scene,
+                    const MapStyle& style,
+                    const MapFrame& frame,
+                    const PictureSize& size) {
+    if (!scene.base) {
+        return {};
+    }
+    const auto place = plane_place(frame);
+    return ground_with(scene.base->laid_on({.wkt = scene.projection ? scene.projection->wkt : "",
+                                            .left = place.left,
+                                            .top = place.top,
+                                            .per_px = place.per_px,
+                                            .width_px = size.width_px,
+                                            .height_px = size.height_px}),
+                       {.ground = palette(style).ground, .opacity = style.base_opacity});
+}
+
+PicturePart part_of(const PixelBox& box) {
+    return {int(box.left), int(box.top), int(box.width()), int(box.height())};
+}
+
 /// Of all that a picture shows, what is in some of its rows.
 class Picture {
 public:
@@ -147,7 +170,10 @@ public:
           layout_{layout_of(scene, size.width_px, size.height_px, setter_)},
           placement_{placement_of(scene, legend_of(scene, style, classes_), layout_, setter_)},
           roads_{shown_roads(scene, style, placement_.frame, layout_)},
-          painter_{{size.width_px, size.height_px, layout_.map},
+          painter_{{size.width_px,
+                    size.height_px,
+                    layout_.map,
+                    ground_of(scene, style, placement_.frame, size)},
                    roads_.strands,
                    roads_.widths,
                    colours_,
@@ -232,10 +258,15 @@ std::string map_pdf(const MapScene& scene, const MapStyle& style, const PdfSheet
     const auto roads = shown_roads(scene, style, placement.frame, layout);
     const auto labels = style.labels ? map_labels(scene, layout, placement, roads.widths, setter)
                                      : std::vector<Label>{};
+    const auto ground = ground_of(scene, style, placement.frame, {width_px, height_px});
     return pdf_file(sheet, [&](PdfPage& page) {
         page.fill({{0, 0, sheet.width_px, sheet.height_px}}, theme.page);
         page.fill({layout.map}, theme.ground);
         page.begin_clip(layout.map);
+        if (ground) {
+            page.lay(part_of(layout.map), ground(part_of(layout.map)));
+            draw_unmeasured_edges(page, roads.strands, roads.widths, theme.ground);
+        }
         draw_roads(page, roads.strands, roads.widths, theme, colours);
         page.end_clip();
         draw_labels(page, labels, label_inks(theme), setter);

@@ -1,5 +1,6 @@
 #include "render/road_painter.hpp"
 
+#include "render/pixel_painter.hpp"
 #include "render/ribbon_painter.hpp"
 #include "render/road_strands.hpp"
 
@@ -12,7 +13,6 @@ namespace macadam {
 namespace {
 
 constexpr int lowest_rank = 5;
-constexpr double unmeasured_core = 0.75; // of a measured one: quieter
 
 using Strands = std::vector<const Strand*>;
 
@@ -130,12 +130,13 @@ void draw(RibbonPainter& painter,
 struct Easel {
     Easel(int width, int height)
         : width_px{width}, height_px{height}, rgba(std::size_t(width) * std::size_t(height) * 4),
-          context{rgba, width, height}, painter{context} {}
+          context{rgba, width, height}, painter{context}, pixels{context} {}
 
     int width_px, height_px;
     std::vector<std::uint8_t> rgba;
     GlContext context;
     RibbonPainter painter;
+    PixelPainter pixels;
 };
 
 /// Four bytes a pixel to three, onto a band of the sheet, `down` rows below its first.
@@ -155,6 +156,8 @@ void lay(const Easel& easel, const Window& window, int down, Image& band) {
 
 struct RoadPainter::Impl {
     void paint(const Window& window);
+    void lay_ground(const Window& window, const PixelBox& map);
+    void paint_unmeasured_edge(int rank, const RibbonPass& view);
     void paint_unmeasured(int rank, const RibbonPass& view);
     void paint_measured(int rank, const RibbonPass& view);
     void prepare(int width_px, int height_px);
@@ -176,9 +179,33 @@ void RoadPainter::Impl::prepare(int width_px, int height_px) {
     easel->context.make_current();
 }
 
+/// Some rows at a time: their pixels are held three times.
+void RoadPainter::Impl::lay_ground(const Window& window, const PixelBox& map) {
+    constexpr int pixels = 2'097'152;
+    const int left = int(map.left);
+    const int width = int(map.width());
+    const int bottom = int(map.bottom);
+    const int rows = std::max(1, pixels / width);
+    for (int top = int(map.top); top < bottom; top += rows) {
+        const int height = std::min(rows, bottom - top);
+        easel->pixels.lay({left - window.left_px, top - window.top_px, width, height},
+                          sheet.ground({left, top, width, height}));
+    }
+}
+
+void RoadPainter::Impl::paint_unmeasured_edge(int rank, const RibbonPass& view) {
+    auto pass = view;
+    pass.radius_px = unmeasured_edge_radius_px(widths, rank);
+    pass.looks = every_look;
+    draw(easel->painter,
+         near(layers[std::size_t(rank)].unmeasured, view.visible, pass.radius_px),
+         pass,
+         palette.ground);
+}
+
 void RoadPainter::Impl::paint_unmeasured(int rank, const RibbonPass& view) {
     auto pass = view;
-    pass.radius_px = core_radius_px(widths, rank, true) * unmeasured_core;
+    pass.radius_px = unmeasured_radius_px(widths, rank);
     pass.looks = every_look;
     draw(easel->painter,
          near(layers[std::size_t(rank)].unmeasured, view.visible, pass.radius_px),
@@ -220,6 +247,12 @@ void RoadPainter::Impl::paint(const Window& window) {
                           .left_px = window.left_px,
                           .top_px = window.top_px};
     if (map.width() > 0 && map.height() > 0) {
+        if (sheet.ground) {
+            lay_ground(window, map);
+            for (int rank = lowest_rank; rank >= 0; --rank) {
+                paint_unmeasured_edge(rank, view);
+            }
+        }
         for (int rank = lowest_rank; rank >= 0; --rank) {
             paint_unmeasured(rank, view);
         }

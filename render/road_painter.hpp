@@ -16,6 +16,10 @@ namespace macadam {
 struct Sheet {
     int width_px, height_px;
     PixelBox map; ///< whole pixels; the rest is page
+
+    /// The map's pixels under the roads, opaque; empty: all are of the palette's ground. Then roads
+    /// without a measurement, which are quiet, have an edge in that colour.
+    PaintPart ground{};
 };
 
 /// Paints a sheet with its roads, as many rows at a time as wanted: those without a measurement

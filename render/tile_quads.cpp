@@ -10,9 +10,8 @@
 namespace macadam {
 namespace {
 
-constexpr double unmeasured_core = 0.75; // of a measured one: quieter
-constexpr double fringe_px = 0.75;       // half a pixel of antialiasing and a little for rounding
-constexpr double overlap_px = 1.0;       // of neighbours that look different
+constexpr double fringe_px = 0.75; // half a pixel of antialiasing and a little for rounding
+constexpr double overlap_px = 1.0; // of neighbours that look different
 constexpr int ranks = 6;
 
 struct Vector {
@@ -38,9 +37,7 @@ public:
     int layers() const { return ranks + ranks * (2 + looks_); }
 
     Paint unmeasured(int rank) const {
-        return {ranks - 1 - rank,
-                core_radius_px(widths_, rank, true) * unmeasured_core,
-                colours_.palette.unmeasured};
+        return {ranks - 1 - rank, unmeasured_radius_px(widths_, rank), colours_.palette.unmeasured};
     }
     Paint casing(int rank, int look) const {
         const bool certain = is_certain(look);

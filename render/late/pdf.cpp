@@ -8,6 +8,7 @@
 #include <pango/pangocairo.h>
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <numbers>
 
@@ -38,6 +39,23 @@ void expect(cairo_status_t status) {
     if (status != CAIRO_STATUS_SUCCESS) {
         throw InputError{fmt::format("the PDF cannot be made: {}", cairo_status_to_string(status))};
     }
+}
+
+/// Cairo has blue, green, red and a byte of nothing as a number of the machine's.
+void put_pixels(cairo_surface_t* picture, std::span<const std::uint8_t> rgba) {
+    cairo_surface_flush(picture);
+    const auto width = std::size_t(cairo_image_surface_get_width(picture));
+    const auto height = std::size_t(cairo_image_surface_get_height(picture));
+    const auto stride = std::size_t(cairo_image_surface_get_stride(picture));
+    auto* const data = cairo_image_surface_get_data(picture);
+    for (std::size_t y = 0; y < height; ++y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const auto* const from = rgba.data() + (y * width + x) * 4;
+            const auto pixel = std::uint32_t{from[0]} << 16 | std::uint32_t{from[1]} << 8 | from[2];
+            std::memcpy(data + y * stride + x * 4, &pixel, sizeof(pixel));
+        }
+    }
+    cairo_surface_mark_dirty(picture);
 }
 
 class CairoPage final : public PdfPage {
@@ -115,6 +133,18 @@ public:
     }
 
     void write_turned(const TurnedText& text) override { draw_turned(cairo_.get(), fonts_, text); }
+
+    void lay(const PicturePart& part, std::span<const std::uint8_t> rgba) override {
+        const Owned<cairo_surface_t> picture{
+            cairo_image_surface_create(CAIRO_FORMAT_RGB24, part.width_px, part.height_px)};
+        expect(cairo_surface_status(picture.get()));
+        put_pixels(picture.get(), rgba);
+        cairo_save(cairo_.get());
+        cairo_set_source_surface(cairo_.get(), picture.get(), part.left_px, part.top_px);
+        cairo_rectangle(cairo_.get(), part.left_px, part.top_px, part.width_px, part.height_px);
+        cairo_fill(cairo_.get());
+        cairo_restore(cairo_.get());
+    }
 
     double width_px(const std::string& utf8, const TextLook& look) override {
         set(utf8, look);

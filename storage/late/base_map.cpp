@@ -1,0 +1,24 @@
+#include "storage/late/base_map.hpp"
+
+#include "storage/late/raster_painter.hpp"
+
+#include <utility>
+
+namespace macadam {
+namespace {
+
+void open(const std::filesystem::path& file, BaseMap& map) {
+    auto raster = std::make_shared<const RasterFile>(file);
+    map.attribution = raster->attribution();
+    map.laid_on = [raster](const PicturePlane& plane) -> PaintPart {
+        auto painter = std::make_shared<const RasterPainter>(raster, plane);
+        return [painter](const PicturePart& part) { return painter->rgba(part); };
+    };
+}
+
+} // namespace
+} // namespace macadam
+
+extern "C" void macadam_base_map_open(const std::filesystem::path& file, macadam::BaseMap& map) {
+    macadam::open(file, map);
+}

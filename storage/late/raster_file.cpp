@@ -1,0 +1,352 @@
+#include "storage/late/raster_file.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/late/gdal_errors.hpp"
+#include "storage/late/raster_colours.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <fmt/core.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double tolerated = 1.05; // of a level's pixels: nobody sees it
+
+/// Files only: a map is the same tomorrow and without a network.
+void keep_off_the_network() {
+    CPLSetConfigOption("GDAL_SKIP",
+                       "WMS,WMTS,WCS,HTTP,DAAS,OGCAPI,STACTA,STACIT,PLMOSAIC,PLSCENES,EEDA,EEDAI,"
+                       "NGW,PostGISRaster");
+    CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_FILENAME", "none");
+    OSRSetPROJEnableNetwork(FALSE);
+}
+
+/// What is kept of the files' blocks: several rows of tiles under the widest picture. GDAL would
+/// take a share of the machine's memory.
+constexpr GIntBig cache_bytes = 128 << 20;
+
+std::string kind_of_vectors(const char* path) {
+    const GDALDatasetUniquePtr vectors{GDALDataset::Open(path, GDAL_OF_VECTOR)};
+    if (!vectors) {
+        return {};
+    }
+    const std::string_view driver = vectors->GetDriverName();
+    return driver == "MBTiles" ? "holds vector tiles, expected tiles that are pictures"
+                               : "holds points, lines or areas, expected a raster";
+}
+
+GDALDatasetUniquePtr opened(const fs::path& file) {
+    keep_off_the_network();
+    GDALAllRegister();
+    GDALSetCacheMax64(cache_bytes);
+    const auto path = fs::absolute(file);
+    GDALDatasetUniquePtr raster{
+        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR)};
+    if (raster && raster->GetRasterCount() > 0) {
+        return raster;
+    }
+    if (raster) {
+        throw InputError{fmt::format(
+            "{}: has no raster of its own, only others inside it, expected one that GDAL opens by "
+            "the file's name",
+            file.string())};
+    }
+    const auto said = gdal_said("GDAL does not say why");
+    const auto vectors = kind_of_vectors(path.c_str());
+    throw InputError{
+        vectors.empty()
+            ? fmt::format("{}: is no raster that GDAL can read: {}", file.string(), said)
+            : fmt::format("{}: {}", file.string(), vectors)};
+}
+
+/// As GDAL has it: from pixel and line to x and y, and back.
+struct Transforms {
+    std::array<double, 6> forward{}, backward{};
+};
+
+Transforms transforms_of(GDALDataset& raster, const std::string& file) {
+    Transforms transforms;
+    if (raster.GetGeoTransform(transforms.forward.data()) != CE_None ||
+        GDALInvGeoTransform(transforms.forward.data(), transforms.backward.data()) == FALSE) {
+        throw InputError{fmt::format(
+            "{}: does not say where its pixels lie, expected a georeferenced raster; a world file "
+            "or gdal_translate -a_ullr says it",
+            file)};
+    }
+    return transforms;
+}
+
+OGRSpatialReference system_of(GDALDataset& raster, const std::string& file) {
+    const auto* const system = raster.GetSpatialRef();
+    if (system == nullptr || system->IsEmpty() || system->IsLocal()) {
+        throw InputError{
+            fmt::format("{}: has no coordinate system, expected a georeferenced raster; "
+                        "gdal_translate -a_srs EPSG:... gives it one",
+                        file)};
+    }
+    OGRSpatialReference own{*system};
+    own.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return own;
+}
+
+/// What is no UTF-8 is of older pictures, which mostly say "©" in Latin 1.
+std::string as_utf8(const char* text) {
+    if (CPLIsUTF8(text, -1) != 0) {
+        return text;
+    }
+    char* const recoded = CPLRecode(text, CPL_ENC_ISO8859_1, CPL_ENC_UTF8);
+    std::string utf8 = recoded;
+    CPLFree(recoded);
+    return utf8;
+}
+
+/// MBTiles have it in HTML, for the corner of a web page.
+std::string without_markup(std::string_view html) {
+    std::string text;
+    bool inside = false;
+    for (const char c : html) {
+        inside = inside ? c != '>' : c == '<';
+        if (!inside && c != '>') {
+            text += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
+        }
+    }
+    constexpr std::string_view sign = "&copy;";
+    for (auto at = text.find(sign); at != std::string::npos; at = text.find(sign)) {
+        text.replace(at, sign.size(), "©");
+    }
+    char* const plain = CPLUnescapeString(text.c_str(), nullptr, CPLES_XML);
+    text = plain;
+    CPLFree(plain);
+    const auto first = text.find_first_not_of(' ');
+    return first == std::string::npos ? ""
+                                      : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::size_t bytes_of(const RasterBox& box) {
+    return std::size_t(box.width_px) * std::size_t(box.height_px) * 4;
+}
+
+/// Sums of colours that count as much as they are opaque.
+struct ColourSum {
+    std::array<std::uint64_t, 3> rgb{};
+    std::uint64_t alpha = 0;
+
+    void add(const std::uint8_t* rgba) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            rgb[i] += std::uint64_t{rgba[i]} * rgba[3];
+        }
+        alpha += rgba[3];
+    }
+
+    Rgba mean(std::uint64_t count) const {
+        if (alpha == 0) {
+            return {};
+        }
+        const auto colour = [&](std::size_t i) {
+            return std::uint8_t((rgb[i] + alpha / 2) / alpha);
+        };
+        return {colour(0), colour(1), colour(2), std::uint8_t((alpha + count / 2) / count)};
+    }
+};
+
+} // namespace
+
+struct RasterFile::Impl {
+    GDALRasterBand& band(int number, int overview) const;
+    GDALRasterBand& mask(int overview) const;
+    void read(GDALRasterBand& from, const RasterBox& box, std::uint8_t* to) const;
+    std::vector<std::uint8_t> pixels(int overview, const RasterBox& box) const;
+    std::vector<std::uint8_t> means(const RasterLevel& level, const RasterBox& box) const;
+    void colour(std::vector<std::uint8_t>& rgba) const;
+
+    std::string name;
+    GDALDatasetUniquePtr raster;
+    Transforms transforms;
+    OGRSpatialReference system;
+    RasterColours colours;
+};
+
+GDALRasterBand& RasterFile::Impl::band(int number, int overview) const {
+    auto* const whole = raster->GetRasterBand(number);
+    auto* const found = overview < 0 ? whole : whole->GetOverview(overview);
+    if (found == nullptr) {
+        throw InputError{fmt::format(
+            "{}: band {} lacks an overview that band {} has", name, number, colours.bands[0])};
+    }
+    return *found;
+}
+
+GDALRasterBand& RasterFile::Impl::mask(int overview) const {
+    auto* const whole = raster->GetRasterBand(colours.bands[0])->GetMaskBand();
+    if (overview >= 0 && overview < whole->GetOverviewCount()) {
+        return *whole->GetOverview(overview);
+    }
+    return *band(colours.bands[0], overview).GetMaskBand();
+}
+
+void RasterFile::Impl::read(GDALRasterBand& from, const RasterBox& box, std::uint8_t* to) const {
+    const auto done = from.RasterIO(GF_Read,
+                                    box.left_px,
+                                    box.top_px,
+                                    box.width_px,
+                                    box.height_px,
+                                    to,
+                                    box.width_px,
+                                    box.height_px,
+                                    GDT_Byte,
+                                    4,
+                                    GSpacing{4} * box.width_px,
+                                    nullptr);
+    if (done != CE_None) {
+        throw InputError{
+            fmt::format("{}: cannot be read: {}", name, gdal_said("GDAL does not say why"))};
+    }
+}
+
+/// Numbers of bands to colours, in place.
+void RasterFile::Impl::colour(std::vector<std::uint8_t>& rgba) const {
+    const auto& none = colours.no_data;
+    for (std::size_t at = 0; at < rgba.size(); at += 4) {
+        auto* const pixel = rgba.data() + at;
+        if (!colours.table.empty()) {
+            const auto& entry = colours.table[pixel[0]];
+            std::copy_n(entry.begin(), 3, pixel);
+            pixel[3] = std::uint8_t((int{pixel[3]} * entry[3] + 127) / 255);
+        } else if (none[0] && none[1] && none[2] && pixel[0] == *none[0] && pixel[1] == *none[1] &&
+                   pixel[2] == *none[2]) {
+            pixel[3] = 0;
+        }
+    }
+}
+
+std::vector<std::uint8_t> RasterFile::Impl::pixels(int overview, const RasterBox& box) const {
+    std::vector<std::uint8_t> rgba(bytes_of(box), 255);
+    for (std::size_t i = 0; i < colours.bands.size(); ++i) {
+        read(band(colours.bands[i], overview), box, rgba.data() + i);
+    }
+    if (colours.alpha_band != 0) {
+        read(band(colours.alpha_band, overview), box, rgba.data() + 3);
+    } else if (colours.masked) {
+        read(mask(overview), box, rgba.data() + 3);
+    }
+    colour(rgba);
+    return rgba;
+}
+
+/// Row by row, so that little is held of a large raster without smaller copies.
+std::vector<std::uint8_t> RasterFile::Impl::means(const RasterLevel& level,
+                                                  const RasterBox& box) const {
+    const int side = level.decimation;
+    const auto& first = band(colours.bands[0], level.overview);
+    auto& source = const_cast<GDALRasterBand&>(first); // NOLINT(*-const-cast): sizes are not const
+    const int left = box.left_px * side;
+    const int width = std::min((box.left_px + box.width_px) * side, source.GetXSize()) - left;
+    std::vector<std::uint8_t> rgba(bytes_of(box));
+    for (int y = 0; y < box.height_px; ++y) {
+        const int top = (box.top_px + y) * side;
+        const int height = std::min(side, source.GetYSize() - top);
+        const auto rows = pixels(level.overview, {left, top, width, height});
+        for (int x = 0; x < box.width_px; ++x) {
+            ColourSum sum;
+            const int end = std::min((x + 1) * side, width);
+            for (int row = 0; row < height; ++row) {
+                for (int column = x * side; column < end; ++column) {
+                    sum.add(rows.data() + (std::size_t(row) * width + std::size_t(column)) * 4);
+                }
+            }
+            const auto mean = sum.mean(std::uint64_t(height * (end - x * side)));
+            std::ranges::copy(
+                mean, rgba.begin() + std::ptrdiff_t((std::size_t(y) * box.width_px + x) * 4));
+        }
+    }
+    return rgba;
+}
+
+RasterFile::RasterFile(const fs::path& file) {
+    const Quiet quiet;
+    auto raster = opened(file);
+    const auto name = file.string();
+    const auto transforms = transforms_of(*raster, name);
+    auto system = system_of(*raster, name);
+    auto colours = colours_of(*raster, name);
+    impl_ = std::make_unique<Impl>(
+        Impl{name, std::move(raster), transforms, std::move(system), std::move(colours)});
+}
+
+RasterFile::~RasterFile() = default;
+
+std::string RasterFile::name() const {
+    return impl_->name;
+}
+
+int RasterFile::width_px() const {
+    return impl_->raster->GetRasterXSize();
+}
+
+int RasterFile::height_px() const {
+    return impl_->raster->GetRasterYSize();
+}
+
+const OGRSpatialReference& RasterFile::system() const {
+    return impl_->system;
+}
+
+std::array<double, 6> RasterFile::forward() const {
+    return impl_->transforms.forward;
+}
+
+std::array<double, 6> RasterFile::backward() const {
+    return impl_->transforms.backward;
+}
+
+std::string RasterFile::attribution() const {
+    for (const char* const key :
+         {"attribution", "TIFFTAG_COPYRIGHT", "Copyright", "EXIF_Copyright"}) {
+        if (const char* const text = impl_->raster->GetMetadataItem(key)) {
+            if (auto words = without_markup(as_utf8(text)); !words.empty()) {
+                return words;
+            }
+        }
+    }
+    return {};
+}
+
+RasterLevel RasterFile::level(double wanted_px) const {
+    auto& whole = impl_->band(impl_->colours.bands[0], -1);
+    RasterLevel best{.width_px = whole.GetXSize(), .height_px = whole.GetYSize()};
+    const auto per_px = [&](int part_px) { return double(whole.GetXSize()) / part_px; };
+    for (int i = 0; i < whole.GetOverviewCount(); ++i) {
+        auto* const copy = whole.GetOverview(i);
+        if (copy != nullptr && copy->GetXSize() < best.width_px &&
+            per_px(copy->GetXSize()) <= wanted_px * tolerated) {
+            best = {.overview = i, .width_px = copy->GetXSize(), .height_px = copy->GetYSize()};
+        }
+    }
+    const int width = best.width_px;
+    const int height = best.height_px;
+    constexpr int most = 1 << 10;
+    while (best.decimation < most && per_px(width) * best.decimation * 2 <= wanted_px * tolerated) {
+        best.decimation *= 2;
+    }
+    best.per_px_x = per_px(width) * best.decimation;
+    best.per_px_y = double(whole.GetYSize()) / height * best.decimation;
+    best.width_px = (width + best.decimation - 1) / best.decimation;
+    best.height_px = (height + best.decimation - 1) / best.decimation;
+    return best;
+}
+
+std::vector<std::uint8_t> RasterFile::rgba(const RasterLevel& level, const RasterBox& box) const {
+    const Quiet quiet;
+    return level.decimation == 1 ? impl_->pixels(level.overview, box) : impl_->means(level, box);
+}
+
+} // namespace macadam

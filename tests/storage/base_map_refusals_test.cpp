@@ -1,0 +1,126 @@
+// What is no base map, and how it is told.
+
+#include "base_map_places.hpp"
+
+#include <gmock/gmock.h>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(BaseMapFile, RefusesWhatIsNoMapOfColours) {
+    const auto folder = test_folder();
+    const auto refusal = [&](const fs::path& file) {
+        return refusal_of([&] { open_base_map(file); });
+    };
+    EXPECT_EQ(refusal(folder / "none.tif"),
+              (folder / "none.tif").string() + ": no such file, expected a base map");
+    EXPECT_THAT(refusal(folder), HasSubstr("is a folder, expected a base map"));
+    EXPECT_THAT(refusal(written(folder, "text.tif", "no raster")),
+                AllOf(HasSubstr("text.tif: is no raster that GDAL can read: "),
+                      HasSubstr("not recognized")));
+    EXPECT_THAT(refusal(written(folder, "empty.tif", "")),
+                HasSubstr("is no raster that GDAL can read"));
+    EXPECT_THAT(
+        refusal(written(folder,
+                        "lines.geojson",
+                        R"({"type":"FeatureCollection","features":[{"type":"Feature",)"
+                        R"("properties":{},"geometry":{"type":"Point","coordinates":[1,2]}}]})")),
+        HasSubstr("lines.geojson: holds points, lines or areas, expected a raster"));
+
+    const auto wide = folder / "wide.tif";
+    ASSERT_EQ(output_of(folder,
+                        "gdal_create -q -outsize 4 4 -bands 1 -ot UInt16 -a_srs EPSG:3857 -a_ullr "
+                        "0 4 4 0 " +
+                            wide.string()),
+              "");
+    EXPECT_EQ(refusal(wide),
+              wide.string() + ": holds numbers of type UInt16, expected colours of 8 bits; "
+                              "gdal_translate -ot Byte -scale makes them");
+    const auto many = folder / "many.tif";
+    ASSERT_EQ(output_of(folder,
+                        "gdal_create -q -outsize 4 4 -bands 7 -co PHOTOMETRIC=MINISBLACK -a_srs "
+                        "EPSG:3857 -a_ullr 0 4 4 0 " +
+                            many.string()),
+              "");
+    EXPECT_EQ(refusal(many),
+              many.string() + ": has 7 bands and does not say which are colours, expected grey, a "
+                              "palette, or red, green and blue; gdal_translate -b picks bands");
+}
+
+TEST(BaseMapFile, RefusesVectorTilesByTheirName) {
+    const auto folder = test_folder();
+    const auto lines =
+        written(folder,
+                "lines.geojson",
+                R"({"type":"FeatureCollection","features":[{"type":"Feature",)"
+                R"("properties":{},"geometry":{"type":"Point","coordinates":[1,2]}}]})");
+    const auto file = folder / "map.mbtiles";
+    ASSERT_EQ(
+        output_of(folder,
+                  "ogr2ogr -f MBTILES -dsco MAXZOOM=3 " + file.string() + " " + lines.string()),
+        "");
+    EXPECT_EQ(refusal_of([&] { open_base_map(file); }),
+              file.string() + ": holds vector tiles, expected tiles that are pictures");
+}
+
+TEST(BaseMapFile, RefusesWhatDoesNotSayWhereItLies) {
+    const auto folder = test_folder();
+    const auto created = [&](const std::string& options) {
+        auto file = folder / "map.png";
+        EXPECT_EQ(output_of(folder,
+                            "gdal_create -q -of GTiff -outsize 4 4 -bands 3 " + options + " " +
+                                (folder / "map.tif").string()),
+                  "");
+        return folder / "map.tif";
+    };
+    EXPECT_THAT(refusal_of([&] { open_base_map(created("-a_ullr 0 4 4 0")); }),
+                HasSubstr("map.tif: has no coordinate system, expected a georeferenced raster; "
+                          "gdal_translate -a_srs EPSG:... gives it one"));
+    EXPECT_THAT(refusal_of([&] { open_base_map(created("-a_srs EPSG:3857")); }),
+                HasSubstr("map.tif: does not say where its pixels lie, expected a georeferenced "
+                          "raster; a world file or gdal_translate -a_ullr says it"));
+}
+
+TEST(BaseMapFile, FetchesNothingFromTheNetwork) {
+    const auto folder = test_folder();
+    const auto service =
+        written(folder,
+                "service.xml",
+                R"(<GDAL_WMS><Service name="TMS"><ServerUrl>http://127.0.0.1:9/)"
+                R"(${z}/${x}/${y}.png</ServerUrl></Service><DataWindow>)"
+                R"(<UpperLeftX>-20037508</UpperLeftX><UpperLeftY>20037508</UpperLeftY>)"
+                R"(<LowerRightX>20037508</LowerRightX><LowerRightY>-20037508</LowerRightY>)"
+                R"(<TileLevel>3</TileLevel></DataWindow><Projection>EPSG:3857</Projection>)"
+                R"(<BandsCount>3</BandsCount></GDAL_WMS>)");
+    EXPECT_THAT(refusal_of([&] { open_base_map(service); }),
+                HasSubstr("service.xml: is no raster that GDAL can read"));
+}
+
+TEST(BaseMapFile, TellsOfAFileThatIsDamagedInside) {
+    const auto folder = test_folder();
+    const auto file = write_raster(
+        folder / "map.tif",
+        {"EPSG:3857", 0, 4000, 10, 400, 400, "-co COMPRESS=DEFLATE"},
+        [](int x, int y) {
+            return std::vector<std::uint8_t>{std::uint8_t(x * y), std::uint8_t(x + y), 3};
+        });
+    const auto map = [&] {
+        auto bytes = content_of(file);
+        std::fill(bytes.begin() + std::ptrdiff_t(bytes.size()) / 3,
+                  bytes.begin() + std::ptrdiff_t(bytes.size()) / 2,
+                  '\x55');
+        written(folder, "map.tif", bytes);
+        return open_base_map(file);
+    }();
+    EXPECT_THAT(refusal_of([&] {
+                    whole(map, {"", 0, 4000, 10, 400, 400});
+                }),
+                HasSubstr("map.tif: cannot be read: "));
+}
+
+} // namespace
+} // namespace macadam::testing
