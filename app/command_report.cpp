@@ -104,16 +104,20 @@ ReportOptions parse_report(const Arguments& arguments) {
 
 /// What the options of the report for people say nothing of.
 void refuse_beside_references(const Arguments& arguments) {
-    for (const auto* const option : {"--worst",
-                                     "--sections",
-                                     "--classes",
-                                     "--since",
-                                     "--unit",
-                                     "--language",
-                                     "--style",
-                                     "--min-passes"}) {
+    for (const auto* const option :
+         {"--worst", "--sections", "--classes", "--since", "--style", "--min-passes"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("{} and --against-reference exclude one another", option)};
+        }
+    }
+}
+
+/// Words and units of pages. What programs read is in mm/m whatever is asked for.
+void refuse_for_programs(const Arguments& arguments) {
+    for (const auto* const option : {"--unit", "--language"}) {
+        if (arguments.value(option)) {
+            throw UsageError{fmt::format(
+                "{} goes with -o FILE.html or .pdf beside --against-reference", option)};
         }
     }
 }
@@ -136,11 +140,15 @@ void report_against_reference(const Arguments& arguments, const Console& console
                                      output.string())};
     }
     const auto pdf = parse_paper(arguments, ending);
+    const auto wording = parse_wording(arguments, IriUnit::mm_per_m);
+    if (ending != ".html" && ending != ".pdf") {
+        refuse_for_programs(arguments);
+    }
     const auto file = store_file(arguments);
     const auto store = RoadStore::open(file, RoadStore::Access::read);
     warn_of_waiting(store, file, console);
     const auto report = reference_report(
-        store, arguments.value("--title").value_or("Cars beside reference surveys"));
+        store, arguments.value("--title").value_or(wording("reference.title")), wording);
     if (output.empty()) {
         print_words(reference_text(report));
         return;

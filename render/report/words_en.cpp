@@ -149,7 +149,8 @@ constexpr std::array messages{
     Message{"map.words.classes", " with roughness in colours:"},
     Message{"map.unmeasured", "No measurement"},
     Message{"map.few_passes", "Fewer than {least} passes"},
-    Message{"map.few_passes.remark", "Roads with few passes are grey here; all figures count them."},
+    Message{"map.few_passes.remark",
+            "Roads with few passes are grey here; all figures count them."},
     Message{"map.scale", "{length}, north up"},
     Message{"map.remark", "A thin line has few passes or a wide interval."},
 
