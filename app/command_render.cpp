@@ -38,15 +38,6 @@ std::vector<std::string_view> ramp_names() {
     return names;
 }
 
-std::optional<int> least_passes_of(const Arguments& arguments) {
-    constexpr std::int64_t most = 1'000'000;
-    const auto passes = arguments.integer("--min-passes");
-    if (passes && (*passes < 1 || *passes > most)) {
-        throw UsageError{fmt::format("--min-passes is {}, expected 1 to {}", *passes, most)};
-    }
-    return passes ? std::optional{static_cast<int>(*passes)} : std::nullopt;
-}
-
 MapStyle style_of(const Arguments& arguments) {
     constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
     constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
@@ -67,7 +58,7 @@ MapStyle style_of(const Arguments& arguments) {
     }
     style.left_hand_traffic = arguments.flag("--left-hand");
     style.labels = !arguments.flag("--no-labels");
-    style.least_passes = least_passes_of(arguments).value_or(style.least_passes);
+    style.least_passes = grey_below(arguments).value_or(style.least_passes);
     if (const auto name = arguments.value("--classes")) {
         style.classes = class_table_option(*name);
     }
@@ -159,7 +150,7 @@ constexpr std::array options{
     style_option,
     base_option,
     base_opacity_option,
-    Option{"--min-passes", "N", "Draw roads with fewer passes of cars in grey.", "1"},
+    grey_below_option,
     Option{"--no-labels", "", "Leave out the names of roads."},
     Option{"--left-hand", "", "Traffic keeps left: draw each direction on that side."}};
 

@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/map_style.hpp"
 #include "app/output_guard.hpp"
 #include "app/period_options.hpp"
 #include "app/reference_report.hpp"
@@ -36,19 +37,18 @@ std::size_t parse_worst(const Arguments& arguments) {
 }
 
 MapStyle parse_style(const Arguments& arguments) {
-    MapStyle style;
+    auto style = parse_style_file(arguments);
+    style.least_passes = grey_below(arguments).value_or(style.least_passes);
     style.left_hand_traffic = arguments.flag("--left-hand");
     if (const auto name = arguments.value("--classes")) {
-        style.classes = class_table(*name);
-        if (style.classes == nullptr) {
-            throw UsageError{fmt::format("--classes is '{}', expected fhwa or five", *name)};
-        }
+        style.classes = class_table_option(*name);
     }
     return style;
 }
 
-Wording parse_wording(const Arguments& arguments) {
-    Wording wording;
+/// \param by_default  where --unit says nothing
+Wording parse_wording(const Arguments& arguments, IriUnit by_default) {
+    Wording wording{.unit = by_default};
     if (const auto code = arguments.value("--language")) {
         wording.language = language(*code);
         if (wording.language == nullptr) {
@@ -87,7 +87,9 @@ ReportOptions parse_report(const Arguments& arguments) {
             output ? fmt::format("-o is '{}', expected a name that ends in .html or .pdf", *output)
                    : std::string{"-o report.html is missing"}};
     }
-    const auto wording = parse_wording(arguments);
+    const auto style = parse_style(arguments);
+    const auto wording =
+        parse_wording(arguments, style.in_per_mi ? IriUnit::in_per_mi : IriUnit::mm_per_m);
     return {.store = store_file(arguments),
             .output = *output,
             .report = {.title = arguments.value("--title").value_or(wording("title")),
@@ -96,16 +98,26 @@ ReportOptions parse_report(const Arguments& arguments) {
                        .since_ms = parse_begin(arguments, "--since"),
                        .wording = wording,
                        .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
-                       .style = parse_style(arguments)},
+                       .style = style},
             .pdf = parse_paper(arguments, ending)};
 }
 
 /// What the options of the report for people say nothing of.
 void refuse_beside_references(const Arguments& arguments) {
     for (const auto* const option :
-         {"--worst", "--sections", "--classes", "--since", "--unit", "--language"}) {
+         {"--worst", "--sections", "--classes", "--since", "--style", "--min-passes"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("{} and --against-reference exclude one another", option)};
+        }
+    }
+}
+
+/// Words and units of pages. What programs read is in mm/m whatever is asked for.
+void refuse_for_programs(const Arguments& arguments) {
+    for (const auto* const option : {"--unit", "--language"}) {
+        if (arguments.value(option)) {
+            throw UsageError{fmt::format(
+                "{} goes with -o FILE.html or .pdf beside --against-reference", option)};
         }
     }
 }
@@ -128,11 +140,15 @@ void report_against_reference(const Arguments& arguments, const Console& console
                                      output.string())};
     }
     const auto pdf = parse_paper(arguments, ending);
+    const auto wording = parse_wording(arguments, IriUnit::mm_per_m);
+    if (ending != ".html" && ending != ".pdf") {
+        refuse_for_programs(arguments);
+    }
     const auto file = store_file(arguments);
     const auto store = RoadStore::open(file, RoadStore::Access::read);
     warn_of_waiting(store, file, console);
     const auto report = reference_report(
-        store, arguments.value("--title").value_or("Cars beside reference surveys"));
+        store, arguments.value("--title").value_or(wording("reference.title")), wording);
     if (output.empty()) {
         print_words(reference_text(report));
         return;
@@ -155,6 +171,7 @@ void run_report(const Arguments& arguments, const Console& console) {
     if (options.report.style.classes == nullptr) {
         options.report.style.classes = class_table(store.settings().class_table);
     }
+    warn_of_look(options.report.style, console);
     const auto document =
         report_document(report_of(store, options.report, console.progress("drawing maps")));
     const auto bytes = options.report.pictures == PictureUse::paper ? pdf_of(document, options.pdf)
@@ -185,6 +202,8 @@ constexpr std::array options{
     exclude_option,
     exclude_radius_option,
     Option{"--classes", "NAME", "fhwa (good, fair, poor) or five.", "the store's"},
+    style_option,
+    grey_below_option,
     Option{"--left-hand", "", "Traffic keeps left: maps draw each direction on that side."}};
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "app/console.hpp"
 #include "render/map.hpp"
 
+#include <optional>
 #include <string_view>
 
 namespace macadam {
@@ -11,10 +12,16 @@ namespace macadam {
 inline constexpr Option style_option{
     "--style", "FILE", "Classes, colours, widths and words from a TOML file (docs/maps.md)."};
 
+inline constexpr Option grey_below_option{
+    "--min-passes", "N", "Draw roads with fewer passes of cars in grey.", "1"};
+
 /// Of --style, or as the program has it. What other options say comes on top.
 ///
 /// \throws InputError  for a file that is no style.
 MapStyle parse_style_file(const Arguments& arguments);
+
+/// Of --min-passes. \throws UsageError  for less than 1.
+std::optional<int> grey_below(const Arguments& arguments);
 
 /// The table of that name. \throws UsageError  naming --classes, if there is none.
 const ClassTable* class_table_option(std::string_view name);

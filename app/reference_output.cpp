@@ -12,6 +12,11 @@ namespace {
 
 constexpr double z_of_90_percent = 1.645;
 
+/// "2026-01-03 to 2026-05-11", "" = not dated.
+std::string span_of(const ComparedDays& days) {
+    return Wording{}.period(days.first, days.last);
+}
+
 // ---------------------------------------------------------------------------------------- JSON
 
 std::string json_of(const SurveyScore& score, bool with_level) {
@@ -188,10 +193,11 @@ std::string surveys_text(const ReferenceReport& report) {
                             100 * survey.relative_sd,
                             survey.alone_km);
     }
-    if (!report.passes_span.empty()) {
-        text += fmt::format("passes      {}\n", report.passes_span);
+    if (const auto span = span_of(report.passed); !span.empty()) {
+        text += fmt::format("passes      {}\n", span);
     }
-    return report.gap.empty() ? text : text + report.gap + "\n";
+    const auto gap = days_after_text(report, Wording{});
+    return gap.empty() ? text : text + gap + "\n";
 }
 
 std::string controls_text(const ReferenceReport& report) {
@@ -222,8 +228,8 @@ std::string controls_text(const ReferenceReport& report) {
 std::string reference_json(const ReferenceReport& report) {
     JsonObject object;
     object.add("surveys", JsonRaw{array_of(report.surveys)})
-        .add("passes_span", unless_empty(report.passes_span))
-        .add("references_span", unless_empty(report.references_span))
+        .add("passes_span", unless_empty(span_of(report.passed)))
+        .add("references_span", unless_empty(span_of(report.surveyed)))
         .add("segment_length_m", JsonNumber{report.segment_length_m, 2})
         .add("segments", JsonRaw{json_of(report.segments)})
         .add("hundred_metres", JsonRaw{json_of(report.hundreds)})

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace macadam {
@@ -29,13 +28,9 @@ void widen(Span& span, const std::optional<std::int64_t>& utc_ms) {
     }
 }
 
-std::string text_of(const Span& span) {
-    if (!span.first_ms) {
-        return {};
-    }
-    const auto first = utc_text(*span.first_ms).substr(0, 10);
-    const auto last = utc_text(*span.last_ms).substr(0, 10);
-    return first == last ? first : first + " to " + last;
+ComparedDays days_of(const Span& span) {
+    const auto day = [](std::int64_t utc_ms) { return utc_text(utc_ms).substr(0, 10); };
+    return span.first_ms ? ComparedDays{day(*span.first_ms), day(*span.last_ms)} : ComparedDays{};
 }
 
 /// Neighbours as one range.
@@ -101,16 +96,8 @@ SurveyScore score_of_survey(const std::vector<ReferencePair>& pairs, std::size_t
     return score_of(pairs_of(its, ComparedSide::headline));
 }
 
-std::string spoken_days(double days) {
-    const double far = std::abs(days);
-    const auto length = far < 90    ? fmt::format("{:.0f} days", far)
-                        : far < 730 ? fmt::format("{:.0f} months", far / 30.44)
-                                    : fmt::format("{:.1f} years", far / 365.25);
-    return length + (days < 0 ? " before" : " after");
-}
-
-/// From the reference to the newest pass, in the middle of all segments.
-std::string gap_of(const std::vector<ReferencePair>& pairs) {
+/// From the reference to the newest pass of each segment.
+std::optional<DaysAfter> days_after_of(const std::vector<ReferencePair>& pairs) {
     std::vector<double> days;
     for (const auto& pair : pairs) {
         if (pair.days_after) {
@@ -118,14 +105,10 @@ std::string gap_of(const std::vector<ReferencePair>& pairs) {
         }
     }
     if (days.empty()) {
-        return {};
+        return std::nullopt;
     }
     std::ranges::sort(days);
-    return fmt::format("The cars' values are of the day of a segment's newest pass: {} the survey "
-                       "in the middle, from {} to {} it.",
-                       spoken_days(days[days.size() / 2]),
-                       spoken_days(days.front()),
-                       spoken_days(days.back()));
+    return DaysAfter{.least = days.front(), .middle = days[days.size() / 2], .most = days.back()};
 }
 
 std::vector<ComparedControl> controls_of(const RoadStore& store) {
@@ -153,15 +136,17 @@ void add_spans(ReferenceReport& report,
     for (const auto& survey : surveys) {
         widen(references, survey.utc_ms);
     }
-    report.passes_span = text_of(passes);
-    report.references_span = text_of(references);
+    report.passed = days_of(passes);
+    report.surveyed = days_of(references);
 }
 
 } // namespace
 
-ReferenceReport reference_report(const RoadStore& store, const std::string& title) {
+ReferenceReport
+reference_report(const RoadStore& store, const std::string& title, const Wording& wording) {
     const auto surveys = store.surveys();
     ReferenceReport report;
+    report.wording = wording;
     report.title = title;
     report.segment_length_m = store.settings().segment_length_m;
     report.controls = controls_of(store);
@@ -173,7 +158,7 @@ ReferenceReport reference_report(const RoadStore& store, const std::string& titl
     auto segments = compared_segments(store, surveys);
     add_spans(report, segments, surveys);
     const auto all_pairs = segment_pairs(segments);
-    report.gap = gap_of(all_pairs);
+    report.days_after = days_after_of(all_pairs);
     report.hundreds = compared(hundred_metre_pairs(segments, report.segment_length_m));
     std::erase_if(segments, [&](const ReferencedSegment& segment) {
         return surveys[segment.survey].row_m > most_segments_in_row * report.segment_length_m;

@@ -9,8 +9,10 @@ namespace macadam {
 
 /// The cars of a store, alone, beside its references and control sections.
 ///
+/// \param wording      of pages; JSON, CSV and the tables are in English and mm/m
 /// \throws InputError  if it holds neither.
-ReferenceReport reference_report(const RoadStore& store, const std::string& title);
+ReferenceReport
+reference_report(const RoadStore& store, const std::string& title, const Wording& wording);
 
 /// All scores, as one JSON object.
 std::string reference_json(const ReferenceReport& report);

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "app/report_pictures.hpp"
 #include "app/section_options.hpp"
 #include "estimator/common/progress.hpp"
-#include "render/map.hpp"
 #include "render/report/report.hpp"
 #include "storage/road_store.hpp"
 
@@ -12,9 +12,6 @@
 
 namespace macadam {
 
-/// What pictures are for: screens, light and dark, or print.
-enum class PictureUse { screen, paper };
-
 struct ReportConfig {
     std::string title;
     std::size_t worst = 20;                   ///< stretches to list
@@ -22,7 +19,7 @@ struct ReportConfig {
     std::optional<std::int64_t> since_ms{};   ///< day from which on changes are looked for
     Wording wording{};
     PictureUse pictures = PictureUse::screen;
-    MapStyle style; ///< ramp, classes (not null) and side of the traffic
+    MapStyle style; ///< of the maps, with its classes; their colours are those of tables, too
 };
 
 /// All that a report of a store says, with its pictures.

@@ -138,7 +138,7 @@ void put(PdfSheets& sheets, const Legend& legend) {
     double x_pt = sheets.left_pt();
     sheets.draw(title, x_pt, sheets.y_pt());
     x_pt += title.width_pt() + legend_gap_pt;
-    for (const auto& [rgb, name, range] : legend.entries) {
+    for (const auto& [rgb, name, range, dark_rgb] : legend.entries) {
         const Rich words{{{name}, {range.empty() ? "" : " " + range, SpanLook::quiet}}};
         const auto text = sheets.text(words, {.size_pt = small_size_pt}, -1);
         const double width_pt = swatch_pt + 4 + text.width_pt();

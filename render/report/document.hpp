@@ -140,6 +140,7 @@ struct LegendEntry {
     std::optional<std::uint32_t> rgb; ///< nothing: the line of a road without a measurement
     std::string name;
     std::string range;
+    std::optional<std::uint32_t> dark_rgb{}; ///< on dark pages; nothing: the same
 };
 
 struct Legend {

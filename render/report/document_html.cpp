@@ -83,10 +83,15 @@ std::string words_of(const Rich& rich) {
 }
 
 /// A little square of a colour. Says nothing to those who listen.
-std::string swatch_html(std::uint32_t rgb) {
-    return fmt::format("<svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\">"
-                       "<rect class=\"bar\" width=\"10\" height=\"10\" fill=\"#{:06x}\"/></svg>",
-                       rgb);
+/// \param dark_rgb  on dark pages; nothing: the same
+std::string swatch_html(std::uint32_t rgb, std::optional<std::uint32_t> dark_rgb = {}) {
+    const auto square = [](const char* pages, std::uint32_t colour) {
+        return fmt::format(
+            "<rect class=\"bar{}\" width=\"10\" height=\"10\" fill=\"#{:06x}\"/>", pages, colour);
+    };
+    return fmt::format("<svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\">{}</svg>",
+                       dark_rgb ? square(" light", rgb) + square(" dark", *dark_rgb)
+                                : square("", rgb));
 }
 
 std::string html_of(const Cell& cell) {
@@ -230,9 +235,9 @@ std::string block_html(const Legend& legend) {
     auto html = fmt::format("<ul class=\"legend\" aria-label=\"{0}\">\n<li class=\"quiet\">{0}"
                             "</li>\n",
                             escaped(legend.title));
-    for (const auto& [rgb, name, range] : legend.entries) {
+    for (const auto& [rgb, name, range, dark_rgb] : legend.entries) {
         html += fmt::format("<li>{}{}{}</li>\n",
-                            rgb ? swatch_html(*rgb) : "<span class=\"road\"></span>",
+                            rgb ? swatch_html(*rgb, dark_rgb) : "<span class=\"road\"></span>",
                             escaped(name),
                             range.empty() ? ""
                                           : " <span class=\"quiet\">" + escaped(range) + "</span>");

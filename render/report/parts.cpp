@@ -5,8 +5,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace macadam {
+namespace {
+
+/// Whether the style states a word that is not the default.
+bool is_own(const Report& report, std::string LegendWords::*word) {
+    return report.words.*word != LegendWords{}.*word;
+}
+
+/// The words with a value in the place of their {}.
+std::string with_value(std::string words, const std::string& value) {
+    const auto place = words.find("{}");
+    return place == std::string::npos ? words : words.replace(place, 2, value);
+}
+
+} // namespace
 
 std::string sentence_case(std::string_view name) {
     std::string text{name};
@@ -24,6 +39,37 @@ std::string kind_name(const Report& report, std::string_view kind) {
 std::string class_name(const Report& report, std::size_t i) {
     const auto name = report.classes->classes[i].name;
     return report.wording.or_else(fmt::format("class.{}", name), sentence_case(name));
+}
+
+std::string class_range(const Report& report, const Wording& wording, std::size_t i) {
+    const auto& rows = report.classes->classes;
+    const bool last = std::isinf(rows[i].to_mm_per_m);
+    if (i > 0 && !last) {
+        return wording.range(*report.classes, i);
+    }
+    const std::size_t border = i > 0 ? i - 1 : 0;
+    const bool open = rows[border].open;
+    const auto words = i == 0 ? (last   ? &LegendWords::all
+                                 : open ? &LegendWords::below
+                                        : &LegendWords::up_to)
+                       : open ? &LegendWords::from
+                              : &LegendWords::above;
+    return is_own(report, words)
+               ? with_value(report.words.*words, wording.iri(rows[border].to_mm_per_m))
+               : wording.range(*report.classes, i);
+}
+
+std::string few_passes_words(const Report& report) {
+    const auto least = report.wording.count(
+        static_cast<std::size_t>(report.few_passes ? report.few_passes->least_passes : 1));
+    return is_own(report, &LegendWords::few_passes)
+               ? with_value(report.words.few_passes, least)
+               : report.wording("map.few_passes", {{"least", least}});
+}
+
+std::string unmeasured_words(const Report& report) {
+    return is_own(report, &LegendWords::unmeasured) ? report.words.unmeasured
+                                                    : report.wording("map.unmeasured");
 }
 
 std::string road_name(const Report& report, const RoadStretch& stretch) {

@@ -20,6 +20,14 @@ std::string kind_name(const Report& report, std::string_view kind);
 /// Likewise a class of roughness.
 std::string class_name(const Report& report, std::size_t i);
 
+/// What values a class has, "1.50 – 2.68", in the style's words if it has any.
+std::string class_range(const Report& report, const Wording& wording, std::size_t i);
+
+/// The legend's words for roads with few passes and for those without, as the style has them; in
+/// the language of the report where the style says nothing of its own.
+std::string few_passes_words(const Report& report);
+std::string unmeasured_words(const Report& report);
+
 /// The road's name, or what kind of road has none.
 std::string road_name(const Report& report, const RoadStretch& stretch);
 

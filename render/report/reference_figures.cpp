@@ -34,18 +34,26 @@ struct Square {
     double y(double iri) const { return scatter_top + scatter_size * (1 - iri / most); }
 };
 
-Square square_of(std::span<const SurveyPair> pairs) {
+/// As large as the pieces need, up to a round number of the unit.
+Square square_of(std::span<const SurveyPair> pairs, const Wording& say) {
     double most = 1;
     for (const auto& pair : pairs) {
         most = std::max({most, pair.survey, pair.trip});
     }
-    return {std::ceil(most)};
+    if (say.unit == IriUnit::mm_per_m) {
+        return {std::ceil(most)};
+    }
+    const double a_unit = in_unit(1, say.unit);
+    const double step = nice_step(most * a_unit, 6);
+    return {step * std::ceil(most * a_unit / step) / a_unit};
 }
 
-void add_axes(Drawing& drawing, const Square& square) {
-    const double step = nice_step(square.most, 6);
-    for (double iri = 0; iri <= square.most + 1e-9; iri += step) {
-        const auto text = fmt::format("{:g}", iri);
+void add_axes(Drawing& drawing, const Square& square, const Wording& say) {
+    const double a_unit = in_unit(1, say.unit);
+    const double step = nice_step(square.most * a_unit, 6);
+    for (int i = 0; i * step <= square.most * a_unit + 1e-9; ++i) {
+        const double iri = i * step / a_unit;
+        const auto text = say.shortest(i * step);
         drawing.shapes.emplace_back(
             Stroke{StrokeLook::grid,
                    {{square.x(0), square.y(iri)}, {square.x(square.most), square.y(iri)}}});
@@ -86,7 +94,7 @@ constexpr double least_reach_mm_per_m = 0.1;
 /// The differences of a band between -reach and reach, and the curve of their mean and sd.
 struct Panel {
     SurveyScore score;
-    double reach; ///< mm/m
+    double reach; ///< mm/m, a round number of the page's unit
     std::vector<double> share;
 
     double x(double difference) const {
@@ -98,10 +106,11 @@ struct Panel {
     }
 };
 
-Panel panel_of(std::span<const SurveyPair> pairs, const SurveyScore& score) {
+Panel panel_of(std::span<const SurveyPair> pairs, const SurveyScore& score, const Wording& say) {
+    const double a_unit = in_unit(1, say.unit);
     const double sd = std::isnan(score.sd) ? 0 : score.sd;
     const double far = std::max(least_reach_mm_per_m, std::abs(score.bias) + reach_sds * sd);
-    const double step = nice_step(far, 4);
+    const double step = nice_step(far * a_unit, 4) / a_unit;
     Panel panel{score, step * std::ceil(far / step), std::vector<double>(bins, 0.0)};
     for (const auto& pair : pairs) {
         if (pair.survey >= score.from_mm_per_m && pair.survey < score.to_mm_per_m) {
@@ -120,12 +129,6 @@ double curve(const Panel& panel, double difference) {
     const double density =
         std::exp(-z * z / 2) / (panel.score.sd * std::sqrt(2 * std::numbers::pi));
     return density * 2 * panel.reach / bins;
-}
-
-std::string band_text(const SurveyScore& score) {
-    return std::isinf(score.to_mm_per_m)
-               ? fmt::format("{:g} and more", score.from_mm_per_m)
-               : fmt::format("{:g} to {:g}", score.from_mm_per_m, score.to_mm_per_m);
 }
 
 /// Where a panel stands in the figure.
@@ -163,7 +166,10 @@ void add_bars(Drawing& drawing, const Panel& panel, const Corner& corner, double
     }
 }
 
-void add_panel_axes(Drawing& drawing, const Panel& panel, const Corner& corner) {
+void add_panel_axes(Drawing& drawing,
+                    const Panel& panel,
+                    const Corner& corner,
+                    const Wording& say) {
     const auto at = [&](double x, double y) { return std::pair{corner.x + x, corner.y + y}; };
     drawing.shapes.emplace_back(
         Stroke{StrokeLook::mean, {at(panel.x(0), plot_top - 4), at(panel.x(0), plot_bottom)}});
@@ -176,64 +182,77 @@ void add_panel_axes(Drawing& drawing, const Panel& panel, const Corner& corner) 
                                           difference < 0   ? Anchor::start
                                           : difference > 0 ? Anchor::end
                                                            : Anchor::middle,
-                                          fmt::format("{:g}", difference)});
+                                          say.shortest(in_unit(difference, say.unit))});
     }
     const auto [x, y] = at(plot_left, 12);
-    drawing.shapes.emplace_back(
-        Label{x,
-              y,
-              Anchor::start,
-              fmt::format("{} mm/m, {}", band_text(panel.score), panel.score.pieces)});
+    drawing.shapes.emplace_back(Label{x,
+                                      y,
+                                      Anchor::start,
+                                      fmt::format("{} {}, {}",
+                                                  level_text(say, panel.score),
+                                                  say.iri_unit(),
+                                                  say.count(panel.score.pieces))});
 }
 
-void add_panel(Drawing& drawing, const Panel& panel, const Corner& corner) {
+void add_panel(Drawing& drawing, const Panel& panel, const Corner& corner, const Wording& say) {
     double most = *std::ranges::max_element(panel.share);
     if (panel.score.sd > 0) {
         most = std::max(most, curve(panel, panel.score.bias));
     }
     add_bars(drawing, panel, corner, most);
     add_curve(drawing, panel, corner, most);
-    add_panel_axes(drawing, panel, corner);
+    add_panel_axes(drawing, panel, corner, say);
 }
 
 } // namespace
 
-Drawing scatter_drawing(std::span<const SurveyPair> pairs) {
-    const auto square = square_of(pairs);
+std::string level_text(const Wording& say, const SurveyScore& score) {
+    const auto border = [&](double mm_per_m) {
+        return say.unit == IriUnit::mm_per_m ? say.shortest(mm_per_m) : say.iri(mm_per_m);
+    };
+    return std::isinf(score.to_mm_per_m)
+               ? say("reference.level.last", {{"from", border(score.from_mm_per_m)}})
+               : say("reference.level",
+                     {{"from", border(score.from_mm_per_m)}, {"to", border(score.to_mm_per_m)}});
+}
+
+Drawing scatter_drawing(std::span<const SurveyPair> pairs, const Wording& say) {
+    const auto square = square_of(pairs, say);
+    const std::string unit{say.iri_unit()};
+    const auto most = say.number(in_unit(square.most, say.unit), 0);
     Drawing drawing{392,
                     396,
-                    fmt::format("IRI of the cars over IRI of the reference, {} pieces of road, 0 "
-                                "to {:g} mm/m",
-                                pairs.size(),
-                                square.most),
+                    say("reference.scatter.words",
+                        {{"count", say.count(pairs.size())}, {"most", most}, {"unit", unit}}),
                     {}};
-    add_axes(drawing, square);
+    add_axes(drawing, square, say);
     drawing.shapes.emplace_back(dots(pairs, square));
     drawing.shapes.emplace_back(Label{scatter_left + scatter_size / 2,
                                       scatter_top + scatter_size + 36,
                                       Anchor::middle,
-                                      "IRI of the reference, mm/m"});
-    drawing.shapes.emplace_back(
-        Label{scatter_left + 6, scatter_top + 12, Anchor::start, "IRI of the cars, mm/m"});
+                                      say("reference.scatter.across", {{"unit", unit}})});
+    drawing.shapes.emplace_back(Label{scatter_left + 6,
+                                      scatter_top + 12,
+                                      Anchor::start,
+                                      say("reference.scatter.up", {{"unit", unit}})});
     return drawing;
 }
 
-Drawing differences_drawing(std::span<const SurveyPair> pairs) {
+Drawing differences_drawing(std::span<const SurveyPair> pairs, const Wording& say) {
     const auto scores = scores_by_band(pairs);
     const auto rows = static_cast<double>((scores.size() + 1) / 2);
-    Drawing drawing{2 * panel_width,
-                    panel_height * rows,
-                    "Histograms of the cars' IRI less the reference's",
-                    {}};
+    Drawing drawing{2 * panel_width, panel_height * rows, say("reference.differences.words"), {}};
     for (std::size_t i = 0; i < scores.size(); ++i) {
         add_panel(
             drawing,
-            panel_of(pairs, scores[i]),
-            {panel_width * static_cast<double>(i % 2), panel_height * static_cast<double>(i / 2)});
-        drawing.words += fmt::format("; {} mm/m: mean {:+.2f}, {} pieces",
-                                     band_text(scores[i]),
-                                     scores[i].bias,
-                                     scores[i].pieces);
+            panel_of(pairs, scores[i], say),
+            {panel_width * static_cast<double>(i % 2), panel_height * static_cast<double>(i / 2)},
+            say);
+        drawing.words += say("reference.differences.part",
+                             {{"level", level_text(say, scores[i])},
+                              {"unit", std::string{say.iri_unit()}},
+                              {"mean", say.iri_change(scores[i].bias)},
+                              {"count", say.count(scores[i].pieces)}});
     }
     return drawing;
 }

@@ -15,183 +15,218 @@ namespace {
 
 constexpr const char* no_value = "–";
 constexpr double z_of_90_percent = 1.645;
-const Wording wording{};
 
-std::string number_text(double value, int decimals) {
-    return std::isnan(value) ? no_value : fmt::format("{:.{}f}", value, decimals);
+std::string iri_text(const Wording& say, double mm_per_m) {
+    return std::isnan(mm_per_m) ? no_value : say.iri(mm_per_m);
 }
 
-std::string signed_text(double value) {
-    return std::isnan(value) ? no_value : fmt::format("{:+.2f}", value);
+std::string change_text(const Wording& say, double mm_per_m) {
+    return std::isnan(mm_per_m) ? no_value : say.iri_change(mm_per_m);
 }
 
-std::string level_text(const SurveyScore& score) {
-    return std::isinf(score.to_mm_per_m)
-               ? fmt::format("{:g} and more", score.from_mm_per_m)
-               : fmt::format("{:g} – {:g}", score.from_mm_per_m, score.to_mm_per_m);
+Values in_its_unit(const Wording& say) {
+    return {{"unit", std::string{say.iri_unit()}}};
 }
 
-std::vector<Cell> cells_of(const std::string& name, const SurveyScore& score) {
+std::vector<Cell> cells_of(const Wording& say, const std::string& name, const SurveyScore& score) {
     return {name,
-            wording.count(score.pieces),
-            number_text(score.mean_survey, 2),
-            number_text(score.mean_trip, 2),
-            signed_text(score.bias),
-            number_text(score.rmse, 2),
-            number_text(score.correlation, 2),
-            std::isnan(score.coverage) ? no_value : wording.percent(score.coverage, 1)};
+            say.count(score.pieces),
+            iri_text(say, score.mean_survey),
+            iri_text(say, score.mean_trip),
+            change_text(say, score.bias),
+            iri_text(say, score.rmse),
+            std::isnan(score.correlation) ? no_value : say.number(score.correlation, 2),
+            std::isnan(score.coverage) ? no_value : say.percent(score.coverage, 1)};
 }
 
-Table scores_table(const std::string& caption, const ReferenceScores& scores) {
+Table scores_table(const Wording& say, const std::string& caption, const ReferenceScores& scores) {
     Table table{caption,
-                {{"Reference, mm/m"},
-                 {"Pieces", true},
-                 {"Reference", true},
-                 {"Cars", true},
-                 {"Bias", true},
+                {{say("reference.column.level", in_its_unit(say))},
+                 {say("reference.column.pieces"), true},
+                 {say("reference.column.reference"), true},
+                 {say("column.cars"), true},
+                 {say("reference.column.bias"), true},
                  {"RMSE", true},
-                 {"Correlation", true, true},
-                 {"In the 90\u00A0% interval", true}},
+                 {say("reference.column.correlation"), true, true},
+                 {say("reference.column.coverage"), true}},
                 {}};
     for (const auto& score : scores.by_level) {
-        table.rows.push_back(cells_of(level_text(score), score));
+        table.rows.push_back(cells_of(say, level_text(say, score), score));
     }
-    table.rows.push_back(cells_of("All", scores.all));
+    table.rows.push_back(cells_of(say, say("all"), scores.all));
     table.sum = true;
     return table;
 }
 
+/// "12 days after", in the words of the language.
+std::string spoken_days(const Wording& say, double days) {
+    constexpr double days_a_month = 30.44, days_a_year = 365.25;
+    const double far = std::abs(days);
+    const auto counted = [&](const char* key, double count) {
+        return say.counted(key, static_cast<std::size_t>(std::lround(count)));
+    };
+    const auto length = far < 90 ? counted("reference.days", far)
+                        : far < 730
+                            ? counted("reference.months", far / days_a_month)
+                            : say("reference.years", {{"count", say.number(far / days_a_year, 1)}});
+    return say(days < 0 ? "reference.before" : "reference.after", {{"length", length}});
+}
+
+Paragraph days_paragraph(const ReferenceReport& report) {
+    const auto& say = report.wording;
+    const auto surveyed = say.period(report.surveyed.first, report.surveyed.last);
+    const auto gap = days_after_text(report, say);
+    return {std::vector<Span>{
+        {say("reference.driven") + " "},
+        {say.period(report.passed.first, report.passed.last), SpanLook::plain, true},
+        {say("reference.surveyed") + " "},
+        {surveyed.empty() ? say("reference.days_not_known") : surveyed, SpanLook::plain, true},
+        {gap.empty() ? "." : ". " + gap}}};
+}
+
 DocumentSection surveys_section(const ReferenceReport& report) {
-    Table table{"Surveys, IRI in mm/m; scores of pieces of 100 m",
-                {{"Survey"},
-                 {"Measured"},
-                 {"Good to", true, true},
-                 {"Rows, m", true, true},
-                 {"Segments", true, true},
+    const auto& say = report.wording;
+    Table table{say("reference.surveys.caption", in_its_unit(say)),
+                {{say("reference.column.survey")},
+                 {say("reference.column.measured")},
+                 {say("reference.column.good_to"), true, true},
+                 {say("reference.column.rows_m"), true, true},
+                 {say("column.segments"), true, true},
                  {"km", true},
-                 {"Bias", true},
+                 {say("reference.column.bias"), true},
                  {"RMSE", true}},
                 {}};
     for (const auto& survey : report.surveys) {
         table.rows.push_back({(survey.name),
-                              survey.day.empty() ? "not known" : survey.day,
-                              fmt::format("{:g} %", 100 * survey.relative_sd),
-                              fmt::format("{:.0f}", survey.row_m),
-                              wording.count(survey.segments),
-                              fmt::format("{:.2f}", survey.km),
-                              signed_text(survey.score.bias),
-                              number_text(survey.score.rmse, 2)});
+                              survey.day.empty() ? say("reference.not_known") : say.day(survey.day),
+                              say.shortest(100 * survey.relative_sd) + " %",
+                              say.whole(survey.row_m),
+                              say.count(survey.segments),
+                              say.number(survey.km, 2),
+                              change_text(say, survey.score.bias),
+                              iri_text(say, survey.score.rmse)});
     }
-    DocumentSection section{"References", {}};
-    if (!report.passes_span.empty()) {
-        section.blocks.emplace_back(Paragraph{std::vector<Span>{
-            {"Cars drove there "},
-            {report.passes_span, SpanLook::plain, true},
-            {"; surveyed "},
-            {report.references_span.empty() ? "on days that are not known" : report.references_span,
-             SpanLook::plain,
-             true},
-            {". " + report.gap}}});
+    DocumentSection section{say("reference.surveys"), {}};
+    if (!report.passed.first.empty()) {
+        section.blocks.emplace_back(days_paragraph(report));
     }
     section.blocks.emplace_back(std::move(table));
     return section;
 }
 
-void add_tracks(DocumentSection& section, const ComparedPieces& pieces) {
+void add_tracks(DocumentSection& section, const Wording& say, const ComparedPieces& pieces) {
     if (pieces.left.all.pieces > 0) {
-        section.blocks.emplace_back(scores_table("Left track, where both know it", pieces.left));
+        section.blocks.emplace_back(scores_table(say, say("reference.pieces.left"), pieces.left));
     }
     if (pieces.right.all.pieces > 0) {
-        section.blocks.emplace_back(scores_table("Right track, where both know it", pieces.right));
+        section.blocks.emplace_back(scores_table(say, say("reference.pieces.right"), pieces.right));
     }
 }
 
 DocumentSection pieces_section(const ReferenceReport& report) {
+    const auto& say = report.wording;
     const auto pairs = pairs_of(report.hundreds.pairs, ComparedSide::headline);
     const auto short_pairs = pairs_of(report.segments.pairs, ComparedSide::headline);
-    DocumentSection section{"Cars beside references", {}};
+    DocumentSection section{say("reference.pieces"), {}};
     if (pairs.empty() && short_pairs.empty()) {
-        section.blocks.emplace_back(
-            Paragraph{"No car has driven where the references were measured."});
+        section.blocks.emplace_back(Paragraph{say("reference.pieces.none")});
         return section;
     }
-    section.blocks.emplace_back(
-        Paragraph{"Bias is cars less reference. The interval is that of the cars alone: what the "
-                  "reference itself is off by counts against it."});
+    section.blocks.emplace_back(Paragraph{say("reference.pieces.about")});
     if (!pairs.empty()) {
-        section.blocks.emplace_back(scatter_drawing(pairs));
-        section.blocks.emplace_back(differences_drawing(pairs));
-        section.blocks.emplace_back(scores_table("Pieces of 100 m", report.hundreds.headline));
-        add_tracks(section, report.hundreds);
+        section.blocks.emplace_back(scatter_drawing(pairs, say));
+        section.blocks.emplace_back(differences_drawing(pairs, say));
+        section.blocks.emplace_back(
+            scores_table(say, say("reference.pieces.hundreds"), report.hundreds.headline));
+        add_tracks(section, say, report.hundreds);
     }
     if (!short_pairs.empty()) {
         section.blocks.emplace_back(scores_table(
-            fmt::format("Segments of {:g} m", report.segment_length_m), report.segments.headline));
-        add_tracks(section, report.segments);
+            say,
+            say("reference.pieces.segments", {{"length", say.shortest(report.segment_length_m)}}),
+            report.segments.headline));
+        add_tracks(section, say, report.segments);
     } else {
-        section.blocks.emplace_back(Paragraph{"Rows of these surveys are much longer than a "
-                                              "segment: single segments are not compared."});
+        section.blocks.emplace_back(Paragraph{say("reference.pieces.too_long")});
     }
     return section;
 }
 
-std::vector<Cell> row_of(const ComparedControl& control) {
-    const bool driven = control.cars.length_m > 0;
-    Rich drift = driven ? fmt::format("too few months ({})", control.months) : no_value;
-    if (control.drift) {
-        drift = fmt::format("{:+.2f} ± {:.2f} a year",
-                            control.drift->per_year,
-                            z_of_90_percent * control.drift->sd_per_year);
-        if (control.drift->significant) {
-            drift.spans.push_back({", "});
-            drift.spans.push_back({"drifts", SpanLook::strong});
-        }
+Rich drift_text(const Wording& say, const ComparedControl& control) {
+    if (!control.drift) {
+        return control.cars.length_m > 0
+                   ? say("reference.drift.too_few", {{"count", say.count(control.months)}})
+                   : no_value;
     }
+    Rich text = say("reference.drift.a_year",
+                    {{"drift", say.iri_change(control.drift->per_year)},
+                     {"interval", say.iri(z_of_90_percent * control.drift->sd_per_year)}});
+    if (control.drift->significant) {
+        text.spans.push_back({", "});
+        text.spans.push_back({say("reference.drift.drifts"), SpanLook::strong});
+    }
+    return text;
+}
+
+std::vector<Cell> row_of(const Wording& say, const ComparedControl& control) {
+    const bool driven = control.cars.length_m > 0;
     return {(control.name),
-            wording.iri(control.known),
-            driven ? wording.iri(control.cars.iri) : no_value,
-            driven ? fmt::format("{:+.2f} ± {:.2f}", control.off, z_of_90_percent * control.off_sd)
+            say.iri(control.known),
+            driven ? say.iri(control.cars.iri) : no_value,
+            driven ? fmt::format("{} ± {}",
+                                 say.iri_change(control.off),
+                                 say.iri(z_of_90_percent * control.off_sd))
                    : no_value,
-            drift};
+            drift_text(say, control)};
 }
 
 DocumentSection controls_section(const ReferenceReport& report) {
-    Table table{"Control sections, IRI in mm/m, 90 % intervals",
-                {{"Section"}, {"Known", true}, {"Cars", true}, {"Off by", true}, {"Drift", true}},
+    const auto& say = report.wording;
+    Table table{say("reference.controls.caption", in_its_unit(say)),
+                {{say("column.section")},
+                 {say("reference.column.known"), true},
+                 {say("column.cars"), true},
+                 {say("reference.column.off"), true},
+                 {say("reference.column.drift"), true}},
                 {}};
     for (const auto& control : report.controls) {
-        table.rows.push_back(row_of(control));
+        table.rows.push_back(row_of(say, control));
     }
-    return {"Control sections",
-            {Paragraph{"Stretches of known roughness that do not enter the map. A drift is "
-                       "significant where the trend of the difference, month by month, is over "
-                       "twice its standard deviation."},
-             table}};
+    return {say("reference.controls"), {Paragraph{say("reference.controls.about")}, table}};
 }
 
 std::string subtitle_of(const ReferenceReport& report) {
+    const auto& say = report.wording;
     const auto& all = report.hundreds.headline.all;
-    return all.pieces == 0
-               ? ""
-               : fmt::format(
-                     "Over {} {} of 100\u00A0m the cars alone are off by {} mm/m on average "
-                     "and {} (RMSE) in a piece; {} of the references lie within their "
-                     "90\u00A0% interval.",
-                     wording.count(all.pieces),
-                     all.pieces == 1 ? "piece" : "pieces",
-                     signed_text(all.bias),
-                     number_text(all.rmse, 2),
-                     wording.percent(all.coverage, 1));
+    return all.pieces == 0 ? ""
+                           : say.counted("reference.subtitle",
+                                         all.pieces,
+                                         {{"bias", change_text(say, all.bias)},
+                                          {"unit", std::string{say.iri_unit()}},
+                                          {"rmse", iri_text(say, all.rmse)},
+                                          {"coverage", say.percent(all.coverage, 1)}});
 }
 
 } // namespace
 
+std::string days_after_text(const ReferenceReport& report, const Wording& say) {
+    if (!report.days_after) {
+        return {};
+    }
+    const auto& [least, middle, most] = *report.days_after;
+    return say("reference.gap",
+               {{"middle", spoken_days(say, middle)},
+                {"least", spoken_days(say, least)},
+                {"most", spoken_days(say, most)}});
+}
+
 Document reference_document(const ReferenceReport& report) {
-    Document document{.language = "en",
+    const auto& language = *report.wording.language;
+    Document document{.language = std::string{language.code},
                       .title = report.title,
                       .subtitle = subtitle_of(report),
                       .running_head = report.title,
-                      .page_of = std::string{find_message(*wording.language, "page")->text},
+                      .page_of = std::string{find_message(language, "page")->text},
                       .day = "",
                       .keys = {},
                       .sections = {},

@@ -4,6 +4,7 @@
 #include "mapping/reference_comparison.hpp"
 #include "mapping/road_mean.hpp"
 #include "render/report/document.hpp"
+#include "render/report/wording.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -43,23 +44,40 @@ struct ComparedControl {
     std::optional<Drift> drift;
 };
 
+/// First and last day of something, "2026-03-01"; "" where it is not dated.
+struct ComparedDays {
+    std::string first;
+    std::string last;
+};
+
+/// From the references to the newest passes, in days: less than 0 where the cars came first.
+struct DaysAfter {
+    double least;
+    double middle; ///< of all segments
+    double most;
+};
+
 /// What the cars alone say beside what references say, as plain values.
 struct ReferenceReport {
+    Wording wording{};
     std::string title;
     double segment_length_m = 20;
     std::vector<ComparedSurvey> surveys;
-    std::string passes_span;     ///< "2026-01-03 to 2026-05-11", "" = not dated
-    std::string references_span; ///< likewise
-    std::string gap;             ///< what lies between them, a sentence; "" = not known
-    ComparedPieces segments;     ///< of surveys whose rows are not much longer
+    ComparedDays passed;
+    ComparedDays surveyed;
+    std::optional<DaysAfter> days_after; ///< nothing: not known
+    ComparedPieces segments;             ///< of surveys whose rows are not much longer
     ComparedPieces hundreds;
     std::vector<ComparedControl> controls;
 };
 
-/// What the report says, for any kind of page; in English and mm/m.
+/// What the report says, in its language and unit, for any kind of page.
 Document reference_document(const ReferenceReport& report);
 
 /// One HTML page that needs nothing else, like report_html. The same values give the same bytes.
 std::string reference_html(const ReferenceReport& report);
+
+/// How far the cars' values are from the references in time, a sentence; "" = not known.
+std::string days_after_text(const ReferenceReport& report, const Wording& say);
 
 } // namespace macadam

@@ -3,6 +3,7 @@
 #include "mapping/change_since.hpp"
 #include "mapping/data_quality.hpp"
 #include "mapping/iri_class.hpp"
+#include "mapping/map_look.hpp"
 #include "mapping/measured_road.hpp"
 #include "mapping/network_summary.hpp"
 #include "mapping/worst_stretches.hpp"
@@ -73,6 +74,13 @@ struct ReportChange {
     double map_width_m = 0;
 };
 
+/// Roads that the maps draw in grey, because fewer passes of cars are known than were asked for.
+struct ReportFewPasses {
+    int least_passes;
+    std::uint32_t rgb;
+    std::uint32_t dark_rgb; ///< on dark pages
+};
+
 /// All that a report says, as plain values. Texts are as they came.
 struct Report {
     Wording wording{};
@@ -83,6 +91,8 @@ struct Report {
     double segment_length_m = 20;
     const ClassTable* classes = nullptr;
     std::vector<std::uint32_t> colours; ///< one a class, 0xRRGGBB
+    LegendWords words{};                ///< of classes; what is as by default is in the language
+    std::optional<ReportFewPasses> few_passes; ///< nothing: no road is drawn so
     NetworkSummary summary;
     IriHistogram histogram;
     std::size_t segments = 0;

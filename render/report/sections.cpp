@@ -13,15 +13,31 @@ using namespace document;
 
 namespace {
 
+/// The first of the classes that count as poor; as many as there are: none does.
+std::size_t first_poor(const Report& report) {
+    std::size_t c = 1;
+    while (c < report.colours.size() &&
+           report.classes->classes[c - 1].to_mm_per_m < report.poor_above_mm_per_m) {
+        ++c;
+    }
+    return std::min(c, report.colours.size());
+}
+
 /// Length in the classes that count as poor.
 double poor_m(const Report& report) {
     double length_m = 0;
-    for (std::size_t c = 1; c < report.colours.size(); ++c) {
-        if (report.classes->classes[c - 1].to_mm_per_m >= report.poor_above_mm_per_m) {
-            length_m += report.summary.all.classes[c].length_m;
-        }
+    for (std::size_t c = first_poor(report); c < report.colours.size(); ++c) {
+        length_m += report.summary.all.classes[c].length_m;
     }
     return length_m;
+}
+
+/// What is poor, by the names of the classes.
+std::string poor_words(const Report& report) {
+    const auto last = report.colours.size() - 1;
+    const auto first = first_poor(report);
+    const auto name = class_name(report, std::min(first, last));
+    return first < last ? report.wording("key.poor.or_worse", {{"class", name}}) : name;
 }
 
 /// Beside mm/m a report says in/mi, too; who asked for in/mi wants nothing else.
@@ -58,7 +74,7 @@ KeyNumber mean_key(const Report& report) {
 KeyNumber poor_key(const Report& report) {
     const auto& say = report.wording;
     const auto& all = report.summary.all;
-    return {say("key.poor"),
+    return {poor_words(report),
             say.percent(poor_m(report), all.covered_m),
             say("key.poor.more",
                 {{"km", say.km(poor_m(report), all.covered_m)},
@@ -99,9 +115,9 @@ Table classes_table(const Report& report) {
         const auto& range = all.classes[c];
         Cell name{Rich{{{class_name(report, c), SpanLook::plain, true}}}};
         name.swatch = report.colours[c];
-        std::vector<Cell> row{name, say.range(*report.classes, c)};
+        std::vector<Cell> row{name, class_range(report, say, c)};
         if (says_both_units(report)) {
-            row.emplace_back(in_inches(say).range(*report.classes, c));
+            row.emplace_back(class_range(report, in_inches(say), c));
         }
         row.emplace_back(say.km(range.length_m, all.covered_m));
         row.emplace_back(say.percent(range.length_m, all.covered_m));
@@ -217,19 +233,25 @@ DocumentSection condition_section(const Report& report) {
 DocumentSection map_section(const Report& report) {
     const auto& say = report.wording;
     const auto& all = report.summary.all;
-    Legend legend{say("map.legend", {{"unit", std::string{say.iri_unit()}}}), {}};
+    Legend legend{report.words.title ? *report.words.title + ":"
+                                     : say("map.legend", {{"unit", std::string{say.iri_unit()}}}),
+                  {}};
     std::string words = say("map.words");
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         const auto name = class_name(report, c);
-        legend.entries.push_back({report.colours[c], name, say.range(*report.classes, c)});
+        legend.entries.push_back({report.colours[c], name, class_range(report, say, c)});
         words += fmt::format("{} {} {} km",
                              c == 0 ? say("map.words.classes") : ",",
                              name,
                              say.km(all.classes[c].length_m, all.covered_m));
     }
-    legend.entries.push_back({std::nullopt, say("map.unmeasured"), ""});
+    if (const auto& few = report.few_passes) {
+        legend.entries.push_back({few->rgb, few_passes_words(report), "", few->dark_rgb});
+    }
+    legend.entries.push_back({std::nullopt, unmeasured_words(report), ""});
     auto figure = map_figure(report, report.map, report.map_width_m, words);
-    figure.caption = say("map.remark") + " " + figure.caption;
+    const auto grey = report.few_passes ? " " + say("map.few_passes.remark") : "";
+    figure.caption = say("map.remark") + grey + " " + figure.caption;
     return {say("map"), {legend, figure}};
 }
 

@@ -17,6 +17,12 @@ std::string_view one_or_other(std::size_t count) {
     return count == 1 ? "one" : "other";
 }
 
+std::vector<Message> joined(std::span<const Message> some, std::span<const Message> more) {
+    std::vector<Message> all{some.begin(), some.end()};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
 using Catalogue = std::unordered_map<std::string_view, const Message*>;
 
 Catalogue catalogue_of(const Language& language) {
@@ -41,9 +47,10 @@ const Catalogue& kept_catalogue(const Language& language) {
 } // namespace
 
 std::span<const Language> languages() {
-    static const std::array all{
-        Language{"en", ".", "{year}-{month}-{day}", one_or_other, english_messages()},
-        Language{"de", ",", "{day}.{month}.{year}", one_or_other, german_messages()}};
+    static const auto english = joined(english_messages(), english_reference_messages());
+    static const auto german = joined(german_messages(), german_reference_messages());
+    static const std::array all{Language{"en", ".", "{year}-{month}-{day}", one_or_other, english},
+                                Language{"de", ",", "{day}.{month}.{year}", one_or_other, german}};
     return all;
 }
 

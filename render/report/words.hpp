@@ -16,8 +16,8 @@ struct Message {
     std::string_view text;
 };
 
-/// All that differs from one language to another. Another language is another file of messages
-/// (words_en.cpp has them all) and a row in languages().
+/// All that differs from one language to another. Another language is two more files of
+/// messages (words_en.cpp and words_reference_en.cpp have them all) and a row in languages().
 struct Language {
     std::string_view code; ///< BCP 47: "en"
     std::string_view decimal_mark;

@@ -124,7 +124,7 @@ constexpr std::array messages{
     Message{"key.measured.more", "{share} des Netzes von {km} km, jede Richtung gezählt"},
     Message{"key.mean", "Mittlerer IRI"},
     Message{"key.mean.more", "90-%-Intervall"},
-    Message{"key.poor", "Schlecht"},
+    Message{"key.poor.or_worse", "{class} oder schlechter"},
     Message{"key.poor.more", "{km} km über {border}"},
     Message{"key.stretches", "Schlechte Stellen"},
     Message{"key.stretches.more", "von mindestens {least} m, zusammen {km} km"},
@@ -148,6 +148,9 @@ constexpr std::array messages{
     Message{"map.words", "Karte des Straßennetzes"},
     Message{"map.words.classes", " mit der Unebenheit in Farben:"},
     Message{"map.unmeasured", "Keine Messung"},
+    Message{"map.few_passes", "Weniger als {least} Überfahrten"},
+    Message{"map.few_passes.remark",
+            "Straßen mit wenigen Überfahrten sind hier grau; alle Zahlen schließen sie ein."},
     Message{"map.scale", "{length}, Norden oben"},
     Message{"map.remark", "Eine dünne Linie hat wenige Überfahrten oder ein weites Intervall."},
 

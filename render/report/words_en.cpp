@@ -124,7 +124,7 @@ constexpr std::array messages{
     Message{"key.measured.more", "{share} of the network of {km} km, each direction counted"},
     Message{"key.mean", "Mean IRI"},
     Message{"key.mean.more", "90 % interval"},
-    Message{"key.poor", "Poor"},
+    Message{"key.poor.or_worse", "{class} or worse"},
     Message{"key.poor.more", "{km} km above {border}"},
     Message{"key.stretches", "Poor stretches"},
     Message{"key.stretches.more", "of {least} m or more, {km} km together"},
@@ -148,6 +148,9 @@ constexpr std::array messages{
     Message{"map.words", "Map of the road network"},
     Message{"map.words.classes", " with roughness in colours:"},
     Message{"map.unmeasured", "No measurement"},
+    Message{"map.few_passes", "Fewer than {least} passes"},
+    Message{"map.few_passes.remark",
+            "Roads with few passes are grey here; all figures count them."},
     Message{"map.scale", "{length}, north up"},
     Message{"map.remark", "A thin line has few passes or a wide interval."},
 

@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A store of a road that one car drove over twice.
 class MapStyleProgram : public ::testing::Test {
@@ -55,9 +56,25 @@ protected:
         return read_file(picture_file());
     }
 
+    std::string report(std::vector<std::string> more) const {
+        const auto file = (folder_ / "report.html").string();
+        std::vector<std::string> words{"report", store_, "-o", file};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto run = run_macadam(words);
+        EXPECT_EQ(run.exit_status, 0) << run.err;
+        return read_file(file);
+    }
+
     fs::path folder_;
     std::string store_;
 };
+
+/// A picture of a page, in base 64.
+std::string picture_in(const std::string& html, const std::string& css_class) {
+    const auto image = html.find("<img class=\"" + css_class + "\"");
+    const auto begin = html.find("base64,", image);
+    return image == std::string::npos ? "" : html.substr(begin, html.find('"', begin) - begin);
+}
 
 } // namespace
 
@@ -84,6 +101,80 @@ TEST_F(MapStyleProgram, DrawsRoadsWithFewPassesInGrey) {
     const auto grey = picture({"--min-passes", "3"});
     EXPECT_FALSE(grey == plain);
     EXPECT_TRUE(picture({"--style", style("min_passes = 3\n")}) == grey);
+}
+
+TEST_F(MapStyleProgram, ReportsWithTheClassesColoursAndWordsOfTheFile) {
+    const auto html = report({"--style",
+                              style("unit = \"mm/m\"\n"
+                                    "[[class]]\nname = \"glatt\"\nup_to = 1.1\n"
+                                    "[[class]]\nname = \"eben\"\nup_to = 2.2\n"
+                                    "[[class]]\nname = \"rauh\"\nup_to = 5.5\n"
+                                    "[[class]]\nname = \"kaputt\"\n"
+                                    "[ramp]\ncolours = [\"#2c7bb6\", \"#abd9e9\", \"#fdae61\", "
+                                    "\"#d7191c\"]\n"
+                                    "[legend]\ntitle = \"Ebenheit\"\nup_to = \"bis {}\"\n"
+                                    "above = \"über {}\"\nunmeasured = \"Nie gemessen\"\n")});
+    for (const auto* words : {"Glatt",
+                              "Kaputt",
+                              "bis 1.10",
+                              "bis 70", // in/mi
+                              "1.10 – 2.20",
+                              "über 5.50",
+                              "Ebenheit:",
+                              "Rauh or worse",
+                              "above 2.20 mm/m",
+                              "Nie gemessen",
+                              "fill=\"#2c7bb6\"",
+                              "fill=\"#abd9e9\"",
+                              "fill=\"#d7191c\""}) {
+        EXPECT_THAT(html, HasSubstr(words));
+    }
+    EXPECT_THAT(html, Not(HasSubstr("below 1.50")));
+    EXPECT_THAT(html, Not(HasSubstr("No measurement")));
+}
+
+TEST_F(MapStyleProgram, ReportsAsOptionsSayWhateverTheFileSays) {
+    const auto mine = style("classes = \"five\"\nunit = \"in/mi\"\ntheme = \"dark\"\n");
+    const auto plain = report({});
+    EXPECT_TRUE(report({"--style", mine, "--classes", "fhwa", "--unit", "mm/m"}) == plain);
+    EXPECT_TRUE(report({"--style", mine}) == report({"--classes", "five", "--unit", "in/mi"}));
+    EXPECT_FALSE(report({"--style", mine}) == plain);
+}
+
+TEST_F(MapStyleProgram, ReportsWithColoursOfAThemeOnPagesOfThatKindAlone) {
+    const auto plain = report({});
+    const auto on_dark =
+        report({"--style", style("theme = \"dark\"\n[colours]\nground = \"#102030\"\n")});
+    ASSERT_FALSE(picture_in(plain, "light").empty());
+    EXPECT_TRUE(picture_in(on_dark, "light") == picture_in(plain, "light"));
+    EXPECT_FALSE(picture_in(on_dark, "dark") == picture_in(plain, "dark"));
+    const auto on_light = report({"--style", style("[colours]\nground = \"#f0f0ff\"\n")});
+    EXPECT_FALSE(picture_in(on_light, "light") == picture_in(plain, "light"));
+    EXPECT_TRUE(picture_in(on_light, "dark") == picture_in(plain, "dark"));
+}
+
+TEST_F(MapStyleProgram, ReportsRoadsWithFewPassesInGreyAndSaysSo) {
+    const auto plain = report({});
+    EXPECT_THAT(plain, Not(HasSubstr("are grey here")));
+    EXPECT_TRUE(report({"--min-passes", "1"}) == plain);
+    const auto grey = report({"--min-passes", "3"});
+    EXPECT_THAT(grey, HasSubstr("Fewer than 3 passes"));
+    EXPECT_THAT(grey, HasSubstr("Roads with few passes are grey here; all figures count them."));
+    EXPECT_FALSE(picture_in(grey, "light") == picture_in(plain, "light"));
+    EXPECT_TRUE(report({"--style", style("min_passes = 3\n")}) == grey);
+    EXPECT_THAT(report({"--min-passes", "3", "--language", "de"}),
+                HasSubstr("Weniger als 3 Überfahrten"));
+}
+
+TEST_F(MapStyleProgram, ReportsNothingByAFileThatIsNoStyle) {
+    const auto file = (folder_ / "report.html").string();
+    EXPECT_EQ(
+        run_macadam({"report", store_, "-o", file, "--style", style("colors = 3\n")}).exit_status,
+        1);
+    EXPECT_FALSE(fs::exists(file));
+    const auto run = run_macadam({"report", store_, "--against-reference", "--min-passes", "3"});
+    EXPECT_EQ(run.exit_status, 2);
+    EXPECT_THAT(run.err, HasSubstr("--min-passes and --against-reference exclude one another"));
 }
 
 TEST_F(MapStyleProgram, WarnsOfColoursThatSomeEyesConfuse) {

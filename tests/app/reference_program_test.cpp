@@ -189,6 +189,55 @@ TEST_F(Reference, ReportsForPeopleWithPictures) {
     EXPECT_THAT(read_file(csv), HasSubstr("\n100m,truth,11"));
 }
 
+TEST_F(Reference, ReportsInTheLanguageAndUnitThatItIsAskedFor) {
+    ran({"import", store_, "--reference", truth_, "--date", "2026-05-01"});
+    const auto page = (folder_ / "reference.html").string();
+    ran({"report", store_, "--against-reference", "-o", page});
+    EXPECT_THAT(read_file(page), HasSubstr("<h1>Cars beside reference surveys</h1>"));
+    EXPECT_THAT(read_file(page), Not(HasSubstr("in/mi")));
+    ran({"report",
+         store_,
+         "--against-reference",
+         "-o",
+         page,
+         "--language",
+         "de",
+         "--unit",
+         "in/mi"});
+    const auto html = read_file(page);
+    EXPECT_THAT(html, HasSubstr("<html lang=\"de\">"));
+    for (const auto* words : {"<h1>Fahrzeuge und Referenzmessungen</h1>",
+                              "Fahrzeuge neben Referenzen",
+                              "Stücke von 100 m",
+                              "01.05.2026",
+                              "Referenz, in/mi",
+                              "63 – 127",
+                              "IRI der Fahrzeuge, in/mi",
+                              "Im 90-%-Intervall"}) {
+        EXPECT_THAT(html, HasSubstr(words));
+    }
+    for (const auto* words : {"mm/m", "Reference", "Cars", "cars", "pieces", " to "}) {
+        const auto body = html.substr(html.find("<body"));
+        EXPECT_THAT(body, Not(HasSubstr(words)));
+    }
+    const auto pdf = (folder_ / "reference.pdf").string();
+    ran({"report", store_, "--against-reference", "-o", pdf, "--language", "de"});
+    EXPECT_THAT(read_file(pdf).substr(0, 5), "%PDF-");
+}
+
+TEST_F(Reference, GivesProgramsMillimetresWhateverIsAskedFor) {
+    for (const auto* const file : {"a.json", "a.csv", ""}) {
+        std::vector<std::string> words{"report", store_, "--against-reference", "--unit", "in/mi"};
+        if (*file != '\0') {
+            words.insert(words.end(), {"-o", (folder_ / file).string()});
+        }
+        const auto run = run_macadam(words);
+        EXPECT_EQ(run.exit_status, 2) << file;
+        EXPECT_THAT(run.err,
+                    HasSubstr("--unit goes with -o FILE.html or .pdf beside --against-reference"));
+    }
+}
+
 TEST_F(Reference, WatchesControlSections) {
     // The known roughness of ten segments is their truth; "off" claims 1 mm/m more.
     std::istringstream rows{read_file(truth_)};
