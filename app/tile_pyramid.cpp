@@ -374,19 +374,17 @@ void read_tile_source(const RoadStore& store,
                       TileSource& source,
                       const Progress& progress) {
     constexpr std::size_t report_every = 1000;
-    store.visit(
-        filter,
-        [&](const SegmentRecord& record) {
-            add(source, tile_segment(record, source.words));
-            for (const auto& point : record.segment.line) {
-                source.box = including(source.box, point);
-            }
-            if (source.count % report_every == 0) {
-                progress(source.count, 0);
-                expect_not_stopped(progress);
-            }
-        },
-        StateDetail::tiles);
+    const auto take = [&](const SegmentRecord& record) {
+        add(source, tile_segment(record, source.words));
+        for (const auto& point : record.segment.line) {
+            source.box = including(source.box, point);
+        }
+        if (source.count % report_every == 0) {
+            progress(source.count, 0);
+            expect_not_stopped(progress);
+        }
+    };
+    store.visit(filter, take, StateDetail::tiles);
     source.segments.settle();
 }
 

@@ -58,8 +58,7 @@ std::size_t field_bytes(std::size_t size) {
 
 constexpr int extent_bits = 12;
 static_assert(tile_extent == 1 << extent_bits);
-constexpr std::uint32_t line_type = 2;
-constexpr std::uint32_t move_command = 1, line_command = 2;
+constexpr std::uint32_t line_type = 2, move_command = 1, line_command = 2;
 
 std::uint32_t command(std::uint32_t id, std::size_t count) {
     return (id & 7U) | (static_cast<std::uint32_t>(count) << 3U);
@@ -279,12 +278,10 @@ std::uint32_t VectorLayer::number_of(Value::Kind kind, std::uint64_t bits, std::
     const auto mask = slots_.size() - 1;
     auto slot = hash & mask;
     for (; slots_[slot].number != 0; slot = (slot + 1) & mask) {
-        if (slots_[slot].hash != upper_half(hash)) {
-            continue;
-        }
         const auto number = slots_[slot].number - 1;
         const auto& value = known_[number];
-        if (value.kind == kind && value.bits == bits && text_of(value) == text) {
+        if (slots_[slot].hash == upper_half(hash) && value.kind == kind && value.bits == bits &&
+            text_of(value) == text) {
             return number;
         }
     }
