@@ -89,7 +89,7 @@ private:
             add_lines(forward, values_of(forward), true, backward);
             add_lines(backward, values_of(backward), false, forward);
         } else if (!both) {
-            const auto& only = forward.empty() ? backward : forward;
+            auto& only = forward.empty() ? backward : forward;
             add_lines(only, values_of(only), !forward.empty(), {});
         } else {
             add_merged();
@@ -139,7 +139,7 @@ private:
                 ++i;
             }
             if (i == forward.size() || forward[i].index != backward[k].index) {
-                alone.push_back(backward[k]);
+                alone.push_back(std::move(backward[k]));
             } else if (is_worse(others[k], values[i])) {
                 values[i] = others[k];
             }
@@ -148,11 +148,9 @@ private:
         add_lines(alone, values_of(alone), false, {});
     }
 
+    /// \param bits    whose lines are taken
     /// \param others  of the other direction, where they are lines of their own
-    void add_lines(const Bits& bits,
-                   const std::vector<Value>& values,
-                   bool forward,
-                   const Bits& others) {
+    void add_lines(Bits& bits, const std::vector<Value>& values, bool forward, const Bits& others) {
         std::optional<Look> last;
         for (std::size_t i = 0, k = 0; i < bits.size(); ++i) {
             while (k < others.size() && others[k].index < bits[i].index) {
@@ -165,7 +163,7 @@ private:
                 values[i].few_passes,
                 k < others.size() && others[k].index == bits[i].index};
             if (last != look || !goes_on(bits[i].line, forward)) {
-                lines_.push_back({.line = bits[i].line,
+                lines_.push_back({.line = std::move(bits[i].line),
                                   .iri_class = look.iri_class,
                                   .both_ways = look.both_ways,
                                   .forward = forward,

@@ -374,7 +374,7 @@ void read_tile_source(const RoadStore& store,
                       TileSource& source,
                       const Progress& progress) {
     constexpr std::size_t report_every = 1000;
-    store.visit(filter, [&](const SegmentRecord& record) {
+    const auto take = [&](const SegmentRecord& record) {
         add(source, tile_segment(record, source.words));
         for (const auto& point : record.segment.line) {
             source.box = including(source.box, point);
@@ -383,7 +383,8 @@ void read_tile_source(const RoadStore& store,
             progress(source.count, 0);
             expect_not_stopped(progress);
         }
-    });
+    };
+    store.visit(filter, take, StateDetail::tiles);
     source.segments.settle();
 }
 

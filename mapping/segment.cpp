@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <optional>
 
@@ -57,7 +58,18 @@ std::optional<Number> number_in(std::string_view text) {
 } // namespace
 
 std::string name_of(const SegmentKey& key) {
-    return fmt::format("{}{}{:04}", key.way_id, key.forward ? '+' : '-', key.index);
+    constexpr std::size_t least_digits = 4;
+    std::array<char, 32> name{}; // 20 for the way, a sign, 10 for the index
+    std::array<char, 10> index{};
+    auto* const way_end = std::to_chars(name.data(), name.data() + 20, key.way_id).ptr;
+    const auto* const index_end =
+        std::to_chars(index.data(), index.data() + index.size(), key.index).ptr;
+    const auto digits = static_cast<std::size_t>(index_end - index.data());
+    auto* at = way_end;
+    *at++ = key.forward ? '+' : '-';
+    at = std::fill_n(at, least_digits - std::min(digits, least_digits), '0');
+    at = std::copy_n(index.data(), digits, at);
+    return {name.data(), at};
 }
 
 SegmentKey parse_segment_key(std::string_view text) {

@@ -84,6 +84,17 @@ TileId tile_at(const WorldPoint& point, int zoom) {
 }
 
 std::uint32_t TileWords::number_of(std::string_view word) {
+    for (const auto number : recent_) {
+        if (words_[number] == word) {
+            return number;
+        }
+    }
+    const auto number = number_in_table(word);
+    recent_ = {number, recent_.front()};
+    return number;
+}
+
+std::uint32_t TileWords::number_in_table(std::string_view word) {
     if (const auto known = numbers_.find(word); known != numbers_.end()) {
         return known->second;
     }

@@ -4,6 +4,7 @@
 #include "mapping/segment_record.hpp"
 #include "mapping/tile_grid.hpp"
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -40,13 +41,16 @@ TileId tile_at(const WorldPoint& point, int zoom);
 /// Texts that many roads share, numbered. 0 is "".
 class TileWords {
 public:
-    TileWords() { number_of(""); }
+    TileWords() { number_in_table(""); }
     std::uint32_t number_of(std::string_view word);
     std::string_view word(std::uint32_t number) const { return words_[number]; }
 
 private:
+    std::uint32_t number_in_table(std::string_view word);
+
     std::deque<std::string> words_; ///< which stay where they are
     std::unordered_map<std::string_view, std::uint32_t> numbers_;
+    std::array<std::uint32_t, 2> recent_{}; ///< a segment's name and class, as its neighbours have
 };
 
 /// A segment with a state, as tiles show it.

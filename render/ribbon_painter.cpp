@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "render/gl_program.hpp"
+#include "render/quad_buffer.hpp"
 
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -16,13 +17,19 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t quads_per_call = 16384; // 4 MB of vertices
-
 // OpenGL cuts what leaves its view, and cut triangles need not meet as the whole ones do. So the
 // view is larger than the window by more than a quad is long. Its side is a power of two, so that
 // places in 1/256 px come to the rasteriser without a rounding.
 constexpr int view_px = most_window_px;
 constexpr int beyond_px = (view_px - most_ribbon_window_px) / 2;
+
+constexpr auto floats = VertexPart::Kind::floats;
+constexpr std::array vertex_parts{VertexPart{floats, 2, offsetof(RibbonVertex, x_px)},
+                                  VertexPart{floats, 2, offsetof(RibbonVertex, anchor_x_px)},
+                                  VertexPart{floats, 3, offsetof(RibbonVertex, across)},
+                                  VertexPart{floats, 3, offsetof(RibbonVertex, before)},
+                                  VertexPart{floats, 3, offsetof(RibbonVertex, after)},
+                                  VertexPart{floats, 2, offsetof(RibbonVertex, round_before)}};
 
 // The picture's first row is OpenGL's bottom row, so y needs no turning over.
 constexpr const char* vertex_shader = R"(#version 330 core
@@ -86,76 +93,23 @@ struct RibbonPainter::Gl {
     MACADAM_GL(decltype(&glBlendFunc), BlendFunc);
     MACADAM_GL(decltype(&glClear), Clear);
     MACADAM_GL(decltype(&glClearColor), ClearColor);
-    MACADAM_GL(decltype(&glDrawElements), DrawElements);
     MACADAM_GL(decltype(&glEnable), Enable);
     MACADAM_GL(decltype(&glFinish), Finish);
     MACADAM_GL(decltype(&glGetError), GetError);
     MACADAM_GL(decltype(&glScissor), Scissor);
     MACADAM_GL(decltype(&glViewport), Viewport);
-    MACADAM_GL(PFNGLBINDBUFFERPROC, BindBuffer);
-    MACADAM_GL(PFNGLBINDVERTEXARRAYPROC, BindVertexArray);
-    MACADAM_GL(PFNGLBUFFERDATAPROC, BufferData);
-    MACADAM_GL(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray);
-    MACADAM_GL(PFNGLGENBUFFERSPROC, GenBuffers);
-    MACADAM_GL(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays);
     MACADAM_GL(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation);
     MACADAM_GL(PFNGLUNIFORM1FPROC, Uniform1f);
     MACADAM_GL(PFNGLUNIFORM3FPROC, Uniform3f);
     MACADAM_GL(PFNGLUSEPROGRAMPROC, UseProgram);
-    MACADAM_GL(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer);
 #undef MACADAM_GL
 
-    void describe_vertices() const;
-    void number_corners() const;
-
+    QuadBuffer quads{context_, sizeof(RibbonVertex), vertex_parts};
     GLint colour = -1;
     GLint radius_px = -1;
 };
 
 RibbonPainter::Gl::Gl(const GlContext& context) : context_{context} {}
-
-void RibbonPainter::Gl::describe_vertices() const {
-    GLuint array = 0;
-    GenVertexArrays(1, &array);
-    BindVertexArray(array);
-    GLuint vertices = 0;
-    GenBuffers(1, &vertices);
-    BindBuffer(GL_ARRAY_BUFFER, vertices);
-
-    const auto part = [this](GLuint location, GLint floats, std::size_t offset) {
-        EnableVertexAttribArray(location);
-        // OpenGL takes the offset for an address.
-        VertexAttribPointer(location,
-                            floats,
-                            GL_FLOAT,
-                            GL_FALSE,
-                            sizeof(RibbonVertex),
-                            reinterpret_cast<const void*>(offset)); // NOLINT
-    };
-    part(0, 2, offsetof(RibbonVertex, x_px));
-    part(1, 2, offsetof(RibbonVertex, anchor_x_px));
-    part(2, 3, offsetof(RibbonVertex, across));
-    part(3, 3, offsetof(RibbonVertex, before));
-    part(4, 3, offsetof(RibbonVertex, after));
-    part(5, 2, offsetof(RibbonVertex, round_before));
-}
-
-void RibbonPainter::Gl::number_corners() const {
-    std::vector<std::uint32_t> corners;
-    corners.reserve(quads_per_call * 6);
-    for (std::uint32_t first = 0; first < quads_per_call * 4; first += 4) {
-        for (const std::uint32_t corner : {0U, 1U, 2U, 2U, 1U, 3U}) {
-            corners.push_back(first + corner);
-        }
-    }
-    GLuint buffer = 0;
-    GenBuffers(1, &buffer);
-    BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer);
-    BufferData(GL_ELEMENT_ARRAY_BUFFER,
-               GLsizeiptr(corners.size() * sizeof(corners[0])),
-               corners.data(),
-               GL_STATIC_DRAW);
-}
 
 RibbonPainter::RibbonPainter(const GlContext& context) : gl_{std::make_unique<Gl>(context)} {
     const GLuint program = linked_program(context, vertex_shader, fragment_shader);
@@ -164,8 +118,6 @@ RibbonPainter::RibbonPainter(const GlContext& context) : gl_{std::make_unique<Gl
     gl_->radius_px = gl_->GetUniformLocation(program, "radius_px");
     gl_->Uniform1f(gl_->GetUniformLocation(program, "half_views_per_px"), 2.F / view_px);
     gl_->Uniform1f(gl_->GetUniformLocation(program, "beyond_px"), float(beyond_px));
-    gl_->describe_vertices();
-    gl_->number_corners();
     gl_->Viewport(-beyond_px, -beyond_px, view_px, view_px);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->Enable(GL_BLEND);
@@ -188,13 +140,7 @@ void RibbonPainter::draw(std::span<const RibbonQuad> quads, std::uint32_t rgb, d
     const auto [red, green, blue] = channels(rgb);
     gl_->Uniform3f(gl_->colour, red, green, blue);
     gl_->Uniform1f(gl_->radius_px, float(radius_px));
-    while (!quads.empty()) {
-        const auto some = quads.first(std::min(quads.size(), quads_per_call));
-        gl_->BufferData(
-            GL_ARRAY_BUFFER, GLsizeiptr(some.size_bytes()), some.data(), GL_STREAM_DRAW);
-        gl_->DrawElements(GL_TRIANGLES, GLsizei(some.size() * 6), GL_UNSIGNED_INT, nullptr);
-        quads = quads.subspan(some.size());
-    }
+    gl_->quads.draw(quads);
 }
 
 void RibbonPainter::finish() {

@@ -13,12 +13,15 @@ namespace {
 constexpr std::array named_from_zoom{11, 11, 13, 13, 15, 15}; // by rank
 constexpr double most_labelled_zoom = 22; // a pixel of the world is an int to labels
 
-RoadName road_name(const MapLine& line, const WorldWindow& window, const LineWidths& widths) {
+bool is_named(const MapLine& line, const WorldWindow& window) {
     const int rank = std::clamp(line.rank, 0, 5);
-    const bool named = zoom_of_256_px(window.scale) >= named_from_zoom[std::size_t(rank)];
+    return !line.name.empty() && zoom_of_256_px(window.scale) >= named_from_zoom[std::size_t(rank)];
+}
+
+RoadName road_name(const MapLine& line, const WorldWindow& window, const LineWidths& widths) {
     RoadName road{.line = {},
-                  .name = named ? line.name : "",
-                  .rank = rank,
+                  .name = is_named(line, window) ? line.name : "",
+                  .rank = std::clamp(line.rank, 0, 5),
                   .quiet = line.iri_class < 0,
                   .half_width_px = painted_half_width_px(widths, line)};
     for (const auto& place : line.line) {
@@ -34,16 +37,16 @@ std::vector<Label> tile_labels(std::span<const MapLine> lines,
                                const WorldWindow& window,
                                const LineWidths& widths,
                                TypeSetter& setter) {
+    const auto has_name = [&](const MapLine& line) { return is_named(line, window); };
+    if (zoom_of_256_px(window.scale) > most_labelled_zoom ||
+        std::ranges::none_of(lines, has_name)) {
+        return {};
+    }
     std::vector<RoadName> roads;
-    bool any = false;
     for (const auto& line : lines) {
         roads.push_back(road_name(line, window, widths));
-        any = any || !roads.back().name.empty();
     }
     std::vector<Label> labels;
-    if (!any || zoom_of_256_px(window.scale) > most_labelled_zoom) {
-        return labels;
-    }
     const auto first_of = [](std::int64_t px) { return px / label_cell_px; };
     const auto last_row = first_of(window.top_px + window.side_px - 1);
     const auto last_column = first_of(window.left_px + window.side_px - 1);

@@ -4,6 +4,7 @@
 #include "render/gl_context.hpp"
 #include "render/gl_program.hpp"
 #include "render/label_painter.hpp"
+#include "render/quad_buffer.hpp"
 #include "render/tile_labels.hpp"
 #include "render/tile_quads.hpp"
 
@@ -12,9 +13,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cassert>
+#include <array>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 
 namespace macadam {
 namespace {
@@ -22,11 +24,19 @@ namespace {
 constexpr int least_tile_px = 64;
 constexpr int most_tile_px = 4096;
 constexpr int most_side_px = 8192;
-constexpr std::size_t quads_per_call = 16384; // 4 MB of vertices
 
 // OpenGL cuts what leaves its view, and cut triangles need not meet as the whole ones do. So the
 // view is larger than the window by more than a piece is long, and the window is cut out of it.
 constexpr int beyond_px = 512;
+
+constexpr auto floats = VertexPart::Kind::floats;
+constexpr std::array vertex_parts{
+    VertexPart{floats, 2, offsetof(QuadVertex, x_px)},
+    VertexPart{floats, 4, offsetof(QuadVertex, from_x_px)},
+    VertexPart{floats, 2, offsetof(QuadVertex, dx)},
+    VertexPart{floats, 4, offsetof(QuadVertex, start_x)},
+    VertexPart{floats, 3, offsetof(QuadVertex, start_limit_px)},
+    VertexPart{VertexPart::Kind::shares, 3, offsetof(QuadVertex, rgba)}};
 
 constexpr const char* vertex_shader = R"(#version 330 core
 uniform float view_px;
@@ -130,6 +140,16 @@ Image with_labels(Image roads,
     return std::move(canvas).finished();
 }
 
+std::vector<std::uint8_t> rgb_of(std::span<const std::uint8_t> rgba) {
+    std::vector<std::uint8_t> rgb(rgba.size() / 4 * 3 + 1);
+    auto* to = rgb.data();
+    for (std::size_t i = 0; i < rgba.size(); i += 4, to += 3) {
+        std::memcpy(to, rgba.data() + i, 4); // of which the last is written over
+    }
+    rgb.pop_back();
+    return rgb;
+}
+
 std::size_t pixels_of(const TileLook& look) {
     const auto side = std::size_t(look.tile_px) * std::size_t(look.across);
     return side * side;
@@ -139,9 +159,7 @@ std::size_t pixels_of(const TileLook& look) {
 
 struct TilePainter::Impl {
     explicit Impl(const TileLook& wanted);
-    void describe_vertices() const;
-    void number_corners() const;
-    void paint(std::span<const TileQuad> quads) const;
+    void paint(std::span<const TileQuad> shown) const;
     void check_classes(std::span<const MapLine> lines) const;
 
     TileLook look;
@@ -149,27 +167,20 @@ struct TilePainter::Impl {
     TileColours colours;
     std::vector<std::uint8_t> rgba;
     GlContext context;
+    QuadBuffer quads{context, sizeof(QuadVertex), vertex_parts};
 
 #define MACADAM_GL(type, name) type name = context.entry<type>("gl" #name)
     MACADAM_GL(decltype(&glBlendFunc), BlendFunc);
     MACADAM_GL(decltype(&glClear), Clear);
     MACADAM_GL(decltype(&glClearColor), ClearColor);
-    MACADAM_GL(decltype(&glDrawElements), DrawElements);
     MACADAM_GL(decltype(&glEnable), Enable);
     MACADAM_GL(decltype(&glFinish), Finish);
     MACADAM_GL(decltype(&glGetError), GetError);
     MACADAM_GL(decltype(&glScissor), Scissor);
     MACADAM_GL(decltype(&glViewport), Viewport);
-    MACADAM_GL(PFNGLBINDBUFFERPROC, BindBuffer);
-    MACADAM_GL(PFNGLBINDVERTEXARRAYPROC, BindVertexArray);
-    MACADAM_GL(PFNGLBUFFERDATAPROC, BufferData);
-    MACADAM_GL(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray);
-    MACADAM_GL(PFNGLGENBUFFERSPROC, GenBuffers);
-    MACADAM_GL(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays);
     MACADAM_GL(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation);
     MACADAM_GL(PFNGLUNIFORM1FPROC, Uniform1f);
     MACADAM_GL(PFNGLUSEPROGRAMPROC, UseProgram);
-    MACADAM_GL(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer);
 #undef MACADAM_GL
 };
 
@@ -182,8 +193,6 @@ TilePainter::Impl::Impl(const TileLook& wanted)
     UseProgram(program);
     Uniform1f(GetUniformLocation(program, "view_px"), float(side_px + 2 * beyond_px));
     Uniform1f(GetUniformLocation(program, "beyond_px"), float(beyond_px));
-    describe_vertices();
-    number_corners();
     Viewport(-beyond_px, -beyond_px, side_px + 2 * beyond_px, side_px + 2 * beyond_px);
     Enable(GL_SCISSOR_TEST);
     Scissor(0, 0, side_px, side_px);
@@ -195,60 +204,11 @@ TilePainter::Impl::Impl(const TileLook& wanted)
     ClearColor(part(16), part(8), part(0), 1);
 }
 
-void TilePainter::Impl::describe_vertices() const {
-    GLuint array = 0;
-    GenVertexArrays(1, &array);
-    BindVertexArray(array);
-    GLuint vertices = 0;
-    GenBuffers(1, &vertices);
-    BindBuffer(GL_ARRAY_BUFFER, vertices);
-
-    // OpenGL takes the offset for an address.
-    const auto address = [](std::size_t offset) {
-        return reinterpret_cast<const void*>(offset); // NOLINT
-    };
-    const auto floats = [&](GLuint location, GLint count, std::size_t offset) {
-        EnableVertexAttribArray(location);
-        VertexAttribPointer(
-            location, count, GL_FLOAT, GL_FALSE, sizeof(QuadVertex), address(offset));
-    };
-    floats(0, 2, offsetof(QuadVertex, x_px));
-    floats(1, 4, offsetof(QuadVertex, from_x_px));
-    floats(2, 2, offsetof(QuadVertex, dx));
-    floats(3, 4, offsetof(QuadVertex, start_x));
-    floats(4, 3, offsetof(QuadVertex, start_limit_px));
-    EnableVertexAttribArray(5);
-    VertexAttribPointer(
-        5, 3, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(QuadVertex), address(offsetof(QuadVertex, rgba)));
-}
-
-void TilePainter::Impl::number_corners() const {
-    std::vector<std::uint32_t> corners;
-    corners.reserve(quads_per_call * 6);
-    for (std::uint32_t first = 0; first < quads_per_call * 4; first += 4) {
-        for (const std::uint32_t corner : {0U, 1U, 2U, 2U, 1U, 3U}) {
-            corners.push_back(first + corner);
-        }
-    }
-    GLuint buffer = 0;
-    GenBuffers(1, &buffer);
-    BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer);
-    BufferData(GL_ELEMENT_ARRAY_BUFFER,
-               GLsizeiptr(corners.size() * sizeof(corners[0])),
-               corners.data(),
-               GL_STATIC_DRAW);
-}
-
 /// All in one go: colours and widths come with the corners.
-void TilePainter::Impl::paint(std::span<const TileQuad> quads) const {
+void TilePainter::Impl::paint(std::span<const TileQuad> shown) const {
     context.make_current();
     Clear(GL_COLOR_BUFFER_BIT);
-    while (!quads.empty()) {
-        const auto some = quads.first(std::min(quads.size(), quads_per_call));
-        BufferData(GL_ARRAY_BUFFER, GLsizeiptr(some.size_bytes()), some.data(), GL_STREAM_DRAW);
-        DrawElements(GL_TRIANGLES, GLsizei(some.size() * 6), GL_UNSIGNED_INT, nullptr);
-        quads = quads.subspan(some.size());
-    }
+    quads.draw(shown);
     Finish();
     if (const GLenum error = GetError(); error != GL_NO_ERROR) {
         throw InputError{fmt::format("OSMesa cannot draw the tile: OpenGL error {:#x}", error)};
@@ -280,12 +240,7 @@ Image TilePainter::draw(const TileId& first, std::span<const MapLine> lines) {
     const auto strands = tile_strands(lines, window, widths, look.style.left_hand_traffic);
     impl_->paint(tile_quads(strands, window, widths, impl_->colours));
 
-    Image image{window.side_px, window.side_px, {}};
-    image.rgb.resize(impl_->rgba.size() / 4 * 3);
-    for (std::size_t i = 0, o = 0; i < impl_->rgba.size(); i += 4, o += 3) {
-        std::copy_n(
-            impl_->rgba.begin() + std::ptrdiff_t(i), 3, image.rgb.begin() + std::ptrdiff_t(o));
-    }
+    Image image{window.side_px, window.side_px, rgb_of(impl_->rgba)};
     if (!look.style.labels) {
         return image;
     }

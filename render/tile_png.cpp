@@ -162,10 +162,17 @@ struct TilePng::Impl {
 /// a row is its filter.
 Bytes TilePng::Impl::used_colours(int side_px) {
     const auto row = std::size_t(side_px) + 1;
+    const auto each_row = [&](const auto& use) {
+        for (std::size_t first = 0; first < rows.size(); first += row) {
+            use(std::span{rows}.subspan(first + 1, row - 1));
+        }
+    };
     std::array<bool, 256> used{};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        used[rows[i]] = used[rows[i]] || i % row != 0;
-    }
+    each_row([&](std::span<const std::uint8_t> pixels) {
+        for (const auto pixel : pixels) {
+            used[pixel] = true;
+        }
+    });
     std::array<std::uint8_t, 256> number{};
     Bytes colours;
     for (std::size_t i = 0; i < nearest.palette().size(); ++i) {
@@ -176,9 +183,11 @@ Bytes TilePng::Impl::used_colours(int side_px) {
                            {std::uint8_t(rgb >> 16), std::uint8_t(rgb >> 8), std::uint8_t(rgb)});
         }
     }
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows[i] = i % row == 0 ? 0 : number[rows[i]];
-    }
+    each_row([&](std::span<std::uint8_t> pixels) {
+        for (auto& pixel : pixels) {
+            pixel = number[pixel];
+        }
+    });
     return colours;
 }
 
@@ -210,11 +219,12 @@ Bytes TilePng::encode(const Image& image, const PictureCut& cut) {
     assert(cut.left_px >= 0 && cut.top_px >= 0 && cut.left_px + cut.side_px <= image.width &&
            cut.top_px + cut.side_px <= image.height);
     auto& rows = impl_->rows;
-    rows.clear();
+    rows.resize((std::size_t(cut.side_px) + 1) * std::size_t(cut.side_px));
+    auto* pixel = rows.data();
     std::uint32_t last = impl_->ground;
     std::uint8_t index = impl_->nearest.index(last);
     for (int y = cut.top_px; y < cut.top_px + cut.side_px; ++y) {
-        rows.push_back(0); // the row as it is: differences of palette indices mean nothing
+        *pixel++ = 0; // the row as it is: differences of palette indices mean nothing
         const auto* rgb =
             image.rgb.data() + (std::size_t(y) * image.width + std::size_t(cut.left_px)) * 3;
         for (int x = 0; x < cut.side_px; ++x, rgb += 3) {
@@ -224,7 +234,7 @@ Bytes TilePng::encode(const Image& image, const PictureCut& cut) {
                 last = colour;
                 index = impl_->nearest.index(colour);
             }
-            rows.push_back(index);
+            *pixel++ = index;
         }
     }
     return impl_->file(cut.side_px);

@@ -2,12 +2,14 @@
 
 #include <protozero/buffer_string.hpp>
 #include <protozero/pbf_writer.hpp>
+#include <protozero/varint.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <utility>
 
@@ -22,10 +24,41 @@ constexpr protozero::pbf_tag_type version = 15;
 constexpr protozero::pbf_tag_type id = 1, tags = 2, type = 3, geometry = 4;
 constexpr protozero::pbf_tag_type text = 1, real = 3, whole = 6;
 } // namespace tag
+
+// Features and values are put together by hand: by protozero's writers, which make room for lengths
+// and close it again, they take four times as long.
+constexpr char key_of(protozero::pbf_tag_type tag, protozero::pbf_wire_type type) {
+    return static_cast<char>(tag << 3U | static_cast<std::uint32_t>(type));
+}
+constexpr char varint_key(protozero::pbf_tag_type tag) {
+    return key_of(tag, protozero::pbf_wire_type::varint);
+}
+constexpr char bytes_key(protozero::pbf_tag_type tag) {
+    return key_of(tag, protozero::pbf_wire_type::length_delimited);
+}
+
+constexpr std::size_t most_varint_bytes = 10;
+
+char* put_varint(char* at, std::uint64_t value) {
+    for (; value >= 0x80U; value >>= 7U) {
+        *at++ = static_cast<char>(value | 0x80U);
+    }
+    *at++ = static_cast<char>(value);
+    return at;
+}
+
+std::size_t varint_bytes(std::uint64_t value) {
+    return 1 + (static_cast<std::size_t>(std::bit_width(value | 1U)) - 1) / 7;
+}
+
+/// A message or text of that size, with its key and length.
+std::size_t field_bytes(std::size_t size) {
+    return 1 + varint_bytes(size) + size;
+}
+
 constexpr int extent_bits = 12;
 static_assert(tile_extent == 1 << extent_bits);
-constexpr std::uint32_t line_type = 2;
-constexpr std::uint32_t move_command = 1, line_command = 2;
+constexpr std::uint32_t line_type = 2, move_command = 1, line_command = 2;
 
 std::uint32_t command(std::uint32_t id, std::size_t count) {
     return (id & 7U) | (static_cast<std::uint32_t>(count) << 3U);
@@ -35,9 +68,17 @@ std::uint32_t zigzag(std::int32_t value) {
     return (static_cast<std::uint32_t>(value) << 1U) ^ static_cast<std::uint32_t>(value >> 31);
 }
 
+/// Every bit depends on every other: numbers with two decimals share the pattern of their last 40
+/// bits with 1 in 25 others. (The finalizer of splitmix64: S. Vigna, prng.di.unimi.it, 2015.)
 std::uint64_t mixed(std::uint64_t bits, std::uint64_t kind) {
-    std::uint64_t hash = (bits ^ (kind << 61U)) * 0x9e3779b97f4a7c15U; // 2^64 / golden ratio
-    return hash ^ (hash >> 32U);
+    std::uint64_t hash = bits ^ (kind << 61U);
+    hash = (hash ^ (hash >> 30U)) * 0xbf58476d1ce4e5b9U;
+    hash = (hash ^ (hash >> 27U)) * 0x94d049bb133111ebU;
+    return hash ^ (hash >> 31U);
+}
+
+std::uint32_t upper_half(std::uint64_t hash) {
+    return static_cast<std::uint32_t>(hash >> 32U);
 }
 
 /// The part of the way from one place to another that lies within least..most, cut further.
@@ -81,8 +122,9 @@ VectorLayer::VectorLayer(std::string_view name,
     const auto side = static_cast<unsigned>(world_bits - tile.zoom);
     west_ = std::int64_t{tile.x} << side;
     north_ = std::int64_t{tile.y} << side;
-    slots_.resize(1024, 0);
+    slots_.resize(4096);
     last_.resize(keys.size(), 0);
+    tags_.resize(keys.size() * 2 * most_varint_bytes);
 }
 
 // ------------------------------------------------------------------------------------- geometry
@@ -115,9 +157,20 @@ void VectorLayer::end_piece() {
     piece_.clear();
 }
 
+bool VectorLayer::lies_within(const Place& place) {
+    constexpr auto is_within = [](std::int32_t at) {
+        return at >= -tile_buffer && at <= tile_extent + tile_buffer;
+    };
+    return is_within(place.x) && is_within(place.y);
+}
+
 /// Liang and Barsky, "A new concept and method for line clipping", ACM Transactions on Graphics 3
 /// (1984), pp. 1-22.
 void VectorLayer::put_clipped(const Place& from, const Place& to) {
+    if (lies_within(from) && lies_within(to)) { // as most do
+        go_on(from, to);
+        return;
+    }
     const double dx = to.x - from.x, dy = to.y - from.y;
     std::pair part{0.0, 1.0};
     if (!cut(from.x, dx, part) || !cut(from.y, dy, part)) {
@@ -128,11 +181,15 @@ void VectorLayer::put_clipped(const Place& from, const Place& to) {
         return Place{static_cast<std::int32_t>(std::lround(from.x + share * dx)),
                      static_cast<std::int32_t>(std::lround(from.y + share * dy))};
     };
-    if (const auto begin = at(part.first); piece_.empty() || piece_.back() != begin) {
+    go_on(at(part.first), at(part.second));
+}
+
+void VectorLayer::go_on(const Place& begin, const Place& end) {
+    if (piece_.empty() || piece_.back() != begin) {
         end_piece();
         piece_.push_back(begin);
     }
-    if (const auto end = at(part.second); piece_.back() != end) {
+    if (piece_.back() != end) {
         piece_.push_back(end);
     }
 }
@@ -147,7 +204,7 @@ void VectorLayer::put_line(std::span<const Place> line) {
 bool VectorLayer::begin(std::span<const WorldPoint> line) {
     assert(!line.empty());
     geometry_.clear();
-    tags_.clear();
+    tag_bytes_ = 0;
     cursor_ = {0, 0};
     line_.clear();
     for (const auto& point : line) {
@@ -165,39 +222,51 @@ bool VectorLayer::begin(std::span<const WorldPoint> line) {
 // --------------------------------------------------------------------------------------- values
 
 std::uint32_t VectorLayer::put_value(Value::Kind kind, std::uint64_t bits, std::string_view text) {
-    std::string value;
-    protozero::pbf_writer writer{value};
+    std::array<char, 4 * most_varint_bytes> head;
+    auto* at = head.data();
+    *at++ = bytes_key(tag::value);
     switch (kind) {
     case Value::Kind::text:
     case Value::Kind::unlike:
-        writer.add_string(tag::text, text.data(), text.size());
+        at = put_varint(at, field_bytes(text.size()));
+        *at++ = bytes_key(tag::text);
+        at = put_varint(at, text.size());
         break;
-    case Value::Kind::whole:
-        writer.add_sint64(tag::whole, static_cast<std::int64_t>(bits));
-        break;
-    case Value::Kind::real:
-        writer.add_double(tag::real, std::bit_cast<double>(bits));
+    case Value::Kind::whole: {
+        const auto folded = protozero::encode_zigzag64(static_cast<std::int64_t>(bits));
+        at = put_varint(at, 1 + varint_bytes(folded));
+        *at++ = varint_key(tag::whole);
+        at = put_varint(at, folded);
         break;
     }
-    protozero::pbf_writer layer{values_};
-    layer.add_message(tag::value, value);
-    const auto size = static_cast<std::uint32_t>(text.size()); // a text is the end of its message
+    case Value::Kind::real:
+        static_assert(std::endian::native == std::endian::little);
+        at = put_varint(at, 1 + sizeof bits);
+        *at++ = key_of(tag::real, protozero::pbf_wire_type::fixed64);
+        std::memcpy(at, &bits, sizeof bits);
+        at += sizeof bits;
+        break;
+    }
+    values_.append(head.data(), at);
+    values_ += text; // the end of its message
+    const auto size = static_cast<std::uint32_t>(text.size());
     known_.push_back({kind, bits, static_cast<std::uint32_t>(values_.size()) - size, size});
     return static_cast<std::uint32_t>(known_.size()) - 1;
 }
 
 void VectorLayer::make_room() {
-    slots_.assign(slots_.size() * 4, 0);
+    slots_.assign(slots_.size() * 4, {});
     const auto mask = slots_.size() - 1;
     for (std::size_t i = 0; i < known_.size(); ++i) {
         if (known_[i].kind == Value::Kind::unlike) {
             continue;
         }
-        auto slot = mixed(known_[i].bits, static_cast<std::uint64_t>(known_[i].kind)) & mask;
-        while (slots_[slot] != 0) {
+        const auto hash = mixed(known_[i].bits, static_cast<std::uint64_t>(known_[i].kind));
+        auto slot = hash & mask;
+        while (slots_[slot].number != 0) {
             slot = (slot + 1) & mask;
         }
-        slots_[slot] = static_cast<std::uint32_t>(i) + 1;
+        slots_[slot] = {static_cast<std::uint32_t>(i) + 1, upper_half(hash)};
     }
 }
 
@@ -205,16 +274,19 @@ std::uint32_t VectorLayer::number_of(Value::Kind kind, std::uint64_t bits, std::
     if (2 * known_.size() > slots_.size()) {
         make_room();
     }
+    const auto hash = mixed(bits, static_cast<std::uint64_t>(kind));
     const auto mask = slots_.size() - 1;
-    auto slot = mixed(bits, static_cast<std::uint64_t>(kind)) & mask;
-    for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
-        const auto& value = known_[slots_[slot] - 1];
-        if (value.kind == kind && value.bits == bits && text_of(value) == text) {
-            return slots_[slot] - 1;
+    auto slot = hash & mask;
+    for (; slots_[slot].number != 0; slot = (slot + 1) & mask) {
+        const auto number = slots_[slot].number - 1;
+        const auto& value = known_[number];
+        if (slots_[slot].hash == upper_half(hash) && value.kind == kind && value.bits == bits &&
+            text_of(value) == text) {
+            return number;
         }
     }
     const auto number = put_value(kind, bits, text);
-    slots_[slot] = number + 1;
+    slots_[slot] = {number + 1, upper_half(hash)};
     return number;
 }
 
@@ -223,8 +295,9 @@ std::string_view VectorLayer::text_of(const Value& value) const {
 }
 
 void VectorLayer::put_tag(std::uint32_t key, std::uint32_t value) {
-    tags_.push_back(key);
-    tags_.push_back(value);
+    assert(tag_bytes_ + 2 * most_varint_bytes <= tags_.size()); // each key once
+    auto* const at = tags_.data() + tag_bytes_;
+    tag_bytes_ += static_cast<std::size_t>(put_varint(put_varint(at, key), value) - at);
     last_[key] = value + 1;
 }
 
@@ -276,14 +349,33 @@ void VectorLayer::add_unlike(std::uint32_t key, std::string_view text) {
 // ------------------------------------------------------------------------------------- features
 
 void VectorLayer::end(std::optional<std::uint64_t> id) {
-    protozero::pbf_writer layer{features_};
-    protozero::pbf_writer feature{layer, tag::feature};
-    if (id) {
-        feature.add_uint64(tag::id, *id);
+    std::size_t geometry_bytes = 0;
+    for (const auto number : geometry_) {
+        geometry_bytes += varint_bytes(number);
     }
-    feature.add_packed_uint32(tag::tags, tags_.begin(), tags_.end());
-    feature.add_enum(tag::type, static_cast<std::int32_t>(line_type));
-    feature.add_packed_uint32(tag::geometry, geometry_.begin(), geometry_.end());
+    constexpr std::size_t type_bytes = 2;
+    const auto size = (id ? 1 + varint_bytes(*id) : 0) + field_bytes(tag_bytes_) + type_bytes +
+                      field_bytes(geometry_bytes);
+    const auto before = features_.size();
+    features_.resize(before + field_bytes(size));
+    auto* at = features_.data() + before;
+    *at++ = bytes_key(tag::feature);
+    at = put_varint(at, size);
+    if (id) {
+        *at++ = varint_key(tag::id);
+        at = put_varint(at, *id);
+    }
+    *at++ = bytes_key(tag::tags);
+    at = put_varint(at, tag_bytes_);
+    at = std::copy_n(tags_.data(), tag_bytes_, at);
+    *at++ = varint_key(tag::type);
+    at = put_varint(at, line_type);
+    *at++ = bytes_key(tag::geometry);
+    at = put_varint(at, geometry_bytes);
+    for (const auto number : geometry_) {
+        at = put_varint(at, number);
+    }
+    assert(at == features_.data() + features_.size());
     ++count_;
 }
 

@@ -56,6 +56,10 @@ private:
         std::uint64_t bits;     ///< of a number; of a text its hash
         std::uint32_t at, size; ///< in values_
     };
+    struct Slot {
+        std::uint32_t number; ///< of a value, plus 1; 0 is free
+        std::uint32_t hash;   ///< what the place of the slot does not tell of it
+    };
     struct Place {
         std::int32_t x, y;
         friend bool operator==(const Place&, const Place&) = default;
@@ -63,7 +67,9 @@ private:
 
     Place place_of(const WorldPoint& point) const;
     void put_line(std::span<const Place> line);
+    static bool lies_within(const Place& place);
     void put_clipped(const Place& from, const Place& to);
+    void go_on(const Place& begin, const Place& end);
     void move_to(const Place& place);
     void line_to(const Place& place);
     void end_piece();
@@ -83,9 +89,11 @@ private:
     std::string features_;      ///< encoded, one after the other
     std::string values_;        ///< likewise
     std::vector<Value> known_;
-    std::vector<std::uint32_t> slots_; ///< places in known_ plus 1 by hash; 0 is free
-    std::vector<std::uint32_t> last_;  ///< by key: the value that it had last, plus 1
-    std::vector<std::uint32_t> geometry_, tags_;
+    std::vector<Slot> slots_;             ///< by hash
+    std::vector<std::uint32_t> last_;     ///< by key: the value that it had last, plus 1
+    std::vector<std::uint32_t> geometry_; ///< of the feature that is begun
+    std::vector<char> tags_;              ///< likewise, encoded, with room for every key once
+    std::size_t tag_bytes_ = 0;           ///< of them
     std::vector<Place> line_, piece_;
     Place cursor_{0, 0};
     std::size_t count_ = 0;

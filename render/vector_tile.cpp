@@ -77,9 +77,7 @@ void put_digits(std::array<char, 10>& text, std::size_t at, unsigned value, std:
 }
 
 /// "2026-03-01"
-std::array<char, 10> day_of(std::int64_t utc_ms) {
-    const chr::year_month_day day{
-        chr::floor<chr::days>(chr::sys_time<chr::milliseconds>{chr::milliseconds{utc_ms}})};
+std::array<char, 10> text_of(const chr::year_month_day& day) {
     std::array text{'0', '0', '0', '0', '-', '0', '0', '-', '0', '0'};
     put_digits(text, 0, static_cast<unsigned>(int{day.year()}), 4);
     put_digits(text, 5, unsigned{day.month()}, 2);
@@ -87,12 +85,29 @@ std::array<char, 10> day_of(std::int64_t utc_ms) {
     return text;
 }
 
-void add_day(VectorLayer& layer, std::uint32_t key, const std::optional<std::int64_t>& utc_ms) {
-    if (utc_ms) {
-        const auto day = day_of(*utc_ms);
-        layer.add(key, std::string_view{day.data(), day.size()});
+/// A property that is a day, as most neighbours have the same.
+class DayField {
+public:
+    explicit DayField(std::uint32_t key) : key_{key} {}
+
+    void add_to(VectorLayer& layer, const std::optional<std::int64_t>& utc_ms) {
+        if (!utc_ms) {
+            return;
+        }
+        const auto day =
+            chr::floor<chr::days>(chr::sys_time<chr::milliseconds>{chr::milliseconds{*utc_ms}});
+        if (day != day_) {
+            day_ = day;
+            text_ = text_of(day);
+        }
+        layer.add(key_, std::string_view{text_.data(), text_.size()});
     }
-}
+
+private:
+    std::uint32_t key_;
+    std::optional<chr::sys_days> day_;
+    std::array<char, 10> text_{};
+};
 
 void add_word(VectorLayer& layer, std::uint32_t key, std::string_view word) {
     if (!word.empty()) {
@@ -111,21 +126,28 @@ void add_place(VectorLayer& layer, const TileSegment& segment, const VectorTileC
     layer.add_real(to_m, rounded_m(segment.to_m));
 }
 
-void add_roughness(VectorLayer& layer, const SegmentState& state, const ClassTable& classes) {
+void add_roughness(VectorLayer& layer,
+                   const SegmentState& state,
+                   const ClassTable& classes,
+                   DayField& last_seen_day) {
     const double mm_per_m = state.iri_um / 1000.0;
     layer.add_real(iri, rounded_mm_per_m(mm_per_m));
     layer.add(iri_class, classes.classes[class_index(classes, mm_per_m)].name);
     layer.add(passes, std::int64_t{state.passes});
-    add_day(layer, last_seen, state.last_seen_ms);
-    layer.add(is_valid, state.validity == validity::ok ? "ok" : name_of_validity(state.validity));
+    last_seen_day.add_to(layer, state.last_seen_ms);
+    if (state.validity == validity::ok) {
+        layer.add(is_valid, "ok");
+    } else {
+        layer.add(is_valid, name_of_validity(state.validity));
+    }
 }
 
-void add_detail(VectorLayer& layer, const SegmentState& state) {
+void add_detail(VectorLayer& layer, const SegmentState& state, DayField& first_seen_day) {
     layer.add_real(iri_sd, rounded_mm_per_m(state.sd_um / 1000.0));
     layer.add_real(iri_low, rounded_mm_per_m(state.low_um / 1000.0));
     layer.add_real(iri_high, rounded_mm_per_m(state.high_um / 1000.0));
     layer.add(vehicles, std::int64_t{state.vehicles});
-    add_day(layer, first_seen, state.first_seen_ms);
+    first_seen_day.add_to(layer, state.first_seen_ms);
     if (state.trend_um_per_year) {
         layer.add_real(trend_per_year, rounded_mm_per_m(*state.trend_um_per_year / 1000.0));
     }
@@ -177,10 +199,13 @@ void add_lengths(VectorLayer& layer, const RoadPart& part) {
     }
 }
 
-void add_part(VectorLayer& layer, const RoadPart& part, const VectorTileContext& context) {
+void add_part(VectorLayer& layer,
+              const RoadPart& part,
+              const VectorTileContext& context,
+              DayField& last_seen_day) {
     if (part.is_directed) { // from zoom 12 on: below it no name has room
         add_word(layer, part_name, context.words->word(part.name));
-        add_day(layer, part_last_seen, part.last_seen_ms);
+        last_seen_day.add_to(layer, part.last_seen_ms);
     }
     add_word(layer, part_highway, context.words->word(part.highway));
     layer.add_real(part_iri, rounded_mm_per_m(iri_of(part)));
@@ -226,14 +251,15 @@ std::string vector_tile(const TileId& tile,
                         SegmentDetail detail,
                         const VectorTileContext& context) {
     VectorLayer layer{roughness_layer, tile, segment_keys};
+    DayField first_seen_day{first_seen}, last_seen_day{last_seen};
     for (const auto* const segment : segments) {
         if (!layer.begin(segment->line)) {
             continue;
         }
         add_place(layer, *segment, context);
-        add_roughness(layer, segment->state, *context.classes);
+        add_roughness(layer, segment->state, *context.classes, last_seen_day);
         if (detail == SegmentDetail::full) {
-            add_detail(layer, segment->state);
+            add_detail(layer, segment->state, first_seen_day);
         }
         layer.end(feature_id(segment->state.segment));
     }
@@ -247,9 +273,10 @@ std::string vector_tile(const TileId& tile,
     std::vector<std::string_view> keys{part_keys.begin(), part_keys.end()};
     keys.insert(keys.end(), of_classes.begin(), of_classes.end());
     VectorLayer layer{roughness_layer, tile, keys};
+    DayField last_seen_day{part_last_seen};
     for (const auto* const part : parts) {
         if (layer.begin(part->line)) {
-            add_part(layer, *part, context);
+            add_part(layer, *part, context, last_seen_day);
         }
     }
     return layer.count() > 0 ? layer.tile_bytes() : std::string{};

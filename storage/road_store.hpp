@@ -95,6 +95,12 @@ struct SegmentFilter {
     bool cars_alone = false;        ///< states of cars' passes alone, without references
 };
 
+/// How much visit() tells of a state: each number takes its time.
+enum class StateDetail {
+    full,
+    tiles, ///< what tiles show: not each track's IRI, the trend's uncertainty and the change
+};
+
 /// One pass with where it came from: a line of a segment's history.
 struct PassRecord {
     Pass pass;
@@ -299,7 +305,8 @@ public:
     /// States of a period are fused from its passes alone, laid on each other by the traces of
     /// their drives alone: as in a store that knows no other passes.
     void visit(const SegmentFilter& filter,
-               const std::function<void(const SegmentRecord&)>& visit) const;
+               const std::function<void(const SegmentRecord&)>& visit,
+               StateDetail detail = StateDetail::full) const;
 
     /// The same segments in the same order, in less time: only what a map shows of them.
     void glance(const SegmentFilter& filter,

@@ -3,6 +3,7 @@
 #include "storage/geopackage.hpp"
 #include "storage/kept_statements.hpp"
 #include "storage/road_store.hpp"
+#include "storage/row_visit.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/store_schema.hpp"
 
@@ -14,6 +15,7 @@ namespace macadam {
 struct RoadStore::Impl {
     Impl(const std::filesystem::path& file, Database::Access access) : database{file, access} {
         add_geometry_functions(database);
+        add_row_visits(database);
         check_store(database);
         settings = read_settings(database);
         network_hash = read_network_hash(database);

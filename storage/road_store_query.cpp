@@ -34,6 +34,9 @@ bool meets(const GeoBox& box, const GeoPoint& a, const GeoPoint& b) {
 }
 
 bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
+    if (contains(box, line.front())) { // as most do, in less time
+        return true;
+    }
     for (std::size_t i = 1; i < line.size(); ++i) {
         if (meets(box, line[i - 1], line[i])) {
             return true;
@@ -198,7 +201,7 @@ struct Source {
 /// What is read of each row.
 struct Detail {
     const char* columns;
-    void (*put_in)(const Statement& row, SegmentRecord& record);
+    void (*put_in)(const VisitedRow& row, SegmentRecord& record);
 };
 
 void each_record(const Source& source,
@@ -215,7 +218,7 @@ void each_record(const Source& source,
     Roughest roughest{filter.worst};
     RoadNames names{source.statements};
     SegmentRecord record; // of one row after the other, in the same memory
-    const auto take = [&](const Statement& row) {
+    const auto take = [&](const VisitedRow& row) {
         if (!names.find(row.integer(0)) ||
             (!filter.highway.empty() && filter.highway != names.highway())) {
             return;
@@ -236,7 +239,7 @@ void each_record(const Source& source,
             visitor(record);
         }
     };
-    each_segment_row(source.statements, source.database, filter, detail.columns, take);
+    each_segment_row(source.statements, filter, detail.columns, take);
     for (const auto& each : std::move(roughest).sorted()) {
         visitor(each);
     }
@@ -254,10 +257,12 @@ SegmentGlance glance_of(const SegmentRecord& record) {
 } // namespace
 
 void RoadStore::visit(const SegmentFilter& filter,
-                      const std::function<void(const SegmentRecord&)>& visitor) const {
+                      const std::function<void(const SegmentRecord&)>& visitor,
+                      StateDetail detail) const {
     each_record(
         {impl_->database, impl_->statements, impl_->settings.segment_length_m, impl_->classes()},
-        {record_columns, put_record_in},
+        detail == StateDetail::tiles ? Detail{tile_columns, put_tile_record_in}
+                                     : Detail{record_columns, put_record_in},
         filter,
         visitor);
 }

@@ -24,14 +24,22 @@ Road road_to(const SegmentFilter& filter) {
                                                                          : Road::all;
 }
 
+/// Whether rows come one after the other as they stand in the table, in the order of keys: then
+/// they are visited, else sorted and given.
+bool is_scan(Road road, bool rows_in_order) {
+    return road == Road::box || (road == Road::all && rows_in_order);
+}
+
 /// The joins stand in the order in which they are to be done. Only fixed words come together here,
 /// never a value: those are bound.
 std::string select_of(const SegmentFilter& filter, const char* columns, bool rows_in_order) {
     const auto road = road_to(filter);
+    const bool visited = is_scan(road, rows_in_order);
     const auto* const state = filter.with_state_only
                                   ? " CROSS JOIN segment_state AS state ON state.fid = segment.fid"
                                   : " LEFT JOIN segment_state AS state ON state.fid = segment.fid";
-    std::string sql = fmt::format("SELECT {} FROM ", columns);
+    auto sql = visited ? select_visited(columns) : fmt::format("SELECT {}", columns);
+    sql += " FROM ";
     if (road == Road::all && filter.with_state_only) {
         sql += "segment_state AS state CROSS JOIN segment ON segment.fid = state.fid";
     } else {
@@ -50,24 +58,23 @@ std::string select_of(const SegmentFilter& filter, const char* columns, bool row
                " AND segment.seq >= ? AND segment.seq < ?";
     }
     // The rows of one way always stand in the order of its keys.
-    return sql + " ORDER BY " +
-           (rows_in_order || road != Road::all ? "segment.fid" : order_of_keys);
+    return visited ? sql : sql + " ORDER BY " + (road != Road::all ? "segment.fid" : order_of_keys);
 }
 
 /// Ways whose name holds the text in any case, in the order of their ids.
-std::vector<std::int64_t> ways_named(Database& database, const std::string& part) {
+std::vector<std::int64_t> ways_named(KeptStatements& statements, const std::string& part) {
     const auto folded_part = case_folded(part);
-    auto select = database.prepare("SELECT name, way_id FROM way WHERE name IS NOT NULL");
+    KeptStatements::Loan select{statements, "SELECT name, way_id FROM way WHERE name IS NOT NULL"};
     std::vector<std::int64_t> ways;
     std::string name;
     bool holds = false;
-    while (select.step()) {
-        if (auto other = select.text(0); other != name) { // neighbours in the index share names
+    while (select->step()) {
+        if (auto other = select->text(0); other != name) { // neighbours in the index share names
             name = std::move(other);
             holds = case_folded(name).find(folded_part) != std::string::npos;
         }
         if (holds) {
-            ways.push_back(select.integer(1));
+            ways.push_back(select->integer(1));
         }
     }
     std::ranges::sort(ways);
@@ -117,26 +124,31 @@ std::vector<SegmentRange> ranges_of(const SegmentFilter& filter) {
 } // namespace
 
 void each_segment_row(KeptStatements& statements,
-                      Database& database,
                       const SegmentFilter& filter,
                       const char* columns,
-                      const std::function<void(const Statement&)>& row) {
-    const bool rows_in_order = are_rows_in_order(database);
+                      const VisitRow& visit) {
+    const auto road = road_to(filter);
+    const bool rows_in_order =
+        are_rows_in_order(*KeptStatements::Loan{statements, select_rows_in_order});
     KeptStatements::Loan select{statements, select_of(filter, columns, rows_in_order)};
     const auto run = [&](const auto&... values) {
+        if (is_scan(road, rows_in_order)) {
+            RowVisits{visit}.run(*select, values...);
+            return;
+        }
         for (select->bind(values...); select->step();) {
-            row(*select);
+            visit(VisitedRow{select->values()});
         }
     };
-    switch (road_to(filter)) {
+    switch (road) {
     case Road::range:
         for (const auto& [way_id, forward, first, past] : ranges_of(filter)) {
             run(way_id, forward ? "forward" : "backward", std::int64_t{first}, std::int64_t{past});
         }
         return;
     case Road::way:
-        for (const auto way :
-             filter.way_id ? std::vector{*filter.way_id} : ways_named(database, filter.name_part)) {
+        for (const auto way : filter.way_id ? std::vector{*filter.way_id}
+                                            : ways_named(statements, filter.name_part)) {
             run(way);
         }
         return;

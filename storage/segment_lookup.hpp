@@ -2,9 +2,7 @@
 
 #include "storage/kept_statements.hpp"
 #include "storage/road_store.hpp"
-#include "storage/sqlite.hpp"
-
-#include <functional>
+#include "storage/row_visit.hpp"
 
 namespace macadam {
 
@@ -13,11 +11,9 @@ namespace macadam {
 /// no index serves are left to the caller.
 ///
 /// \param columns  of the tables segment and state (storage/segment_row.hpp)
-/// \param row      is given the statement at each row
 void each_segment_row(KeptStatements& statements,
-                      Database& database,
                       const SegmentFilter& filter,
                       const char* columns,
-                      const std::function<void(const Statement&)>& row);
+                      const VisitRow& visit);
 
 } // namespace macadam

@@ -12,11 +12,13 @@ std::optional<double> known_mm_per_m(const std::optional<IriUm>& um) {
     return um ? std::optional{mm_per_m(*um)} : std::nullopt;
 }
 
-IriUm um_in(const Statement& row, int column) {
+template <typename Row>
+IriUm um_in(const Row& row, int column) {
     return static_cast<IriUm>(std::lround(row.real(column) * 1000));
 }
 
-std::optional<IriUm> known_um_in(const Statement& row, int column) {
+template <typename Row>
+std::optional<IriUm> known_um_in(const Row& row, int column) {
     return row.is_null(column) ? std::nullopt : std::optional{um_in(row, column)};
 }
 
@@ -36,21 +38,29 @@ std::optional<std::int64_t> unless_absurd(std::int64_t utc_ms) {
     return utc_ms >= first_utc_ms && utc_ms <= last_utc_ms ? std::optional{utc_ms} : std::nullopt;
 }
 
-std::optional<RoadChange> known_change_in(const Statement& row, int column) {
-    const auto utc_ms = known_utc_ms(row, column);
+template <typename Row>
+std::optional<std::int64_t> known_time_in(const Row& row, int column) {
+    return row.is_null(column) ? std::nullopt : unless_absurd(row.integer(column));
+}
+
+template <typename Row>
+std::optional<RoadChange> known_change_in(const Row& row, int column) {
+    const auto utc_ms = known_time_in(row, column);
     return utc_ms ? std::optional{RoadChange{*utc_ms, um_in(row, column + 1)}} : std::nullopt;
 }
 
 // Words are compared as the bytes that they are: no string is made of them.
 
 /// Of the first three columns.
-SegmentKey key_in(const Statement& row) {
+template <typename Row>
+SegmentKey key_in(const Row& row) {
     return {row.integer(0), row.blob(1) == "forward", static_cast<std::uint32_t>(row.integer(2))};
 }
 
 constexpr int first_state_column = 6;
 
-SegmentState state_in(const Statement& row, const SegmentKey& segment) {
+template <typename Row>
+SegmentState state_in(const Row& row, const SegmentKey& segment) {
     constexpr int c = first_state_column;
     return {.segment = segment,
             .iri_um = um_in(row, c),
@@ -63,11 +73,30 @@ SegmentState state_in(const Statement& row, const SegmentKey& segment) {
             .validity = static_cast<std::uint8_t>(row.integer(c + 15)),
             .passes = static_cast<std::int32_t>(row.integer(c + 7)),
             .vehicles = static_cast<std::int32_t>(row.integer(c + 8)),
-            .first_seen_ms = known_utc_ms(row, c + 9),
-            .last_seen_ms = known_utc_ms(row, c + 10),
+            .first_seen_ms = known_time_in(row, c + 9),
+            .last_seen_ms = known_time_in(row, c + 10),
             .trend_um_per_year = known_um_in(row, c + 11),
             .trend_sd_um_per_year = known_um_in(row, c + 12),
             .change = known_change_in(row, c + 13)};
+}
+
+/// The columns up to the state's.
+template <typename Row>
+void put_segment(const Row& row, Segment& segment) {
+    segment.key = key_in(row);
+    segment.from_m = row.real(3);
+    segment.to_m = row.real(4);
+    put_line_of_geometry(row.blob(5), segment.line);
+}
+
+template <typename Row>
+void put_record(const Row& row, SegmentRecord& record) {
+    put_segment(row, record.segment);
+    if (row.is_null(first_state_column)) {
+        record.state.reset();
+    } else {
+        record.state = state_in(row, record.segment.key);
+    }
 }
 
 } // namespace
@@ -81,27 +110,43 @@ const char* const record_columns =
 
 SegmentRecord record_in(const Statement& row) {
     SegmentRecord record;
-    put_record_in(row, record);
+    put_record(row, record);
     return record;
 }
 
-void put_record_in(const Statement& row, SegmentRecord& record) {
-    auto& segment = record.segment;
-    segment.key = key_in(row);
-    segment.from_m = row.real(3);
-    segment.to_m = row.real(4);
-    put_line_of_geometry(row.blob(5), segment.line);
-    if (row.is_null(first_state_column)) {
-        record.state.reset();
-    } else {
-        record.state = state_in(row, segment.key);
+void put_record_in(const VisitedRow& row, SegmentRecord& record) {
+    put_record(row, record);
+}
+
+const char* const tile_columns =
+    "segment.way_id, segment.direction, segment.seq, segment.from_m, segment.to_m, segment.geom,"
+    " state.iri, state.iri_sd, state.iri_low, state.iri_high, state.passes, state.vehicles,"
+    " state.first_seen_ms, state.last_seen_ms, state.trend_per_year, state.flags";
+
+void put_tile_record_in(const VisitedRow& row, SegmentRecord& record) {
+    constexpr int c = first_state_column;
+    put_segment(row, record.segment);
+    record.state.reset();
+    if (!row.is_null(c)) {
+        auto& state = record.state.emplace();
+        state.segment = record.segment.key;
+        state.iri_um = um_in(row, c);
+        state.sd_um = um_in(row, c + 1);
+        state.low_um = um_in(row, c + 2);
+        state.high_um = um_in(row, c + 3);
+        state.passes = static_cast<std::int32_t>(row.integer(c + 4));
+        state.vehicles = static_cast<std::int32_t>(row.integer(c + 5));
+        state.first_seen_ms = known_time_in(row, c + 6);
+        state.last_seen_ms = known_time_in(row, c + 7);
+        state.trend_um_per_year = known_um_in(row, c + 8);
+        state.validity = static_cast<std::uint8_t>(row.integer(c + 9));
     }
 }
 
 const char* const glance_columns = "segment.way_id, segment.direction, segment.seq, segment.geom,"
                                    " state.iri, state.iri_sd, state.passes";
 
-void put_glance_in(const Statement& row, SegmentRecord& record) {
+void put_glance_in(const VisitedRow& row, SegmentRecord& record) {
     constexpr int c = 4;
     record.segment.key = key_in(row);
     put_line_of_geometry(row.blob(3), record.segment.line);
@@ -181,7 +226,7 @@ Pass pass_in(const Statement& row, int first, const SegmentKey& segment) {
 }
 
 std::optional<std::int64_t> known_utc_ms(const Statement& row, int column) {
-    return row.is_null(column) ? std::nullopt : unless_absurd(row.integer(column));
+    return known_time_in(row, column);
 }
 
 std::optional<std::int64_t> utc_ms_of(const std::optional<std::int64_t>& trip_utc_ms,

@@ -5,6 +5,7 @@
 #include "mapping/pass.hpp"
 #include "storage/bulk_insert.hpp"
 #include "storage/road_store.hpp"
+#include "storage/row_visit.hpp"
 #include "storage/sqlite.hpp"
 
 #include <cstdint>
@@ -22,11 +23,15 @@ SegmentRecord record_in(const Statement& row);
 
 /// The same in the place of a record that is not needed any more, whose memory it takes; the name
 /// and the class of its way stay.
-void put_record_in(const Statement& row, SegmentRecord& record);
+void put_record_in(const VisitedRow& row, SegmentRecord& record);
+
+/// The same as far as StateDetail::tiles goes.
+extern const char* const tile_columns;
+void put_tile_record_in(const VisitedRow& row, SegmentRecord& record);
 
 /// The same as far as a SegmentGlance tells of it: each column takes its time.
 extern const char* const glance_columns;
-void put_glance_in(const Statement& row, SegmentRecord& record);
+void put_glance_in(const VisitedRow& row, SegmentRecord& record);
 
 extern const char* const insert_state;
 inline constexpr int state_column_count = 22;

@@ -199,6 +199,12 @@ void Statement::bind_one(int position, Blob value) {
                               SQLITE_TRANSIENT));
 }
 
+void Statement::bind_one(int position, Pointer value) {
+    check(sqlite3_db_handle(statement_.get()),
+          *file_,
+          sqlite3_bind_pointer(statement_.get(), position, value.to, value.type, nullptr));
+}
+
 void Statement::bind_one(int position, std::nullopt_t) {
     check(
         sqlite3_db_handle(statement_.get()), *file_, sqlite3_bind_null(statement_.get(), position));
@@ -222,6 +228,14 @@ std::string_view Statement::blob(int column) const {
     const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
     return bytes == nullptr ? std::string_view{} : std::string_view{bytes, size};
+}
+
+std::vector<sqlite3_value*> Statement::values() const {
+    std::vector<sqlite3_value*> values;
+    for (int column = 0; column < sqlite3_column_count(statement_.get()); ++column) {
+        values.push_back(sqlite3_column_value(statement_.get(), column));
+    }
+    return values;
 }
 
 bool Statement::is_null(int column) const {

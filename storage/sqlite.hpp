@@ -10,9 +10,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 struct sqlite3;
 struct sqlite3_stmt;
+struct sqlite3_value;
 
 namespace macadam {
 
@@ -31,6 +33,12 @@ struct OpenFile {
 class Statement {
 public:
     Statement(sqlite3* database, const OpenFile& file, const char* sql);
+
+    /// A value that only functions of ours see, and no SQL. \param type  lasts for ever.
+    struct Pointer {
+        void* to;
+        const char* type;
+    };
 
     /// Binds all parameters anew.
     template <typename... Values>
@@ -69,6 +77,7 @@ public:
     std::string text(int column) const;
     std::string_view blob(int column) const; ///< until the next step
     bool is_null(int column) const;
+    std::vector<sqlite3_value*> values() const; ///< of all columns, until the next step
     std::optional<std::int64_t> known_integer(int column) const;
 
     void reset();
@@ -79,6 +88,7 @@ private:
     void bind_one(int position, double value);
     void bind_one(int position, std::string_view value);
     void bind_one(int position, Blob value);
+    void bind_one(int position, Pointer value);
     void bind_one(int position, std::nullopt_t);
     void bind_one(int position, int value) { bind_one(position, std::int64_t{value}); }
     void bind_one(int position, bool value) { bind_one(position, std::int64_t{value}); }

@@ -150,7 +150,12 @@ StoreSettings read_settings(Database& database) {
 }
 
 bool are_rows_in_order(Database& database) {
-    return meta(database, "rows_in_order") != "0";
+    auto select = database.prepare(select_rows_in_order);
+    return are_rows_in_order(select);
+}
+
+bool are_rows_in_order(Statement& select) {
+    return !select.step() || select.text(0) != "0";
 }
 
 void update_network_meta(Database& database, const NetworkMeta& network) {

@@ -25,6 +25,9 @@ StoreSettings read_settings(Database& database);
 /// Whether rows of table segment stand in the order of keys, as init writes them. Those of one way
 /// always do.
 bool are_rows_in_order(Database& database);
+bool are_rows_in_order(Statement& select);
+inline constexpr const char* select_rows_in_order =
+    "SELECT value FROM meta WHERE key = 'rows_in_order'"; ///< which is asked there
 inline constexpr const char* order_of_keys =
     "segment.way_id, segment.direction DESC, segment.seq"; ///< forward before backward
 

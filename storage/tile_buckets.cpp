@@ -1,102 +1,115 @@
 #include "storage/tile_buckets.hpp"
 
+#include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <span>
 #include <type_traits>
 
 namespace macadam {
 namespace {
 
-template <typename Value>
-void put(std::string& bytes, const Value& value) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value); // NOLINT(*-reinterpret-cast)
-}
+/// Appends values to bytes.
+struct Writer {
+    std::string& bytes;
 
-template <typename Value>
-void put_all(std::string& bytes, const std::vector<Value>& values) {
-    put(bytes, static_cast<std::uint32_t>(values.size()));
-    for (const auto& value : values) {
-        put(bytes, value);
+    template <typename Value>
+    void operator()(const Value& value) const {
+        put(&value, 1);
     }
-}
-
-template <typename Value>
-Value take(std::string_view& bytes) {
-    assert(bytes.size() >= sizeof(Value));
-    Value value;
-    std::memcpy(&value, bytes.data(), sizeof value);
-    bytes.remove_prefix(sizeof value);
-    return value;
-}
-
-template <typename Value>
-std::vector<Value> take_all(std::string_view& bytes) {
-    std::vector<Value> values(take<std::uint32_t>(bytes));
-    for (auto& value : values) {
-        value = take<Value>(bytes);
+    template <typename Value>
+    void operator()(const std::vector<Value>& values) const {
+        (*this)(static_cast<std::uint32_t>(values.size()));
+        put(values.data(), values.size());
     }
-    return values;
+
+private:
+    template <typename Value>
+    void put(const Value* values, std::size_t count) const {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        const auto raw = std::as_bytes(std::span{values, count});
+        bytes.append(reinterpret_cast<const char*>(raw.data()), // NOLINT(*-reinterpret-cast)
+                     raw.size());
+    }
+};
+
+/// Takes them off the front of bytes again.
+struct Reader {
+    std::string_view& bytes;
+
+    template <typename Value>
+    void operator()(Value& value) const {
+        take(&value, 1);
+    }
+    template <typename Value>
+    void operator()(std::vector<Value>& values) const {
+        std::uint32_t count = 0;
+        (*this)(count);
+        values.resize(count);
+        take(values.data(), count);
+    }
+
+private:
+    template <typename Value>
+    void take(Value* values, std::size_t count) const {
+        const auto room = std::as_writable_bytes(std::span{values, count});
+        assert(bytes.size() >= room.size());
+        std::ranges::copy(std::as_bytes(std::span{bytes}).first(room.size()), room.begin());
+        bytes.remove_prefix(room.size());
+    }
+};
+
+template <typename Type, typename Of>
+concept maybe_const = std::is_same_v<std::remove_const_t<Type>, Of>;
+
+void each_field(const auto& each, maybe_const<TileSegment> auto& segment) {
+    each(segment.state);
+    each(segment.name);
+    each(segment.highway);
+    each(segment.from_m);
+    each(segment.to_m);
+    each(segment.line);
+}
+
+void each_field(const auto& each, maybe_const<RoadPart> auto& part) {
+    each(part.first);
+    each(part.name);
+    each(part.highway);
+    each(part.is_directed);
+    each(part.validity);
+    each(part.weight_mm);
+    each(part.um_mm);
+    each(part.worst_um);
+    each(part.passes);
+    each(part.last_seen_ms);
+    each(part.class_mm);
+    each(part.line);
+}
+
+template <typename Item>
+std::vector<Item> items_in(std::string_view bytes) {
+    std::vector<Item> items;
+    while (!bytes.empty()) {
+        each_field(Reader{bytes}, items.emplace_back());
+    }
+    return items;
 }
 
 } // namespace
 
 void append_to(std::string& bytes, const TileSegment& segment) {
-    put(bytes, segment.state);
-    put(bytes, segment.name);
-    put(bytes, segment.highway);
-    put(bytes, segment.from_m);
-    put(bytes, segment.to_m);
-    put_all(bytes, segment.line);
+    each_field(Writer{bytes}, segment);
 }
 
 std::vector<TileSegment> tile_segments_in(std::string_view bytes) {
-    std::vector<TileSegment> segments;
-    while (!bytes.empty()) {
-        auto& segment = segments.emplace_back();
-        segment.state = take<SegmentState>(bytes);
-        segment.name = take<std::uint32_t>(bytes);
-        segment.highway = take<std::uint32_t>(bytes);
-        segment.from_m = take<double>(bytes);
-        segment.to_m = take<double>(bytes);
-        segment.line = take_all<WorldPoint>(bytes);
-    }
-    return segments;
+    return items_in<TileSegment>(bytes);
 }
 
 void append_to(std::string& bytes, const RoadPart& part) {
-    put(bytes, part.first);
-    put(bytes, part.name);
-    put(bytes, part.highway);
-    put(bytes, part.is_directed);
-    put(bytes, part.validity);
-    put(bytes, part.weight_mm);
-    put(bytes, part.um_mm);
-    put(bytes, part.worst_um);
-    put(bytes, part.passes);
-    put(bytes, part.last_seen_ms);
-    put_all(bytes, part.class_mm);
-    put_all(bytes, part.line);
+    each_field(Writer{bytes}, part);
 }
 
 std::vector<RoadPart> road_parts_in(std::string_view bytes) {
-    std::vector<RoadPart> parts;
-    while (!bytes.empty()) {
-        auto& part = parts.emplace_back();
-        part.first = take<SegmentKey>(bytes);
-        part.name = take<std::uint32_t>(bytes);
-        part.highway = take<std::uint32_t>(bytes);
-        part.is_directed = take<bool>(bytes);
-        part.validity = take<std::uint8_t>(bytes);
-        part.weight_mm = take<std::int64_t>(bytes);
-        part.um_mm = take<std::int64_t>(bytes);
-        part.worst_um = take<IriUm>(bytes);
-        part.passes = take<std::int32_t>(bytes);
-        part.last_seen_ms = take<std::optional<std::int64_t>>(bytes);
-        part.class_mm = take_all<std::int64_t>(bytes);
-        part.line = take_all<WorldPoint>(bytes);
-    }
-    return parts;
+    return items_in<RoadPart>(bytes);
 }
 
 void TileBuckets::settle() {

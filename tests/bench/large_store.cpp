@@ -7,6 +7,8 @@
 //                                  ROWS of them go in under the triggers as well, usually all: they
 //                                  take their time
 
+#include "clock.hpp"
+#include "driven_town.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/road_store.hpp"
@@ -17,9 +19,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <thread>
 
@@ -29,85 +29,28 @@ namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace bench;
 
 constexpr int questions = 2000;
 constexpr std::size_t passes_a_trip = 500;
 constexpr int trips_in_batch = 1000;
-
-double cpu_s(clockid_t clock) {
-    timespec now{};
-    clock_gettime(clock, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double wall_ms() {
-    using namespace std::chrono;
-    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
-}
-
-/// CPU seconds of the process.
-template <typename Work>
-double cost_s(const Work& work) {
-    const double begin_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
-    work();
-    return cpu_s(CLOCK_PROCESS_CPUTIME_ID) - begin_s;
-}
 
 void row(std::string_view what, const std::string& figures) {
     fmt::print("| {} | {} |\n", what, figures);
     std::fflush(stdout);
 }
 
-std::string spread(std::vector<double> ms) {
-    std::ranges::sort(ms);
-    const auto at = [&](std::size_t percent) { return ms[(ms.size() - 1) * percent / 100]; };
-    return fmt::format(
-        "p50 {:.3f}, p95 {:.3f}, p99 {:.3f}, worst {:.1f} ms", at(50), at(95), at(99), ms.back());
+std::string spread(const std::vector<double>& ms) {
+    return fmt::format("p50 {:.3f}, p95 {:.3f}, p99 {:.3f}, worst {:.1f} ms",
+                       percentile(ms, 50),
+                       percentile(ms, 95),
+                       percentile(ms, 99),
+                       percentile(ms, 100));
 }
 
-std::vector<SegmentKey> keys_of(const RoadNetwork& roads) {
-    std::vector<SegmentKey> keys;
-    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
-        for (const bool forward : {true, false}) {
-            if (const auto edge = edge_of(LinkId{i}, forward); is_drivable(roads, edge)) {
-                for (const auto& segment : segments_of(roads, edge)) {
-                    keys.push_back(segment.key);
-                }
-            }
-        }
-    }
-    return keys;
-}
-
-std::vector<Pass> passes_over(std::span<const SegmentKey> keys, int trip) {
-    std::vector<Pass> passes;
-    for (const auto& key : keys) {
-        const auto number = static_cast<std::int64_t>(passes.size());
-        const auto um = static_cast<IriUm>(1000 + (number * 7919 + 31 * trip) % 1000);
-        passes.push_back({.segment = key,
-                          .occurrence = 0,
-                          .iri_left_um = {},
-                          .iri_right_um = {},
-                          .iri_centre_um = um,
-                          .iri_um = um,
-                          .sd_um = um / 5,
-                          .centre_only = true,
-                          .validity = 0,
-                          .speed_mmps = 14000,
-                          .covered_mm = 20000,
-                          .confidence_ppm = 990000,
-                          .t_ms = number * 1400});
-    }
-    return passes;
-}
-
-TripRecord trip_number(int number) {
-    TripRecord trip;
-    trip.trip_id = fmt::format("trip-{}", number);
-    trip.sha256 = fmt::format("{:064}", number);
-    trip.vehicle_id = fmt::format("car-{}", number % 20);
-    trip.t0_utc_ms = 1'767'225'600'000 + 3'600'000LL * number;
-    return trip;
+std::vector<Pass> passes_of_trip(std::span<const SegmentKey> keys, int trip) {
+    return passes_over(
+        keys, [trip](std::int64_t number) { return 1000 + (number * 7919 + 31 * trip) % 1000; });
 }
 
 /// Trips that go on from each other.
@@ -123,7 +66,7 @@ Batch batch_of(std::span<const SegmentKey> keys, int first_trip, int count) {
         const auto first =
             static_cast<std::size_t>(i) * passes_a_trip % (keys.size() - passes_a_trip);
         batch.records.push_back(trip_number(first_trip + i));
-        batch.passes.push_back(passes_over(keys.subspan(first, passes_a_trip), first_trip + i));
+        batch.passes.push_back(passes_of_trip(keys.subspan(first, passes_a_trip), first_trip + i));
     }
     for (std::size_t i = 0; i < batch.records.size(); ++i) {
         batch.trips.push_back({&batch.records[i], batch.passes[i], {}});
@@ -136,7 +79,7 @@ void drive_everywhere(RoadStore& store, std::span<const SegmentKey> keys) {
     for (std::size_t first = 0, trip = 0; first < keys.size(); first += keys_at_once, ++trip) {
         const auto some = keys.subspan(first, std::min(keys_at_once, keys.size() - first));
         const auto number = static_cast<int>(trip);
-        store.add_trip(trip_number(number), passes_over(some, number));
+        store.add_trip(trip_number(number), passes_of_trip(some, number));
     }
     store.refresh();
 }
@@ -213,16 +156,16 @@ void read_beside_a_writer(const fs::path& file,
             const auto first = static_cast<std::size_t>(number) * 7919 * passes_a_trip %
                                (keys.size() - passes_a_trip);
             const auto driven = keys.subspan(first, passes_a_trip);
-            store.add_trip(trip_number(number), passes_over(driven, number));
+            store.add_trip(trip_number(number), passes_of_trip(driven, number));
             store.refresh();
         }
     }};
     std::vector<double> ms;
     for (int i = 0; i < questions; ++i) {
         const auto filter = around(place(roads, i), 0.0034, 0.0068);
-        const double begin_ms = wall_ms();
+        const double begin_s = wall_s();
         RoadStore::open(file, RoadStore::Access::read).visit(filter, [](const SegmentRecord&) {});
-        ms.push_back(wall_ms() - begin_ms);
+        ms.push_back(1e3 * (wall_s() - begin_s));
     }
     writer.request_stop();
     writer.join();

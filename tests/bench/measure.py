@@ -15,6 +15,7 @@ the median of the turns, and the ratio is what counts. CPU seconds are user and 
 
 import argparse
 import datetime
+import functools
 import json
 import multiprocessing
 import os
@@ -289,13 +290,55 @@ def machine():
     return f"{model}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} when it began"
 
 
-def tiles(build):
+@functools.cache
+def tile_store(build, work, side):
+    """A town of that many crossings a side with one pass over each segment; 223 are a million segments."""
+    file = work / f"tile-town-{side}.gpkg"
+    file.unlink(missing_ok=True)
+    say(f"making {file}")
+    tile_bench(build, "make", file, side)
+    return file
+
+
+def tile_bench(build, *words):
+    say(f"tile_bench {words[0]}")
+    program = build / "tests" / "bench" / "tile_bench"
+    return subprocess.run([program, *map(str, words)], stdout=subprocess.PIPE, check=True, text=True).stdout
+
+
+def picture_tiles(build, work, macadam):
     """Picture tiles out of a million segments, beside Mapnik with its OGR plugin and Cairo."""
-    say("tile_bench")
-    done = subprocess.run([build / "tests" / "bench" / "tile_bench"], capture_output=True, check=True, text=True)
+    store = tile_store(build, work, 223)
     return "\n### Picture tiles out of a million segments\n\n" + \
         "Medians over 64 tiles, three rounds, milliseconds of CPU. Mapnik reads the same GeoPackage by its OGR plugin and draws " + \
-        "casing and core, both directions on each other; Cairo draws the lines that ours did.\n\n" + done.stdout
+        "casing and core, both directions on each other; ours draws each at its side; Cairo draws the lines that ours did.\n\n" + \
+        table(["tile", "query", "draw", "PNG", "all, ms of CPU", "Mapnik + OGR", "its png8", "both", "times ours",
+               "Cairo, drawing alone", "times ours"], []) + \
+        tile_bench(build, "pictures", store) + "\n" + tile_bench(build, "map", store) + "\n" + tile_jobs(work, macadam, store)
+
+
+def tile_jobs(work, macadam, store):
+    """What a second process gains: a whole command, wall time and the CPU time of all its processes."""
+    out = work / "tiles.mbtiles"
+
+    def export(jobs):
+        words = [macadam, "export", store, "-o", out, "--tiles", "picture", "--zoom", "15-16", "--bbox", "13.05,51.03,13.25,51.13"]
+        return lambda: out.unlink(missing_ok=True), [*words, "--jobs", jobs, "--quiet"]
+
+    one, two = in_turns(3, export(1), export(2))
+    return "`export --tiles picture` of zooms 15 and 16 of a third of the town:\n\n" + table(
+        ["--jobs", "wall s", "CPU s of all", "wall, times as fast", "CPU s, two shared evenly, times as fast"],
+        [["1", f"{one.wall_s:.2f}", f"{one.cpu_s:.2f}", "", ""],
+         ["2", f"{two.wall_s:.2f}", f"{two.cpu_s:.2f}", f"{one.wall_s / two.wall_s:.2f}", f"{2 * one.cpu_s / two.cpu_s:.2f}"]])
+
+
+def vector_tiles(build, work):
+    """Vector tiles asked of stores by their places."""
+    head = table(["tile", "query", "encode", "gzip for a reader", "all, ms of CPU", "gzip for a file", "all, ms of CPU"], [])
+    rows = "".join(tile_bench(build, "vectors", tile_store(build, work, side)) for side in (56, 112, 223))
+    return "\n### Vector tiles out of stores, by their places\n\n" + \
+        "Medians over 64 tiles, three rounds, milliseconds of CPU: the box is asked of the store, the segments become a tile, the tile is " + \
+        "gzipped, at libdeflate's level 1 as for one reader, and at 5 as in files.\n\n" + head + rows
 
 
 def measured(name, arguments, macadam):
@@ -311,7 +354,9 @@ def measured(name, arguments, macadam):
         large = subprocess.run([arguments.build / "tests" / "bench" / "large_store"], capture_output=True, check=True, text=True)
         text += "\n### A large store\n\n" + large.stdout
     if name == "render":
-        text += tiles(arguments.build)
+        text += picture_tiles(arguments.build, arguments.work, macadam)
+    if name == "vector_tile":
+        text += vector_tiles(arguments.build, arguments.work)
     return text
 
 

@@ -2,6 +2,8 @@
 // and many at once, laying ever more traces of a strip on each other, and asking for about a
 // thousand segments by place in stores of doubling size; and how long readers take beside a writer.
 
+#include "clock.hpp"
+#include "driven_town.hpp"
 #include "mapping/alignment.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/road_store.hpp"
@@ -10,76 +12,28 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <thread>
-
-#include <unistd.h>
 
 namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Goes with the program.
-struct ScratchFolder {
-    fs::path path = fs::temp_directory_path() / ("macadam_bench_" + std::to_string(getpid()));
-    ScratchFolder() { fs::create_directories(path); }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-};
+using bench::keys_of;
+using bench::trip_number;
 
 fs::path scratch(const std::string& name) {
-    static const ScratchFolder folder;
-    return folder.path / name;
-}
-
-std::vector<SegmentKey> keys_of(const RoadNetwork& roads) {
-    std::vector<SegmentKey> keys;
-    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
-        for (const bool forward : {true, false}) {
-            const auto edge = edge_of(LinkId{i}, forward);
-            if (is_drivable(roads, edge)) {
-                for (const auto& segment : segments_of(roads, edge)) {
-                    keys.push_back(segment.key);
-                }
-            }
-        }
-    }
-    return keys;
-}
-
-Pass pass_over(const SegmentKey& key, std::int64_t number) {
-    const auto um = static_cast<IriUm>(1000 + (number * 7919) % 4000);
-    return {.segment = key,
-            .occurrence = 0,
-            .iri_left_um = {},
-            .iri_right_um = {},
-            .iri_centre_um = um,
-            .iri_um = um,
-            .sd_um = um / 5,
-            .centre_only = true,
-            .validity = 0,
-            .speed_mmps = 14000,
-            .covered_mm = 20000,
-            .confidence_ppm = 990000,
-            .t_ms = number * 1400};
+    static const bench::ScratchFolder folder{"macadam_bench"};
+    return folder / name;
 }
 
 std::vector<Pass> passes_over(const std::vector<SegmentKey>& keys) {
-    std::vector<Pass> passes;
-    for (const auto& key : keys) {
-        passes.push_back(pass_over(key, static_cast<std::int64_t>(passes.size())));
-    }
-    return passes;
+    return bench::passes_over(keys,
+                              [](std::int64_t number) { return 1000 + (number * 7919) % 4000; });
 }
 
 /// What trip `number` reads of a road of that length, some metres off its place.
@@ -108,15 +62,6 @@ std::vector<StripTrace> traces_over(const std::vector<SegmentKey>& keys, int num
         traces.push_back(std::move(trace));
     }
     return traces;
-}
-
-TripRecord trip_number(int number) {
-    TripRecord trip;
-    trip.trip_id = "trip-" + std::to_string(number);
-    trip.sha256 = std::string(56, '0') + std::to_string(10'000'000 + number);
-    trip.vehicle_id = "car-" + std::to_string(number % 20);
-    trip.t0_utc_ms = 1'767'225'600'000 + 3'600'000LL * number;
-    return trip;
 }
 
 /// A town with one pass over each segment, fused.
@@ -314,9 +259,9 @@ void insert_bare_rows(benchmark::State& state) {
         auto insert = database.prepare(
             "INSERT INTO pass VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         std::int64_t trip = 0;
-        for (const auto& [record, passes, traces] : batch.trips) {
+        for (const auto& new_trip : batch.trips) {
             ++trip;
-            for (const auto& pass : passes) {
+            for (const auto& pass : new_trip.passes) {
                 insert.run(40 * pass.segment.way_id + pass.segment.index,
                            trip,
                            pass.segment.forward,
@@ -412,17 +357,14 @@ void read_beside_a_writer(benchmark::State& state) {
     }
     std::vector<double> times_ms;
     for (auto _ : state) {
-        const auto begin = std::chrono::steady_clock::now();
+        const double begin_s = bench::wall_s();
         const auto store = RoadStore::open(file, RoadStore::Access::read);
         store.visit(filter, [](const SegmentRecord&) {});
-        times_ms.push_back(
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-                .count());
+        times_ms.push_back(1e3 * (bench::wall_s() - begin_s));
     }
-    std::ranges::sort(times_ms);
-    state.counters["p50_ms"] = times_ms[times_ms.size() / 2];
-    state.counters["p99_ms"] = times_ms[times_ms.size() * 99 / 100];
-    state.counters["worst_ms"] = times_ms.back();
+    state.counters["p50_ms"] = bench::median(times_ms);
+    state.counters["p99_ms"] = bench::percentile(times_ms, 99);
+    state.counters["worst_ms"] = bench::percentile(times_ms, 100);
     state.counters["trips"] = trips.load();
 }
 

@@ -1,92 +1,48 @@
-// Picture tiles out of a large store, beside Mapnik with its OGR plugin and beside Cairo, on the
-// same tiles of the same GeoPackage in one run. Prints tables.
+// Tiles out of a large store: pictures beside Mapnik with its OGR plugin and beside Cairo, on the
+// same tiles of the same GeoPackage in one run; and vector tiles. Prints rows of tables.
 //
-//     tile_bench [STORE.gpkg]     made, and taken away again, if none is named
+//     tile_bench make STORE.gpkg SIDE     a town of SIDE x SIDE crossings; 223 are a million
+//     segments tile_bench pictures STORE.gpkg tile_bench vectors STORE.gpkg tile_bench map
+//     STORE.gpkg           one large picture
 
 #include "app/map_scene.hpp"
 #include "app/tile_lines.hpp"
+#include "clock.hpp"
+#include "driven_town.hpp"
 #include "estimator/common/error.hpp"
 #include "render/line_widths.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tile_png.hpp"
+#include "render/vector_tile.hpp"
+#include "storage/gzip.hpp"
 #include "support/town.hpp"
 #include "tile_bench_peers.hpp"
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
-#include <numeric>
-
-#include <sys/wait.h>
-#include <unistd.h>
+#include <string_view>
 
 namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
+using bench::cost_ms;
+using bench::median;
 
-constexpr int town_side = 223; // crossings: a million segments
+constexpr GeoPoint corner{51, 13}; // where a tile of zoom 15 holds about 1,000 segments
 constexpr std::size_t tiles_measured = 64;
 constexpr int rounds = 3;
 
-double cpu_s() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double wall_s() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
-
-template <typename Work>
-double cost_ms(const Work& work) {
-    const double begin_s = cpu_s();
-    work();
-    return (cpu_s() - begin_s) * 1e3;
-}
-
-void make_store(const fs::path& file) {
-    const auto roads = testing::made_up_town(town_side);
+void make_store(const fs::path& file, int side) {
+    const auto roads = testing::made_up_town(side, corner);
     auto store =
         RoadStore::create(file, roads, {.network_source = "town", .attribution = "made up"});
-    std::vector<SegmentKey> keys;
-    for (std::uint32_t i = 0; i < link_count(roads); ++i) {
-        for (const bool forward : {true, false}) {
-            if (const auto edge = edge_of(LinkId{i}, forward); is_drivable(roads, edge)) {
-                for (const auto& segment : segments_of(roads, edge)) {
-                    keys.push_back(segment.key);
-                }
-            }
-        }
-    }
-    std::vector<Pass> passes;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const auto um = static_cast<IriUm>(800 + i / 5 * 7919 % 2700); // five alike, of any class
-        passes.push_back({.segment = keys[i],
-                          .occurrence = 0,
-                          .iri_left_um = {},
-                          .iri_right_um = {},
-                          .iri_centre_um = um,
-                          .iri_um = um,
-                          .sd_um = um / 5,
-                          .centre_only = true,
-                          .validity = 0,
-                          .speed_mmps = 14000,
-                          .covered_mm = 20000,
-                          .confidence_ppm = 990000,
-                          .t_ms = 0});
-    }
-    TripRecord trip;
-    trip.trip_id = "everywhere";
-    trip.sha256 = std::string(64, '0');
-    trip.vehicle_id = "car";
-    trip.t0_utc_ms = 1'767'225'600'000;
-    store.add_trip(trip, passes);
+    // Five alike, of any class.
+    const auto um_of = [](std::int64_t number) { return 800 + number / 5 * 7919 % 2700; };
+    store.add_trip(bench::trip_number(0), bench::passes_over(bench::keys_of(roads), um_of));
     store.refresh();
 }
 
@@ -151,11 +107,6 @@ private:
     TileLineRules rules_;
 };
 
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
 void measure_tiles(const fs::path& file, const Setting& setting) {
     OurTiles ours{file, setting};
     bench::MapnikTiles theirs{
@@ -189,7 +140,7 @@ void measure_tiles(const fs::path& file, const Setting& setting) {
     const double their_ms = median(mapnik_ms) + median(mapnik_png_ms);
     fmt::print(
         "| {} px, zoom {}, {} segments | {:.2f} | {:.2f} | {:.2f} | {:.2f} ({:.0f}/s, {:.1f} "
-        "kB) | {:.2f} | {:.2f} | {:.2f} ({:.0f}/s, {:.1f} kB) | {:.1f} | {:.2f} |\n",
+        "kB) | {:.2f} | {:.2f} | {:.2f} ({:.0f}/s, {:.1f} kB) | {:.1f} | {:.2f} | {:.1f} |\n",
         setting.tile_px,
         setting.zoom,
         segments / tiles.size(),
@@ -205,32 +156,64 @@ void measure_tiles(const fs::path& file, const Setting& setting) {
         1e3 / their_ms,
         double(their_bytes) / double(all_ms.size()) / 1e3,
         their_ms / our_ms,
-        median(cairo_ms));
+        median(cairo_ms),
+        median(cairo_ms) / median(draw_ms));
     std::fflush(stdout);
 }
 
-/// Wall seconds of `processes` that share the tiles; each opens the store and a context of its own.
-double shared_s(const fs::path& file, int processes) {
-    constexpr Setting setting{256, 15};
-    const auto town = RoadStore::open(file, RoadStore::Access::read).info().box;
-    const auto tiles = tiles_in(town, setting.zoom);
-    const double begin_s = wall_s();
-    for (int process = 0; process < processes; ++process) {
-        if (fork() == 0) {
-            OurTiles ours{file, setting};
-            for (int repeat = 0; repeat < 16; ++repeat) {
-                for (auto i = static_cast<std::size_t>(process); i < tiles.size();
-                     i += static_cast<std::size_t>(processes)) {
-                    ours.encode(ours.draw(tiles[i], ours.lines(tiles[i])));
+/// From the store to gzip, one tile after the other.
+void measure_vector_tiles(const RoadStore& store, const StoreInfo& info, int zoom) {
+    const auto tiles = tiles_in(info.box, zoom);
+    constexpr double margin = double{tile_buffer} / tile_extent;
+    std::vector<double> query_ms, encode_ms, kept_ms, passing_ms;
+    std::size_t count = 0, kept_bytes = 0, passing_bytes = 0;
+    for (int round = 0; round < rounds; ++round) {
+        for (const auto& tile : tiles) {
+            TileWords words;
+            std::vector<TileSegment> segments;
+            std::string bytes;
+            query_ms.push_back(cost_ms([&] {
+                SegmentFilter filter;
+                filter.box = tile_box(tile, margin);
+                store.visit(
+                    filter,
+                    [&](const SegmentRecord& record) {
+                        segments.push_back(tile_segment(record, words));
+                    },
+                    StateDetail::tiles);
+            }));
+            encode_ms.push_back(cost_ms([&] {
+                std::vector<const TileSegment*> pointers;
+                for (const auto& segment : segments) {
+                    pointers.push_back(&segment);
                 }
-            }
-            _exit(0);
+                bytes =
+                    vector_tile(tile, pointers, SegmentDetail::full, {&words, class_table("fhwa")});
+            }));
+            kept_ms.push_back(cost_ms([&] { kept_bytes += gzipped(bytes).size(); }));
+            passing_ms.push_back(
+                cost_ms([&] { passing_bytes += gzipped(bytes, GzipEffort::passing).size(); }));
+            count += segments.size();
         }
     }
-    for (int process = 0; process < processes; ++process) {
-        wait(nullptr);
-    }
-    return wall_s() - begin_s;
+    const auto made = double(query_ms.size());
+    const double tile_ms = median(query_ms) + median(encode_ms);
+    const auto whole = [&](const std::vector<double>& gzip_ms, std::size_t bytes) {
+        const double ms = tile_ms + median(gzip_ms);
+        return fmt::format("{:.2f} | {:.2f} ({:.0f}/s, {:.1f} kB)",
+                           median(gzip_ms),
+                           ms,
+                           1e3 / ms,
+                           double(bytes) / made / 1e3);
+    };
+    fmt::print("| zoom {}, {:.0f} segments, of {} | {:.2f} | {:.2f} | {} | {} |\n",
+               zoom,
+               double(count) / made,
+               info.segments,
+               median(query_ms),
+               median(encode_ms),
+               whole(passing_ms, passing_bytes),
+               whole(kept_ms, kept_bytes));
 }
 
 /// A map of 4096 x 4096 px, from the store to the PNG.
@@ -249,7 +232,7 @@ void measure_map(const fs::path& file) {
     const double query_ms = cost_ms([&] { scene = map_scene(store, request); });
     const double draw_ms = cost_ms([&] { image = render_map(scene, {}, 4096, 4096); });
     const double encode_ms = cost_ms([&] { encode_png(image); });
-    fmt::print("\nA map of 4096 x 4096 px with {} segments: {:.2f} s to draw and {:.2f} s for the "
+    fmt::print("A map of 4096 x 4096 px with {} segments: {:.2f} s to draw and {:.2f} s for the "
                "PNG (CPU); reading them from the store {:.2f} s.\n",
                scene.lines.size(),
                draw_ms / 1e3,
@@ -257,41 +240,42 @@ void measure_map(const fs::path& file) {
                query_ms / 1e3);
 }
 
-void measure(const fs::path& file) {
-    // Before any context: processes share none.
-    const double one_s = shared_s(file, 1);
-    const double two_s = shared_s(file, 2);
-    fmt::print("| tile | query | draw | PNG | all, ms of CPU | Mapnik + OGR | its png8 | both | "
-               "times ours | Cairo, draw alone |\n|---|---|---|---|---|---|---|---|---|---|\n");
-    for (const auto& setting : {Setting{256, 15}, {512, 15}, {256, 14}, {512, 14}, {256, 16}}) {
+void measure_pictures(const fs::path& file) {
+    for (const auto& setting : {Setting{256, 16}, {256, 15}, {512, 15}, {256, 14}, {512, 14}}) {
         measure_tiles(file, setting);
     }
-    fmt::print("\nTwo processes: {:.2f} times as fast as one.\n", one_s / two_s);
-    measure_map(file);
+}
+
+void run(std::string_view what, const fs::path& file, int side) {
+    if (what == "make") {
+        make_store(file, side);
+    } else if (what == "pictures") {
+        measure_pictures(file);
+    } else if (what == "vectors") {
+        const auto store = RoadStore::open(file, RoadStore::Access::read);
+        const auto info = store.info();
+        for (const int zoom : {16, 15, 14}) {
+            measure_vector_tiles(store, info, zoom);
+        }
+    } else if (what == "map") {
+        measure_map(file);
+    } else {
+        throw InputError{fmt::format("'{}', expected make, pictures, vectors or map", what)};
+    }
 }
 
 } // namespace
 } // namespace macadam
 
 int main(int argc, char** argv) {
-    namespace fs = std::filesystem;
-    const bool made = argc < 2;
-    const auto file =
-        made ? fs::temp_directory_path() / fmt::format("macadam_tile_bench_{}.gpkg", getpid())
-             : fs::path{argv[1]};
-    int status = 0;
     try {
-        if (made) {
-            macadam::make_store(file);
+        if (argc < 3) {
+            throw macadam::InputError{"expected what to do and a store"};
         }
-        macadam::measure(file);
+        macadam::run(argv[1], argv[2], argc > 3 ? std::atoi(argv[3]) : 223);
     } catch (const std::exception& error) {
         fmt::print(stderr, "tile_bench: {}\n", error.what());
-        status = 1;
+        return 1;
     }
-    if (made) {
-        std::error_code ignored;
-        fs::remove(file, ignored);
-    }
-    return status;
+    return 0;
 }

@@ -3,6 +3,7 @@
 // its export of the same segments.
 
 #include "app/tile_pyramid.hpp"
+#include "driven_town.hpp"
 #include "render/vector_tile.hpp"
 #include "storage/export.hpp"
 #include "storage/gzip.hpp"
@@ -16,7 +17,6 @@
 
 #include <filesystem>
 #include <string>
-#include <unistd.h>
 
 namespace macadam {
 namespace {
@@ -26,56 +26,17 @@ namespace fs = std::filesystem;
 constexpr int side = 60;      // crossings along the town: about 70,000 segments
 constexpr int tile_zoom = 15; // whose tiles hold about a thousand of them
 
-/// Goes with the program.
-struct ScratchFolder {
-    fs::path path = fs::temp_directory_path() / ("macadam_tiles_" + std::to_string(getpid()));
-    ScratchFolder() { fs::create_directories(path); }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-};
-
-const fs::path& scratch() {
-    static const ScratchFolder folder;
-    return folder.path;
-}
-
-Pass pass_over(const SegmentKey& key, std::int64_t number) {
-    const auto um = static_cast<IriUm>(1000 + (number * 7919) % 4000);
-    return {.segment = key,
-            .occurrence = 0,
-            .iri_left_um = {},
-            .iri_right_um = {},
-            .iri_centre_um = um,
-            .iri_um = um,
-            .sd_um = um / 5,
-            .centre_only = true,
-            .validity = 0,
-            .speed_mmps = 14000,
-            .covered_mm = 20000,
-            .confidence_ppm = 990000,
-            .t_ms = number * 1400};
+const bench::ScratchFolder& scratch() {
+    static const bench::ScratchFolder folder{"macadam_tiles"};
+    return folder;
 }
 
 /// One pass over every segment, fused.
 RoadStore new_driven_town() {
     const auto roads = testing::made_up_town(side);
     auto store = RoadStore::create(scratch() / "town.gpkg", roads, {});
-    std::vector<Pass> passes;
-    for (const auto edge : drivable_edges(roads)) {
-        for (const auto& segment : segments_of(roads, edge)) {
-            passes.push_back(pass_over(segment.key, static_cast<std::int64_t>(passes.size())));
-        }
-    }
-    TripRecord trip;
-    trip.trip_id = "trip";
-    trip.sha256 = std::string(64, '0');
-    trip.vehicle_id = "car";
-    trip.t0_utc_ms = 1'767'225'600'000;
-    store.add_trip(trip, passes);
+    const auto um_of = [](std::int64_t number) { return 1000 + (number * 7919) % 4000; };
+    store.add_trip(bench::trip_number(0), bench::passes_over(bench::keys_of(roads), um_of));
     store.refresh();
     return store;
 }
@@ -107,9 +68,12 @@ Content content_of(const TileId& tile) {
     Content content;
     SegmentFilter filter;
     filter.box = tile_box(tile, margin);
-    driven_town().visit(filter, [&](const SegmentRecord& record) {
-        content.segments.push_back(tile_segment(record, content.words));
-    });
+    driven_town().visit(
+        filter,
+        [&](const SegmentRecord& record) {
+            content.segments.push_back(tile_segment(record, content.words));
+        },
+        StateDetail::tiles);
     return content;
 }
 

@@ -100,6 +100,36 @@ TEST(StoreQuery, ShowsAtAGlanceWhatAVisitTells) {
     }
 }
 
+TEST(StoreQuery, TellsForTilesWhatTheyShow) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    import_trips(store, 3);
+    store.refresh();
+    SegmentFilter everything;
+    everything.with_state_only = false;
+    auto records = records_of(store, everything);
+    std::size_t seen = 0;
+    store.visit(
+        everything,
+        [&](const SegmentRecord& shown) {
+            ASSERT_LT(seen, records.size());
+            auto& [segment, name, highway, state] = records[seen++];
+            EXPECT_EQ(shown.segment.key, segment.key);
+            EXPECT_EQ(shown.segment.from_m, segment.from_m);
+            EXPECT_EQ(shown.segment.to_m, segment.to_m);
+            EXPECT_EQ(shown.segment.line, segment.line);
+            EXPECT_EQ(shown.name, name);
+            EXPECT_EQ(shown.highway, highway);
+            if (state) {
+                state->left_um = state->right_um = state->trend_sd_um_per_year = std::nullopt;
+                state->centre_only = false;
+                state->change = std::nullopt;
+            }
+            EXPECT_EQ(shown.state, state);
+        },
+        StateDetail::tiles);
+    EXPECT_EQ(seen, records.size());
+}
+
 TEST(StoreQuery, AnswersWhileItIsStillTelling) {
     auto store = new_store(test_folder() / "a.gpkg");
     import_trips(store, 2);

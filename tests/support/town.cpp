@@ -7,31 +7,41 @@
 namespace macadam::testing {
 namespace {
 
-constexpr GeoPoint corner{59.3, 18.0};
-constexpr double lat_m = 111400; // metres per degree, about, here
+constexpr double lat_m = 111400; // metres per degree, about, there
 constexpr double lon_m = 56980;
 
-GeoPoint moved(const GeoPoint& place, double east_m, double north_m) {
-    return {place.lat_deg + north_m / lat_m, place.lon_deg + east_m / lon_m};
+/// How many times as long a degree of longitude is at another latitude.
+double stretch_at(double lat_deg) {
+    const auto cosine = [](double deg) { return std::cos(deg * std::numbers::pi / 180); };
+    return cosine(lat_deg) / cosine(town_corner.lat_deg);
+}
+
+GeoPoint moved(const GeoPoint& place, double east_m, double north_m, double stretch = 1) {
+    return {place.lat_deg + north_m / lat_m, place.lon_deg + east_m / (lon_m * stretch)};
 }
 constexpr double lane_m = 2.5; // to the right of the map's line
 constexpr double odometer_scale = 1.005;
 
 } // namespace
 
-RoadNetwork made_up_town(int side) {
+RoadNetwork made_up_town(int side, const GeoPoint& corner) {
+    const double stretch = stretch_at(corner.lat_deg);
     std::mt19937_64 random{3};
     std::uniform_real_distribution<double> shift{-25, 25};
     std::vector<GeoPoint> crossings;
     for (int i = 0; i < side * side; ++i) {
-        crossings.push_back(
-            moved(corner, 110.0 * (i % side) + shift(random), 110.0 * (i / side) + shift(random)));
+        crossings.push_back(moved(corner,
+                                  110.0 * (i % side) + shift(random),
+                                  110.0 * (i / side) + shift(random),
+                                  stretch));
     }
     std::vector<Way> ways;
     const auto add = [&](int a, int b) {
         const auto id = static_cast<std::int64_t>(ways.size() + 1);
-        auto middle =
-            moved(between(crossings[a], crossings[b], 0.5), shift(random) / 2, shift(random) / 2);
+        auto middle = moved(between(crossings[a], crossings[b], 0.5),
+                            shift(random) / 2,
+                            shift(random) / 2,
+                            stretch);
         ways.push_back({id,
                         "",
                         "",

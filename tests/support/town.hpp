@@ -9,9 +9,11 @@
 
 namespace macadam::testing {
 
+inline constexpr GeoPoint town_corner{59.3, 18.0};
+
 /// A made-up town of side * side crossings about 110 m apart and out of line, streets with a bend,
-/// a fifth of them oneway. Always the same.
-RoadNetwork made_up_town(int side);
+/// a fifth of them oneway. Always the same. \param corner  in the south-west
+RoadNetwork made_up_town(int side, const GeoPoint& corner = town_corner);
 
 struct Journey {
     std::vector<EdgeId> edges;
