@@ -6,7 +6,6 @@
 #include <cassert>
 #include <memory>
 #include <new>
-#include <ranges>
 #include <vector>
 
 namespace macadam {
@@ -49,8 +48,8 @@ Decompressor new_decompressor() {
 /// The last four bytes of a gzip member, the lowest first (RFC 1952, ISIZE).
 std::size_t size_of_content(std::string_view bytes) {
     std::size_t size = 0;
-    for (const char byte : bytes.substr(bytes.size() - 4) | std::views::reverse) {
-        size = size << 8U | static_cast<unsigned char>(byte);
+    for (std::size_t i = 1; i <= 4; ++i) {
+        size = size << 8U | static_cast<unsigned char>(bytes[bytes.size() - i]);
     }
     return size;
 }

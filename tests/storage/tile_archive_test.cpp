@@ -310,7 +310,8 @@ TEST(TileArchive, RefusesWhatItCannotBe) {
     EXPECT_EQ(refusal_of([&] {
                   TileArchive{folder / "a.zip", note_of(mvt)};
               }),
-              (folder / "a.zip").string() + ": suffix '.zip', expected .mbtiles, .pmtiles or a folder, as in tiles/");
+              (folder / "a.zip").string() +
+                  ": suffix '.zip', expected .mbtiles, .pmtiles or a folder, as in tiles/");
     EXPECT_EQ(refusal_of([&] {
                   TileArchive{folder / "none" / "a.pmtiles", note_of(mvt)};
               }),
