@@ -46,11 +46,22 @@ WatchedBaseMap opened_base_map(const std::filesystem::path& file) {
 }
 
 std::string attribution_with(const std::string& of_roads, const BaseMap& base) {
-    if (base.attribution.empty() || of_roads.find(base.attribution) != std::string::npos) {
+    constexpr std::string_view between = "  ·  ";
+    const auto is_part = [&](std::string_view rest) {
+        while (!rest.empty()) {
+            const auto end = rest.find(between);
+            if (rest.substr(0, end) == base.attribution) {
+                return true;
+            }
+            rest.remove_prefix(end == rest.npos ? rest.size() : end + between.size());
+        }
+        return false;
+    };
+    if (base.attribution.empty() || is_part(of_roads)) {
         return of_roads;
     }
     return of_roads.empty() ? fmt::format("Base map: {}", base.attribution)
-                            : fmt::format("{}  ·  Base map: {}", of_roads, base.attribution);
+                            : fmt::format("{}{}Base map: {}", of_roads, between, base.attribution);
 }
 
 } // namespace macadam

@@ -100,6 +100,9 @@ void run_render(const Arguments& arguments, const Console& console) {
     WatchedBaseMap base;
     if (options.base) {
         base = opened_base_map(options.base->file);
+        for (const auto& file : files_of(options.output)) {
+            refuse_to_replace(file, {base.map->files.begin(), base.map->files.end()});
+        }
         options.style.base_opacity = options.base->opacity.value_or(options.style.base_opacity);
     }
     auto scene = map_scene(store,

@@ -212,6 +212,15 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
             .crs = arguments.value("--crs").value_or("")};
 }
 
+std::vector<std::filesystem::path> files_of(const PictureOutput& output) {
+    std::vector files{output.file};
+    if (output.world_file) {
+        files.push_back(world_file_of(output.file));
+        files.push_back(auxiliary_file_of(output.file));
+    }
+    return files;
+}
+
 std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output) {
     const bool is_mercator =
         output.crs.empty() || in_lower_case(output.crs) == in_lower_case(std::string{web_mercator});

@@ -23,6 +23,9 @@ struct PictureOutput {
 /// \throws UsageError  for an unknown suffix, size or paper, or options that do not go together.
 PictureOutput parse_picture_output(const Arguments& arguments);
 
+/// All that is written.
+std::vector<std::filesystem::path> files_of(const PictureOutput& output);
+
 inline constexpr std::string_view default_picture_size = "1600x1200";
 inline constexpr std::string_view default_paper = "A4";
 

@@ -3,6 +3,8 @@
 #include "app/interruption.hpp"
 #include "estimator/common/error.hpp"
 #include "render/vector_tile.hpp"
+#include "storage/atomic_folder.hpp"
+#include "storage/export.hpp"
 #include "storage/tile_archive.hpp"
 
 #include <fmt/format.h>
@@ -71,9 +73,12 @@ std::string size_text(std::uint64_t bytes) {
 } // namespace
 
 bool is_tile_archive(const std::filesystem::path& place) {
-    const auto suffixes = tile_archive_suffixes();
-    return is_tile_folder(place) ||
-           std::ranges::find(suffixes, place.extension().string()) != suffixes.end();
+    const auto archives = tile_archive_suffixes();
+    const auto ends_in = [&](std::string_view suffix) { return place.native().ends_with(suffix); };
+    if (std::ranges::any_of(export_suffixes(), ends_in)) {
+        return false; // also where a folder of that name is in the way
+    }
+    return is_tile_folder(place) || std::ranges::any_of(archives, ends_in);
 }
 
 std::string tile_endings() {
@@ -121,6 +126,9 @@ void export_tiles(const RoadStore& store,
         progress.stop = interruption.stop();
         return progress;
     };
+    if (is_tile_folder(file)) {
+        expect_new_or_empty(file.has_filename() ? file : file.parent_path()); // before long work
+    }
     TileSource source{beside_tiles(file)};
     read_tile_source(store, filter, source, stage("reading segments"));
     if (source.count == 0) {
@@ -135,7 +143,7 @@ void export_tiles(const RoadStore& store,
         [&](const TileId& tile, std::string_view bytes) { archive.add(tile, bytes); },
         stage("drawing tiles"));
     archive.commit(stage("writing tiles"));
-    console.say(fmt::format("{}: {} of {}, zooms {} to {}, the largest {}",
+    console.say(fmt::format("{}: {} of {}, zooms {} to {}, the largest {} gzipped",
                             file.string(),
                             counted(count.tiles, "tile"),
                             counted(source.count, "segment"),

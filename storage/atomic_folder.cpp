@@ -44,6 +44,8 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
     return entries;
 }
 
+} // namespace
+
 /// \returns whether it is there.
 bool expect_new_or_empty(const fs::path& folder) {
     std::error_code none;
@@ -66,8 +68,6 @@ bool expect_new_or_empty(const fs::path& folder) {
     }
     return true;
 }
-
-} // namespace
 
 AtomicFolder::AtomicFolder(fs::path folder)
     : folder_{without_slash(folder)}, exists_{expect_new_or_empty(folder_)} {

@@ -4,6 +4,11 @@
 
 namespace macadam {
 
+/// Whether a folder is there, and empty; false: nothing is.
+///
+/// \throws InputError  for a folder with something in it, and for what is no folder.
+bool expect_new_or_empty(const std::filesystem::path& folder);
+
 /// A folder that is filled when all of it is there, or not at all: work goes on in another folder,
 /// `NAME.part-PID`, which commit() moves into place. Without commit() nothing is left. If the
 /// program is killed, that folder lies beside the place, or in it if the place was there before.

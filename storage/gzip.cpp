@@ -11,9 +11,7 @@
 namespace macadam {
 namespace {
 
-// Of 1 to 12.
-constexpr int level_of_kept = 5; // 6 takes a third longer and saves hardly anything
-constexpr int level_of_passing = 1;
+constexpr int level = 5; // of 1 to 12: 6 takes a third longer and saves hardly anything
 
 struct Free {
     void operator()(libdeflate_compressor* compressor) const {
@@ -22,7 +20,7 @@ struct Free {
 };
 using Compressor = std::unique_ptr<libdeflate_compressor, Free>;
 
-Compressor new_compressor(int level) {
+Compressor new_compressor() {
     Compressor compressor{libdeflate_alloc_compressor(level)};
     if (!compressor) {
         throw std::bad_alloc{};
@@ -56,11 +54,9 @@ std::size_t size_of_content(std::string_view bytes) {
 
 } // namespace
 
-std::string gzipped(std::string_view bytes, GzipEffort effort) {
-    thread_local const auto of_kept = new_compressor(level_of_kept); // dear to make, small to keep
-    thread_local const auto of_passing = new_compressor(level_of_passing);
-    thread_local std::vector<char> room; // which only grows
-    const auto& compressor = effort == GzipEffort::passing ? of_passing : of_kept;
+std::string gzipped(std::string_view bytes) {
+    thread_local const auto compressor = new_compressor(); // dear to make, small to keep
+    thread_local std::vector<char> room;                   // which only grows
     const auto most = libdeflate_gzip_compress_bound(compressor.get(), bytes.size());
     room.resize(std::max(room.size(), most));
     const auto size = libdeflate_gzip_compress(

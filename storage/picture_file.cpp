@@ -72,8 +72,12 @@ void write_png_with_world_file(const GiveBytes& png,
     const auto name = file.filename();
     put(files.folder() / name, png);
     put(files.folder() / world_file_of(name), all_of(world_text(picture)));
-    put(files.folder() / (name.string() + ".aux.xml"), all_of(auxiliary_text(picture)));
+    put(files.folder() / auxiliary_file_of(name), all_of(auxiliary_text(picture)));
     files.commit();
+}
+
+std::filesystem::path auxiliary_file_of(std::filesystem::path picture) {
+    return picture += ".aux.xml";
 }
 
 std::filesystem::path world_file_of(const std::filesystem::path& picture) {

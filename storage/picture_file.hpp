@@ -46,4 +46,7 @@ void write_png_with_world_file(const GiveBytes& png,
 /// The name of the world file of a picture: map.pgw for map.png.
 std::filesystem::path world_file_of(const std::filesystem::path& picture);
 
+/// The name of the file that says its coordinate system: map.png.aux.xml for map.png.
+std::filesystem::path auxiliary_file_of(std::filesystem::path picture);
+
 } // namespace macadam

@@ -10,6 +10,9 @@ namespace {
 void open(const std::filesystem::path& file, BaseMap& map) {
     auto raster = std::make_shared<const RasterFile>(file);
     map.attribution = raster->attribution();
+    for (const auto& each : raster->files()) {
+        map.files.push_back(each.string());
+    }
     map.laid_on = [raster](const PicturePlane& plane) -> PaintPart {
         auto painter = std::make_shared<const RasterPainter>(raster, plane);
         return [painter](const PicturePart& part) { return painter->rgba(part); };

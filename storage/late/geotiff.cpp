@@ -10,6 +10,8 @@
 #include <ogr_spatialref.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <span>
 #include <string>
@@ -20,7 +22,7 @@ namespace macadam {
 namespace {
 
 [[noreturn]] void fail() {
-    throw InputError{fmt::format("cannot be written: {}; the disk may be full",
+    throw InputError{fmt::format("cannot be written: {}; the memory may not suffice",
                                  gdal_said("GDAL does not say why"))};
 }
 
@@ -92,6 +94,7 @@ public:
         options.SetNameValue("COMPRESS", "DEFLATE");
         options.SetNameValue("ZLEVEL", "1"); // it is read once, a moment later
         options.SetNameValue("INTERLEAVE", "PIXEL");
+        options.SetNameValue("BIGTIFF", "IF_SAFER");
         dataset_.reset(driver("GTiff").Create(
             name, picture.width_px, picture.height_px, bands, GDT_Byte, options.List()));
         if (!dataset_) {
@@ -141,7 +144,8 @@ void copy_to_disk(std::span<const char> bytes, const std::filesystem::path& file
     out.write(bytes.data(), std::ssize(bytes));
     out.close();
     if (!out) {
-        throw InputError{"cannot be written; the disk may be full"};
+        throw InputError{
+            fmt::format("cannot be written: {}; the disk may be full", std::strerror(errno))};
     }
 }
 
@@ -155,10 +159,15 @@ void write(const PlacedPicture& picture, const GiveRows& give, const std::filesy
         const FileInMemory drawn{"rows.tif"};
         RowWriter writer{picture, drawn.name()};
         give([&](auto rows) { writer.add(rows); });
+        CPLErrorReset(); // what was said while it was drawn is of others
         const auto source = std::move(writer).finished();
+        if (CPLGetLastErrorType() == CE_Failure) {
+            fail();
+        }
         CPLStringList options;
         options.SetNameValue("COMPRESS", "DEFLATE");
         options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
+        options.SetNameValue("BIGTIFF", "IF_SAFER");
         const GDALDatasetUniquePtr copy{driver("COG").CreateCopy(
             made.name(), source.get(), FALSE, options.List(), nullptr, nullptr)};
         if (!copy) {

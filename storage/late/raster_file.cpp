@@ -2,7 +2,9 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/late/gdal_errors.hpp"
+#include "storage/late/local_files.hpp"
 #include "storage/late/raster_colours.hpp"
+#include "storage/late/raster_owner.hpp"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -20,15 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double tolerated = 1.05; // of a level's pixels: nobody sees it
-
-/// Files only: a map is the same tomorrow and without a network.
-void keep_off_the_network() {
-    CPLSetConfigOption("GDAL_SKIP",
-                       "WMS,WMTS,WCS,HTTP,DAAS,OGCAPI,STACTA,STACIT,PLMOSAIC,PLSCENES,EEDA,EEDAI,"
-                       "NGW,PostGISRaster");
-    CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_FILENAME", "none");
-    OSRSetPROJEnableNetwork(FALSE);
-}
 
 /// What is kept of the files' blocks: several rows of tiles under the widest picture. GDAL would
 /// take a share of the machine's memory.
@@ -98,39 +91,6 @@ OGRSpatialReference system_of(GDALDataset& raster, const std::string& file) {
     return own;
 }
 
-/// What is no UTF-8 is of older pictures, which mostly say "©" in Latin 1.
-std::string as_utf8(const char* text) {
-    if (CPLIsUTF8(text, -1) != 0) {
-        return text;
-    }
-    char* const recoded = CPLRecode(text, CPL_ENC_ISO8859_1, CPL_ENC_UTF8);
-    std::string utf8 = recoded;
-    CPLFree(recoded);
-    return utf8;
-}
-
-/// MBTiles have it in HTML, for the corner of a web page.
-std::string without_markup(std::string_view html) {
-    std::string text;
-    bool inside = false;
-    for (const char c : html) {
-        inside = inside ? c != '>' : c == '<';
-        if (!inside && c != '>') {
-            text += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
-        }
-    }
-    constexpr std::string_view sign = "&copy;";
-    for (auto at = text.find(sign); at != std::string::npos; at = text.find(sign)) {
-        text.replace(at, sign.size(), "©");
-    }
-    char* const plain = CPLUnescapeString(text.c_str(), nullptr, CPLES_XML);
-    text = plain;
-    CPLFree(plain);
-    const auto first = text.find_first_not_of(' ');
-    return first == std::string::npos ? ""
-                                      : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
 std::size_t bytes_of(const RasterBox& box) {
     return std::size_t(box.width_px) * std::size_t(box.height_px) * 4;
 }
@@ -157,6 +117,25 @@ struct ColourSum {
         return {colour(0), colour(1), colour(2), std::uint8_t((alpha + count / 2) / count)};
     }
 };
+
+/// The mean of each square of `side` pixels of a row of squares.
+void put_means(const std::vector<std::uint8_t>& rgba,
+               const RasterBox& box,
+               int side,
+               std::uint8_t* means) {
+    for (int left = 0; left < box.width_px; left += side, means += 4) {
+        const int end = std::min(left + side, box.width_px);
+        ColourSum sum;
+        for (int row = 0; row < box.height_px; ++row) {
+            for (int column = left; column < end; ++column) {
+                sum.add(rgba.data() +
+                        (std::size_t(row) * std::size_t(box.width_px) + std::size_t(column)) * 4);
+            }
+        }
+        std::ranges::copy(sum.mean(std::uint64_t(box.height_px) * std::uint64_t(end - left)),
+                          means);
+    }
+}
 
 } // namespace
 
@@ -242,30 +221,28 @@ std::vector<std::uint8_t> RasterFile::Impl::pixels(int overview, const RasterBox
     return rgba;
 }
 
-/// Row by row, so that little is held of a large raster without smaller copies.
+/// Row by row and some columns at a time, so that little is held of a large raster without smaller
+/// copies.
 std::vector<std::uint8_t> RasterFile::Impl::means(const RasterLevel& level,
                                                   const RasterBox& box) const {
+    constexpr int pixels_at_once = 1 << 22; // 16 MB
     const int side = level.decimation;
+    const int stretch = std::max(1, pixels_at_once / (side * side));
     const auto& first = band(colours.bands[0], level.overview);
     auto& source = const_cast<GDALRasterBand&>(first); // NOLINT(*-const-cast): sizes are not const
-    const int left = box.left_px * side;
-    const int width = std::min((box.left_px + box.width_px) * side, source.GetXSize()) - left;
+    const int right = std::min((box.left_px + box.width_px) * side, source.GetXSize());
     std::vector<std::uint8_t> rgba(bytes_of(box));
     for (int y = 0; y < box.height_px; ++y) {
         const int top = (box.top_px + y) * side;
         const int height = std::min(side, source.GetYSize() - top);
-        const auto rows = pixels(level.overview, {left, top, width, height});
-        for (int x = 0; x < box.width_px; ++x) {
-            ColourSum sum;
-            const int end = std::min((x + 1) * side, width);
-            for (int row = 0; row < height; ++row) {
-                for (int column = x * side; column < end; ++column) {
-                    sum.add(rows.data() + (std::size_t(row) * width + std::size_t(column)) * 4);
-                }
-            }
-            const auto mean = sum.mean(std::uint64_t(height * (end - x * side)));
-            std::ranges::copy(
-                mean, rgba.begin() + std::ptrdiff_t((std::size_t(y) * box.width_px + x) * 4));
+        for (int x = 0; x < box.width_px; x += stretch) {
+            const int left = (box.left_px + x) * side;
+            const RasterBox some{left, top, std::min(stretch * side, right - left), height};
+            put_means(pixels(level.overview, some),
+                      some,
+                      side,
+                      rgba.data() +
+                          (std::size_t(y) * std::size_t(box.width_px) + std::size_t(x)) * 4);
         }
     }
     return rgba;
@@ -309,18 +286,17 @@ std::array<double, 6> RasterFile::backward() const {
 }
 
 std::string RasterFile::attribution() const {
-    for (const char* const key :
-         {"attribution", "TIFFTAG_COPYRIGHT", "Copyright", "EXIF_Copyright"}) {
-        if (const char* const text = impl_->raster->GetMetadataItem(key)) {
-            if (auto words = without_markup(as_utf8(text)); !words.empty()) {
-                return words;
-            }
-        }
-    }
-    return {};
+    const Quiet quiet;
+    return owner_of(*impl_->raster);
+}
+
+std::vector<fs::path> RasterFile::files() const {
+    const Quiet quiet;
+    return files_of(*impl_->raster);
 }
 
 RasterLevel RasterFile::level(double wanted_px) const {
+    const Quiet quiet;
     auto& whole = impl_->band(impl_->colours.bands[0], -1);
     RasterLevel best{.width_px = whole.GetXSize(), .height_px = whole.GetYSize()};
     const auto per_px = [&](int part_px) { return double(whole.GetXSize()) / part_px; };

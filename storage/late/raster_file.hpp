@@ -41,6 +41,7 @@ public:
     std::array<double, 6> forward() const;     ///< from pixel and line to x and y, as GDAL has it
     std::array<double, 6> backward() const;    ///< from x and y to pixel and line
     std::string attribution() const;           ///< without mark-up; "" = the file names nobody
+    std::vector<std::filesystem::path> files() const; ///< that it is read from
 
     /// The level of the fewest pixels in which one is at most `wanted_px` of the raster wide, or 5
     /// % more; the raster itself where that is less than 1.

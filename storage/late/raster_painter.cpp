@@ -189,10 +189,13 @@ RasterPainter::RasterPainter(std::shared_ptr<const RasterFile> raster, const Pic
 std::vector<std::uint8_t> RasterPainter::rgba(const PicturePart& part) const {
     const auto row_bytes = std::size_t(part.width_px) * 4;
     std::vector<std::uint8_t> rgba(row_bytes * std::size_t(part.height_px));
-    const int rows = std::max(1, feet_at_once / part.width_px);
-    for (int down = 0; down < part.height_px; down += rows) {
-        const PicturePart some{
-            part.left_px, part.top_px + down, part.width_px, std::min(rows, part.height_px - down)};
+    // Whole squares of feet where they fit, so that few are projected twice.
+    const int most =
+        std::max(feet_square_px, feet_at_once / part.width_px / feet_square_px * feet_square_px);
+    for (int down = 0, rows = 0; down < part.height_px; down += rows) {
+        const int into_square = (part.top_px + down) % feet_square_px;
+        rows = std::min(most - into_square, part.height_px - down);
+        const PicturePart some{part.left_px, part.top_px + down, part.width_px, rows};
         RowPainting painting{
             *raster_, level_, some, place_.feet(some), rgba.data() + std::size_t(down) * row_bytes};
         painting.paint(some);

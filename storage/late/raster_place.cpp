@@ -16,7 +16,7 @@
 namespace macadam {
 namespace {
 
-constexpr int square_px = 16;
+constexpr int square_px = feet_square_px;
 constexpr int half_square_px = square_px / 2;
 constexpr double straight_px = 0.05; // of the picture: nobody sees it
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();

@@ -16,6 +16,8 @@ struct RasterFoot {
     float width_px, height_px;
 };
 
+inline constexpr int feet_square_px = 16;
+
 /// How the pixels of a picture lie on a raster.
 ///
 /// The projections are asked at the corners of squares of 16 px that begin at the picture's own

@@ -266,6 +266,29 @@ TEST_F(BaseMapProgram, NeverWritesOverTheBaseMap) {
     EXPECT_TRUE(read_file(base) == before);
 }
 
+TEST_F(BaseMapProgram, NeverWritesOverWhatAVirtualBaseMapIsMadeOf) {
+    const auto source = around_the_roads("source.tif");
+    const auto base = (folder_ / "base.vrt").string();
+    ASSERT_EQ(output_of(folder_, "gdalbuildvrt -q " + base + " " + source), "");
+    const auto before = read_file(source);
+    const auto run = render({"-o", source, "--base", base});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err,
+                HasSubstr("source.tif: is what is read, expected another file to write to"));
+    EXPECT_TRUE(read_file(source) == before);
+}
+
+TEST_F(BaseMapProgram, SaysInItsOwnWordsThatASourceIsMissing) {
+    const auto source = around_the_roads("source.tif");
+    const auto base = (folder_ / "base.vrt").string();
+    ASSERT_EQ(output_of(folder_, "gdalbuildvrt -q " + base + " " + source), "");
+    fs::remove(source);
+    const auto run = render({"-o", out("map.png"), "--base", base, box()});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, ::testing::StartsWith("macadam render: " + base + ": cannot be read"));
+    EXPECT_TRUE(fs::is_empty(folder_ / "out"));
+}
+
 TEST_F(BaseMapProgram, LeavesNothingOnAFullDiskOrWithADamagedBaseMap) {
     const auto base = around_the_roads("base.tif", "-co COMPRESS=DEFLATE");
     for (const auto* name : {"a.png", "a.tif", "a.pdf"}) {

@@ -269,6 +269,21 @@ TEST(TileExport, WritesTheSameTilesIntoAFolder) {
               std::ptrdiff_t(read.tiles.size()) + 1); // and metadata.json
 }
 
+TEST(TileExport, TakesNoFolderForAFileOfSegments) {
+    const auto folder = test_folder();
+    std::filesystem::create_directory(folder / "roads.csv");
+    EXPECT_FALSE(is_tile_archive(folder / "roads.csv"));
+    EXPECT_TRUE(is_tile_archive(folder / "roads.csv/"));
+    EXPECT_TRUE(is_tile_archive(folder / "roads.pmtiles"));
+}
+
+TEST(TileExport, RefusesAFolderWithSomethingInItBeforeItReadsTheStore) {
+    const auto folder = test_folder();
+    const auto store = new_store(folder / "a.gpkg"); // in which nothing was measured
+    EXPECT_EQ(refusal_of([&] { export_tiles(store, {}, folder / "", {}, Console{true}); }),
+              folder.string() + ": is not empty, expected a new or an empty folder");
+}
+
 TEST(TileExport, IntoAFolderIsReadByGdal) {
     const auto folder = test_folder();
     auto store = new_store(folder / "a.gpkg");

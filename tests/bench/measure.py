@@ -334,11 +334,11 @@ def tile_jobs(work, macadam, store):
 
 def vector_tiles(build, work):
     """Vector tiles asked of stores by their places."""
-    head = table(["tile", "query", "encode", "gzip for a reader", "all, ms of CPU", "gzip for a file", "all, ms of CPU"], [])
+    head = table(["tile", "query", "encode", "gzip", "all, ms of CPU"], [])
     rows = "".join(tile_bench(build, "vectors", tile_store(build, work, side)) for side in (56, 112, 223))
     return "\n### Vector tiles out of stores, by their places\n\n" + \
         "Medians over 64 tiles, three rounds, milliseconds of CPU: the box is asked of the store, the segments become a tile, the tile is " + \
-        "gzipped, at libdeflate's level 1 as for one reader, and at 5 as in files.\n\n" + head + rows
+        "gzipped as in files.\n\n" + head + rows
 
 
 def measured(name, arguments, macadam):

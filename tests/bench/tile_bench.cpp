@@ -165,8 +165,8 @@ void measure_tiles(const fs::path& file, const Setting& setting) {
 void measure_vector_tiles(const RoadStore& store, const StoreInfo& info, int zoom) {
     const auto tiles = tiles_in(info.box, zoom);
     constexpr double margin = double{tile_buffer} / tile_extent;
-    std::vector<double> query_ms, encode_ms, kept_ms, passing_ms;
-    std::size_t count = 0, kept_bytes = 0, passing_bytes = 0;
+    std::vector<double> query_ms, encode_ms, gzip_ms;
+    std::size_t count = 0, gzip_bytes = 0;
     for (int round = 0; round < rounds; ++round) {
         for (const auto& tile : tiles) {
             TileWords words;
@@ -190,30 +190,23 @@ void measure_vector_tiles(const RoadStore& store, const StoreInfo& info, int zoo
                 bytes =
                     vector_tile(tile, pointers, SegmentDetail::full, {&words, class_table("fhwa")});
             }));
-            kept_ms.push_back(cost_ms([&] { kept_bytes += gzipped(bytes).size(); }));
-            passing_ms.push_back(
-                cost_ms([&] { passing_bytes += gzipped(bytes, GzipEffort::passing).size(); }));
+            gzip_ms.push_back(cost_ms([&] { gzip_bytes += gzipped(bytes).size(); }));
             count += segments.size();
         }
     }
     const auto made = double(query_ms.size());
-    const double tile_ms = median(query_ms) + median(encode_ms);
-    const auto whole = [&](const std::vector<double>& gzip_ms, std::size_t bytes) {
-        const double ms = tile_ms + median(gzip_ms);
-        return fmt::format("{:.2f} | {:.2f} ({:.0f}/s, {:.1f} kB)",
-                           median(gzip_ms),
-                           ms,
-                           1e3 / ms,
-                           double(bytes) / made / 1e3);
-    };
-    fmt::print("| zoom {}, {:.0f} segments, of {} | {:.2f} | {:.2f} | {} | {} |\n",
+    const double all_ms = median(query_ms) + median(encode_ms) + median(gzip_ms);
+    fmt::print("| zoom {}, {:.0f} segments, of {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} ({:.0f}/s, "
+               "{:.1f} kB) |\n",
                zoom,
                double(count) / made,
                info.segments,
                median(query_ms),
                median(encode_ms),
-               whole(passing_ms, passing_bytes),
-               whole(kept_ms, kept_bytes));
+               median(gzip_ms),
+               all_ms,
+               1e3 / all_ms,
+               double(gzip_bytes) / made / 1e3);
 }
 
 /// A map of 4096 x 4096 px, from the store to the PNG.

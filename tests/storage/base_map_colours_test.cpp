@@ -67,6 +67,26 @@ TEST(BaseMapFile, ReadsALargeRasterWithoutSmallerCopies) {
     }
 }
 
+TEST(BaseMapFile, ReadsAVeryWideRasterPieceByPiece) {
+    // 40 x 2 colours, each 512 pixels wide and high: a mean over 512 is the colour itself.
+    const auto folder = test_folder();
+    const auto small =
+        write_raster(folder / "small.tif", {"EPSG:3857", 0, 1024, 512, 40, 2}, [](int x, int y) {
+            return std::vector<std::uint8_t>{std::uint8_t(5 * x), std::uint8_t(90 * y), 7};
+        });
+    const auto wide = folder / "wide.vrt";
+    ASSERT_EQ(output_of(folder,
+                        "gdal_translate -q -of VRT -r nearest -outsize 20480 1024 " +
+                            small.string() + " " + wide.string()),
+              "");
+    const auto rgba = whole(open_base_map(wide), {"", 0, 1024, 512, 40, 2});
+    for (int y = 0; y < 2; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            ASSERT_EQ(pixel(rgba, 40, x, y), (std::vector<int>{5 * x, 90 * y, 7, 255})) << x << y;
+        }
+    }
+}
+
 // --------------------------------------------------------------------------------- its colours
 
 /// The first pixel of a raster of one pixel's kind.
@@ -189,7 +209,7 @@ TEST(BaseMapFile, SaysWhoseItIs) {
                       {"EPSG:4326", 15, 48, 0.01, 10, 10, "-mo 'TIFFTAG_COPYRIGHT=© Land <Wien>'"},
                       place_as_colour))
                   .attribution,
-              "© Land");
+              "© Land <Wien>"); // plain text, unlike that of MBTiles
     EXPECT_EQ(
         open_base_map(
             write_raster(folder / "older.tif",

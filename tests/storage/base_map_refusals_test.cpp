@@ -2,7 +2,11 @@
 
 #include "base_map_places.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 namespace macadam::testing {
 namespace {
@@ -98,6 +102,69 @@ TEST(BaseMapFile, FetchesNothingFromTheNetwork) {
                 R"(<BandsCount>3</BandsCount></GDAL_WMS>)");
     EXPECT_THAT(refusal_of([&] { open_base_map(service); }),
                 HasSubstr("service.xml: is no raster that GDAL can read"));
+}
+
+/// A port of this machine that counts who calls.
+class Listener {
+public:
+    Listener() : socket_{::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0)} {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        auto* const any = reinterpret_cast<sockaddr*>(&address);
+        socklen_t size = sizeof address;
+        EXPECT_EQ(::bind(socket_, any, size), 0);
+        EXPECT_EQ(::listen(socket_, 8), 0);
+        EXPECT_EQ(::getsockname(socket_, any, &size), 0);
+        port_ = ntohs(address.sin_port);
+    }
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+    ~Listener() { ::close(socket_); }
+
+    int port() const { return port_; }
+    bool was_called() const { return ::accept(socket_, nullptr, nullptr) >= 0; }
+
+private:
+    int socket_;
+    int port_ = 0;
+};
+
+TEST(BaseMapFile, FetchesNoSourcesOfAVirtualRasterFromTheNetwork) {
+    const auto folder = test_folder();
+    const Listener listener;
+    for (const auto* system : {"/vsicurl/", "/vsicurl_streaming/", "/vsizip/vsicurl_streaming/"}) {
+        const auto file = written(
+            folder,
+            "far.vrt",
+            fmt::format(R"(<VRTDataset rasterXSize="4" rasterYSize="4"><SRS>EPSG:3857</SRS>)"
+                        R"(<GeoTransform>0,10,0,40,0,-10</GeoTransform>)"
+                        R"(<VRTRasterBand dataType="Byte" band="1"><SimpleSource>)"
+                        R"(<SourceFilename>{}http://127.0.0.1:{}/x.tif</SourceFilename>)"
+                        R"(<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand>)"
+                        R"(</VRTDataset>)",
+                        system,
+                        listener.port()));
+        EXPECT_THAT(refusal_of([&] {
+                        whole(open_base_map(file), {"", 0, 40, 10, 4, 4});
+                    }),
+                    HasSubstr("far.vrt: "))
+            << system;
+        EXPECT_FALSE(listener.was_called()) << system;
+    }
+}
+
+TEST(BaseMapFile, NamesTheFilesThatItIsReadFrom) {
+    const auto folder = test_folder();
+    const auto tif =
+        write_raster(folder / "map.tif", {"EPSG:3857", 0, 40, 10, 4, 4}, place_as_colour);
+    const auto inner = folder / "inner.vrt";
+    const auto outer = folder / "outer.vrt";
+    for (const auto& [from, to] : {std::pair{tif, inner}, std::pair{inner, outer}}) {
+        ASSERT_EQ(output_of(folder, "gdalbuildvrt -q " + to.string() + " " + from.string()), "");
+    }
+    EXPECT_THAT(open_base_map(outer).files,
+                ::testing::IsSupersetOf({outer.string(), inner.string(), tif.string()}));
 }
 
 TEST(BaseMapFile, TellsOfAFileThatIsDamagedInside) {

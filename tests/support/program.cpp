@@ -35,7 +35,18 @@ fs::path own_file(const std::string& kind) {
            ("macadam_" + kind + "_" + std::to_string(getpid()) + "_" + std::to_string(++runs));
 }
 
-[[noreturn]] void become_macadam(const std::vector<std::string>& words,
+/// The words of a command line as the system takes them; they point into `words`.
+std::vector<char*> argv_of(const std::vector<std::string>& words) {
+    std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)};
+    for (const auto& word : words) {
+        argv.push_back(const_cast<char*>(word.c_str()));
+    }
+    argv.push_back(nullptr);
+    return argv;
+}
+
+/// Takes no memory: another thread may have held the lock of all memory when this process began.
+[[noreturn]] void become_macadam(const std::vector<char*>& argv,
                                  const fs::path& out,
                                  const fs::path& err,
                                  std::size_t most_file_bytes) {
@@ -46,11 +57,6 @@ fs::path own_file(const std::string& kind) {
         const rlimit limit{most_file_bytes, most_file_bytes};
         setrlimit(RLIMIT_FSIZE, &limit);
     }
-    std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)};
-    for (const auto& word : words) {
-        argv.push_back(const_cast<char*>(word.c_str()));
-    }
-    argv.push_back(nullptr);
     execv(MACADAM_PROGRAM, argv.data());
     _exit(127);
 }
@@ -60,9 +66,10 @@ Run run(const std::vector<std::string>& words,
         std::size_t most_file_bytes,
         const std::function<void(pid_t child)>& meanwhile = {}) {
     const auto err = own_file("err");
+    const auto argv = argv_of(words);
     const pid_t child = fork();
     if (child == 0) {
-        become_macadam(words, out, err, most_file_bytes);
+        become_macadam(argv, out, err, most_file_bytes);
     }
     if (child > 0 && meanwhile) {
         meanwhile(child);
