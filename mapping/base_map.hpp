@@ -29,11 +29,12 @@ using PaintPart = std::function<std::vector<std::uint8_t>(const PicturePart& par
 
 /// A map of other people's, to lie under the roads.
 struct BaseMap {
-    std::string attribution;        ///< whose it is; "" = does not say
-    std::vector<std::string> files; ///< that it is read from: not to be written over
+    std::string attribution; ///< whose it is; "" = does not say
 
     /// The map as it lies on a picture's plane; transparent where it has nothing.
     std::function<PaintPart(const PicturePlane& plane)> laid_on;
+
+    std::vector<std::string> files{}; ///< that it is read from: not to be written over
 };
 
 } // namespace macadam
