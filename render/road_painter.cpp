@@ -157,8 +157,7 @@ void lay(const Easel& easel, const Window& window, int down, Image& band) {
 struct RoadPainter::Impl {
     void paint(const Window& window);
     void lay_ground(const Window& window, const PixelBox& map);
-    void paint_unmeasured_edge(int rank, const RibbonPass& view);
-    void paint_unmeasured(int rank, const RibbonPass& view);
+    void paint_unmeasured(int rank, const RibbonPass& view, double radius_px, std::uint32_t rgb);
     void paint_measured(int rank, const RibbonPass& view);
     void prepare(int width_px, int height_px);
 
@@ -193,24 +192,17 @@ void RoadPainter::Impl::lay_ground(const Window& window, const PixelBox& map) {
     }
 }
 
-void RoadPainter::Impl::paint_unmeasured_edge(int rank, const RibbonPass& view) {
+void RoadPainter::Impl::paint_unmeasured(int rank,
+                                         const RibbonPass& view,
+                                         double radius_px,
+                                         std::uint32_t rgb) {
     auto pass = view;
-    pass.radius_px = unmeasured_edge_radius_px(widths, rank);
+    pass.radius_px = radius_px;
     pass.looks = every_look;
     draw(easel->painter,
-         near(layers[std::size_t(rank)].unmeasured, view.visible, pass.radius_px),
+         near(layers[std::size_t(rank)].unmeasured, view.visible, radius_px),
          pass,
-         palette.ground);
-}
-
-void RoadPainter::Impl::paint_unmeasured(int rank, const RibbonPass& view) {
-    auto pass = view;
-    pass.radius_px = unmeasured_radius_px(widths, rank);
-    pass.looks = every_look;
-    draw(easel->painter,
-         near(layers[std::size_t(rank)].unmeasured, view.visible, pass.radius_px),
-         pass,
-         palette.unmeasured);
+         rgb);
 }
 
 void RoadPainter::Impl::paint_measured(int rank, const RibbonPass& view) {
@@ -250,11 +242,12 @@ void RoadPainter::Impl::paint(const Window& window) {
         if (sheet.ground) {
             lay_ground(window, map);
             for (int rank = lowest_rank; rank >= 0; --rank) {
-                paint_unmeasured_edge(rank, view);
+                paint_unmeasured(
+                    rank, view, unmeasured_edge_radius_px(widths, rank), palette.ground);
             }
         }
         for (int rank = lowest_rank; rank >= 0; --rank) {
-            paint_unmeasured(rank, view);
+            paint_unmeasured(rank, view, unmeasured_radius_px(widths, rank), palette.unmeasured);
         }
         for (int rank = lowest_rank; rank >= 0; --rank) {
             paint_measured(rank, view);
