@@ -44,6 +44,11 @@ PipedProgram::PipedProgram(const std::vector<std::string>& words)
     : err_file_{(fresh_folder() / "err").string()} {
     const Ends in = new_pipe();
     const Ends out = new_pipe();
+    std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)}; // the child must take no memory
+    for (const auto& word : words) {
+        argv.push_back(const_cast<char*>(word.c_str()));
+    }
+    argv.push_back(nullptr);
     child_ = fork();
     if (child_ == 0) {
         dup2(in.reading, STDIN_FILENO);
@@ -51,11 +56,6 @@ PipedProgram::PipedProgram(const std::vector<std::string>& words)
         dup2(open(err_file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600),
              STDERR_FILENO);
         std::signal(SIGPIPE, SIG_DFL);
-        std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)};
-        for (const auto& word : words) {
-            argv.push_back(const_cast<char*>(word.c_str()));
-        }
-        argv.push_back(nullptr);
         execv(MACADAM_PROGRAM, argv.data());
         _exit(127);
     }
