@@ -110,6 +110,7 @@ void export_picture_tiles(const std::filesystem::path& store,
     }
     warn_of_look(plan.style, console);
     plan.box = box.value_or(info.box);
+    PicturePainters painters{store, plan}; // before the thread of the interruption
     const Interruption interruption;
     const auto stage = [&](const char* label) {
         auto progress = console.progress(label);
@@ -117,9 +118,7 @@ void export_picture_tiles(const std::filesystem::path& store,
         return progress;
     };
     TileArchive archive{file, note_of(info, store.stem().string(), plan)};
-    const auto count = make_picture_tiles(
-        store,
-        plan,
+    const auto count = painters.collect(
         [&](const TileId& tile, std::string_view bytes) { archive.add(tile, bytes); },
         stage("drawing tiles"));
     const auto size = archive.commit(stage("writing tiles"));

@@ -11,13 +11,20 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <exception>
+#include <functional>
+#include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
+#include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -146,6 +153,17 @@ void tell(int pipe, const Head& head, const void* bytes) {
     write_all(pipe, bytes, head.bytes);
 }
 
+/// Ctrl-C goes to all processes of a terminal. A drawing process leaves it to its parent, which
+/// ends it, and ends when the parent does.
+void leave_signals_to_parent() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        std::signal(signal, SIG_IGN);
+    }
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+using TakeTile = std::function<void(const TileId& tile, std::string_view bytes)>;
+
 /// The part of a process that draws every `step`-th square; it never returns.
 [[noreturn]] void draw_part(const std::filesystem::path& store,
                             const PicturePlan& plan,
@@ -174,12 +192,13 @@ class Worker {
 public:
     Worker(const std::filesystem::path& store, const PicturePlan& plan, std::size_t number) {
         std::array<int, 2> ends{};
-        if (::pipe(ends.data()) != 0) {
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
             throw InputError{fmt::format("cannot start to draw: {}", std::strerror(errno))};
         }
         process_ = ::fork();
         if (process_ == 0) {
             ::close(ends[0]);
+            leave_signals_to_parent();
             draw_part(store, plan, number, ends[1]);
         }
         ::close(ends[1]);
@@ -205,13 +224,13 @@ public:
     bool is_done() const { return done_; }
 
     /// Takes what is there and hands on what is whole.
-    template <typename Put>
-    void listen(const Put& put) {
+    void listen(const TakeTile& take) {
         constexpr std::size_t at_once = 1 << 16;
         const auto before = told_.size();
         told_.resize(before + at_once);
         const auto got = ::read(pipe_, told_.data() + before, at_once);
         told_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+        active_at_ = Clock::now();
         if (got == 0) {
             expect_good_end();
             return;
@@ -227,29 +246,60 @@ public:
             if (head.kind == Head::Kind::failure) {
                 throw InputError{std::string{bytes}};
             }
-            put(head.tile, bytes);
+            take(head.tile, bytes);
             begin = end;
         }
         told_.erase(told_.begin(), told_.begin() + static_cast<std::ptrdiff_t>(begin));
     }
 
+    /// \throws InputError  if the process was stopped, or has neither told nor computed anything
+    /// for longer than any wait for a disk takes.
+    void expect_working() {
+        const auto now = Clock::now();
+        if (const auto used = cpu_time(); used != cpu_time_) {
+            cpu_time_ = used;
+            active_at_ = now;
+        } else if (now - active_at_ > stall_limit) {
+            throw InputError{fmt::format("a drawing process (PID {}) has done nothing for {} s, "
+                                         "because it was stopped or its disk does not answer",
+                                         process_,
+                                         stall_limit.count())};
+        }
+    }
+
 private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::seconds stall_limit{8};
+
     void expect_good_end() {
         int status = 0;
         ::waitpid(process_, &status, 0);
         done_ = true;
         if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-            throw InputError{
-                WIFSIGNALED(status)
-                    ? fmt::format("a process that draws was ended by signal {}", WTERMSIG(status))
-                    : std::string{"a process that draws has failed"}};
+            throw InputError{WIFSIGNALED(status)
+                                 ? fmt::format("a drawing process was ended by signal {} ({})",
+                                               WTERMSIG(status),
+                                               ::strsignal(WTERMSIG(status)))
+                                 : std::string{"a drawing process has failed"}};
         }
+    }
+
+    /// CPU time that the process has used, ns; what was known before if it cannot be had.
+    std::int64_t cpu_time() const {
+        clockid_t clock{};
+        timespec used{};
+        if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) {
+            return cpu_time_;
+        }
+        return std::int64_t{used.tv_sec} * 1'000'000'000 + used.tv_nsec;
     }
 
     pid_t process_ = -1;
     int pipe_ = -1;
     bool done_ = false;
     std::vector<char> told_;
+    std::int64_t cpu_time_ = 0;
+    Clock::time_point active_at_ = Clock::now();
 };
 
 void expect_not_stopped(const Progress& progress) {
@@ -258,25 +308,43 @@ void expect_not_stopped(const Progress& progress) {
     }
 }
 
+/// A forked child has this thread alone: a lock that another one held, as that of the allocator,
+/// would stay locked in it for ever.
+void expect_one_thread() {
+    const std::filesystem::directory_iterator tasks{"/proc/self/task"};
+    if (std::distance(begin(tasks), end(tasks)) != 1) {
+        throw std::logic_error{"drawing processes must be started before any thread"};
+    }
+}
+
 } // namespace
 
-PictureCount make_picture_tiles(const std::filesystem::path& store,
-                                const PicturePlan& plan,
-                                const PutTile& put,
-                                const Progress& progress) {
-    const auto squares = squares_of(plan);
-    const auto whole = count_of(squares);
+struct PicturePainters::Impl {
+    std::size_t tile_count = 0;
     std::vector<std::unique_ptr<Worker>> workers;
+};
+
+PicturePainters::PicturePainters(const std::filesystem::path& store, const PicturePlan& plan)
+    : impl_{std::make_unique<Impl>()} {
+    expect_one_thread();
+    const auto squares = squares_of(plan);
+    impl_->tile_count = count_of(squares);
     for (std::size_t i = 0; i < std::min(plan.jobs, squares.size()); ++i) {
-        workers.push_back(std::make_unique<Worker>(store, plan, i));
+        impl_->workers.push_back(std::make_unique<Worker>(store, plan, i));
     }
+}
+
+PicturePainters::~PicturePainters() = default;
+
+PictureCount PicturePainters::collect(const PutTile& put, const Progress& progress) {
+    auto& workers = impl_->workers;
     PictureCount count;
-    const auto take = [&](const TileId& tile, std::string_view bytes) {
+    const TakeTile take = [&](const TileId& tile, std::string_view bytes) {
         put(tile, bytes);
         count.largest_bytes = std::max(count.largest_bytes, std::uint64_t{bytes.size()});
         constexpr std::size_t report_every = 100;
         if (++count.tiles % report_every == 0) {
-            progress(count.tiles, whole);
+            progress(count.tiles, impl_->tile_count);
         }
     };
     while (!workers.empty()) {
@@ -290,11 +358,13 @@ PictureCount make_picture_tiles(const std::filesystem::path& store,
         for (std::size_t i = 0; i < workers.size(); ++i) {
             if (pipes[i].revents != 0) {
                 workers[i]->listen(take);
+            } else {
+                workers[i]->expect_working();
             }
         }
         std::erase_if(workers, [](const auto& worker) { return worker->is_done(); });
     }
-    progress(whole, whole);
+    progress(impl_->tile_count, impl_->tile_count);
     return count;
 }
 

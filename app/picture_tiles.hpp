@@ -5,6 +5,7 @@
 #include "render/map.hpp"
 
 #include <filesystem>
+#include <memory>
 
 namespace macadam {
 
@@ -23,17 +24,36 @@ struct PictureCount {
     std::uint64_t largest_bytes = 0;
 };
 
-/// Draws every tile of the plan's zooms that touches its box, with all roads of the store, as PNG
-/// (render/tile_painter.hpp). Tiles are drawn in squares of 2048 px, by processes that open the
-/// store each for itself: where somebody writes to it meanwhile, tiles can be of different moments.
+/// Processes that draw every tile of a plan's zooms that touches its box, with all roads of the
+/// database, as PNG (render/tile_painter.hpp). Tiles are drawn in squares of 2048 px, by processes
+/// that open the database each for itself: where somebody writes to it meanwhile, tiles can be of
+/// different moments.
 ///
-/// A tile is the same whatever the number of jobs.
-///
-/// \param store  its file; this process must not have it open
-/// \throws InputError  if a stop is wanted, or what stopped a process that draws
-PictureCount make_picture_tiles(const std::filesystem::path& store,
-                                const PicturePlan& plan,
-                                const PutTile& put,
-                                const Progress& progress);
+/// A tile is the same whatever the number of jobs. Processes that still draw at the end of this
+/// object are killed.
+class PicturePainters {
+public:
+    /// Starts to draw. To be made before this process has a second thread.
+    ///
+    /// \param store  its file; this process must not have it open
+    /// \param plan   needed in this constructor alone
+    /// \throws InputError        if no process can be started
+    /// \throws std::logic_error  if there is another thread
+    PicturePainters(const std::filesystem::path& store, const PicturePlan& plan);
+    PicturePainters(const PicturePainters&) = delete;
+    PicturePainters& operator=(const PicturePainters&) = delete;
+    ~PicturePainters();
+
+    /// Hands on each tile as it is drawn. To be called once.
+    ///
+    /// \throws InputError  if a stop is wanted, or a process failed, was killed, or has done
+    /// nothing
+    ///                     for 8 s
+    PictureCount collect(const PutTile& put, const Progress& progress);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 } // namespace macadam

@@ -3,8 +3,8 @@
 namespace macadam {
 
 /// The function `symbol` of the shared object `library`, which is opened when first asked for and
-/// stays open. A plain name is looked for where the program was built or installed and then where
-/// the system keeps its libraries.
+/// stays open. "macadam_NAME.so" is opened in lib/ beside the running program, by its absolute
+/// path; any other name where the system keeps its libraries.
 ///
 /// MRPT and GDAL bring more than a hundred shared objects each, OSMesa a compiler: a command that
 /// needs none of them should not wait for them to load.

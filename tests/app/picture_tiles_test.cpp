@@ -1,6 +1,7 @@
 #include "app/picture_tiles.hpp"
 
 #include "app/commands.hpp"
+#include "app/interruption.hpp"
 #include "app/tile_lines.hpp"
 #include "estimator/common/error.hpp"
 #include "render/tile_painter.hpp"
@@ -11,8 +12,13 @@
 
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
+
+#include <unistd.h>
 
 namespace macadam::testing {
 namespace {
@@ -75,12 +81,11 @@ PicturePlan plan_of(const fs::path& store, int least_zoom, int most_zoom) {
 
 Tiles drawn(const fs::path& store, const PicturePlan& plan) {
     Tiles tiles;
-    make_picture_tiles(store,
-                       plan,
-                       [&](const TileId& tile, std::string_view bytes) {
-                           EXPECT_TRUE(tiles.emplace(tile, bytes).second);
-                       },
-                       {});
+    PicturePainters{store, plan}.collect(
+        [&](const TileId& tile, std::string_view bytes) {
+            EXPECT_TRUE(tiles.emplace(tile, bytes).second);
+        },
+        {});
     return tiles;
 }
 
@@ -159,12 +164,51 @@ TEST(PictureTiles, StopWhenTheyAreNoLongerWanted) {
     stop.request_stop();
     EXPECT_THAT(
         [&] {
-            make_picture_tiles(file,
-                               plan_of(file, 6, 17),
-                               [](const TileId&, std::string_view) {},
-                               {.report = {}, .stop = stop.get_token()});
+            PicturePainters{file, plan_of(file, 6, 17)}.collect(
+                [](const TileId&, std::string_view) {}, {.report = {}, .stop = stop.get_token()});
         },
         ::testing::ThrowsMessage<InputError>("stopped before the file was whole"));
+}
+
+/// Processes that this one has started and not yet waited for.
+std::vector<pid_t> children() {
+    std::ifstream in{"/proc/self/task/" + std::to_string(getpid()) + "/children"};
+    return {std::istream_iterator<pid_t>{in}, {}};
+}
+
+std::string failure_after(int signal) {
+    const auto file = town_store();
+    PicturePainters painters{file, plan_of(file, 6, 17)};
+    const auto processes = children();
+    EXPECT_EQ(processes.size(), 1U);
+    for (const auto process : processes) {
+        ::kill(process, signal);
+    }
+    try {
+        painters.collect([](const TileId&, std::string_view) {}, {});
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(PictureTiles, EndWithWordsWhenADrawingProcessIsKilled) {
+    EXPECT_EQ(failure_after(SIGKILL), "a drawing process was ended by signal 9 (Killed)");
+    EXPECT_TRUE(children().empty());
+}
+
+TEST(PictureTiles, EndWithWordsWhenADrawingProcessStandsStill) {
+    EXPECT_THAT(failure_after(SIGSTOP), ::testing::HasSubstr("has done nothing for 8 s"));
+    EXPECT_TRUE(children().empty());
+}
+
+TEST(PictureTiles, AreNotBegunBesideAThread) {
+    const auto file = town_store();
+    const auto plan = plan_of(file, 14, 15);
+    const Interruption interruption;
+    EXPECT_THAT([&] { PicturePainters(file, plan); },
+                ::testing::ThrowsMessage<std::logic_error>(
+                    "drawing processes must be started before any thread"));
 }
 
 TEST(PictureTiles, GoIntoAnArchiveWhereTheSameBytesAreKeptOnce) {

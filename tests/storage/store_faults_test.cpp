@@ -6,6 +6,7 @@
 #include "storage/geopackage.hpp"
 #include "storage/sqlite.hpp"
 #include "store_world.hpp"
+#include "support/fork.hpp"
 
 #include <gmock/gmock.h>
 
@@ -101,7 +102,7 @@ ClosedStore closed_store() {
 
 TEST(StoreFaults, OfAWriterThatDiedAreUndoneByTheNextReader) {
     const auto [file, before] = closed_store();
-    const auto child = ::fork();
+    const auto child = fork_without_threads();
     if (child == 0) {
         Database database{file, Database::Access::write};
         database.run("PRAGMA cache_size = 1; BEGIN IMMEDIATE; DELETE FROM segment_state;"
@@ -116,7 +117,7 @@ TEST(StoreFaults, OfAWriterThatDiedAreUndoneByTheNextReader) {
 
 /// As a killed import: what it committed stands in the log beside the store.
 void add_trip_and_die(const std::filesystem::path& file, int number) {
-    const auto child = ::fork();
+    const auto child = fork_without_threads();
     if (child == 0) {
         auto store = RoadStore::open(file, RoadStore::Access::write);
         store.add_trip(trip_record(number), passes_of(number));

@@ -6,6 +6,7 @@
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 #include "store_world.hpp"
+#include "support/fork.hpp"
 #include "tests/storage/files.hpp"
 
 #include <gmock/gmock.h>
@@ -215,7 +216,7 @@ public:
     Holder(const fs::path& file, Journal journal, const std::function<void()>& does) {
         int to_parent[2];
         EXPECT_EQ(::pipe(to_parent), 0);
-        process_ = ::fork();
+        process_ = fork_without_threads();
         if (process_ == 0) {
             Database database{file, Database::Access::write};
             if (journal == Journal::log) {

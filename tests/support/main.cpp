@@ -1,0 +1,48 @@
+// Main function of every test program: GoogleTest, and a limit of time that leaves a stack.
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <charconv>
+#include <csignal>
+#include <cstdlib>
+#include <string_view>
+
+#include <execinfo.h>
+#include <unistd.h>
+
+namespace {
+
+/// Says which functions the process was in, and ends it. (The stack of another thread than the one
+/// that the system chose for the signal is not told.)
+void end_with_stack(int /*signal*/) {
+    constexpr std::string_view words{"\nthe test has reached its time limit, in:\n"};
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, words.data(), words.size());
+    std::array<void*, 64> frames{};
+    const int depth = ::backtrace(frames.data(), int{frames.size()});
+    ::backtrace_symbols_fd(frames.data(), depth, STDERR_FILENO);
+    ::_exit(124); // as the command timeout
+}
+
+/// Takes `--time-limit=SECONDS` from the command line.
+void set_time_limit(int& argc, char** argv) {
+    constexpr std::string_view name{"--time-limit="};
+    if (argc < 2 || !std::string_view{argv[argc - 1]}.starts_with(name)) {
+        return;
+    }
+    const std::string_view text = std::string_view{argv[--argc]}.substr(name.size());
+    unsigned limit_s = 0;
+    std::from_chars(text.data(), text.data() + text.size(), limit_s);
+    std::array<void*, 1> frame{};
+    ::backtrace(frame.data(), 1); // loads its library now, not in the handler
+    std::signal(SIGALRM, end_with_stack);
+    ::alarm(limit_s);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    set_time_limit(argc, argv);
+    ::testing::InitGoogleMock(&argc, argv);
+    return RUN_ALL_TESTS();
+}
