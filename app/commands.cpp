@@ -46,6 +46,7 @@ std::span<const Command> commands() {
                                   reprocess_command,
                                   valid_from_command,
                                   forget_command,
+                                  upgrade_command,
                                   query_command,
                                   export_command,
                                   render_command,
