@@ -52,7 +52,7 @@ TripRecord record_of(const TripSource& source,
 
 /// What to say of a trip that is in the store already.
 std::vector<std::string> spoken_known(const PipelineConfig& config) {
-    if (config.trim_m > 0) {
+    if (config.trim.is_active()) {
         return {"stays as it was imported: its ends are not left out after the fact; a new store "
                 "has to be made for that"};
     }
