@@ -4,6 +4,7 @@
 #include "app/import_references.hpp"
 #include "app/import_trips.hpp"
 #include "app/interruption.hpp"
+#include "app/key_words.hpp"
 #include "app/laid_words.hpp"
 #include "app/mapping_option.hpp"
 #include "app/segment_options.hpp"
@@ -123,6 +124,7 @@ void run_import(const Arguments& arguments, const Console& console) {
         fuse_new(store, console);
         return;
     }
+    make_missing_key(store, console);
     const auto [trips, refused] = asked_trips(options.paths, options.mapping, console);
     const auto name = name_of_import(options.paths);
     if (const auto earlier = store.begin_import(name, trips.size())) {

@@ -2,6 +2,7 @@
 #include "app/commands.hpp"
 #include "app/control_watch.hpp"
 #include "app/info_tables.hpp"
+#include "app/key_words.hpp"
 #include "app/laid_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/truth_output.hpp"
@@ -44,6 +45,7 @@ struct KnownRoads {
 std::string json_of(const StoreInfo& info,
                     const InfoTables& tables,
                     const KnownRoads& known,
+                    bool operates,
                     const std::string& digest,
                     const std::string& truth) {
     const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
@@ -68,6 +70,7 @@ std::string json_of(const StoreInfo& info,
         .add("classes", JsonRaw{json_array(classes)})
         .add("laid_on_others", JsonRaw{json_of(info.laid)});
     add_to(object, tables);
+    object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);
     object.add("surveys", JsonRaw{json_of(known.surveys)})
         .add("control_sections", JsonRaw{json_of(known.controls)});
     object.add("generation", std::int64_t{info.generation}).add("digest", digest);
@@ -86,12 +89,18 @@ std::string period_of(const StoreInfo& info) {
     return first == last ? first : fmt::format("{} to {}", first, last);
 }
 
-std::string text_of(const StoreInfo& info) {
+std::string_view words_for(PrivacyProfile privacy) {
+    return privacy == PrivacyProfile::crowd ? "crowd: cars of others"
+                                            : "own: one's own cars, nothing is anonymised";
+}
+
+std::string text_of(const StoreInfo& info, bool operates) {
     auto text = fmt::format(
         "network     {}, {:.1f} km counting each direction, {} segments of about {:g} m\n"
         "trips       {} ({} undated), {}, {}\n"
         "period      {}\n"
-        "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n",
+        "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n"
+        "privacy     {}; the key of its cars is {}\n",
         info.settings.network_source,
         info.network_km,
         info.segments,
@@ -103,7 +112,9 @@ std::string text_of(const StoreInfo& info) {
         period_of(info),
         info.km,
         info.segments_with_passes,
-        100 * share(info.km, info.network_km));
+        100 * share(info.km, info.network_km),
+        words_for(info.settings.privacy),
+        operates ? "beside it" : "not here");
     if (info.lateral_passes > 0) {
         text += fmt::format("lateral     {} of the passes from lateral vibration alone, which is "
                             "far less accurate\n",
@@ -122,6 +133,7 @@ void run_info(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     const auto store = RoadStore::open(file, RoadStore::Access::read);
     warn_of_waiting(store, file, console);
+    warn_of_open_key(store, console);
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
         return;
@@ -139,9 +151,14 @@ void run_info(const Arguments& arguments, const Console& console) {
     const auto tables = info_tables(store);
     const KnownRoads known{store.surveys(), watched_sections(store)};
     if (arguments.flag("--json")) {
-        print(json_of(info, tables, known, store.digest(), truth ? json_of(*truth) : ""));
+        print(json_of(info,
+                      tables,
+                      known,
+                      store.is_operator(),
+                      store.digest(),
+                      truth ? json_of(*truth) : ""));
     } else {
-        print_words(text_of(info) + text_of(tables) + text_of(known.surveys) +
+        print_words(text_of(info, store.is_operator()) + text_of(tables) + text_of(known.surveys) +
                     text_of(known.controls) + (truth ? "\n" + text_of(*truth) : ""));
     }
 }

@@ -10,6 +10,7 @@
 #include "storage/network_file.hpp"
 #include "storage/network_reader.hpp"
 #include "storage/road_store.hpp"
+#include "storage/text.hpp"
 #include "storage/trip_reader.hpp"
 
 #include <fmt/format.h>
@@ -31,8 +32,18 @@ struct InitOptions {
     LayerColumns columns;
     std::string attribution;
     double segment_length_m;
+    PrivacyProfile privacy;
     bool json;
 };
+
+PrivacyProfile privacy_in(const Arguments& arguments) {
+    const auto name = arguments.value("--privacy").value_or("own");
+    const auto profile = privacy_profile_named(name);
+    if (!profile) {
+        throw UsageError{fmt::format("--privacy is {}, expected own or crowd", in_quotes(name))};
+    }
+    return *profile;
+}
 
 InitOptions parse_init(const Arguments& arguments) {
     InitOptions options;
@@ -56,6 +67,10 @@ InitOptions parse_init(const Arguments& arguments) {
     if (options.update && arguments.number("--segment-length")) {
         throw UsageError{"--segment-length cannot be changed by --update: the store's stays"};
     }
+    if (options.update && arguments.value("--privacy")) {
+        throw UsageError{"--privacy cannot be changed by --update: the store's stays"};
+    }
+    options.privacy = privacy_in(arguments);
     options.segment_length_m = arguments.number("--segment-length", RoadNetwork{}.segment_length_m);
     if (!(options.segment_length_m >= least_segment_m &&
           options.segment_length_m <= most_segment_m)) {
@@ -129,6 +144,7 @@ void make_store(const InitOptions& options, const Console& console) {
     settings.segment_length_m = options.segment_length_m;
     settings.network_source = source.name;
     settings.attribution = source.attribution;
+    settings.privacy = options.privacy;
     const auto roads = build_network(std::move(ways), options.segment_length_m);
     const auto store =
         RoadStore::create(options.store, roads, settings, console.progress("writing segments"));
@@ -211,6 +227,11 @@ constexpr std::array options{
            "Where there is no map: draw the roads from these trips (logs, .gpx).",
            "",
            true},
+    Option{
+        "--privacy",
+        "PROFILE",
+        "Whose cars it is for: own (one's own: nothing is anonymised) or crowd (cars of others).",
+        "own"},
     Option{"--segment-length", "METRES", "About how long a segment is, the unit of fusion.", "20"},
     Option{"--layer", "NAME", "Of a line layer file: which layer.", "the first with lines"},
     Option{"--id-column",

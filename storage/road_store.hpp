@@ -12,6 +12,8 @@
 #include "mapping/segment_record.hpp"
 #include "mapping/strip_trace.hpp"
 #include "storage/lock_wait.hpp"
+#include "storage/privacy_key.hpp"
+#include "storage/privacy_profile.hpp"
 #include "storage/store_upkeep.hpp"
 #include "storage/store_use.hpp"
 
@@ -33,6 +35,7 @@ struct StoreSettings {
     std::string class_table = "fhwa";
     std::string network_source; ///< file name of the map, or "traced from the trips"
     std::string attribution;    ///< whom a picture of these roads must name
+    PrivacyProfile privacy = PrivacyProfile::own;
 };
 
 /// Instead of a model's name: the user's own, whose name would tell the car.
@@ -48,7 +51,8 @@ struct ReferenceNote {
 struct TripRecord {
     std::string sha256; ///< unique
     std::string trip_id;
-    std::string vehicle_id; ///< kept only as a pseudonym; "" = not stated
+    std::string
+        vehicle_id; ///< kept only as a pseudonym, also within the two names; "" = not stated
     std::string file_name;
     std::optional<std::int64_t> t0_utc_ms; ///< nothing: undated
     std::string vehicle_model; ///< name of the built-in Vehicle that was used, or own_file_model
@@ -135,7 +139,7 @@ struct StoreInfo {
     std::size_t undated_trips = 0;
     std::size_t passes = 0;
     std::size_t lateral_passes = 0;    ///< of them, from lateral vibration alone
-    std::vector<std::string> vehicles; ///< pseudonyms, in byte order
+    std::vector<std::string> vehicles; ///< pseudonyms, as RoadStore::cars()
     std::size_t segments = 0;
     std::size_t segments_with_passes = 0; ///< of cars or references
     double km = 0;                        ///< of segments with passes
@@ -178,8 +182,9 @@ struct NetworkUpdate {
 ///                     the file and the cause).
 class RoadStore {
 public:
-    /// Makes a new store with the segments of a network. \throws InputError if the file exists;
-    /// leaves nothing behind if it fails.
+    /// Makes a new store with the segments of a network, and its key (storage/privacy_key.hpp); a
+    /// key that lies there already is taken. \throws InputError if the file exists; leaves nothing
+    /// behind if it fails.
     static RoadStore create(const std::filesystem::path& file,
                             const RoadNetwork& roads,
                             const StoreSettings& settings,
@@ -199,6 +204,19 @@ public:
     const StoreSettings& settings() const;
 
     const std::filesystem::path& file() const;
+
+    /// Whether the key of the store lies beside it, for this user to read: who has it is the
+    /// operator, and sees of a crowd more than is published.
+    bool is_operator() const { return key() != nullptr; }
+
+    /// Null for all others than the operator. \throws InputError from open(), if the key that lies
+    /// there is of another store.
+    const PrivacyKey* key() const;
+
+    /// Makes a new key if none lies there; add_trips() does it where a car has to be named.
+    /// \returns true if cars of the store were named under one that is gone: those that come from
+    /// now on cannot be joined to them.
+    bool make_missing_key();
 
     /// The network this store was made for; its segments are cut from it. Built from the ways that
     /// the store holds: kept_roads (storage/network_file.hpp) has it quicker.
@@ -296,7 +314,7 @@ public:
     /// When and why the number of a segment changed, oldest first.
     std::vector<NumberChange> changes(const SegmentKey& key) const;
 
-    /// How cars of the store are calibrated: by pseudonym, only those that are.
+    /// How cars of the store are calibrated: in the order of cars(), only those that are.
     std::vector<CalibratedCar> calibrated_cars() const;
 
     /// In the order of keys (way, forward before backward, index), of the ranges, or worst first.
@@ -325,7 +343,11 @@ public:
     /// Days with a dated trip, in order.
     std::vector<DayUse> day_uses() const;
 
-    /// In the order of (pseudonym, model, method).
+    /// Cars in the order in which they were first there: by the start of their first dated trip,
+    /// then by the least hash of their trips. It does not depend on the key. "unknown" is last.
+    std::vector<std::string> cars() const;
+
+    /// In the order of (cars(), model, method).
     std::vector<VehicleUse> vehicle_uses() const;
 
     /// Why rows of the trips' logs entered no estimate; trips of version 0.1 did not tell.

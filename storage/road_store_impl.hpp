@@ -8,6 +8,7 @@
 #include "storage/store_schema.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace macadam {
@@ -19,6 +20,7 @@ struct RoadStore::Impl {
         check_store(database);
         settings = read_settings(database);
         network_hash = read_network_hash(database);
+        find_key();
         if (access == Database::Access::write) { // now that it is known to be ours
             database.write_beside_readers();
         }
@@ -30,10 +32,21 @@ struct RoadStore::Impl {
     /// \throws InputError  if the network was updated since the store was opened.
     void expect_same_network();
 
+    /// Takes the key that lies beside the store, if there is one.
+    /// \throws InputError  if it is of another store.
+    void find_key();
+
+    /// See RoadStore::make_missing_key().
+    bool make_missing_key();
+
+    /// Without a key only of "", the car that is not known.
+    std::string pseudonym(const std::string& vehicle_id) const;
+
     Database database;
     KeptStatements statements{database};
     StoreSettings settings;
     std::string network_hash; ///< as it was when the store was opened
+    std::optional<PrivacyKey> key;
 };
 
 } // namespace macadam

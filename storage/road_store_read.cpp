@@ -1,4 +1,5 @@
 #include "estimator/common/error.hpp"
+#include "storage/car_order.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/sha256.hpp"
@@ -28,15 +29,6 @@ std::size_t count_with(Database& database, std::uint8_t flag) {
 double real_meta(Database& database, const char* key) {
     auto select = database.prepare("SELECT CAST(value AS REAL) FROM meta WHERE key = ?");
     return select.bind(key).step() ? select.real(0) : 0;
-}
-
-std::vector<std::string> pseudonyms(Database& database) {
-    auto select = database.prepare("SELECT pseudonym FROM vehicle ORDER BY pseudonym");
-    std::vector<std::string> vehicles;
-    while (select.step()) {
-        vehicles.push_back(select.text(0));
-    }
-    return vehicles;
 }
 
 /// Every segment with passes has a state, or waits for one.
@@ -205,7 +197,7 @@ StoreInfo RoadStore::info() const {
                             "SELECT count(*) FROM trip CROSS JOIN pass ON pass.trip = trip.id"
                             " WHERE trip.reference_ppm IS NOT NULL"),
             .lateral_passes = count_with(database, validity::lateral_alone),
-            .vehicles = pseudonyms(database),
+            .vehicles = read_cars(database),
             .segments = static_cast<std::size_t>(real_meta(database, "segments")),
             .segments_with_passes = static_cast<std::size_t>(
                 database.number(fmt::format("SELECT count(*) FROM {}", with_passes).c_str())),
@@ -220,7 +212,12 @@ StoreInfo RoadStore::info() const {
             .box = cover.box};
 }
 
+std::vector<std::string> RoadStore::cars() const {
+    return read_cars(impl_->database);
+}
+
 std::vector<VehicleUse> RoadStore::vehicle_uses() const {
+    Transaction one_moment{impl_->database, Transaction::Kind::read};
     auto select = impl_->database.prepare(
         "SELECT vehicle.pseudonym, vehicle_model, method, count(*), count(*) - count(t0_utc_ms),"
         " sum((SELECT count(*) FROM pass WHERE pass.trip = trip.id)), sum(distance_mm),"
@@ -242,6 +239,8 @@ std::vector<VehicleUse> RoadStore::vehicle_uses() const {
                         .rows_read = number(8),
                         .rows_used = number(9)});
     }
+    const auto places = places_of_cars(cars());
+    std::ranges::stable_sort(uses, {}, [&](const auto& use) { return places.at(use.vehicle); });
     return uses;
 }
 

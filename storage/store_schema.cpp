@@ -16,7 +16,7 @@
 namespace macadam {
 namespace {
 
-constexpr int store_version = 2;
+constexpr int store_version = 3;
 constexpr const char* format_name = "macadam-store";
 
 // ---------------------------------------------------------------------------------------- meta
@@ -26,6 +26,13 @@ constexpr double most_segment_m = 100'000;
 
 void put(Database& database, std::string_view key, std::string_view value) {
     database.prepare("INSERT INTO meta VALUES (?, ?)").run(key, value);
+}
+
+void replace(Database& database, std::string_view key, std::string_view value) {
+    database
+        .prepare("INSERT INTO meta VALUES (?, ?)"
+                 " ON CONFLICT (key) DO UPDATE SET value = excluded.value")
+        .run(key, value);
 }
 
 std::string meta(Database& database, std::string_view key) {
@@ -55,6 +62,7 @@ void write_meta(Database& database,
     put(database, "segments", fmt::format("{}", written.segments));
     put(database, "network_m", fmt::format("{}", written.length_m));
     put(database, "generation", "1");
+    put(database, "privacy", name_of(settings.privacy));
 }
 
 bool has_table(Database& database, std::string_view name) {
@@ -75,6 +83,7 @@ std::string_view what_to_do_with(const std::string& version) {
 void write_store(Database& database,
                  const RoadNetwork& roads,
                  const StoreSettings& settings,
+                 const std::string& key_id,
                  const Progress& progress) {
     const auto* classes = class_table(settings.class_table);
     if (classes == nullptr) {
@@ -89,6 +98,7 @@ void write_store(Database& database,
     database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
     database.run("CREATE INDEX way_name ON way(name)");
     write_meta(database, roads, settings, network_hash, written);
+    put_key_id(database, key_id);
 
     const auto box = extent_of(roads);
     list_features(database, {"segment", "segment", "Pieces of road, one for each direction", box});
@@ -121,10 +131,6 @@ void check_store(Database& database) {
                                      store_version,
                                      what_to_do_with(version))};
     }
-    if (!has_table(database, "audit")) {
-        refuse("is a store of version 2 as it was before it was released",
-               ": make it anew with 'macadam init' and import its trips again");
-    }
 }
 
 StoreSettings read_settings(Database& database) {
@@ -142,6 +148,11 @@ StoreSettings read_settings(Database& database) {
     if (class_table(settings.class_table) == nullptr) {
         refuse("class_table", "fhwa or five");
     }
+    const auto privacy = privacy_profile_named(meta(database, "privacy"));
+    if (!privacy) {
+        refuse("privacy", "own or crowd");
+    }
+    settings.privacy = *privacy;
     if (!(settings.segment_length_m >= least_segment_m &&
           settings.segment_length_m <= most_segment_m)) {
         refuse("segment_length_m", "a length of segments");
@@ -159,18 +170,20 @@ bool are_rows_in_order(Statement& select) {
 }
 
 void update_network_meta(Database& database, const NetworkMeta& network) {
-    const auto set = [&](std::string_view key, std::string_view value) {
-        database
-            .prepare("INSERT INTO meta VALUES (?, ?)"
-                     " ON CONFLICT (key) DO UPDATE SET value = excluded.value")
-            .run(key, value);
-    };
-    set("network_source", network.source);
-    set("attribution", network.attribution);
-    set("network_sha256", network.hash);
-    set("segments", fmt::format("{}", network.segments));
-    set("network_m", fmt::format("{}", network.length_m));
-    set("rows_in_order", "0");
+    replace(database, "network_source", network.source);
+    replace(database, "attribution", network.attribution);
+    replace(database, "network_sha256", network.hash);
+    replace(database, "segments", fmt::format("{}", network.segments));
+    replace(database, "network_m", fmt::format("{}", network.length_m));
+    replace(database, "rows_in_order", "0");
+}
+
+std::string read_key_id(Database& database) {
+    return meta(database, "key_id");
+}
+
+void put_key_id(Database& database, const std::string& key_id) {
+    replace(database, "key_id", key_id);
 }
 
 std::string read_network_hash(Database& database) {

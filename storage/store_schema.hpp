@@ -11,9 +11,11 @@
 namespace macadam {
 
 /// Makes all tables of a store and fills those that hold the network (docs/store.md).
+/// \param key_id  PrivacyKey::id()
 void write_store(Database& database,
                  const RoadNetwork& roads,
                  const StoreSettings& settings,
+                 const std::string& key_id,
                  const Progress& progress);
 
 /// \throws InputError  if the file is no GeoPackage, no store, or of a version that is not known.
@@ -45,6 +47,10 @@ void update_network_meta(Database& database, const NetworkMeta& network);
 
 /// SHA-256 of the ways and all that they say, in hex digits.
 std::string read_network_hash(Database& database);
+
+/// PrivacyKey::id() of the key under which cars are named.
+std::string read_key_id(Database& database);
+void put_key_id(Database& database, const std::string& key_id);
 
 /// Counts from 1; one more each time that all numbers were made anew by other rules.
 int read_generation(Database& database);
