@@ -14,6 +14,7 @@
 #include "storage/lock_wait.hpp"
 #include "storage/privacy_key.hpp"
 #include "storage/privacy_profile.hpp"
+#include "storage/publication.hpp"
 #include "storage/store_upkeep.hpp"
 #include "storage/store_use.hpp"
 
@@ -191,7 +192,9 @@ public:
                             const Progress& progress = {});
 
     enum class Access { read, write };
-    static RoadStore open(const std::filesystem::path& file, Access access);
+    /// \param reader  for whom a store is read; who writes it sees all.
+    static RoadStore
+    open(const std::filesystem::path& file, Access access, Reader reader = Reader::anyone);
 
     RoadStore(RoadStore&&) noexcept;
     RoadStore& operator=(RoadStore&&) noexcept;
@@ -217,6 +220,21 @@ public:
     /// \returns true if cars of the store were named under one that is gone: those that come from
     /// now on cannot be joined to them.
     bool make_missing_key();
+
+    /// Whether all that is read here comes from the latest publication of a crowd.
+    bool shows_published_alone() const;
+
+    /// None if nothing was published yet.
+    std::optional<Publication> latest_publication() const;
+
+    /// Makes a crowd's publication of this month, from passes of at least five cars a figure
+    /// (mapping/privacy/release_batches.hpp); it is what leaves the store until the next one. In one
+    /// transaction. \param roads  the store's network.
+    ///
+    /// \throws InputError  if the store is no crowd's, the caller not its operator, or there is a
+    /// publication of this month.
+    Published
+    publish(const RoadNetwork& roads, std::int64_t now_utc_ms, const Progress& progress = {});
 
     /// The network this store was made for; its segments are cut from it. Built from the ways that
     /// the store holds: kept_roads (storage/network_file.hpp) has it quicker.

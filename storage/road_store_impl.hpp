@@ -2,6 +2,7 @@
 
 #include "storage/geopackage.hpp"
 #include "storage/kept_statements.hpp"
+#include "storage/publication_rows.hpp"
 #include "storage/road_store.hpp"
 #include "storage/row_visit.hpp"
 #include "storage/sqlite.hpp"
@@ -42,11 +43,17 @@ struct RoadStore::Impl {
     /// Without a key only of "", the car that is not known.
     std::string pseudonym(const std::string& vehicle_id) const;
 
+    void show_published_alone() {
+        macadam::show_published_alone(database);
+        published_alone = true;
+    }
+
     Database database;
     KeptStatements statements{database};
     StoreSettings settings;
     std::string network_hash; ///< as it was when the store was opened
     std::optional<PrivacyKey> key;
+    bool published_alone = false; ///< see RoadStore::shows_published_alone()
 };
 
 } // namespace macadam
