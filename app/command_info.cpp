@@ -84,8 +84,8 @@ std::string period_of(const StoreInfo& info) {
     if (!info.first_seen_ms || !info.last_seen_ms) {
         return "not dated";
     }
-    const auto first = utc_text(*info.first_seen_ms).substr(0, 10);
-    const auto last = utc_text(*info.last_seen_ms).substr(0, 10);
+    const auto first = utc_day(*info.first_seen_ms);
+    const auto last = utc_day(*info.last_seen_ms);
     return first == last ? first : fmt::format("{} to {}", first, last);
 }
 

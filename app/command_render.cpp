@@ -117,11 +117,12 @@ void run_render(const Arguments& arguments, const Console& console) {
     auto progress = console.progress("drawing");
     progress.stop = interruption.stop();
     const auto last_seen_ms = store.seen().last_ms;
-    const auto words = write_picture(std::move(scene),
-                                     options.style,
-                                     options.output,
-                                     last_seen_ms ? utc_text(*last_seen_ms) : std::string{},
-                                     progress);
+    const auto words =
+        write_picture(std::move(scene),
+                      options.style,
+                      options.output,
+                      last_seen_ms ? utc_day(*last_seen_ms) + "T00:00:00Z" : std::string{},
+                      progress);
     if (base.map && !*base.is_seen) {
         console.warn(fmt::format("{}: nothing of it lies on the map, which is drawn without it",
                                  options.base->file.string()));

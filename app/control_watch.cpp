@@ -71,7 +71,7 @@ WatchedSection watched(const RoadStore& store, const ControlSection& section) {
 }
 
 std::string day_of(const std::optional<std::int64_t>& utc_ms) {
-    return utc_ms ? utc_text(*utc_ms).substr(0, 10) : "undated";
+    return utc_ms ? utc_day(*utc_ms) : "undated";
 }
 
 JsonValue json_day(const std::optional<std::int64_t>& utc_ms) {

@@ -61,7 +61,7 @@ std::size_t histogram_bins(const std::vector<SegmentRecord>& measured) {
 }
 
 std::string day_of(std::int64_t utc_ms) {
-    return utc_text(utc_ms).substr(0, 10);
+    return utc_day(utc_ms);
 }
 
 ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int64_t> last_ms) {
@@ -70,10 +70,21 @@ ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int6
 
 // --------------------------------------------------------------------------------------- values
 
+/// Cars from 1 on, as RoadStore::cars(); "" for trips that name none.
+std::map<std::string, std::string> numbers_of_cars(const RoadStore& store) {
+    std::map<std::string, std::string> numbers;
+    for (const auto& car : store.cars()) {
+        numbers[car] = car == unknown_car ? "" : std::to_string(numbers.size() + 1);
+    }
+    return numbers;
+}
+
 std::vector<ReportVehicle> vehicles_of(const RoadStore& store) {
+    const auto uses = store.vehicle_uses();
+    auto numbers = numbers_of_cars(store);
     std::vector<ReportVehicle> vehicles;
-    for (const auto& use : store.vehicle_uses()) {
-        vehicles.push_back({.name = use.vehicle,
+    for (const auto& use : uses) {
+        vehicles.push_back({.name = numbers[use.vehicle],
                             .model = use.vehicle_model == own_file_model ? "" : use.vehicle_model,
                             .method = use.method,
                             .trips = use.trips,
@@ -266,6 +277,7 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     }
     report.vehicles = vehicles_of(store);
     report.quality = data_quality(survey.measured);
+    report.is_own = info.settings.privacy == PrivacyProfile::own;
     report.lateral_passes = info.lateral_passes;
     report.row_reasons = store.row_reasons();
 

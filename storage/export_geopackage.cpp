@@ -29,11 +29,11 @@ CREATE TABLE roughness (
     class TEXT,
     passes INTEGER NOT NULL,
     vehicles INTEGER NOT NULL,
-    first_seen DATETIME,
-    last_seen DATETIME,
+    first_seen DATE,
+    last_seen DATE,
     trend_per_year DOUBLE,
     trend_sd DOUBLE,
-    changed DATETIME,
+    changed DATE,
     change DOUBLE,
     validity TEXT
 );
@@ -45,22 +45,14 @@ std::vector<GeoPoint> smooth_line(const SegmentRecord& record) {
     return crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line;
 }
 
-/// The fields' texts become numbers by the columns' affinity; only times are written another way.
+/// The fields' texts become numbers by the columns' affinity.
 void write_row(Statement& insert,
                const SegmentRecord& record,
                std::span<const GeoPoint> line,
                const ClassTable& classes) {
-    const auto fields = segment_fields();
-    auto values = field_values(record, classes);
+    const auto values = field_values(record, classes);
     insert.bind(Blob{geometry_of(line)});
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        if (fields[i].name == "first_seen" && record.state && record.state->first_seen_ms) {
-            values[i] = datetime_text(*record.state->first_seen_ms);
-        } else if (fields[i].name == "last_seen" && record.state && record.state->last_seen_ms) {
-            values[i] = datetime_text(*record.state->last_seen_ms);
-        } else if (fields[i].name == "changed" && record.state && record.state->change) {
-            values[i] = datetime_text(record.state->change->utc_ms);
-        }
+    for (std::size_t i = 0; i < values.size(); ++i) {
         insert.bind_at(static_cast<int>(i) + 2, values[i]);
     }
     insert.step();

@@ -30,7 +30,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view first_line =
     "# Key of a Macadam database: with it, and a car's id, the car's trips are found in it. Keep "
     "it secret, and a copy of it apart from the database.\n";
-constexpr std::string_view unknown_car = "unknown";
 constexpr std::size_t name_digits = 32; // 128 bit
 constexpr std::size_t unkeyed_digits = 12;
 

@@ -46,6 +46,9 @@ private:
     Bytes bytes_;
 };
 
+/// Name of all trips that name no car.
+inline constexpr std::string_view unknown_car = "unknown";
+
 /// Name of a car in databases of version 2: "v-" and the first 12 hex digits of the SHA-256 of its
 /// id. Pseudonyms are made of it, so that a database that was upgraded knows its cars again.
 std::string unkeyed_name_of(std::string_view vehicle_id);

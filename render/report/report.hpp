@@ -44,7 +44,7 @@ struct ReportSection {
 
 /// What the trips of one car gave.
 struct ReportVehicle {
-    std::string name;  ///< pseudonym
+    std::string name;  ///< number of the car in the store; "" = trips that name none
     std::string model; ///< name of a built-in one; "" = the user's own
     std::string method;
     std::size_t trips = 0;
@@ -110,6 +110,7 @@ struct Report {
     DataQuality quality;
     std::size_t lateral_passes = 0;                 ///< from lateral vibration alone
     std::map<std::string, std::size_t> row_reasons; ///< why rows of the logs entered no estimate
+    bool is_own = true; ///< of the operator's own cars: nothing is anonymised
 };
 
 /// What the report says, in its language and unit, for any kind of page.

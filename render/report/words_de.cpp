@@ -224,12 +224,18 @@ constexpr std::array messages{
             "zählen zu ihrer Straße. Was befahren wurde, ist keine Zufallsstichprobe des Netzes."},
 
     Message{"data", "Fahrzeuge und Daten"},
+    Message{
+        "data.own",
+        "Der Bericht zeigt die eigenen Fahrzeuge des Betreibers und ist nicht anonymisiert: Wer "
+        "weiß, wann ein Fahrzeug auf einer Straße war, erkennt es unter Umständen wieder."},
     Message{"data.nothing", "Noch wurde keine Fahrt aufgenommen."},
     Message{"data.remark",
-            "Fahrzeuge stehen unter Pseudonymen. Modell: aus der eigenen Datei des Benutzers oder "
+            "Fahrzeuge sind nach ihrer ersten Fahrt nummeriert. Modell: aus der eigenen Datei des "
+            "Benutzers oder "
             "ein eingebautes. Auf der Karte: der Anteil des Weges, der einer Straße zugeordnet "
             "wurde. Zeilen genutzt: der Anteil der Sensorzeilen, der in eine Schätzung einging."},
-    Message{"cars.caption", "Fahrzeuge (Pseudonyme) und die Güte ihrer Daten"},
+    Message{"cars.caption", "Fahrzeuge und die Güte ihrer Daten"},
+    Message{"car.unnamed", "nicht benannt"},
     Message{"cars.more.one", "{count} weitere Zeile"},
     Message{"cars.more.other", "{count} weitere Zeilen"},
     Message{"model.own", "eigene Datei"},

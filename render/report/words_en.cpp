@@ -218,12 +218,17 @@ constexpr std::array messages{
             "with their road. What was driven is no random sample of the network."},
 
     Message{"data", "Cars and data"},
+    Message{"data.own",
+            "The report is of the operator's own cars and is not anonymised: who knows when a car "
+            "was on a road may recognise it."},
     Message{"data.nothing", "No trip was imported yet."},
     Message{"data.remark",
-            "Cars stand under pseudonyms. Model: from the user's own file, or a built-in one. On "
+            "Cars are numbered in the order in which they first drove. Model: from the user's own "
+            "file, or a built-in one. On "
             "the map: the share of the distance that was matched to a road. Rows used: the share "
             "of the sensors' rows that entered an estimate."},
-    Message{"cars.caption", "Cars (pseudonyms) and the quality of their data"},
+    Message{"cars.caption", "Cars and the quality of their data"},
+    Message{"car.unnamed", "not named"},
     Message{"cars.more.one", "{count} more row"},
     Message{"cars.more.other", "{count} more rows"},
     Message{"model.own", "own file"},
