@@ -1,5 +1,7 @@
 #include "app/trip_trim.hpp"
 
+#include "storage/crowd_trim.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -116,6 +118,16 @@ std::vector<std::uint8_t> trimmed(std::vector<std::uint8_t> use,
 }
 
 } // namespace
+
+TrimRule trim_in(RoadStore& store, TrimRule asked) {
+    if (store.settings().privacy != PrivacyProfile::crowd) {
+        return asked;
+    }
+    store.make_missing_key();
+    auto rule = crowd_trim(*store.key());
+    rule.min_m = std::max(rule.min_m, asked.min_m);
+    return rule;
+}
 
 KeptParts kept_of(const TripLog& trip, const Odometer& odometer, const TrimRule& rule) {
     return {kept_parts(trip, odometer, rule), !rule.is_active()};

@@ -4,11 +4,16 @@
 #include "estimator/stretch.hpp"
 #include "mapping/map_match.hpp"
 #include "mapping/privacy/trip_trimming.hpp"
+#include "storage/road_store.hpp"
 
 #include <string>
 #include <vector>
 
 namespace macadam {
+
+/// How trips that come into a store are trimmed: those of a crowd as its key draws it, and by what
+/// was asked for where that is more. Makes the key if it is missing.
+TrimRule trim_in(RoadStore& store, TrimRule asked);
 
 /// Parts of a trip that enter passes, traces, distances and times; nothing of the rest is kept.
 struct KeptParts {

@@ -24,6 +24,13 @@ struct Publication {
     std::int32_t vehicles = 0; ///< likewise
 };
 
+/// What was taken out when a database of one's own cars became a crowd's.
+struct CrowdMade {
+    std::size_t trips = 0;
+    std::size_t passes = 0;   ///< taken out
+    bool log_is_clean = true; ///< false: others read the store, and its log still holds them
+};
+
 /// What making a publication did.
 struct Published {
     Publication publication;

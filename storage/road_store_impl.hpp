@@ -29,8 +29,9 @@ struct RoadStore::Impl {
 
     const ClassTable& classes() const { return *class_table(settings.class_table); }
 
-    /// What was worked out for one network cannot be written into another.
-    /// \throws InputError  if the network was updated since the store was opened.
+    /// What was worked out for one network, or for one's own cars, cannot be written into another
+    /// or into a crowd's.
+    /// \throws InputError  if that has changed since the store was opened.
     void expect_same_network();
 
     /// Takes the key that lies beside the store, if there is one.
