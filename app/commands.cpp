@@ -48,6 +48,7 @@ std::span<const Command> commands() {
                                   forget_command,
                                   privacy_command,
                                   publish_command,
+                                  upgrade_command,
                                   query_command,
                                   export_command,
                                   render_command,

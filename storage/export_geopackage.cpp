@@ -86,6 +86,7 @@ std::size_t write_geopackage(const SegmentExport& what, AtomicFile& file) {
                    description_of(what),
                    is_empty(box) ? what.store.info().box : box});
     index_features(database, "roughness");
+    add_style_table(database);
     add_default_style(database, "roughness", what.classes);
     all.commit();
     return written;

@@ -1,12 +1,12 @@
 #include "storage/privacy_key.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/sha256.hpp"
 #include "storage/text.hpp"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
+#include <openssl/sha.h>
 
 #include <cerrno>
 #include <charconv>
@@ -39,6 +39,12 @@ std::string hex_of(std::span<const unsigned char> bytes) {
         text += fmt::format("{:02x}", byte);
     }
     return text;
+}
+
+PrivacyKey::Bytes sha256_of(std::string_view text) {
+    PrivacyKey::Bytes result{};
+    SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), result.data());
+    return result;
 }
 
 std::optional<PrivacyKey> key_in(std::string_view digits) {
@@ -152,9 +158,17 @@ std::string unkeyed_name_of(std::string_view vehicle_id) {
     if (vehicle_id.empty()) {
         return std::string{unknown_car};
     }
-    Sha256 hash;
-    hash.add(vehicle_id);
-    return "v-" + hash.hex().substr(0, unkeyed_digits);
+    return "v-" + hex_of(sha256_of(vehicle_id)).substr(0, unkeyed_digits);
+}
+
+bool is_unkeyed_name_of(std::string_view name, std::string_view vehicle_id) {
+    unsigned char first = 0; // tells most texts apart without writing them out
+    const char* const digits = name.data() + 2;
+    if (name.size() != 2 + unkeyed_digits ||
+        std::from_chars(digits, digits + 2, first, 16).ptr != digits + 2) {
+        return false;
+    }
+    return sha256_of(vehicle_id)[0] == first && unkeyed_name_of(vehicle_id) == name;
 }
 
 fs::path key_file_of(const fs::path& database) {

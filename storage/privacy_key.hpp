@@ -53,6 +53,9 @@ inline constexpr std::string_view unknown_car = "unknown";
 /// id. Pseudonyms are made of it, so that a database that was upgraded knows its cars again.
 std::string unkeyed_name_of(std::string_view vehicle_id);
 
+/// Whether it is that name, in less time.
+bool is_unkeyed_name_of(std::string_view name, std::string_view vehicle_id);
+
 /// Where the key of a database lies: "roads.gpkg.key" beside roads.gpkg, wherever links lead.
 std::filesystem::path key_file_of(const std::filesystem::path& database);
 

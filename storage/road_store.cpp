@@ -94,8 +94,8 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
     try {
         whole.commit();
     } catch (...) {
-        if (!old_key) {
-            std::error_code ignored;
+        std::error_code ignored;
+        if (!old_key && !std::filesystem::exists(file, ignored)) {
             std::filesystem::remove(key_file, ignored);
         }
         throw;

@@ -2,7 +2,7 @@
 #include "storage/car_order.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/segment_row.hpp"
-#include "storage/sha256.hpp"
+#include "storage/store_digest.hpp"
 #include "storage/strip_rows.hpp"
 
 #include <fmt/format.h>
@@ -83,60 +83,6 @@ LaySummary laid_in(Database& database) {
         middles, whole.found / 2, {}, &std::pair<std::int64_t, std::int64_t>::first);
     whole.middle_lag_cm = middle == middles.end() ? 0 : static_cast<std::int32_t>(middle->second);
     return whole;
-}
-
-// -------------------------------------------------------------------------------------- digest
-
-std::string text_of(const std::optional<std::int64_t>& value) {
-    return value ? fmt::format("{}", *value) : "-";
-}
-
-std::string columns_from(const Statement& row, int first, int last) {
-    std::string text;
-    for (int column = first; column < last; ++column) {
-        text += " " + text_of(row.known_integer(column));
-    }
-    return text + "\n";
-}
-
-std::string state_line(const SegmentState& s) {
-    const auto known = [](const std::optional<IriUm>& um) {
-        return text_of(um ? std::optional<std::int64_t>{*um} : std::nullopt);
-    };
-    return fmt::format("state {} {} {} {} {} {} {} {:d} {} {} {} {} {} {} {} {} {}\n",
-                       name_of(s.segment),
-                       s.iri_um,
-                       s.sd_um,
-                       s.low_um,
-                       s.high_um,
-                       known(s.left_um),
-                       known(s.right_um),
-                       s.centre_only,
-                       s.validity,
-                       s.passes,
-                       s.vehicles,
-                       text_of(s.first_seen_ms),
-                       text_of(s.last_seen_ms),
-                       known(s.trend_um_per_year),
-                       known(s.trend_sd_um_per_year),
-                       text_of(s.change ? std::optional{s.change->utc_ms} : std::nullopt),
-                       known(s.change ? std::optional{s.change->um} : std::nullopt));
-}
-
-void add_passes(Sha256& hash, Database& database) {
-    auto select =
-        database.prepare(fmt::format("SELECT segment.segment, trip.sha256,"
-                                     " trip.reference_ppm IS NOT NULL, {} FROM pass"
-                                     " CROSS JOIN segment ON segment.fid = pass.segment"
-                                     " CROSS JOIN trip ON trip.id = pass.trip"
-                                     " ORDER BY {}, trip.sha256, pass.occurrence",
-                                     pass_columns,
-                                     are_rows_in_order(database) ? "pass.segment" : order_of_keys));
-    while (select.step()) {
-        const auto* const kind = select.integer(2) != 0 ? "reference" : "pass";
-        hash.add(fmt::format("{} {} {}", kind, select.text(0), select.text(1)) +
-                 columns_from(select, 3, 3 + digest_column_count));
-    }
 }
 
 } // namespace
@@ -261,20 +207,8 @@ LaySummary RoadStore::laid() const {
 }
 
 std::string RoadStore::digest() const {
-    Sha256 hash;
-    {
-        Transaction one_moment{impl_->database, Transaction::Kind::read};
-        add_passes(hash, impl_->database);
-        auto select = impl_->database.prepare(fmt::format(
-            "SELECT {} FROM segment JOIN segment_state AS state ON state.fid = segment.fid"
-            " ORDER BY {}",
-            record_columns,
-            are_rows_in_order(impl_->database) ? "segment.fid" : order_of_keys));
-        while (select.step()) {
-            hash.add(state_line(*record_in(select).state));
-        }
-    }
-    return hash.hex();
+    Transaction one_moment{impl_->database, Transaction::Kind::read};
+    return digest_of(impl_->database, {});
 }
 
 } // namespace macadam

@@ -1,5 +1,7 @@
 #include "storage/sqlite.hpp"
 
+#include "storage/sqlite_guard.hpp"
+
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -66,11 +68,14 @@ void check(sqlite3* database, const OpenFile& file, int code) {
     }
 }
 
-/// Settings that SQLite forgets between two openings. Files from others may hold triggers and views
-/// made to harm: no function runs from the schema that is not declared harmless.
+/// Settings that SQLite forgets between two openings.
 constexpr const char* guarded = "PRAGMA trusted_schema = OFF;"
                                 "PRAGMA foreign_keys = ON;"
                                 "PRAGMA cell_size_check = ON;";
+
+bool is_of_ours(Database::Access access) {
+    return access == Database::Access::create || access == Database::Access::memory;
+}
 
 /// EXTRA is FULL, and also syncs the folder when the journal goes: without it a power loss could
 /// bring the journal back and with it undo what was committed.
@@ -80,6 +85,8 @@ const char* settings_for(Database::Access access) {
         return "PRAGMA query_only = ON; PRAGMA cache_size = -32768";
     case Database::Access::write:
         return "PRAGMA synchronous = EXTRA; PRAGMA secure_delete = ON; PRAGMA cache_size = -65536";
+    case Database::Access::memory:
+        return "";
     case Database::Access::create:
         return "PRAGMA foreign_keys = OFF; PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF;"
                "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -65536";
@@ -92,6 +99,7 @@ const char* settings_for(Database::Access access) {
 sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file) {
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
                       (access == Database::Access::create ? SQLITE_OPEN_CREATE : 0) |
+                      (access == Database::Access::memory ? SQLITE_OPEN_MEMORY : 0) |
                       (access == Database::Access::read ? SQLITE_OPEN_URI : 0);
     sqlite3* database = nullptr;
     const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
@@ -102,9 +110,9 @@ sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file
         throw;
     }
     sqlite3_busy_handler(database, wait_for_turn, &file.wait);
-    // What we make ourselves needs no defence, and its R-tree is written node by node.
-    const int defensive = access == Database::Access::create ? 0 : 1;
-    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, defensive, nullptr);
+    if (!is_of_ours(access)) { // whose R-tree is written node by node
+        guard_from_others(database);
+    }
     return database;
 }
 

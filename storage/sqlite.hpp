@@ -121,6 +121,7 @@ public:
         read,   ///< works on media that cannot be written
         write,  ///< each commit is on disk when it returns
         create, ///< a new file that nobody sees before it is whole: no journal on disk, no syncs
+        memory, ///< no file at all: the name is for messages alone
     };
     /// `known_as`: what messages call it, where that is not its name.
     Database(const std::filesystem::path& file,

@@ -1,5 +1,7 @@
 #include "storage/trip_names.hpp"
 
+#include "storage/privacy_key.hpp"
+
 #include <set>
 
 namespace macadam {
@@ -30,6 +32,17 @@ std::vector<NameReading> readings_of_name(std::string_view name) {
         readings.push_back({std::string{text}, without_vehicle_id(name, text)});
     }
     return readings;
+}
+
+std::string text_of_unkeyed_name(std::string_view name, std::string_view unkeyed) {
+    for (std::size_t from = 0; from < name.size(); ++from) {
+        for (std::size_t size = 1; size <= name.size() - from; ++size) {
+            if (is_unkeyed_name_of(unkeyed, name.substr(from, size))) {
+                return std::string{name.substr(from, size)};
+            }
+        }
+    }
+    return {};
 }
 
 } // namespace macadam

@@ -22,4 +22,7 @@ struct NameReading {
 /// letters.
 std::vector<NameReading> readings_of_name(std::string_view name);
 
+/// The text in a name that a database of version 2 called so (unkeyed_name_of()); "" = none does.
+std::string text_of_unkeyed_name(std::string_view name, std::string_view unkeyed);
+
 } // namespace macadam
