@@ -1,6 +1,7 @@
 #include "app/calibration_output.hpp"
 #include "app/commands.hpp"
 #include "app/interruption.hpp"
+#include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/store_patience.hpp"
 
@@ -17,7 +18,10 @@ namespace {
 void run_calibrate(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     const bool keep = !arguments.flag("--dry-run");
-    auto store = RoadStore::open(file, keep ? RoadStore::Access::write : RoadStore::Access::read);
+    expect_operator(RoadStore::open(file, RoadStore::Access::read, Reader::operator_),
+                    "calibrations of single cars");
+    auto store = RoadStore::open(
+        file, keep ? RoadStore::Access::write : RoadStore::Access::read, Reader::operator_);
     warn_of_waiting(store, file, console);
     const Interruption interruption;
     auto progress = console.progress("calibrating");

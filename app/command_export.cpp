@@ -3,6 +3,7 @@
 #include "app/output_guard.hpp"
 #include "app/period_options.hpp"
 #include "app/picture_export.hpp"
+#include "app/publication_words.hpp"
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
 #include "app/tile_export.hpp"
@@ -117,6 +118,7 @@ void run_export(const Arguments& arguments, const Console& console) {
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
+    tell_publication(store, console);
     if (options.sections) {
         export_sections(store, options, console);
         return;

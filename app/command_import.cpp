@@ -42,10 +42,10 @@ constexpr double most_trim_m = 100000;
 PipelineConfig config_of(const Arguments& arguments) {
     auto config = pipeline_config_of(arguments);
     config.estimator.tracks = false; // a map lives by its headline
-    config.trim_m = arguments.number("--trim", 0);
-    if (!(config.trim_m >= 0 && config.trim_m <= most_trim_m)) {
+    config.trim.min_m = arguments.number("--trim", 0);
+    if (!(config.trim.min_m >= 0 && config.trim.min_m <= most_trim_m)) {
         throw UsageError{
-            fmt::format("--trim is {}, expected 0 to {} m", config.trim_m, most_trim_m)};
+            fmt::format("--trim is {}, expected 0 to {} m", config.trim.min_m, most_trim_m)};
     }
     return config;
 }

@@ -4,6 +4,7 @@
 #include "app/info_tables.hpp"
 #include "app/key_words.hpp"
 #include "app/laid_words.hpp"
+#include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/truth_output.hpp"
 
@@ -71,6 +72,10 @@ std::string json_of(const StoreInfo& info,
         .add("laid_on_others", JsonRaw{json_of(info.laid)});
     add_to(object, tables);
     object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);
+    if (info.settings.privacy == PrivacyProfile::crowd) {
+        object.add("publication", JsonRaw{json_of(info.publication)})
+            .add("published_alone", info.published_alone);
+    }
     object.add("surveys", JsonRaw{json_of(known.surveys)})
         .add("control_sections", JsonRaw{json_of(known.controls)});
     object.add("generation", std::int64_t{info.generation}).add("digest", digest);
@@ -94,10 +99,24 @@ std::string_view words_for(PrivacyProfile privacy) {
                                             : "own: one's own cars, nothing is anonymised";
 }
 
+std::string trips_of(const StoreInfo& info) {
+    if (info.published_alone) {
+        return fmt::format("at least {} of {} cars, {}",
+                           info.trips,
+                           info.publication ? info.publication->vehicles : 0,
+                           counted(info.passes, "pass"));
+    }
+    return fmt::format("{} ({} undated), {}, {}",
+                       info.trips,
+                       info.undated_trips,
+                       counted(info.vehicles.size(), "vehicle"),
+                       counted(info.passes, "pass"));
+}
+
 std::string text_of(const StoreInfo& info, bool operates) {
     auto text = fmt::format(
         "network     {}, {:.1f} km counting each direction, {} segments of about {:g} m\n"
-        "trips       {} ({} undated), {}, {}\n"
+        "trips       {}\n"
         "period      {}\n"
         "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n"
         "privacy     {}; the key of its cars is {}\n",
@@ -105,16 +124,17 @@ std::string text_of(const StoreInfo& info, bool operates) {
         info.network_km,
         info.segments,
         info.settings.segment_length_m,
-        info.trips,
-        info.undated_trips,
-        counted(info.vehicles.size(), "vehicle"),
-        counted(info.passes, "pass"),
+        trips_of(info),
         period_of(info),
         info.km,
         info.segments_with_passes,
         100 * share(info.km, info.network_km),
         words_for(info.settings.privacy),
         operates ? "beside it" : "not here");
+    if (info.settings.privacy == PrivacyProfile::crowd) {
+        text += fmt::format("published   {}\n",
+                            info.publication ? words_for(*info.publication) : "nothing yet");
+    }
     if (info.lateral_passes > 0) {
         text += fmt::format("lateral     {} of the passes from lateral vibration alone, which is "
                             "far less accurate\n",
@@ -131,7 +151,7 @@ std::string text_of(const StoreInfo& info, bool operates) {
 
 void run_info(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto store = open_for_operator(file, console);
     warn_of_waiting(store, file, console);
     warn_of_open_key(store, console);
     if (arguments.flag("--digest")) {
@@ -139,6 +159,7 @@ void run_info(const Arguments& arguments, const Console& console) {
         return;
     }
     if (arguments.flag("--audit")) {
+        expect_operator(store, "what was done to the numbers");
         const auto entries = store.audit();
         arguments.flag("--json") ? print(json_of(entries)) : print_words(text_of(entries));
         return;

@@ -71,6 +71,11 @@ InitOptions parse_init(const Arguments& arguments) {
         throw UsageError{"--privacy cannot be changed by --update: the store's stays"};
     }
     options.privacy = privacy_in(arguments);
+    if (options.privacy == PrivacyProfile::crowd && !trips.empty()) {
+        throw UsageError{
+            "--trace does not go with --privacy crowd: roads drawn from trips end where "
+            "these did; expected --network"};
+    }
     options.segment_length_m = arguments.number("--segment-length", RoadNetwork{}.segment_length_m);
     if (!(options.segment_length_m >= least_segment_m &&
           options.segment_length_m <= most_segment_m)) {
@@ -137,9 +142,9 @@ void make_store(const InitOptions& options, const Console& console) {
             ? read_network(*options.network, options.columns, console.progress("reading roads"))
             : traced_ways(options.trips, console);
 
-    const auto source = options.network
-                            ? source_of(*options.network, options.attribution)
-                            : NetworkSource{"traced from the trips", options.attribution};
+    const auto source =
+        options.network ? source_of(*options.network, options.attribution)
+                        : NetworkSource{std::string{traced_network_source}, options.attribution};
     StoreSettings settings;
     settings.segment_length_m = options.segment_length_m;
     settings.network_source = source.name;

@@ -3,6 +3,7 @@
 #include "app/month_history.hpp"
 #include "app/near_search.hpp"
 #include "app/period_options.hpp"
+#include "app/publication_words.hpp"
 #include "app/query_options.hpp"
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
@@ -121,7 +122,7 @@ void print_sections(const RoadStore& store, const QueryOptions& options, const C
 
 void run_query(const Arguments& arguments, const Console& console) {
     const auto options = parse_query(arguments);
-    const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    const auto store = open_for_operator(options.store, console);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
     expect_segment(store, options);
@@ -129,8 +130,10 @@ void run_query(const Arguments& arguments, const Console& console) {
     if (options.sections) {
         print_sections(store, options, console);
     } else if (options.passes) {
+        expect_operator(store, "single passes");
         print_in(options.format, passes_text(store.history(*options.filter.key), options.format));
     } else if (options.changes) {
+        expect_operator(store, "changes of numbers");
         print_in(options.format, changes_text(store.changes(*options.filter.key), options.format));
     } else if (options.history) {
         print_history(store, options, console);

@@ -6,6 +6,7 @@
 #include "app/map_style.hpp"
 #include "app/output_guard.hpp"
 #include "app/picture_output.hpp"
+#include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
 
 #include "estimator/common/error.hpp"
@@ -93,6 +94,7 @@ void run_render(const Arguments& arguments, const Console& console) {
     expect_files_apart(options);
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     warn_of_waiting(store, options.store, console);
+    tell_publication(store, console);
     if (options.style.classes == nullptr) {
         options.style.classes = class_table(store.settings().class_table);
     }

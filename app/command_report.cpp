@@ -2,6 +2,7 @@
 #include "app/map_style.hpp"
 #include "app/output_guard.hpp"
 #include "app/period_options.hpp"
+#include "app/publication_words.hpp"
 #include "app/reference_report.hpp"
 #include "app/report_values.hpp"
 #include "app/segment_options.hpp"
@@ -147,6 +148,7 @@ void report_against_reference(const Arguments& arguments, const Console& console
     const auto file = store_file(arguments);
     const auto store = RoadStore::open(file, RoadStore::Access::read);
     warn_of_waiting(store, file, console);
+    tell_publication(store, console);
     const auto report = reference_report(
         store, arguments.value("--title").value_or(wording("reference.title")), wording);
     if (output.empty()) {
@@ -168,6 +170,7 @@ void run_report(const Arguments& arguments, const Console& console) {
     const auto store = RoadStore::open(options.store, RoadStore::Access::read);
     refuse_to_replace(options.output, {options.store});
     warn_of_waiting(store, options.store, console);
+    tell_publication(store, console);
     if (options.report.style.classes == nullptr) {
         options.report.style.classes = class_table(store.settings().class_table);
     }

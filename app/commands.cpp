@@ -46,6 +46,8 @@ std::span<const Command> commands() {
                                   reprocess_command,
                                   valid_from_command,
                                   forget_command,
+                                  privacy_command,
+                                  publish_command,
                                   upgrade_command,
                                   query_command,
                                   export_command,

@@ -166,6 +166,9 @@ std::string array_of(const Values& values) {
 
 std::vector<WatchedSection> watched_sections(const RoadStore& store) {
     std::vector<WatchedSection> all;
+    if (store.shows_published_alone()) {
+        return all;
+    }
     for (const auto& section : store.control_sections()) {
         all.push_back(watched(store, section));
     }

@@ -1,6 +1,7 @@
 #include "app/import_trips.hpp"
 
 #include "app/trip_place.hpp"
+#include "app/trip_trim.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/network_file.hpp"
@@ -52,7 +53,7 @@ TripRecord record_of(const TripSource& source,
 
 /// What to say of a trip that is in the store already.
 std::vector<std::string> spoken_known(const PipelineConfig& config) {
-    if (config.trim_m > 0) {
+    if (config.trim.is_active() && !config.trim.hides_places) {
         return {"stays as it was imported: its ends are not left out after the fact; a new store "
                 "has to be made for that"};
     }
@@ -325,12 +326,14 @@ std::string_view name_of(TripOutcome::Result result) {
 ImportTotals import_trips(RoadStore& store,
                           const std::vector<TripSource>& trips,
                           VehicleChoice& vehicles,
-                          const PipelineConfig& config,
+                          const PipelineConfig& asked,
                           const ImportWork& work,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell) {
     using Result = TripOutcome::Result;
     const auto roads = kept_roads(store);
+    auto config = asked;
+    config.trim = trim_in(store, asked.trim);
     const Purpose purpose{
         .leave = [&](const std::string& sha256)
             -> std::optional<std::pair<Result, std::vector<std::string>>> {
@@ -365,12 +368,14 @@ ImportTotals import_trips(RoadStore& store,
 ImportTotals rework_trips(RoadStore& store,
                           const std::vector<TripSource>& trips,
                           VehicleChoice& vehicles,
-                          const PipelineConfig& config,
+                          const PipelineConfig& asked,
                           std::size_t jobs,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell) {
     using Result = TripOutcome::Result;
     const auto roads = kept_roads(store);
+    auto config = asked;
+    config.trim = trim_in(store, asked.trim);
     const Purpose purpose{
         .leave = [&](const std::string& sha256)
             -> std::optional<std::pair<Result, std::vector<std::string>>> {

@@ -2,6 +2,7 @@
 
 #include "app/interruption.hpp"
 #include "app/map_style.hpp"
+#include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/tile_export.hpp"
 #include "estimator/common/error.hpp"
@@ -67,6 +68,7 @@ TileSetNote note_of(const StoreInfo& info, const std::string& name, const Pictur
 StoreInfo info_of(const std::filesystem::path& file, const Console& console) {
     const auto store = RoadStore::open(file, RoadStore::Access::read);
     warn_of_waiting(store, file, console);
+    tell_publication(store, console);
     return store.info();
 }
 

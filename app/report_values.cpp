@@ -20,8 +20,6 @@
 namespace macadam {
 namespace {
 
-constexpr std::string_view traced_source = "traced from the trips"; // StoreSettings
-
 constexpr double histogram_step_mm_per_m = 0.25;
 constexpr double least_histogram_mm_per_m = 4;
 constexpr double most_histogram_mm_per_m = 12;
@@ -110,6 +108,22 @@ std::vector<ReportSection> sections_of(const RoadStore& store, const SectionOpti
                             .measured = named.section.measured});
     });
     return sections;
+}
+
+std::optional<ReportPublication> publication_of(const StoreInfo& info) {
+    if (!info.published_alone) {
+        return std::nullopt;
+    }
+    ReportPublication crowd;
+    if (const auto& publication = info.publication) {
+        crowd = {.month = publication->month,
+                 .trips = info.trips,
+                 .cars = static_cast<std::size_t>(publication->vehicles),
+                 .passes = info.passes,
+                 .left_out = publication->left_out,
+                 .left_out_m = 1000 * publication->left_out_km};
+    }
+    return crowd;
 }
 
 // --------------------------------------------------------------------------------------- change
@@ -255,7 +269,7 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     report.title = config.title;
     report.period = days_of(info.first_seen_ms, info.last_seen_ms);
     report.network_source =
-        info.settings.network_source == traced_source ? "" : info.settings.network_source;
+        info.settings.network_source == traced_network_source ? "" : info.settings.network_source;
     report.attribution = info.settings.attribution;
     report.segment_length_m = info.settings.segment_length_m;
     report.classes = &classes;
@@ -277,6 +291,7 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     }
     report.vehicles = vehicles_of(store);
     report.quality = data_quality(survey.measured);
+    report.publication = publication_of(info);
     report.is_own = info.settings.privacy == PrivacyProfile::own;
     report.lateral_passes = info.lateral_passes;
     report.row_reasons = store.row_reasons();

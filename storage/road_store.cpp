@@ -103,10 +103,15 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
     return open(file, Access::write);
 }
 
-RoadStore RoadStore::open(const std::filesystem::path& file, Access access) {
+RoadStore RoadStore::open(const std::filesystem::path& file, Access access, Reader reader) {
     expect_store_file(file);
-    return RoadStore{std::make_unique<Impl>(
-        file, access == Access::read ? Database::Access::read : Database::Access::write)};
+    auto impl = std::make_unique<Impl>(
+        file, access == Access::read ? Database::Access::read : Database::Access::write);
+    const bool sees_all = reader == Reader::operator_ && impl->key;
+    if (impl->settings.privacy == PrivacyProfile::crowd && access == Access::read && !sees_all) {
+        impl->show_published_alone();
+    }
+    return RoadStore{std::move(impl)};
 }
 
 void RoadStore::be_patient(LockPatience patience) {

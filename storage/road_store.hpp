@@ -14,6 +14,8 @@
 #include "storage/lock_wait.hpp"
 #include "storage/privacy_key.hpp"
 #include "storage/privacy_profile.hpp"
+#include "storage/publication.hpp"
+#include "storage/segment_filter.hpp"
 #include "storage/store_upkeep.hpp"
 #include "storage/store_use.hpp"
 
@@ -37,6 +39,9 @@ struct StoreSettings {
     std::string attribution;    ///< whom a picture of these roads must name
     PrivacyProfile privacy = PrivacyProfile::own;
 };
+
+/// Instead of a map's name: no map, roads from `init --trace`.
+inline constexpr std::string_view traced_network_source = "traced from the trips";
 
 /// Instead of a model's name: the user's own, whose name would tell the car.
 inline constexpr std::string_view own_file_model = "own file";
@@ -75,36 +80,6 @@ struct NewTrip {
     bool take_back = false; ///< comes in also if it was forgotten
 };
 
-/// A span of time, ms since 1970 UTC: from <= t < until. Nothing: open on that side.
-struct Period {
-    std::optional<std::int64_t> from_ms;
-    std::optional<std::int64_t> until_ms;
-    friend bool operator==(const Period&, const Period&) = default;
-};
-
-/// Which segments to visit; all conditions hold together.
-struct SegmentFilter {
-    std::optional<GeoBox> box;
-    std::optional<std::int64_t> way_id;
-    std::optional<SegmentKey> key;
-    std::string name_part;       ///< of the road's name, any case; "" = any
-    bool with_state_only = true; ///< false: also those without a pass
-    std::size_t worst = 0;       ///< n > 0: only the n with the highest iri, highest first
-
-    std::optional<std::vector<SegmentRange>> ranges{}; ///< only these, in this order
-    std::string highway{};                             ///< OSM's class of the road; "" = any
-    std::string class_name{};       ///< of the store's class table; "" = any, and none
-    std::int32_t least_passes = 0;  ///< more than 0: segments without a pass are left out
-    std::optional<Period> period{}; ///< states of the dated passes of that time alone
-    bool cars_alone = false;        ///< states of cars' passes alone, without references
-};
-
-/// How much visit() tells of a state: each number takes its time.
-enum class StateDetail {
-    full,
-    tiles, ///< what tiles show: not each track's IRI, the trend's uncertainty and the change
-};
-
 /// One pass with where it came from: a line of a segment's history.
 struct PassRecord {
     Pass pass;
@@ -141,9 +116,11 @@ struct StoreInfo {
     std::size_t lateral_passes = 0;    ///< of them, from lateral vibration alone
     std::vector<std::string> vehicles; ///< pseudonyms, as RoadStore::cars()
     std::size_t segments = 0;
-    std::size_t segments_with_passes = 0; ///< of cars or references
-    double km = 0;                        ///< of segments with passes
-    double network_km = 0;                ///< of all segments, each direction counted
+    std::size_t segments_with_passes = 0;     ///< of cars or references
+    double km = 0;                            ///< of segments with passes
+    std::optional<Publication> publication{}; ///< the latest of a crowd
+    bool published_alone = false; ///< all here is from it; of trips and passes at least so many
+    double network_km = 0;        ///< of all segments, each direction counted
     std::vector<ClassLength> classes;
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;
@@ -191,7 +168,9 @@ public:
                             const Progress& progress = {});
 
     enum class Access { read, write };
-    static RoadStore open(const std::filesystem::path& file, Access access);
+    /// \param reader  for whom a store is read; who writes it sees all.
+    static RoadStore
+    open(const std::filesystem::path& file, Access access, Reader reader = Reader::anyone);
 
     RoadStore(RoadStore&&) noexcept;
     RoadStore& operator=(RoadStore&&) noexcept;
@@ -217,6 +196,26 @@ public:
     /// \returns true if cars of the store were named under one that is gone: those that come from
     /// now on cannot be joined to them.
     bool make_missing_key();
+
+    /// Whether all that is read here comes from the latest publication of a crowd.
+    bool shows_published_alone() const;
+
+    /// None if nothing was published yet.
+    std::optional<Publication> latest_publication() const;
+
+    /// Makes a crowd's publication of this month, from passes of at least five cars a figure
+    /// (mapping/privacy/release_batches.hpp); it is what leaves the store until the next one. In
+    /// one transaction. \param roads  the store's network.
+    ///
+    /// \throws InputError  if the store is no crowd's, the caller not its operator, or there is a
+    /// publication of this month.
+    Published
+    publish(const RoadNetwork& roads, std::int64_t now_utc_ms, const Progress& progress = {});
+
+    /// Makes a crowd's of a database of one's own cars, for good: takes out what is near the ends
+    /// and long stops of its trips and overwrites the bytes, in one transaction.
+    /// \throws InputError  if it is one, or its roads were traced from trips.
+    CrowdMade make_crowd(const Progress& progress = {});
 
     /// The network this store was made for; its segments are cut from it. Built from the ways that
     /// the store holds: kept_roads (storage/network_file.hpp) has it quicker.

@@ -2,6 +2,7 @@
 
 #include "storage/geopackage.hpp"
 #include "storage/kept_statements.hpp"
+#include "storage/publication_rows.hpp"
 #include "storage/road_store.hpp"
 #include "storage/row_visit.hpp"
 #include "storage/sqlite.hpp"
@@ -28,8 +29,9 @@ struct RoadStore::Impl {
 
     const ClassTable& classes() const { return *class_table(settings.class_table); }
 
-    /// What was worked out for one network cannot be written into another.
-    /// \throws InputError  if the network was updated since the store was opened.
+    /// What was worked out for one network, or for one's own cars, cannot be written into another
+    /// or into a crowd's.
+    /// \throws InputError  if that has changed since the store was opened.
     void expect_same_network();
 
     /// Takes the key that lies beside the store, if there is one.
@@ -42,11 +44,17 @@ struct RoadStore::Impl {
     /// Without a key only of "", the car that is not known.
     std::string pseudonym(const std::string& vehicle_id) const;
 
+    void show_published_alone() {
+        macadam::show_published_alone(database);
+        published_alone = true;
+    }
+
     Database database;
     KeptStatements statements{database};
     StoreSettings settings;
     std::string network_hash; ///< as it was when the store was opened
     std::optional<PrivacyKey> key;
+    bool published_alone = false; ///< see RoadStore::shows_published_alone()
 };
 
 } // namespace macadam

@@ -133,29 +133,37 @@ StoreInfo RoadStore::info() const {
     Transaction one_moment{database, Transaction::Kind::read};
     const auto cover = cover_of(database);
     const auto span = seen();
-    return {.settings = impl_->settings,
-            .trips = count(database, "SELECT count(*) FROM trip WHERE reference_ppm IS NULL"),
-            .undated_trips = count(database,
-                                   "SELECT count(*) FROM trip WHERE t0_utc_ms IS NULL"
-                                   " AND reference_ppm IS NULL"),
-            .passes = count(database, "SELECT count(*) FROM pass") -
-                      count(database,
-                            "SELECT count(*) FROM trip CROSS JOIN pass ON pass.trip = trip.id"
-                            " WHERE trip.reference_ppm IS NOT NULL"),
-            .lateral_passes = count_with(database, validity::lateral_alone),
-            .vehicles = read_cars(database),
-            .segments = static_cast<std::size_t>(real_meta(database, "segments")),
-            .segments_with_passes = static_cast<std::size_t>(
-                database.number(fmt::format("SELECT count(*) FROM {}", with_passes).c_str())),
-            .km = cover.length_m / 1000,
-            .network_km = real_meta(database, "network_m") / 1000,
-            .classes = lengths_of(database, impl_->classes()),
-            .first_seen_ms = span.first_ms,
-            .last_seen_ms = span.last_ms,
-            .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
-            .laid = laid_in(database),
-            .generation = read_generation(database),
-            .box = cover.box};
+    StoreInfo info{
+        .settings = impl_->settings,
+        .trips = count(database, "SELECT count(*) FROM trip WHERE reference_ppm IS NULL"),
+        .undated_trips = count(database,
+                               "SELECT count(*) FROM trip WHERE t0_utc_ms IS NULL"
+                               " AND reference_ppm IS NULL"),
+        .passes = count(database, "SELECT count(*) FROM pass") -
+                  count(database,
+                        "SELECT count(*) FROM trip CROSS JOIN pass ON pass.trip = trip.id"
+                        " WHERE trip.reference_ppm IS NOT NULL"),
+        .lateral_passes = count_with(database, validity::lateral_alone),
+        .vehicles = read_cars(database),
+        .segments = static_cast<std::size_t>(real_meta(database, "segments")),
+        .segments_with_passes = static_cast<std::size_t>(
+            database.number(fmt::format("SELECT count(*) FROM {}", with_passes).c_str())),
+        .km = cover.length_m / 1000,
+        .network_km = real_meta(database, "network_m") / 1000,
+        .classes = lengths_of(database, impl_->classes()),
+        .first_seen_ms = span.first_ms,
+        .last_seen_ms = span.last_ms,
+        .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
+        .laid = laid_in(database),
+        .generation = read_generation(database),
+        .box = cover.box};
+    info.publication = latest_publication();
+    info.published_alone = impl_->published_alone;
+    if (info.published_alone) {
+        info.trips = static_cast<std::size_t>(info.publication ? info.publication->trips : 0);
+        info.passes = count(database, "SELECT coalesce(sum(passes), 0) FROM segment_state");
+    }
+    return info;
 }
 
 std::vector<std::string> RoadStore::cars() const {

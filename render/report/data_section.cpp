@@ -167,6 +167,16 @@ DocumentSection data_section(const Report& report) {
     if (report.is_own) {
         section.blocks.emplace_back(Paragraph{say("data.own")});
     }
+    if (const auto& crowd = report.publication) {
+        section.blocks.emplace_back(Paragraph{
+            crowd->month.empty() ? say("data.crowd.nothing")
+                                 : say("data.crowd",
+                                       {{"month", crowd->month},
+                                        {"segments", say.count(crowd->left_out)},
+                                        {"km", say.number(crowd->left_out_m / 1000, 1)}})});
+        add_quality(section, report);
+        return section;
+    }
     if (report.vehicles.empty()) {
         section.blocks.emplace_back(Paragraph{say("data.nothing")});
         return section;

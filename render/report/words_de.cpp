@@ -130,6 +130,7 @@ constexpr std::array messages{
     Message{"key.stretches.more", "von mindestens {least} m, zusammen {km} km"},
     Message{"key.cars", "Gefahren von"},
     Message{"key.cars.more", "{trips}, {passes}"},
+    Message{"key.cars.least", "mindestens {cars}"},
 
     Message{"condition", "Zustand"},
     Message{"classes.caption", "Straßenlänge nach Klasse der Unebenheit"},
@@ -228,6 +229,14 @@ constexpr std::array messages{
         "data.own",
         "Der Bericht zeigt die eigenen Fahrzeuge des Betreibers und ist nicht anonymisiert: Wer "
         "weiß, wann ein Fahrzeug auf einer Straße war, erkennt es unter Umständen wieder."},
+    Message{"data.crowd",
+            "Fahrzeuge Dritter haben diese Straßen befahren. Alle Werte stammen aus der "
+            "Veröffentlichung vom {month} und beruhen auf mindestens fünf Fahrzeugen; Zahlen von "
+            "Fahrten, Fahrzeugen und Überfahrten sind abgerundet, Zeiten sind Monate. Ausgelassen: "
+            "bis zu {segments} Segmente ({km} km), die zu wenige Fahrzeuge befuhren."},
+    Message{"data.crowd.nothing",
+            "Fahrzeuge Dritter haben diese Straßen befahren; veröffentlicht ist davon noch "
+            "nichts."},
     Message{"data.nothing", "Noch wurde keine Fahrt aufgenommen."},
     Message{"data.remark",
             "Fahrzeuge sind nach ihrer ersten Fahrt nummeriert. Modell: aus der eigenen Datei des "
