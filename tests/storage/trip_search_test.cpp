@@ -2,6 +2,7 @@
 
 #include "storage/compressed.hpp"
 #include "storage/files.hpp"
+#include "support/walked_trips.hpp"
 
 #include <gmock/gmock.h>
 
@@ -15,7 +16,7 @@ namespace {
 
 const std::string small_log = "# macadam-trip 1\nt_s\n0\n# end rows: 1\n";
 
-std::vector<std::string> names_of(const TripSearch& search, const std::filesystem::path& under) {
+std::vector<std::string> names_of(const WalkedTrips& search, const std::filesystem::path& under) {
     std::vector<std::string> names;
     for (const auto& trip : search.trips) {
         names.push_back(trip.member.empty() ? trip.file.lexically_relative(under).string()
