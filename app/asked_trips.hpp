@@ -1,23 +1,57 @@
 #pragma once
 
+#include "app/arguments.hpp"
 #include "app/console.hpp"
-#include "app/import_trips.hpp"
+#include "storage/trip_walk.hpp"
 
 #include <filesystem>
-#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace macadam {
 
-/// The trips of paths, and the paths that are none, as rejected.
-struct AskedTrips {
-    std::vector<TripSource> trips;
-    std::vector<TripOutcome> refused;
-};
+/// For the tables of the commands that read many trips.
+inline constexpr Option max_members_option{
+    "--max-members", "N", "How many files an archive may hold.", "1000"};
 
-/// In the order of the paths; says what was not read.
-AskedTrips asked_trips(const std::vector<std::filesystem::path>& paths,
-                       const std::shared_ptr<const TripMapping>& mapping,
-                       const Console& console);
+/// \throws UsageError  for what is no such number.
+std::size_t max_members_of(const Arguments& arguments);
+
+/// The trips of several paths, one after the other, in the order of the paths, for whoever asks:
+/// several threads may.
+class AskedTrips {
+public:
+    /// Says of folders what is not read there; of archives that is known at the end (tell_rest).
+    AskedTrips(const std::vector<std::filesystem::path>& paths,
+               const TripWalkConfig& config,
+               const Console& console);
+
+    /// Nothing at the end. A path that is none is a trip whose reading says so.
+    std::optional<TripSource> next();
+
+    /// How many trips there are; nothing as long as an archive may hold more.
+    std::optional<std::size_t> count() const;
+
+    std::size_t at_least() const; ///< so many there are
+
+    /// What there is to say of the archives, now that all were read.
+    void tell_rest(const Console& console) const;
+
+private:
+    struct Path {
+        std::filesystem::path path;
+        std::optional<TripWalk> walk; ///< nothing: `refusal` says why
+        std::string refusal;
+        bool told = false;
+    };
+
+    static void tell(const Path& path, const Console& console);
+
+    mutable std::mutex asking_;
+    std::vector<Path> paths_;
+    std::size_t at_ = 0;
+};
 
 } // namespace macadam

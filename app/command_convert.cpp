@@ -1,3 +1,4 @@
+#include "app/asked_trips.hpp"
 #include "app/commands.hpp"
 #include "app/interruption.hpp"
 #include "app/mapping_option.hpp"
@@ -7,6 +8,7 @@
 #include "storage/rawlog_reader.hpp"
 #include "storage/rawlog_writer.hpp"
 #include "storage/trip_reader.hpp"
+#include "storage/trip_walk.hpp"
 #include "storage/trip_writer.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stop_token>
 #include <utility>
 
@@ -32,7 +35,7 @@ struct ConvertOptions {
     fs::path output;
     std::string suffix; ///< of the files in a folder
     int level;
-    std::shared_ptr<const TripMapping> mapping;
+    TripWalkConfig walk;
 };
 
 bool names_a_file(const fs::path& output) {
@@ -69,7 +72,9 @@ ConvertOptions parse_convert(const Arguments& arguments) {
             .output = *output,
             .suffix = arguments.choice("--to", suffixes),
             .level = static_cast<int>(level),
-            .mapping = mapping_of(arguments)};
+            .walk = {.mapping = mapping_of(arguments),
+                     .tracks = true,
+                     .most_files = max_members_of(arguments)}};
 }
 
 /// A trip and where it goes.
@@ -112,67 +117,149 @@ fs::path place_below(const fs::path& asked, const TripSource& trip) {
     return place;
 }
 
-/// The trips of the paths that were asked for, each with its path, and why others have none.
+/// The paths that were asked for, with their trips, and why others have none.
 struct Found {
-    std::vector<std::pair<fs::path, TripSource>> trips;
+    std::vector<std::pair<fs::path, TripWalk>> paths;
     std::vector<std::string> refused;
+
+    /// Nothing as long as an archive may hold more.
+    std::optional<std::size_t> count() const {
+        std::size_t sum = 0;
+        for (const auto& [path, walk] : paths) {
+            const auto count = walk.count();
+            if (!count) {
+                return std::nullopt;
+            }
+            sum += *count;
+        }
+        return sum;
+    }
+
+    std::vector<fs::path> files() const {
+        std::vector<fs::path> all;
+        for (const auto& [path, walk] : paths) {
+            const auto files = walk.files();
+            all.insert(all.end(), files.begin(), files.end());
+        }
+        return all;
+    }
 };
 
-Found trips_of(const ConvertOptions& options) {
-    Found all;
+Found found_for(const ConvertOptions& options) {
+    Found found;
     for (const auto& path : options.trips) {
         try {
-            const auto trips = find_tracks(path, options.mapping).trips;
-            if (trips.empty()) {
+            TripWalk walk{path, options.walk};
+            if (walk.count() == std::size_t{0}) {
                 throw InputError{fmt::format("{}: holds no trip", path.string())};
             }
-            for (const auto& trip : trips) {
-                all.trips.emplace_back(path, trip);
-            }
+            found.paths.emplace_back(path, std::move(walk));
         } catch (const InputError& error) {
             if (options.trips.size() == 1) {
                 throw;
             }
-            all.refused.emplace_back(error.what());
+            found.refused.emplace_back(error.what());
         }
     }
-    return all;
+    return found;
 }
 
-/// What there is to do, and why the rest of what was asked for cannot be.
-struct Tasks {
-    std::vector<Task> tasks;
-    std::vector<std::string> refused;
-};
+/// What there is to do, trip by trip: of archives it is known when it is there.
+class Tasks {
+public:
+    Tasks(const ConvertOptions& options, const Console& console)
+        : options_{options}, console_{console}, found_{found_for(options)}, inputs_{
+                                                                                found_.files()} {
+        for (const auto& why : found_.refused) {
+            refuse(why);
+        }
+    }
 
-Tasks tasks_of(const ConvertOptions& options) {
-    auto found = trips_of(options);
-    if (names_a_file(options.output)) {
-        if (found.trips.size() != 1) {
+    /// Nothing at the end.
+    ///
+    /// \throws InputError  if there is one file to write and not just one trip.
+    std::optional<Task> next() {
+        if (!names_a_file(options_.output)) {
+            return next_of_any();
+        }
+        return std::exchange(gave_only_, true) ? std::nullopt : std::optional{only()};
+    }
+
+    std::optional<std::size_t> count() const { return found_.count(); } ///< nothing: not known
+    std::size_t tasks() const { return tasks_; }                        ///< so far
+    std::size_t refused() const { return refused_; }
+    const std::vector<fs::path>& inputs() const { return inputs_; } ///< what is read
+
+private:
+    std::optional<Task> next_of_any() {
+        while (at_ < found_.paths.size()) {
+            auto& [asked, walk] = found_.paths[at_];
+            auto trip = walk.next();
+            if (!trip) {
+                ++at_;
+                expect_some(walk, asked);
+            } else if (auto task = task_for(asked, *trip)) {
+                ++tasks_;
+                return task;
+            }
+        }
+        return std::nullopt;
+    }
+
+    Task only() {
+        auto task = next_of_any();
+        while (!found_.count() && next_of_any()) {
+        }
+        if (const auto count = found_.count(); count != std::size_t{1}) {
             throw InputError{fmt::format("{}: is one file, expected a folder for {} trips",
-                                         options.output.string(),
-                                         found.trips.size())};
+                                         options_.output.string(),
+                                         *count)};
         }
-        return {{{found.trips.front().second, options.output}}, std::move(found.refused)};
+        return std::move(*task);
     }
-    Tasks all{{}, std::move(found.refused)};
-    std::map<fs::path, std::string> taken;
-    for (const auto& [asked, trip] : found.trips) {
-        auto output = options.output / place_below(asked, trip);
-        output += options.suffix;
-        const auto [other, is_new] = taken.try_emplace(output, trip.name());
+
+    void expect_some(const TripWalk& walk, const fs::path& asked) {
+        if (walk.given() == 0) {
+            const auto words = fmt::format("{}: holds no trip", asked.string());
+            if (options_.trips.size() == 1) {
+                throw InputError{words};
+            }
+            refuse(words);
+        }
+    }
+
+    void refuse(const std::string& why) {
+        ++refused_;
+        console_.warn(why);
+    }
+
+    std::optional<Task> task_for(const fs::path& asked, const TripSource& trip) {
+        if (names_a_file(options_.output)) {
+            return Task{trip, options_.output};
+        }
+        auto output = options_.output / place_below(asked, trip);
+        output += options_.suffix;
+        const auto [other, is_new] = taken_.try_emplace(output, trip.name());
         if (is_new) {
-            all.tasks.push_back({trip, output});
-        } else {
-            all.refused.push_back(
-                fmt::format("{}: would be written twice, of {} and of {}; the second is left out",
-                            output.string(),
-                            other->second,
-                            trip.name()));
+            return Task{trip, output};
         }
+        refuse(fmt::format("{}: would be written twice, of {} and of {}; the second is left out",
+                           output.string(),
+                           other->second,
+                           trip.name()));
+        return std::nullopt;
     }
-    return all;
-}
+
+    const ConvertOptions& options_;
+    const Console& console_;
+    Found found_;
+    std::vector<fs::path> inputs_;
+    std::size_t at_ = 0;
+    std::map<fs::path, std::string> taken_;
+    std::size_t tasks_ = 0;
+    std::size_t refused_ = 0;
+    bool gave_only_ = false;
+};
 
 std::string not_kept(const TripLog& trip) {
     std::map<std::string, std::size_t> reasons;
@@ -224,45 +311,38 @@ void convert(const Task& task,
 }
 
 /// \returns how many could not be converted.
-std::size_t convert_all(const Tasks& all, const ConvertOptions& options, const Console& console) {
+std::size_t convert_all(Tasks& tasks, const ConvertOptions& options, const Console& console) {
     const Interruption interruption;
     const auto stop = interruption.stop();
-    std::size_t failed = all.refused.size();
-    for (std::size_t done = 0; done < all.tasks.size(); ++done) {
+    std::size_t failed = 0;
+    while (const auto task = tasks.next()) {
+        refuse_to_replace(task->output, tasks.inputs());
         try {
-            convert(all.tasks[done], options, console, stop);
+            convert(*task, options, console, stop);
         } catch (const InputError& error) {
             if (stop.stop_requested()) {
-                throw InputError{fmt::format("interrupted: {} of {} were not converted",
-                                             all.tasks.size() - done,
-                                             counted(all.tasks.size(), "trip"))};
+                const auto count = tasks.count();
+                throw InputError{fmt::format(
+                    "interrupted: {} were not converted",
+                    count ? fmt::format(
+                                "{} of {}", *count - tasks.tasks() + 1, counted(*count, "trip"))
+                          : std::string{"the rest of the trips in archives"})};
             }
-            if (all.tasks.size() + all.refused.size() == 1) {
+            if (tasks.count() == std::size_t{1} && tasks.refused() == 0) {
                 throw;
             }
             ++failed;
             console.warn(error.what());
         }
     }
-    return failed;
+    return failed + tasks.refused();
 }
 
 void run_convert(const Arguments& arguments, const Console& console) {
     const auto options = parse_convert(arguments);
-    const auto all = tasks_of(options);
-    for (const auto& why : all.refused) {
-        console.warn(why);
-    }
-    std::vector<fs::path> inputs;
-    inputs.reserve(all.tasks.size());
-    for (const auto& task : all.tasks) {
-        inputs.push_back(task.trip.file);
-    }
-    for (const auto& task : all.tasks) {
-        refuse_to_replace(task.output, inputs);
-    }
-    if (const auto failed = convert_all(all, options, console); failed > 0) {
-        const auto trips = all.tasks.size() + all.refused.size();
+    Tasks tasks{options, console};
+    if (const auto failed = convert_all(tasks, options, console); failed > 0) {
+        const auto trips = tasks.tasks() + tasks.refused();
         throw InputError{fmt::format(
             "{} of {} could not be converted{}",
             failed,
@@ -281,6 +361,7 @@ constexpr std::array options{
            "A file (.trip.csv, .trip.csv.gz, .trip.csv.zst, .rawlog), or a folder for any number."},
     Option{"--to", "SUFFIX", "What the files in a folder become.", ".trip.csv.gz"},
     Option{"--level", "N", "Of compression: 1 is fast, 9 small.", "6"},
+    max_members_option,
     mapping_option};
 
 } // namespace

@@ -33,6 +33,7 @@ struct ImportOptions {
     bool take_back;
     PipelineConfig pipeline;
     std::shared_ptr<const TripMapping> mapping;
+    std::size_t max_members;
     KnownRoughness known;
 };
 
@@ -67,6 +68,7 @@ ImportOptions parse_import(const Arguments& arguments) {
             .take_back = arguments.flag("--take-back"),
             .pipeline = config_of(arguments),
             .mapping = mapping_of(arguments),
+            .max_members = max_members_of(arguments),
             .known = std::move(known)};
 }
 
@@ -80,9 +82,12 @@ std::string name_of_import(const std::vector<std::filesystem::path>& paths) {
 }
 
 std::string spoken(const OpenImport& earlier) {
-    return fmt::format("an earlier import of these paths ({}) did not end; {} came into the store "
+    const auto asked = earlier.trips_asked > 0
+                           ? fmt::format(" ({})", counted(earlier.trips_asked, "trip"))
+                           : std::string{}; // archives were among them
+    return fmt::format("an earlier import of these paths{} did not end; {} came into the store "
                        "since it began: going on with the rest",
-                       counted(earlier.trips_asked, "trip"),
+                       asked,
                        counted(earlier.trips_added, "trip"));
 }
 
@@ -125,26 +130,25 @@ void run_import(const Arguments& arguments, const Console& console) {
         return;
     }
     make_missing_key(store, console);
-    const auto [trips, refused] = asked_trips(options.paths, options.mapping, console);
+    AskedTrips trips{
+        options.paths, {.mapping = options.mapping, .most_files = options.max_members}, console};
     const auto name = name_of_import(options.paths);
-    if (const auto earlier = store.begin_import(name, trips.size())) {
+    if (const auto earlier = store.begin_import(name, trips.count().value_or(0))) {
         console.say(spoken(*earlier));
     }
     const Interruption interruption;
     store.be_patient(patience_for(options.store, console, interruption.stop()));
 
     const auto tell = [&](const TripOutcome& outcome) { tell_of(outcome, options.json); };
-    std::ranges::for_each(refused, tell);
     auto importing = console.progress("importing");
     importing.stop = interruption.stop();
-    auto totals = import_trips(store,
-                               trips,
-                               vehicles,
-                               options.pipeline,
-                               {options.jobs, options.take_back},
-                               importing,
-                               tell);
-    totals.rejected += refused.size();
+    const auto totals = import_trips(store,
+                                     trips,
+                                     vehicles,
+                                     options.pipeline,
+                                     {options.jobs, options.take_back},
+                                     importing,
+                                     tell);
     const auto fused = store.refresh(console.progress("fusing"));
 
     console.say(fmt::format("{} imported, {} known, {} rejected; {}, {} fused",
@@ -156,16 +160,20 @@ void run_import(const Arguments& arguments, const Console& console) {
     if (const auto words = laid_words(store.laid()); fused > 0 && !words.empty()) {
         console.say(words);
     }
-    if (totals.left > 0) {
-        importing(1, 1); // takes the bar off the line
-        throw InputError{fmt::format("interrupted: {} of {} were not looked at; the others are "
+    importing(1, 1); // takes the bar off the line
+    if (totals.interrupted) {
+        const auto count = trips.count();
+        const auto left =
+            count ? fmt::format("{} of {}", *count - totals.looked_at(), counted(*count, "trip"))
+                  : std::string{"the rest of the trips in archives"};
+        throw InputError{fmt::format("interrupted: {} were not looked at; the others are "
                                      "done, and the same command goes on with the rest",
-                                     totals.left,
-                                     counted(trips.size(), "trip"))};
+                                     left)};
     }
+    trips.tell_rest(console);
     store.end_import(name);
     if (totals.rejected > 0) {
-        const auto asked = trips.size() + refused.size();
+        const auto asked = totals.looked_at();
         throw InputError{
             fmt::format("{} of {} rejected{}",
                         totals.rejected,
@@ -196,6 +204,7 @@ constexpr std::array options{
     channels_option,
     no_filters_option,
     rate_option,
+    max_members_option,
     Option{"--take-back", "", "Let trips in again that 'macadam forget' took out."},
     reference_option,
     accuracy_option,

@@ -1,3 +1,4 @@
+#include "app/asked_trips.hpp"
 #include "app/commands.hpp"
 #include "app/interruption.hpp"
 #include "app/network_update_output.hpp"
@@ -12,6 +13,7 @@
 #include "storage/road_store.hpp"
 #include "storage/text.hpp"
 #include "storage/trip_reader.hpp"
+#include "storage/trip_walk.hpp"
 
 #include <fmt/format.h>
 
@@ -33,6 +35,7 @@ struct InitOptions {
     std::string attribution;
     double segment_length_m;
     PrivacyProfile privacy;
+    std::size_t max_members; ///< of an archive of trips
     bool json;
 };
 
@@ -90,6 +93,7 @@ InitOptions parse_init(const Arguments& arguments) {
                        .highway = arguments.value("--highway-column").value_or(""),
                        .oneway = arguments.value("--oneway-column").value_or("")};
     options.attribution = arguments.value("--attribution").value_or("");
+    options.max_members = max_members_of(arguments);
     return options;
 }
 
@@ -99,18 +103,17 @@ bool is_osm(const std::filesystem::path& file) {
 }
 
 /// Trips are read one by one, and only what they drew is kept.
-std::vector<Way> traced_ways(const std::vector<std::filesystem::path>& paths,
-                             const Console& console) {
+std::vector<Way> traced_ways(const InitOptions& options, const Console& console) {
     const TraceConfig config;
     std::vector<TripDrawing> trips;
-    for (const auto& path : paths) {
-        const auto found = find_tracks(path).trips;
+    for (const auto& path : options.trips) {
+        TripWalk walk{path, {.tracks = true, .most_files = options.max_members}};
         const auto reading = console.progress("reading trips");
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            reading(i, found.size());
-            trips.push_back(trip_drawing(read_trip(found[i], needs_of_match()), config));
+        while (const auto trip = walk.next()) {
+            reading(walk.given() - 1, walk.count().value_or(walk.given() + 1));
+            trips.push_back(trip_drawing(read_trip(*trip, needs_of_match()), config));
         }
-        reading(found.size(), found.size());
+        reading(1, 1);
     }
     auto ways = trace_network(trips, config, console.progress("drawing roads"));
     if (ways.empty()) {
@@ -140,7 +143,7 @@ void make_store(const InitOptions& options, const Console& console) {
     auto ways =
         options.network
             ? read_network(*options.network, options.columns, console.progress("reading roads"))
-            : traced_ways(options.trips, console);
+            : traced_ways(options, console);
 
     const auto source =
         options.network ? source_of(*options.network, options.attribution)
@@ -237,6 +240,7 @@ constexpr std::array options{
         "PROFILE",
         "Whose cars it is for: own (one's own: nothing is anonymised) or crowd (cars of others).",
         "own"},
+    max_members_option,
     Option{"--segment-length", "METRES", "About how long a segment is, the unit of fusion.", "20"},
     Option{"--layer", "NAME", "Of a line layer file: which layer.", "the first with lines"},
     Option{"--id-column",

@@ -36,25 +36,26 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     VehicleChoice vehicles{arguments};
     const auto file = store_file(arguments);
     auto store = RoadStore::open(file, RoadStore::Access::write);
-    const auto [trips, refused] =
-        asked_trips({words.begin(), words.end()}, mapping_of(arguments), console);
+    AskedTrips trips{{words.begin(), words.end()},
+                     {.mapping = mapping_of(arguments), .most_files = max_members_of(arguments)},
+                     console};
     const bool json = arguments.flag("--json");
     const auto tell = [&](const TripOutcome& outcome) { tell_of(outcome, json); };
     const Interruption interruption;
 
-    std::ranges::for_each(refused, tell);
     auto working = console.progress("reprocessing");
     working.stop = interruption.stop();
     store.be_patient(patience_for(file, console, working.stop));
-    auto totals = rework_trips(store, trips, vehicles, config, jobs, working, tell);
-    totals.rejected += refused.size();
-    if (totals.left > 0) {
+    const auto totals = rework_trips(store, trips, vehicles, config, jobs, working, tell);
+    working(1, 1); // takes the bar off the line
+    if (totals.interrupted) {
         throw InputError{"interrupted: the store is as it was"};
     }
     if (totals.imported == 0) {
         throw InputError{fmt::format("no trip of {} was worked out anew: the store is as it was",
-                                     counted(trips.size() + refused.size(), "trip"))};
+                                     counted(totals.looked_at(), "trip"))};
     }
+    trips.tell_rest(console);
     auto fusing = console.progress("fusing");
     fusing.stop = interruption.stop();
     const auto method = config.estimator.method == Method::kf ? "kf" : "smoother";
@@ -80,6 +81,7 @@ constexpr std::array options{
     vehicles_option,
     mapping_option,
     Option{"--jobs", "N", "Trips to work on at once.", "1"},
+    max_members_option,
     method_option,
     channels_option,
     no_filters_option,

@@ -134,6 +134,27 @@ void print_against(const std::vector<SurveyRow>& survey,
     print(options.json ? against_json(against) : against_csv(against));
 }
 
+/// Row by row: of a long trip they are more than the trip is.
+void print_rows(const TripLog& trip,
+                const TripTrace& trace,
+                const Vehicle& vehicle,
+                const TraceOptions& options) {
+    if (const double whole_m = trace.odometer.whole_m(); whole_m < options.length_m) {
+        throw InputError{fmt::format("{}: goes {:.1f} m, expected at least --length {} m",
+                                     options.trip.string(),
+                                     whole_m,
+                                     options.length_m)};
+    }
+    std::string_view before;
+    print(options.json ? "[" : trace_csv_header());
+    each_trace_row(trace, options.length_m, TripPlace{trip}, vehicle, [&](const TraceRow& row) {
+        print(before);
+        print(options.json ? json_object_of(row) : csv_line_of(row));
+        before = options.json ? "," : "";
+    });
+    print(options.json ? "]\n" : "");
+}
+
 /// What needs the whole of a trip, or another reader.
 void expect_live(const Arguments& arguments) {
     for (const auto* const option : {"--mapping", "--profile", "--against"}) {
@@ -185,23 +206,7 @@ void run_trace(const Arguments& arguments, const Console& console) {
         print_against(survey, trip, trace, chosen.vehicle, options, console);
         return;
     }
-    const TripPlace place{trip};
-    std::vector<TraceRow> rows;
-    const double whole_m = trace.odometer.whole_m();
-    for (std::size_t i = 0; static_cast<double>(i + 1) * options.length_m <= whole_m; ++i) {
-        rows.push_back(trace_row(static_cast<double>(i) * options.length_m,
-                                 options.length_m,
-                                 trace,
-                                 place,
-                                 chosen.vehicle));
-    }
-    if (rows.empty()) {
-        throw InputError{fmt::format("{}: goes {:.1f} m, expected at least --length {} m",
-                                     options.trip.string(),
-                                     whole_m,
-                                     options.length_m)};
-    }
-    print(options.json ? trace_json(rows) : trace_csv(rows));
+    print_rows(trip, trace, chosen.vehicle, options);
 }
 
 constexpr std::array operands{

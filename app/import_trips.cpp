@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -108,47 +108,76 @@ using Deadline = std::optional<Clock::time_point>; ///< nothing: there is none
 /// order. Workers stay at most `ahead` trips before the writer, so that memory is bounded.
 class Workshop {
 public:
-    using Work = std::function<TripOutcome(std::size_t)>;
+    using Supply = std::function<std::optional<TripSource>()>;
+    using Work = std::function<TripOutcome(const TripSource&)>;
 
-    Workshop(std::size_t count, std::size_t jobs, Work work)
-        : count_{count}, ahead_{2 * jobs}, work_{std::move(work)} {
+    Workshop(Supply supply, std::size_t jobs, Work work)
+        : ahead_{2 * jobs}, supply_{std::move(supply)}, work_{std::move(work)} {
         for (std::size_t i = 0; i < jobs; ++i) {
             workers_.emplace_back([this](const std::stop_token& stop) { toil(stop); });
         }
     }
 
-    /// Waits for its outcome, but no longer than until then; nothing: it is not there yet.
-    std::optional<TripOutcome> take(std::size_t number, const Deadline& until) {
+    struct Taken {
+        std::optional<TripOutcome> outcome; ///< nothing: it is not there yet, or
+        bool over = false;                  ///< there is no such trip
+    };
+
+    /// Waits for its outcome, but no longer than until then.
+    Taken take(std::size_t number, const Deadline& until) {
         std::unique_lock lock{mutex_};
-        const auto is_there = [&] { return done_.contains(number) || failure_; };
+        const auto is_over = [&] { return count_ && number >= *count_; };
+        const auto is_there = [&] { return done_.contains(number) || failure_ || is_over(); };
         if (!until) {
             changed_.wait(lock, is_there);
         } else if (!changed_.wait_until(lock, *until, is_there)) {
-            return std::nullopt;
+            return {};
         }
         if (failure_) {
             std::rethrow_exception(failure_);
         }
+        if (is_over()) {
+            return {.outcome = {}, .over = true};
+        }
         auto outcome = std::move(done_.extract(number).mapped());
         taken_ = number + 1;
         changed_.notify_all();
-        return outcome;
+        return {.outcome = std::move(outcome)};
     }
 
 private:
+    struct Task {
+        std::size_t number;
+        TripSource trip;
+    };
+
+    /// The next trip, when there is room for it. One worker at a time asks, so that trips come in
+    /// order; the others work on while it is got out of an archive.
+    std::optional<Task> next_task(const std::stop_token& stop) {
+        const std::scoped_lock asking{asking_};
+        {
+            std::unique_lock lock{mutex_};
+            const auto has_room = [&] { return given_ < taken_ + ahead_; };
+            if (!changed_.wait(lock, stop, has_room) || stop.stop_requested() || count_) {
+                return std::nullopt;
+            }
+        }
+        auto trip = supply_();
+        const std::scoped_lock lock{mutex_};
+        if (!trip) {
+            count_ = given_;
+            changed_.notify_all();
+            return std::nullopt;
+        }
+        return Task{given_++, std::move(*trip)};
+    }
+
     void toil(const std::stop_token& stop) {
         try {
-            for (std::size_t number = next_++; number < count_ && !stop.stop_requested();
-                 number = next_++) {
-                {
-                    std::unique_lock lock{mutex_};
-                    if (!changed_.wait(lock, stop, [&] { return number < taken_ + ahead_; })) {
-                        return;
-                    }
-                }
-                auto outcome = work_(number);
+            while (auto task = next_task(stop)) {
+                auto outcome = work_(task->trip);
                 const std::scoped_lock lock{mutex_};
-                done_.emplace(number, std::move(outcome));
+                done_.emplace(task->number, std::move(outcome));
                 changed_.notify_all();
             }
         } catch (...) {
@@ -158,14 +187,16 @@ private:
         }
     }
 
-    std::size_t count_;
     std::size_t ahead_;
+    Supply supply_;
     Work work_;
-    std::atomic<std::size_t> next_ = 0;
+    std::mutex asking_;
     std::mutex mutex_;
     std::condition_variable_any changed_;
     std::map<std::size_t, TripOutcome> done_;
+    std::size_t given_ = 0;
     std::size_t taken_ = 0;
+    std::optional<std::size_t> count_; ///< of all, once that is known
     std::exception_ptr failure_;
     std::vector<std::jthread> workers_; // last: they stop before what they use goes
 };
@@ -239,7 +270,7 @@ void add(ImportTotals& totals, const TripOutcome& outcome) {
 
 ImportTotals work_on(const Purpose& purpose,
                      const RoadNetwork& roads,
-                     const std::vector<TripSource>& trips,
+                     AskedTrips& trips,
                      VehicleChoice& vehicles,
                      const PipelineConfig& config,
                      std::size_t jobs,
@@ -247,11 +278,11 @@ ImportTotals work_on(const Purpose& purpose,
                      const std::function<void(const TripOutcome&)>& tell) {
     using Result = TripOutcome::Result;
     std::mutex store_in_use;
-    const auto work = [&](std::size_t number) {
+    const auto work = [&](const TripSource& trip) {
         TripOutcome outcome;
-        outcome.file = trips[number].name();
+        outcome.file = trip.name();
         try {
-            outcome.sha256 = content_sha256(trips[number]);
+            outcome.sha256 = content_sha256(trip);
         } catch (const std::exception& error) {
             outcome.error = error.what();
             return outcome;
@@ -264,11 +295,11 @@ ImportTotals work_on(const Purpose& purpose,
                 return outcome;
             }
         }
-        return worked_out(trips[number], outcome.sha256, vehicles, roads, config, progress.stop);
+        return worked_out(trip, outcome.sha256, vehicles, roads, config, progress.stop);
     };
 
     ImportTotals totals;
-    Workshop workshop{trips.size(), jobs, work};
+    Workshop workshop{[&] { return trips.next(); }, jobs, work};
     Batch batch;
     std::size_t told = 0;
     const auto commit = [&] {
@@ -279,24 +310,27 @@ ImportTotals work_on(const Purpose& purpose,
         for (const auto& outcome : batch.empty()) {
             add(totals, outcome);
             tell(outcome);
-            progress(++told, trips.size());
+            progress(++told, std::max(told, trips.at_least()));
         }
     };
-    for (std::size_t i = 0; i < trips.size(); ++i) {
-        if (progress.stop.stop_requested()) {
-            totals.left = trips.size() - i;
+    for (std::size_t i = 0;; ++i) {
+        if (progress.stop.stop_requested() && trips.count() != i) {
+            totals.interrupted = true;
             break;
         }
-        auto outcome = workshop.take(i, batch.due());
-        if (!outcome) { // a long one: what was done before it does not wait
+        auto taken = workshop.take(i, batch.due());
+        if (!taken.outcome && !taken.over) { // a long one: what was done before it does not wait
             commit();
-            outcome = workshop.take(i, {});
+            taken = workshop.take(i, {});
         }
-        if (progress.stop.stop_requested() && outcome->result == Result::rejected) {
-            totals.left = trips.size() - i; // rejected only for being stopped, it may be
+        if (taken.over) {
             break;
         }
-        batch.add(std::move(*outcome));
+        if (progress.stop.stop_requested() && taken.outcome->result == Result::rejected) {
+            totals.interrupted = true; // rejected only for being stopped, it may be
+            break;
+        }
+        batch.add(std::move(*taken.outcome));
         if (batch.is_full() || told == 0) { // the first word comes soon
             commit();
         }
@@ -324,7 +358,7 @@ std::string_view name_of(TripOutcome::Result result) {
 }
 
 ImportTotals import_trips(RoadStore& store,
-                          const std::vector<TripSource>& trips,
+                          AskedTrips& trips,
                           VehicleChoice& vehicles,
                           const PipelineConfig& asked,
                           const ImportWork& work,
@@ -366,7 +400,7 @@ ImportTotals import_trips(RoadStore& store,
 }
 
 ImportTotals rework_trips(RoadStore& store,
-                          const std::vector<TripSource>& trips,
+                          AskedTrips& trips,
                           VehicleChoice& vehicles,
                           const PipelineConfig& asked,
                           std::size_t jobs,

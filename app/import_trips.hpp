@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/asked_trips.hpp"
 #include "app/console.hpp"
 #include "app/pipeline.hpp"
 #include "app/vehicle_choice.hpp"
@@ -33,7 +34,9 @@ struct ImportTotals {
     std::size_t known = 0;    ///< or unknown: left as they are
     std::size_t rejected = 0;
     std::size_t passes = 0;
-    std::size_t left = 0; ///< not looked at: progress.stop was requested before
+    bool interrupted = false; ///< the rest was not looked at: progress.stop was requested before
+
+    std::size_t looked_at() const { return imported + known + rejected; }
 };
 
 struct ImportWork {
@@ -42,12 +45,12 @@ struct ImportWork {
 };
 
 /// Brings trips into a store: read and estimated by `jobs` threads, written by this one in the
-/// order of `trips`, those of a second (but no more than 100) in one transaction, and told when
+/// order of the trips, those of a second (but no more than 100) in one transaction, and told when
 /// that is on the disk. A trip that cannot be used is an outcome and never stops
 /// the others; an error of the store itself is thrown and leaves the trips before it in place.
 /// When a stop is requested, the trip at hand is finished or dropped and the rest is left.
 ImportTotals import_trips(RoadStore& store,
-                          const std::vector<TripSource>& trips,
+                          AskedTrips& trips,
                           VehicleChoice& vehicles,
                           const PipelineConfig& config,
                           const ImportWork& work,
@@ -57,7 +60,7 @@ ImportTotals import_trips(RoadStore& store,
 /// Works trips of the store out anew in the same way, and lays them aside in it
 /// (RoadStore::stage_trip). Trips that it does not have are unknown.
 ImportTotals rework_trips(RoadStore& store,
-                          const std::vector<TripSource>& trips,
+                          AskedTrips& trips,
                           VehicleChoice& vehicles,
                           const PipelineConfig& config,
                           std::size_t jobs,

@@ -148,12 +148,21 @@ history_by_month(const std::function<std::vector<SegmentRecord>(const Period&)>&
         return months;
     }
     const auto last = month_of(*seen->until_ms);
-    for (auto month = month_of(*seen->from_ms); month <= last; month = month_after(month)) {
-        auto records = found(shared_by(whole, {begin_ms(month), begin_ms(month_after(month))}));
+    for (auto month = month_of(*seen->from_ms); month <= last;) {
+        const auto next = month_after(month);
+        auto records = found(shared_by(whole, {begin_ms(month), begin_ms(next)}));
         std::erase_if(records, [](const auto& record) { return !record.state; });
         if (!records.empty()) {
             months.push_back({month, records.size(), road_of(records)});
+            month = next;
+            continue;
         }
+        // One wrong date must not cost a look at each month of a century.
+        const auto rest = period_of(found(shared_by(whole, {begin_ms(next), std::nullopt})));
+        if (!rest) {
+            break;
+        }
+        month = std::max(next, month_of(*rest->from_ms));
     }
     return months;
 }

@@ -40,7 +40,25 @@ struct Square {
     TileRange wanted;
 };
 
+/// A town that lies far from all others would cost all tiles between.
+void expect_area(const PicturePlan& plan) {
+    constexpr std::uint64_t most_tiles = 50'000'000;
+    std::uint64_t tiles = 0;
+    for (int zoom = plan.least_zoom; zoom <= plan.most_zoom; ++zoom) {
+        const auto range = tiles_of(plan.box, zoom);
+        tiles +=
+            std::uint64_t{range.last_x - range.first_x + 1} * (range.last_y - range.first_y + 1);
+    }
+    if (tiles > most_tiles) {
+        throw InputError{fmt::format("the area takes {} tiles, expected at most {}: choose a lower "
+                                     "--zoom, or a part of it by --bbox",
+                                     tiles,
+                                     most_tiles)};
+    }
+}
+
 std::vector<Square> squares_of(const PicturePlan& plan) {
+    expect_area(plan);
     const auto across = static_cast<std::uint32_t>(square_px / plan.tile_px);
     std::vector<Square> squares;
     for (int zoom = plan.least_zoom; zoom <= plan.most_zoom; ++zoom) {

@@ -113,13 +113,17 @@ double length_on_roads_m(const MatchedTrace& matched) {
 /// The ends of a silence of the vibration and all that the other sensors said within it, in order.
 std::vector<double> times_within(const TripLog& trip, double from_s, double to_s) {
     std::vector<double> times_s{from_s, to_s};
-    const auto add = [&](double t_s) {
-        if (from_s < t_s && t_s < to_s) {
-            times_s.push_back(t_s);
-        }
-    };
-    std::ranges::for_each(trip.speed.t_s, add);
-    std::ranges::for_each(trip.fixes, add, &GnssFix::t_s);
+    const auto& speeds_s = trip.speed.t_s;
+    for (auto t_s = std::ranges::upper_bound(speeds_s, from_s);
+         t_s != speeds_s.end() && *t_s < to_s;
+         ++t_s) {
+        times_s.push_back(*t_s);
+    }
+    for (auto fix = std::ranges::upper_bound(trip.fixes, from_s, {}, &GnssFix::t_s);
+         fix != trip.fixes.end() && fix->t_s < to_s;
+         ++fix) {
+        times_s.push_back(fix->t_s);
+    }
     std::ranges::sort(times_s);
     return times_s;
 }

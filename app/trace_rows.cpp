@@ -49,16 +49,6 @@ std::string cell_text(const JsonValue& value) {
     return words ? *words : std::string{};
 }
 
-std::string object_of(const TraceRow& row) {
-    JsonObject object;
-    for (auto& [name, value] : cells_of(row)) {
-        object.add(name, value);
-    }
-    return object.text();
-}
-
-} // namespace
-
 TraceRow trace_row(double from_m,
                    double length_m,
                    const TripTrace& trace,
@@ -73,6 +63,8 @@ TraceRow trace_row(double from_m,
             .speed_mps = mean.hri_mm_per_m ? mean.speed_mps : trace.odometer.speed_mps(t_s),
             .mean = mean};
 }
+
+} // namespace
 
 std::string trace_csv_header() {
     return "from_m,to_m,t_s,lat_deg,lon_deg,speed_mps,iri,iri_sd,iri_low,iri_high,iri_left,"
@@ -91,21 +83,34 @@ std::string csv_line_of(const TraceRow& row) {
 }
 
 std::string json_line_of(const TraceRow& row) {
-    return object_of(row) + "\n";
+    return json_object_of(row) + "\n";
 }
 
-std::string trace_csv(std::span<const TraceRow> rows) {
-    auto csv = trace_csv_header();
-    for (const auto& row : rows) {
-        csv += csv_line_of(row);
+std::string json_object_of(const TraceRow& row) {
+    JsonObject object;
+    for (auto& [name, value] : cells_of(row)) {
+        object.add(name, value);
     }
-    return csv;
+    return object.text();
 }
 
-std::string trace_json(std::span<const TraceRow> rows) {
-    std::vector<std::string> objects(rows.size());
-    std::ranges::transform(rows, objects.begin(), object_of);
-    return json_array(objects) + "\n";
+void each_trace_row(const TripTrace& trace,
+                    double length_m,
+                    const TripPlace& place,
+                    const Vehicle& vehicle,
+                    const std::function<void(const TraceRow&)>& take) {
+    const double whole_m = trace.odometer.whole_m();
+    for (std::size_t i = 0; static_cast<double>(i + 1) * length_m <= whole_m;) {
+        const double from_m = static_cast<double>(i) * length_m;
+        const double seen_m =
+            trace.odometer.past_gap_m(from_m, static_cast<double>(i + 1) * length_m);
+        if (seen_m > from_m) {
+            i = std::max(i + 1, static_cast<std::size_t>(seen_m / length_m));
+        } else {
+            take(trace_row(from_m, length_m, trace, place, vehicle));
+            ++i;
+        }
+    }
 }
 
 } // namespace macadam

@@ -3,8 +3,8 @@
 #include "app/pipeline.hpp"
 #include "app/trip_place.hpp"
 
+#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace macadam {
@@ -19,21 +19,20 @@ struct TraceRow {
     IriMean mean;
 };
 
-TraceRow trace_row(double from_m,
-                   double length_m,
-                   const TripTrace& trace,
-                   const TripPlace& place,
-                   const Vehicle& vehicle);
+/// Hands out the rows of a whole trip, one after the other, on multiples of length_m. Rows that lie
+/// within a gap of over Odometer::longest_unseen_m are left out.
+void each_trace_row(const TripTrace& trace,
+                    double length_m,
+                    const TripPlace& place,
+                    const Vehicle& vehicle,
+                    const std::function<void(const TraceRow&)>& take);
 
 /// The names of the columns, with a newline.
 std::string trace_csv_header();
 
-/// One line of CSV, or one JSON object of the same names, with its newline.
+/// One line of CSV, or one JSON object of the same names; the lines with their newline.
 std::string csv_line_of(const TraceRow& row);
 std::string json_line_of(const TraceRow& row);
-
-/// All of them as one document: CSV with its header, or a JSON array.
-std::string trace_csv(std::span<const TraceRow> rows);
-std::string trace_json(std::span<const TraceRow> rows);
+std::string json_object_of(const TraceRow& row);
 
 } // namespace macadam

@@ -1,9 +1,12 @@
 #include "app/trip_place.hpp"
 
+#include "storage/trip_walk.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -14,16 +17,16 @@ constexpr double longest_silence_s = 10;
 
 TripSource one_trip(const std::filesystem::path& path,
                     const std::shared_ptr<const TripMapping>& mapping) {
-    const auto found = find_tracks(path, mapping).trips;
-    const bool is_export = found.size() == 1 && !found.front().files.empty();
+    auto found = first_trip(path, {.mapping = mapping, .tracks = true});
+    const bool is_export = found.count == 1 && !found.trip->files.empty();
     if (std::filesystem::is_directory(path) && !is_export) {
         throw InputError{fmt::format("{}: is a folder, expected one trip log", path.string())};
     }
-    if (found.size() != 1) {
+    if (found.count != 1) {
         throw InputError{
-            fmt::format("{}: holds {} trip logs, expected one", path.string(), found.size())};
+            fmt::format("{}: holds {} trip logs, expected one", path.string(), found.count)};
     }
-    return found.front();
+    return std::move(*found.trip);
 }
 
 TripPlace::TripPlace(const TripLog& trip) {

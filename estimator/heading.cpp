@@ -62,15 +62,29 @@ double vertical_rate(const TriaxialSamples& gyro, std::size_t i, const Eigen::Ve
     return rate;
 }
 
+/// \param spans  in order, not overlapping.
 bool is_within(double t_s, std::span<const TimeSpan> spans) {
-    return std::ranges::any_of(
-        spans, [=](const TimeSpan& span) { return span.from_s <= t_s && t_s < span.to_s; });
+    const auto span = std::ranges::upper_bound(spans, t_s, {}, &TimeSpan::to_s);
+    return span != spans.end() && span->from_s <= t_s;
 }
 
-/// Trapezoids between the samples, read off at even times.
+double time_s(const Heading& heading, std::int64_t step) {
+    return heading.start_s + heading.step_s * static_cast<double>(step);
+}
+
+/// The last step that is not after a time.
+std::int64_t last_step_until(const Heading& heading, double t_s) {
+    auto step = static_cast<std::int64_t>(std::floor((t_s - heading.start_s) / heading.step_s));
+    step += time_s(heading, step + 1) <= t_s ? 1 : 0; // a quotient is rounded
+    step -= time_s(heading, step) > t_s ? 1 : 0;
+    return step;
+}
+
+/// Trapezoids between the samples, read off at even times; of a silence, at its ends alone.
 Heading integrated(const TripLog& trip, const Mounting& mounting) {
     const Eigen::Vector3d up = mounting.to_vehicle.row(2);
     Heading heading;
+    std::int64_t next = 0; // step to be read off
     double last_s = unknown;
     double last_radps = 0;
     double turned_rad = 0;
@@ -83,6 +97,8 @@ Heading integrated(const TripLog& trip, const Mounting& mounting) {
         if (std::isnan(last_s)) {
             heading.start_s = t_s;
             heading.turned_rad.push_back(0);
+            heading.runs.push_back({0, 0});
+            next = 1;
             last_s = t_s;
             last_radps = radps;
             continue;
@@ -92,13 +108,14 @@ Heading integrated(const TripLog& trip, const Mounting& mounting) {
             heading.silent.push_back({last_s, t_s});
         }
         const double gain_rad = silent ? 0 : (last_radps + radps) / 2 * (t_s - last_s);
-        for (;;) {
-            const double next_s =
-                heading.start_s + heading.step_s * static_cast<double>(heading.turned_rad.size());
-            if (next_s > t_s) {
-                break;
-            }
-            const double share = (next_s - last_s) / (t_s - last_s);
+        const auto last = last_step_until(heading, t_s);
+        if (silent && last > next + 1) {
+            heading.turned_rad.push_back(static_cast<float>(turned_rad));
+            heading.runs.push_back({last, heading.turned_rad.size()});
+            next = last;
+        }
+        for (; next <= last; ++next) {
+            const double share = (time_s(heading, next) - last_s) / (t_s - last_s);
             heading.turned_rad.push_back(static_cast<float>(turned_rad + share * gain_rad));
         }
         turned_rad += gain_rad;
@@ -108,8 +125,14 @@ Heading integrated(const TripLog& trip, const Mounting& mounting) {
     return heading;
 }
 
+/// The number of the last step.
+std::int64_t end_step(const Heading& heading) {
+    const auto& [first_step, first] = heading.runs.back();
+    return first_step + static_cast<std::int64_t>(heading.turned_rad.size() - first) - 1;
+}
+
 double end_s(const Heading& heading) {
-    return heading.start_s + heading.step_s * static_cast<double>(heading.turned_rad.size() - 1);
+    return time_s(heading, end_step(heading));
 }
 
 bool was_measured(const Heading& heading, double from_s, double to_s) {
@@ -130,7 +153,33 @@ struct Reading {
     double variance;
 };
 
+/// Steps over the middle of a silence, in which there is nothing to be read.
+class SilenceSkipper {
+public:
+    explicit SilenceSkipper(const Heading& heading)
+        : next_{heading.silent.begin()}, end_{heading.silent.end()} {}
+
+    /// The time itself; in a long silence, some whole steps later, shortly before its end.
+    double after(double t_s, double step_s) {
+        constexpr double looked_into_s = 10;
+        while (next_ != end_ && next_->to_s <= t_s) {
+            ++next_;
+        }
+        if (next_ == end_ || t_s < next_->from_s + looked_into_s) {
+            return t_s;
+        }
+        const double steps = std::floor((next_->to_s - t_s) / step_s) - 1;
+        return steps > 0 ? t_s + steps * step_s : t_s;
+    }
+
+private:
+    std::vector<TimeSpan>::const_iterator next_;
+    std::vector<TimeSpan>::const_iterator end_;
+};
+
 std::vector<Reading> standing_readings(const Heading& heading, const Odometer& odometer) {
+    constexpr double left_m = 1; // over a silence: it stood no longer
+    SilenceSkipper skipper{heading};
     std::vector<Reading> readings;
     double from_s = unknown;
     const auto close = [&](double to_s) {
@@ -156,6 +205,12 @@ std::vector<Reading> standing_readings(const Heading& heading, const Odometer& o
             close(t_s - step_s);
         }
         before_radps = radps;
+        const double skipped_to_s = skipper.after(t_s, step_s);
+        if (odometer.travel_m(skipped_to_s) - odometer.travel_m(t_s) > left_m &&
+            skipped_to_s > t_s) {
+            from_s = unknown;
+        }
+        t_s = skipped_to_s;
     }
     if (!std::isnan(from_s)) {
         close(end_s(heading));
@@ -253,42 +308,91 @@ Belief updated(const Belief& belief, const Reading& reading) {
     return {belief.mean + gain * off, (1 - gain) * belief.variance};
 }
 
-/// One for each block of the heading's time.
-std::vector<Belief> smoothed_bias(const Heading& heading, std::vector<Reading> readings) {
+/// What is thought of the bias in a block, of which the first begins at start_s.
+struct Block {
+    std::int64_t number;
+    Belief bias;
+};
+
+std::int64_t block_of(const Heading& heading, std::int64_t step) {
+    return step / std::llround(block_s / heading.step_s);
+}
+
+/// The blocks that hold values.
+std::vector<Block> blocks_of(const Heading& heading) {
+    std::vector<Block> blocks;
+    for (auto run = heading.runs.begin(); run != heading.runs.end(); ++run) {
+        const auto size = static_cast<std::int64_t>(size_of(heading, run));
+        const auto last = block_of(heading, run->first_step + size - 1);
+        auto number = block_of(heading, run->first_step);
+        for (number += !blocks.empty() && blocks.back().number == number ? 1 : 0; number <= last;
+             ++number) {
+            blocks.push_back({number, {}});
+        }
+    }
+    return blocks;
+}
+
+/// Over silences the bias wanders on.
+std::vector<Block> smoothed_bias(const Heading& heading, std::vector<Reading> readings) {
     std::ranges::sort(readings, {}, &Reading::t_s);
-    const auto blocks = 1 + static_cast<std::size_t>((end_s(heading) - heading.start_s) / block_s);
-    const double walk = bias_walk_radps_per_sqrt_s * bias_walk_radps_per_sqrt_s * block_s;
-    std::vector<Belief> beliefs;
+    constexpr double walk_a_block =
+        bias_walk_radps_per_sqrt_s * bias_walk_radps_per_sqrt_s * block_s;
+    auto blocks = blocks_of(heading);
+    const auto walk_to = [&](std::size_t i) {
+        return walk_a_block * static_cast<double>(blocks[i].number - blocks[i - 1].number);
+    };
     Belief belief{0, prior_bias_sd_radps * prior_bias_sd_radps};
     auto next = readings.begin();
-    for (std::size_t i = 0; i < blocks; ++i) {
-        belief.variance += i > 0 ? walk : 0;
-        const double until_s = heading.start_s + static_cast<double>(i + 1) * block_s;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        belief.variance += i > 0 ? walk_to(i) : 0;
+        const double until_s =
+            heading.start_s + static_cast<double>(blocks[i].number + 1) * block_s;
         for (; next != readings.end() && next->t_s < until_s; ++next) {
             belief = updated(belief, *next);
         }
-        beliefs.push_back(belief);
+        blocks[i].bias = belief;
     }
-    for (auto i = blocks - 1; i-- > 0;) {
-        auto& earlier = beliefs[i];
+    for (auto i = blocks.size() - 1; i-- > 0;) {
+        auto& earlier = blocks[i].bias;
+        const auto& later = blocks[i + 1].bias;
+        const double walk = walk_to(i + 1);
         const double gain = earlier.variance / (earlier.variance + walk);
-        earlier.mean += gain * (beliefs[i + 1].mean - earlier.mean);
-        earlier.variance += gain * gain * (beliefs[i + 1].variance - earlier.variance - walk);
+        earlier.mean += gain * (later.mean - earlier.mean);
+        earlier.variance += gain * gain * (later.variance - earlier.variance - walk);
     }
-    return beliefs;
+    return blocks;
 }
 
-Heading without_bias(Heading heading, const std::vector<Belief>& beliefs) {
-    const auto per_block = static_cast<std::size_t>(std::lround(block_s / heading.step_s));
+/// Between two runs, what is thought of the bias at their ends holds half and half.
+Heading without_bias(Heading heading, const std::vector<Block>& blocks) {
     double bias_rad = 0;
     double variance = 0;
-    for (std::size_t i = 0; i < heading.turned_rad.size(); ++i) {
-        const auto& belief = beliefs[std::min(i / per_block, beliefs.size() - 1)];
-        bias_rad += i > 0 ? belief.mean * heading.step_s : 0;
-        variance += belief.variance;
-        heading.turned_rad[i] -= static_cast<float>(bias_rad);
+    auto block = blocks.begin();
+    auto last = block->bias;
+    for (auto run = heading.runs.cbegin(); run != heading.runs.cend(); ++run) {
+        const auto size = size_of(heading, run);
+        for (std::size_t i = 0; i < size; ++i) {
+            const auto number = block_of(heading, run->first_step + static_cast<std::int64_t>(i));
+            while (block->number < number) {
+                ++block;
+            }
+            const auto& belief = block->bias;
+            if (i == 0 && run != heading.runs.cbegin()) {
+                const auto before = run - 1;
+                const auto steps = static_cast<double>(run->first_step - before->first_step) -
+                                   static_cast<double>(size_of(heading, before)); // without a value
+                bias_rad += (last.mean + belief.mean) / 2 * heading.step_s * steps;
+                variance += (last.variance + belief.variance) / 2 * steps;
+            }
+            const auto at = run->first + i;
+            bias_rad += at > 0 ? belief.mean * heading.step_s : 0;
+            variance += belief.variance;
+            heading.turned_rad[at] -= static_cast<float>(bias_rad);
+            last = belief;
+        }
     }
-    heading.bias_sd_radps = std::sqrt(variance / static_cast<double>(heading.turned_rad.size()));
+    heading.bias_sd_radps = std::sqrt(variance / static_cast<double>(end_step(heading) + 1));
     return heading;
 }
 
@@ -320,15 +424,33 @@ bool is_contradicted(const Heading& heading,
 
 } // namespace
 
+std::vector<Heading::Run>::const_iterator run_at(const Heading& heading, double step) {
+    const auto after = std::ranges::upper_bound(heading.runs, step, {}, [](const auto& run) {
+        return static_cast<double>(run.first_step);
+    });
+    return after == heading.runs.begin() ? after : after - 1;
+}
+
+std::size_t size_of(const Heading& heading, std::vector<Heading::Run>::const_iterator run) {
+    const auto next = run + 1;
+    return (next == heading.runs.end() ? heading.turned_rad.size() : next->first) - run->first;
+}
+
 double turned_at(const Heading& heading, double t_s) {
-    const double steps = std::clamp((t_s - heading.start_s) / heading.step_s,
-                                    0.0,
-                                    static_cast<double>(heading.turned_rad.size() - 1));
-    const auto i = static_cast<std::size_t>(steps);
-    const auto next = std::min(i + 1, heading.turned_rad.size() - 1);
-    return std::lerp(static_cast<double>(heading.turned_rad[i]),
+    const double steps = std::clamp(
+        (t_s - heading.start_s) / heading.step_s, 0.0, static_cast<double>(end_step(heading)));
+    const auto run = run_at(heading, steps);
+    const auto last = size_of(heading, run) - 1;
+    const double into = steps - static_cast<double>(run->first_step);
+    const auto i = std::min(static_cast<std::size_t>(into), last);
+    const auto next = std::min(run->first + i + 1, heading.turned_rad.size() - 1);
+    const double step = i < last || run + 1 == heading.runs.end()
+                            ? 1
+                            : static_cast<double>((run + 1)->first_step - run->first_step) -
+                                  static_cast<double>(last); // the silence
+    return std::lerp(static_cast<double>(heading.turned_rad[run->first + i]),
                      static_cast<double>(heading.turned_rad[next]),
-                     steps - static_cast<double>(i));
+                     (into - static_cast<double>(i)) / step);
 }
 
 Turn turned(const Heading& heading, double from_s, double to_s) {
@@ -351,8 +473,8 @@ Heading make_heading(const TripLog& trip, const Odometer& odometer, const Mounti
     const auto courses = courses_of(trip);
     auto readings = standing_readings(heading, odometer);
     std::ranges::copy(driving_readings(heading, courses, trip.meta), std::back_inserter(readings));
-    const auto beliefs = smoothed_bias(heading, std::move(readings));
-    heading = without_bias(std::move(heading), beliefs);
+    const auto blocks = smoothed_bias(heading, std::move(readings));
+    heading = without_bias(std::move(heading), blocks);
     return is_contradicted(heading, courses, trip.meta) ? Heading{} : heading;
 }
 

@@ -73,8 +73,9 @@ void add(const IriRun& run, double from_m, double to_m, Sums& sums) {
 
 double slow_m(const IriTrace& trace, double from_m, double to_m) {
     double sum_m = 0;
-    for (const auto& part : trace.slow) {
-        sum_m += std::max(0.0, std::min(part.to_m, to_m) - std::max(part.from_m, from_m));
+    auto part = std::ranges::upper_bound(trace.slow, from_m, {}, &TravelSpan::to_m);
+    for (; part != trace.slow.end() && part->from_m < to_m; ++part) {
+        sum_m += std::min(part->to_m, to_m) - std::max(part->from_m, from_m);
     }
     return sum_m;
 }

@@ -52,9 +52,10 @@ std::uint8_t unfit(const Odometer& odometer, double t_s, double min_speed_mps) {
     return speed_mps < min_speed_mps || odometer.reversing(t_s) ? code(RowReason::too_slow) : 0;
 }
 
+/// \param spans  in order, not overlapping.
 bool is_within(std::span<const TimeSpan> spans, double t_s) {
-    return std::ranges::any_of(
-        spans, [=](const TimeSpan& span) { return t_s >= span.from_s && t_s <= span.to_s; });
+    const auto span = std::ranges::lower_bound(spans, t_s, {}, &TimeSpan::to_s);
+    return span != spans.end() && t_s >= span->from_s;
 }
 
 enum class Axis : int { x = 0, y = 1, z = 2 };
@@ -228,14 +229,12 @@ Rate rate_channel(const TripLog& trip,
         trace.t_s.back() < end_s) {
         return {};
     }
-    const double max_gap_s = std::max(config.max_gap_s, config.max_gap_steps * median_step_s(t_s));
-    for (std::size_t i = 1; i < trace.t_s.size(); ++i) {
-        if (trace.t_s[i] - trace.t_s[i - 1] > max_gap_s) {
-            return {};
-        }
-    }
     const double own_hz = own_rate_hz(trip.gyro, span);
-    if (own_hz < config.least_rate_hz * 0.99) {
+    const double max_gap_s =
+        std::max(config.max_gap_s, config.max_gap_steps * median_step_s(trace.t_s));
+    const auto gap = std::ranges::adjacent_find(
+        trace.t_s, [=](double from_s, double to_s) { return to_s - from_s > max_gap_s; });
+    if (gap != trace.t_s.end() || own_hz < config.least_rate_hz * 0.99) {
         return {};
     }
     const double kept = std::sqrt(std::min(1.0, 1 / (grid.step_s * own_hz)));

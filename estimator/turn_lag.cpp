@@ -73,16 +73,21 @@ class Directions {
 public:
     explicit Directions(const Heading& heading) : heading_{heading} {
         Sums sums{0, 0};
-        for (std::size_t i = 0; i < heading.turned_rad.size(); ++i) {
-            sums_.push_back(sums);
-            const auto ahead =
-                std::polar(heading.step_s, static_cast<double>(heading.turned_rad[i]));
-            sums.plain += ahead;
-            sums.timed += ahead * (heading.step_s * static_cast<double>(i));
+        sums_.reserve(heading.turned_rad.size());
+        for (auto run = heading.runs.begin(); run != heading.runs.end(); ++run) {
+            const auto size = size_of(heading, run);
+            for (std::size_t i = 0; i < size; ++i) {
+                sums_.push_back(sums);
+                const auto ahead = std::polar(
+                    heading.step_s, static_cast<double>(heading.turned_rad[run->first + i]));
+                const auto step = run->first_step + static_cast<std::int64_t>(i);
+                sums.plain += ahead;
+                sums.timed += ahead * (heading.step_s * static_cast<double>(step));
+            }
         }
     }
 
-    /// Over a time, weighed by 1 + gain_per_s (t - middle).
+    /// Over a time that was measured, weighed by 1 + gain_per_s (t - middle).
     Complex sum(double from_s, double to_s, double gain_per_s) const {
         const auto from = at(from_s);
         const auto to = at(to_s);
@@ -99,11 +104,14 @@ private:
 
     Sums at(double t_s) const {
         // A sample stands for half a step before and after it.
-        const double steps = std::clamp((t_s - heading_.start_s) / heading_.step_s + 0.5,
-                                        0.0,
-                                        static_cast<double>(sums_.size() - 1));
-        const auto i = std::min(static_cast<std::size_t>(steps), sums_.size() - 2);
-        const double share = steps - static_cast<double>(i);
+        const double steps = (t_s - heading_.start_s) / heading_.step_s + 0.5;
+        const auto run = run_at(heading_, steps);
+        const auto last = std::min(run->first + size_of(heading_, run), sums_.size() - 1);
+        const double into = std::clamp(steps - static_cast<double>(run->first_step),
+                                       0.0,
+                                       static_cast<double>(last - run->first));
+        const auto i = std::min(run->first + static_cast<std::size_t>(into), sums_.size() - 2);
+        const double share = into - (static_cast<double>(i) - static_cast<double>(run->first));
         return {sums_[i].plain + share * (sums_[i + 1].plain - sums_[i].plain),
                 sums_[i].timed + share * (sums_[i + 1].timed - sums_[i].timed)};
     }

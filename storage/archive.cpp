@@ -1,6 +1,7 @@
-#include "storage/byte_stream.hpp"
+#include "storage/archive.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/byte_stream.hpp"
 #include "storage/text.hpp"
 
 #include <archive.h>
@@ -9,61 +10,37 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace macadam {
+
+struct ArchiveFiles::Reader {
+    struct Free {
+        void operator()(archive* reader) const { archive_read_free(reader); }
+    };
+    std::unique_ptr<archive, Free> handle{archive_read_new()};
+
+    bool is_zip() const {
+        return (archive_format(handle.get()) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_ZIP;
+    }
+
+    /// Of the file on disk.
+    std::uint64_t position() const {
+        return static_cast<std::uint64_t>(
+            std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), -1)));
+    }
+
+    /// Of the archive, when its own compression is off.
+    std::uint64_t unpacked() const {
+        return static_cast<std::uint64_t>(
+            std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), 0)));
+    }
+};
 
 namespace {
 
 constexpr std::size_t input_block = 64 << 10;
-
-struct Free {
-    void operator()(archive* reader) const { archive_read_free(reader); }
-};
-using Reader = std::unique_ptr<archive, Free>;
-
-[[noreturn]] void fail(archive* reader, const std::string& name) {
-    const char* const cause = archive_error_string(reader);
-    throw InputError{fmt::format("{}: the archive is cut off or damaged: {}",
-                                 name,
-                                 cause != nullptr ? cause : "its structure is broken")};
-}
-
-Reader open(const std::filesystem::path& file) {
-    Reader reader{archive_read_new()};
-    archive_read_support_format_zip(reader.get());
-    archive_read_support_format_tar(reader.get());
-    archive_read_support_filter_gzip(reader.get());
-    archive_read_support_filter_zstd(reader.get());
-    if (archive_read_open_filename(reader.get(), file.c_str(), input_block) != ARCHIVE_OK) {
-        if (std::ifstream{file}) { // it is there, but no archive
-            fail(reader.get(), file.string());
-        }
-        const char* const cause = archive_error_string(reader.get());
-        throw InputError{fmt::format("{}: cannot be read{}{}",
-                                     file.string(),
-                                     cause != nullptr ? ": " : "",
-                                     cause != nullptr ? cause : "")};
-    }
-    return reader;
-}
-
-/// The next regular file; null at the end.
-archive_entry* next_file(archive* reader, const std::string& name) {
-    for (;;) {
-        archive_entry* entry = nullptr;
-        const auto result = archive_read_next_header(reader, &entry);
-        if (result == ARCHIVE_EOF) {
-            return nullptr;
-        }
-        if (result != ARCHIVE_OK && result != ARCHIVE_WARN) {
-            fail(reader, name);
-        }
-        if (archive_entry_filetype(entry) == AE_IFREG) {
-            return entry;
-        }
-    }
-}
 
 std::string name_of(archive_entry* entry) {
     const char* name = archive_entry_pathname(entry);
@@ -73,61 +50,148 @@ std::string name_of(archive_entry* entry) {
     return name != nullptr ? name : "";
 }
 
-class MemberBytes final : public ByteStream {
+InputError expands(const std::string& name) {
+    return InputError{fmt::format("{}: grows more than {}-fold when it is decompressed, as no trip "
+                                  "log does",
+                                  name,
+                                  most_expansion)};
+}
+
+} // namespace
+
+/// The file at hand, as it stands in the archive.
+class ArchiveFiles::Bytes final : public ByteStream {
 public:
-    MemberBytes(const std::filesystem::path& file, const std::string& member)
-        : name_{fmt::format("{}/{}", file.string(), member)}, reader_{open(file)} {
-        for (;;) {
-            auto* const entry = next_file(reader_.get(), file.string());
-            if (entry == nullptr) {
-                throw InputError{
-                    fmt::format("{}: has no file {}", file.string(), in_quotes(member, 200))};
-            }
-            if (name_of(entry) == member) {
-                break;
-            }
-        }
-        before_ = position();
-    }
+    explicit Bytes(ArchiveFiles& from) : from_{from}, before_{from.reader_->position()} {}
 
     std::size_t read(std::span<char> into) override {
-        const auto count = archive_read_data(reader_.get(), into.data(), into.size());
+        const auto count = archive_read_data(from_.reader_->handle.get(), into.data(), into.size());
         if (count < 0) {
-            fail(reader_.get(), name_);
+            from_.ended_ = count == ARCHIVE_FATAL;
+            from_.fail(from_.archive_.string() + "/" + from_.name_);
         }
+        from_.expect_modest();
         return static_cast<std::size_t>(count);
     }
 
-    // The block that holds the member's header was read before it.
+    // The block that holds the file's header was read before it.
     std::uint64_t consumed() const override {
-        const auto now = position();
+        const auto now = from_.reader_->position();
         return (now > before_ ? now - before_ : 0) + std::min<std::uint64_t>(before_, input_block);
     }
 
 private:
-    std::uint64_t position() const {
-        return static_cast<std::uint64_t>(archive_filter_bytes(reader_.get(), -1));
-    }
-
-    std::string name_;
-    Reader reader_;
-    std::uint64_t before_ = 0;
+    ArchiveFiles& from_;
+    std::uint64_t before_;
 };
 
-} // namespace
-
-std::unique_ptr<ByteStream> member_bytes(const std::filesystem::path& archive,
-                                         const std::string& member) {
-    return std::make_unique<MemberBytes>(archive, member);
+ArchiveFiles::ArchiveFiles(std::filesystem::path archive, std::size_t most_files)
+    : archive_{std::move(archive)}, size_{0}, reader_{std::make_unique<Reader>()}, most_files_{
+                                                                                       most_files} {
+    auto* const reader = reader_->handle.get();
+    archive_read_support_format_zip(reader);
+    archive_read_support_format_tar(reader);
+    archive_read_support_filter_gzip(reader);
+    archive_read_support_filter_zstd(reader);
+    std::error_code unknown;
+    size_ = std::filesystem::file_size(archive_, unknown);
+    if (archive_read_open_filename(reader, archive_.c_str(), input_block) != ARCHIVE_OK) {
+        if (std::ifstream{archive_}) { // it is there, but no archive
+            fail(archive_.string());
+        }
+        const char* const cause = archive_error_string(reader);
+        throw InputError{fmt::format("{}: cannot be read{}{}",
+                                     archive_.string(),
+                                     cause != nullptr ? ": " : "",
+                                     cause != nullptr ? cause : "")};
+    }
 }
 
-std::vector<std::string> members_of(const std::filesystem::path& archive) {
-    const auto reader = open(archive);
-    std::vector<std::string> names;
-    while (auto* const entry = next_file(reader.get(), archive.string())) {
-        names.push_back(name_of(entry));
+ArchiveFiles::~ArchiveFiles() = default;
+
+void ArchiveFiles::fail(const std::string& name) {
+    const char* const cause = archive_error_string(reader_->handle.get());
+    throw InputError{fmt::format("{}: the archive is cut off or damaged: {}",
+                                 name,
+                                 cause != nullptr ? cause : "its structure is broken")};
+}
+
+/// Files may overlap in an archive, so that more comes out of it than of each of them: what is read
+/// twice counts once.
+void ArchiveFiles::expect_modest() {
+    const auto out = std::max(came_, reader_->unpacked());
+    const auto in = std::min(reader_->position(), size_);
+    if (out > free_decompressed_bytes && out > most_expansion * in) {
+        ended_ = true;
+        throw expands(archive_.string());
     }
-    return names;
+}
+
+/// Over the rest of the file at hand. A file of a .zip is not decompressed for that; one of a
+/// .tar.gz cannot but be.
+void ArchiveFiles::skip() {
+    const void* block = nullptr;
+    std::size_t size = 0;
+    la_int64_t at = 0;
+    while (!reader_->is_zip() &&
+           archive_read_data_block(reader_->handle.get(), &block, &size, &at) == ARCHIVE_OK) {
+        expect_modest();
+    }
+}
+
+std::optional<std::string> ArchiveFiles::next() {
+    if (files_ > 0 && !ended_) {
+        skip();
+    }
+    while (!ended_) {
+        archive_entry* entry = nullptr;
+        const auto result = archive_read_next_header(reader_->handle.get(), &entry);
+        if (result == ARCHIVE_EOF) {
+            ended_ = true;
+            break;
+        }
+        if (result != ARCHIVE_OK && result != ARCHIVE_WARN) {
+            ended_ = true;
+            fail(archive_.string());
+        }
+        expect_modest();
+        const bool is_file = archive_entry_filetype(entry) == AE_IFREG;
+        auto& count = is_file ? files_ : others_;
+        if (++count > most_files_) {
+            ended_ = true;
+            throw InputError{
+                fmt::format("{}: holds more than {} {}, expected no more; --max-members "
+                            "N raises the limit",
+                            archive_.string(),
+                            most_files_,
+                            is_file ? "files" : "folders and links")};
+        }
+        if (is_file) {
+            name_ = name_of(entry);
+            return name_;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string ArchiveFiles::content() {
+    constexpr std::size_t block = 256 << 10;
+    const auto name = archive_.string() + "/" + name_;
+    const auto bytes = decompressed(bounded(std::make_unique<Bytes>(*this), name), name);
+    std::string content;
+    for (;;) {
+        const auto size = content.size();
+        content.resize(size + block);
+        const auto count = bytes->read({content.data() + size, block});
+        content.resize(size + count);
+        came_ += count;
+        if (count == 0) {
+            break;
+        }
+    }
+    expect_modest();
+    content.shrink_to_fit();
+    return content;
 }
 
 } // namespace macadam

@@ -6,7 +6,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace macadam {
 
@@ -32,14 +31,6 @@ std::unique_ptr<ByteStream> file_bytes(const std::filesystem::path& file);
 
 /// What is piped into the program.
 std::unique_ptr<ByteStream> standard_input_bytes();
-
-/// The bytes of one member of a .zip or .tar archive, itself perhaps compressed. Nothing is written
-/// to disk, so a member's name can be anything.
-std::unique_ptr<ByteStream> member_bytes(const std::filesystem::path& archive,
-                                         const std::string& member);
-
-/// The names of an archive's regular files, in the archive's order.
-std::vector<std::string> members_of(const std::filesystem::path& archive);
 
 /// What `from` holds: decompressed if it begins like gzip or Zstandard, and otherwise as it is. A
 /// compressed stream that ends too early or fails its checksum is an error, and so is one that

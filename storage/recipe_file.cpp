@@ -117,9 +117,6 @@ DrivingRecipe driving_of(Reader reader, DrivingRecipe driving) {
     if (driving.length_km.high <= 0) {
         table.refuse("length_km", "a length above 0");
     }
-    if (driving.driver.low <= 0) {
-        table.refuse("driver", "factors above 0");
-    }
     reader.finish();
     return driving;
 }
@@ -279,7 +276,7 @@ Draft with_tables(Draft draft, const TomlTable& top) {
     }
     if (const auto speeds = top.table("speed_kmh")) {
         for (const auto& highway : speeds->keys()) {
-            recipe.driving.speed_kmh[highway] = speeds->number(highway, positive_number);
+            recipe.driving.speed_kmh[highway] = speeds->number(highway, kmh);
         }
     }
     if (const auto knowledge = top.table("knowledge")) {

@@ -8,6 +8,7 @@
 #include "storage/row_values.hpp"
 #include "storage/text.hpp"
 #include "storage/trip_reader.hpp"
+#include "storage/trip_walk.hpp"
 
 #include <fmt/format.h>
 
@@ -111,12 +112,12 @@ std::vector<SectionReference> references_in_table(const std::filesystem::path& f
 
 std::vector<SectionReference> references_in_track(const std::filesystem::path& file) {
     SectionReference reference{.where = file.string(), .name = file.stem().string(), .route = ""};
-    const auto source = find_tracks(file).trips;
-    if (source.size() != 1) {
+    const auto found = first_trip(file, {.tracks = true});
+    if (found.count != 1) {
         throw InputError{
-            fmt::format("{}: holds {} tracks, expected one", file.string(), source.size())};
+            fmt::format("{}: holds {} tracks, expected one", file.string(), found.count)};
     }
-    for (const auto& fix : read_trip(source.front(), needs_of_match()).fixes) {
+    for (const auto& fix : read_trip(*found.trip, needs_of_match()).fixes) {
         reference.line.push_back(fix.at);
     }
     return {reference};

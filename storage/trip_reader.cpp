@@ -6,6 +6,7 @@
 #include "storage/foreign/gpx_reader.hpp"
 #include "storage/foreign/phone_export.hpp"
 #include "storage/rawlog_reader.hpp"
+#include "storage/trip_contents.hpp"
 #include "storage/trip_rows.hpp"
 #include "storage/trip_streams.hpp"
 
@@ -18,20 +19,16 @@ namespace macadam {
 
 namespace {
 
-/// \throws InputError  what is wrong with an archive that was found in a folder and could not be
-///                     searched, rather than that it is no log.
 std::unique_ptr<ByteStream> open(const TripSource& source) {
-    if (source.member.empty()) {
-        if (source.file.extension() == ".zip") {
-            members_of(source.file);
-        }
-        return decompressed(file_bytes(source.file), source.name());
-    }
-    return decompressed(bounded(member_bytes(source.file, source.member), source.name()),
-                        source.name());
+    return source.contents ? bytes_of(source.contents, "")
+                           : decompressed(file_bytes(source.file), source.name());
 }
 
-std::size_t bytes_on_disk(const TripSource& source) {
+/// Or in memory.
+std::size_t bytes_of_source(const TripSource& source) {
+    if (source.contents) {
+        return source.contents->files.front().bytes.size();
+    }
     std::error_code unknown_size;
     const auto size = std::filesystem::file_size(source.file, unknown_size);
     return unknown_size ? 0 : static_cast<std::size_t>(size);
@@ -41,7 +38,7 @@ std::size_t bytes_on_disk(const TripSource& source) {
 class Pace {
 public:
     Pace(const TripSource& source, const Progress& progress)
-        : name_{source.name()}, progress_{progress}, whole_{bytes_on_disk(source)} {}
+        : name_{source.name()}, progress_{progress}, whole_{bytes_of_source(source)} {}
 
     void step(const TripRows& rows) {
         constexpr std::size_t rows_between = 1 << 16;
@@ -118,10 +115,10 @@ TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progre
         return read_foreign_trip(source, needs, progress);
     }
     if (source.name().ends_with(rawlog_suffix)) {
-        return read_rawlog({open(source), source.name(), bytes_on_disk(source)}, needs, progress);
+        return read_rawlog({open(source), source.name(), bytes_of_source(source)}, needs, progress);
     }
     if (is_gpx_name(source.name())) {
-        return read_gpx({open(source), source.name(), bytes_on_disk(source)}, needs, progress);
+        return read_gpx({open(source), source.name(), bytes_of_source(source)}, needs, progress);
     }
     TripRows rows{open(source), source, needs};
     TripStreams streams{needs, rows.header()};

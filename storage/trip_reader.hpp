@@ -10,7 +10,8 @@
 
 namespace macadam {
 
-struct TripMapping; // storage/foreign/trip_mapping.hpp
+struct TripMapping;  // storage/foreign/trip_mapping.hpp
+struct TripContents; // storage/trip_contents.hpp
 
 /// Which sensors to keep; the rows of the others are counted, not held.
 struct TripNeeds {
@@ -37,29 +38,12 @@ struct TripSource {
     std::vector<std::string> files{}; ///< of a foreign trip, by their names in its folder
     std::shared_ptr<const TripMapping> mapping{}; ///< with it files[i] belongs to its tables[i]
 
+    /// What an archive held of it; null for what is read from disk. A trip that could not be had is
+    /// a source, too, whose reading says why.
+    std::shared_ptr<const TripContents> contents{};
+
     std::string name() const; ///< as messages call it
 };
-
-struct TripSearch {
-    std::vector<TripSource> trips; ///< in byte order of their relative paths
-    std::size_t other_files = 0;   ///< seen and not read
-};
-
-/// The trips that a path stands for: itself, every *.trip.csv[.gz|.zst] under a folder, or every
-/// such member of a .zip, .tar, .tar.gz or .tar.zst archive; and every export of phyphox or Sensor
-/// Logger, which is a folder, under a folder, in an archive, or in a .zip under a folder.
-///
-/// \param mapping  if given, the path is foreign: itself, or every file under it that fits the
-///                 mapping's first table, is a trip.
-///
-/// \throws InputError  if there is no such file or folder, or a trip lacks one of the mapping's
-///                     files.
-TripSearch find_trips(const std::filesystem::path& path,
-                      const std::shared_ptr<const TripMapping>& mapping = nullptr);
-
-/// The same for what needs positions alone: every *.gpx[.gz|.zst] there is a trip, too.
-TripSearch find_tracks(const std::filesystem::path& path,
-                       const std::shared_ptr<const TripMapping>& mapping = nullptr);
 
 /// SHA-256 of the decompressed content of a trip, without reading it as one: to know quickly
 /// whether it is known.

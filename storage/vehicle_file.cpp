@@ -16,6 +16,8 @@ namespace {
 constexpr TomlRange order{[](double x) { return x >= 1 && x <= 8 && x == std::floor(x); },
                           "a whole number from 1 to 8"};
 // Sensors sit in cars; metres that are not are millimetres.
+constexpr TomlRange long_car{[](double x) { return x > 0 && x <= 20; },
+                             "metres, above 0 and at most 20"};
 constexpr TomlRange in_car{[](double x) { return std::abs(x) <= 20; }, "metres, from -20 to 20"};
 
 struct Key {
@@ -39,7 +41,7 @@ constexpr Key number_keys[] = {
     {"half_car", "l_m", positive_number, true, [](Vehicle& v) -> double& { return v.half_car.l_m; }},
     {"half_car", "antiroll_n_per_m", not_negative_number, false, [](Vehicle& v) -> double& { return v.half_car.antiroll_n_per_m; }},
     {"half_car", "friction_n", not_negative_number, false, [](Vehicle& v) -> double& { return v.half_car.friction_n.emplace(); }},
-    {"axles", "wheelbase_m", positive_number, true, [](Vehicle& v) -> double& { return v.axles->wheelbase_m; }},
+    {"axles", "wheelbase_m", long_car, true, [](Vehicle& v) -> double& { return v.axles->wheelbase_m; }},
     {"axles", "cg_to_front_m", positive_number, true, [](Vehicle& v) -> double& { return v.axles->cg_to_front_m; }},
     {"axles", "dynamic_index", positive_number, false, [](Vehicle& v) -> double& { return v.axles->dynamic_index; }},
     {"axles", "rear_ratio", positive_number, false, [](Vehicle& v) -> double& { return v.axles->rear_ratio; }},

@@ -163,8 +163,15 @@ std::optional<double> LiveTrace::next_end_s() const {
 std::vector<LiveRow> LiveTrace::rows_until(double travel_m) {
     std::vector<LiveRow> rows;
     while (static_cast<double>(told_ + 1) * config_.length_m <= travel_m) {
-        rows.push_back(row_from(static_cast<double>(told_) * config_.length_m));
-        ++told_;
+        const double from_m = static_cast<double>(told_) * config_.length_m;
+        const double seen_m =
+            ruler_.odometer->past_gap_m(from_m, static_cast<double>(told_ + 1) * config_.length_m);
+        if (seen_m > from_m) {
+            told_ = std::max(told_ + 1, static_cast<std::size_t>(seen_m / config_.length_m));
+        } else {
+            rows.push_back(row_from(from_m));
+            ++told_;
+        }
         middle_.reset();
     }
     roughness_.forget_before(static_cast<double>(told_) * config_.length_m);

@@ -19,7 +19,9 @@ using Square = Eigen::Matrix<double, states, states>;
 constexpr double far_m = 100; // between fixes: nearer ones tell enough of the way
 constexpr double worst_sd_m = 100;
 constexpr double least_step_s = 0.95;
-constexpr double draw_step_m = 5; // chords of it stand for the way
+constexpr double draw_step_m = 5;       // chords of it stand for the way, ...
+constexpr double most_draw_steps = 200; // ... longer ones for what no sensor saw
+constexpr double least_moment_s = 0.5;  // no car goes the spacing of samples in less
 constexpr double slow_error_s = 30;
 constexpr double quick_error_m = 1;
 constexpr double credible = 18;         // squared sds of a fix: beyond, it counts less
@@ -45,7 +47,8 @@ bool is_far(const Position& a, const Position& b, const Positions& positions) {
 PointEn
 drawn_between(const Heading& heading, const Odometer& odometer, double from_m, double to_m) {
     PointEn sum{0, 0};
-    const auto steps = std::max(1, static_cast<int>(std::ceil((to_m - from_m) / draw_step_m)));
+    const auto steps = static_cast<int>(
+        std::clamp(std::ceil((to_m - from_m) / draw_step_m), 1.0, most_draw_steps));
     const double step_m = (to_m - from_m) / steps;
     for (int i = 0; i < steps; ++i) {
         const double rad = turned_at(heading, odometer.t_s(from_m + (i + 0.5) * step_m));
@@ -82,8 +85,9 @@ moments_of(const Positions& positions, const Odometer& odometer, double spacing_
         }
         if (before != nullptr && is_far(*before, position, positions)) {
             const double gap_m = position.travel_m - before->travel_m;
-            const auto steps = static_cast<int>(std::ceil(gap_m / spacing_m));
-            for (int i = 1; i < steps; ++i) {
+            const double steps = std::ceil(
+                std::min(gap_m / spacing_m, (position.t_s - before->t_s) / least_moment_s));
+            for (double i = 1; i < steps; ++i) {
                 const double travel_m = before->travel_m + gap_m * i / steps;
                 add(odometer.t_s(travel_m), travel_m, nullptr);
             }

@@ -11,8 +11,9 @@ namespace {
 constexpr double least_step_s = 0.95; // fixes nearer than this err alike
 constexpr double slow_step_s = 5;     // ... and these, where the car hardly moved
 constexpr double new_way_m = 4;
-constexpr double most_step_m = 15;    // without a knot, where travel is measured
-constexpr double least_step_m = 0.05; // a car that moved less is where it was
+constexpr double most_step_m = 15;      // without a knot, where travel is measured, ...
+constexpr double least_between_s = 0.3; // ... by a car that goes no faster than 180 km/h
+constexpr double least_step_m = 0.05;   // a car that moved less is where it was
 constexpr double heading_half_m = 8;
 constexpr double gyro_step_m = 2;
 constexpr double bias_alike_s = 30;     // what is left of a gyro's bias is alike so long
@@ -20,51 +21,79 @@ constexpr double silence_variance = 10; // of the heading after one: anything
 constexpr double longest_beyond_m = 40; // of noise beyond the end of a road; more is a hole
 constexpr double fade = 5;              // so that places still rise with travel
 
-/// The gyro's turn over travel, summed, so that means over travel cost nothing.
+/// The gyro's turn over travel, summed as far as it is asked for.
 class GyroTrack {
 public:
-    GyroTrack(const Heading& heading, const Odometer& odometer, double from_m, double to_m)
-        : heading_{heading}, odometer_{odometer}, from_m_{from_m} {
-        if (heading.turned_rad.empty()) {
-            return;
-        }
-        const auto count = static_cast<std::size_t>((to_m - from_m) / gyro_step_m) + 2;
-        sums_.reserve(count);
-        double before_rad = turned_at(heading, odometer.t_s(from_m));
-        sums_.push_back(0);
-        for (std::size_t i = 1; i < count; ++i) {
-            const double at_m = from_m + gyro_step_m * static_cast<double>(i);
-            const double rad = turned_at(heading, odometer.t_s(at_m));
-            sums_.push_back(sums_.back() + gyro_step_m * (before_rad + rad) / 2);
-            before_rad = rad;
-        }
-    }
+    /// \param from_m  nothing before is asked for.
+    GyroTrack(const Heading& heading, const Odometer& odometer, double from_m)
+        : heading_{heading}, odometer_{odometer}, from_m_{from_m}, last_rad_{turned_at(
+                                                                       heading,
+                                                                       odometer.t_s(from_m))} {}
 
-    /// Nothing where not all of it was measured.
-    std::optional<double> mean_rad(double travel_m) const {
-        if (sums_.empty()) {
-            return std::nullopt;
-        }
+    /// Over heading_half_m on both sides; nothing where not all of it was measured.
+    ///
+    /// \param travel_m  not before that of an earlier call.
+    std::optional<double> mean_rad(double travel_m) {
         const double low_m = travel_m - heading_half_m;
         const double high_m = travel_m + heading_half_m;
         const auto turn = turned(heading_, odometer_.t_s(low_m), odometer_.t_s(high_m));
-        return std::isinf(turn.sd_rad)
-                   ? std::nullopt
-                   : std::optional{(sum_at(high_m) - sum_at(low_m)) / (high_m - low_m)};
+        if (std::isinf(turn.sd_rad)) {
+            return std::nullopt;
+        }
+        const auto first = step_at(low_m);
+        if (first > first_ + sums_.size() + most_summed) {
+            begin(first);
+        }
+        while (sums_.size() <= step_at(high_m) + 1 - first_) {
+            go_on();
+        }
+        if (first - first_ > most_summed) {
+            forget_before(first);
+        }
+        return (sum_at(high_m) - sum_at(low_m)) / (high_m - low_m);
     }
 
 private:
+    static constexpr std::size_t most_summed = 1000; // steps at once that nobody asks for
+
+    std::size_t step_at(double travel_m) const {
+        return static_cast<std::size_t>(std::max(0.0, (travel_m - from_m_) / gyro_step_m));
+    }
+
+    double rad_at(std::size_t step) const {
+        const double at_m = from_m_ + gyro_step_m * static_cast<double>(step);
+        return turned_at(heading_, odometer_.t_s(at_m));
+    }
+
+    void begin(std::size_t step) {
+        first_ = step;
+        sums_.assign(1, 0);
+        last_rad_ = rad_at(step);
+    }
+
+    void go_on() {
+        const double rad = rad_at(first_ + sums_.size());
+        sums_.push_back(sums_.back() + gyro_step_m * (last_rad_ + rad) / 2);
+        last_rad_ = rad;
+    }
+
+    void forget_before(std::size_t step) {
+        sums_.erase(sums_.begin(), sums_.begin() + static_cast<std::ptrdiff_t>(step - first_));
+        first_ = step;
+    }
+
     double sum_at(double travel_m) const {
-        const double steps = std::clamp(
-            (travel_m - from_m_) / gyro_step_m, 0.0, static_cast<double>(sums_.size() - 1));
-        const auto i = std::min(static_cast<std::size_t>(steps), sums_.size() - 2);
-        return std::lerp(sums_[i], sums_[i + 1], steps - static_cast<double>(i));
+        const double steps = std::max(0.0, (travel_m - from_m_) / gyro_step_m);
+        const auto i = static_cast<std::size_t>(steps);
+        return std::lerp(sums_[i - first_], sums_[i + 1 - first_], steps - static_cast<double>(i));
     }
 
     const Heading& heading_;
     const Odometer& odometer_;
     double from_m_;
-    std::vector<double> sums_;
+    std::size_t first_ = 0;       ///< step of the first of the sums
+    std::vector<double> sums_{0}; ///< of the turn over travel, one each step
+    double last_rad_;             ///< at the last of them
 };
 
 /// What the gyro may have strayed between two epochs.
@@ -79,9 +108,10 @@ double strayed_variance(const Heading& heading, const Epoch& from, const Epoch& 
 /// Measured travel between two fixes, in steps.
 std::vector<Epoch> epochs_between(const Epoch& from, const Epoch& to, const Odometer& odometer) {
     const double gone_m = to.travel_m - from.travel_m;
-    const auto steps = static_cast<int>(std::ceil(gone_m / most_step_m));
+    const double steps =
+        std::ceil(std::min(gone_m / most_step_m, (to.t_s - from.t_s) / least_between_s));
     std::vector<Epoch> between;
-    for (int i = 1; i < steps; ++i) {
+    for (double i = 1; i < steps; ++i) {
         const double travel_m = from.travel_m + gone_m * i / steps;
         between.push_back({.t_s = odometer.t_s(travel_m),
                            .travel_m = travel_m,
@@ -133,10 +163,7 @@ with_gyro(std::vector<Epoch> epochs, const Heading& heading, const Odometer& odo
     if (heading.turned_rad.empty()) {
         return epochs;
     }
-    const GyroTrack gyro{heading,
-                         odometer,
-                         epochs.front().travel_m - heading_half_m,
-                         epochs.back().travel_m + heading_half_m};
+    GyroTrack gyro{heading, odometer, epochs.front().travel_m - heading_half_m};
     for (std::size_t k = 0; k < epochs.size(); ++k) {
         epochs[k].gyro_rad = gyro.mean_rad(epochs[k].travel_m);
         epochs[k].heading_variance =

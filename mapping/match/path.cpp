@@ -9,6 +9,7 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t longest_bad_run = 2; // samples
+constexpr double longest_path_m = 1e6;     // the next one begins there, to hold little memory
 constexpr double bad_run_nats = 6;         // of the move over it: more is an excursion
 
 /// A move with the edges between.
@@ -84,7 +85,8 @@ private:
     bool extend(std::size_t sample) {
         const auto last = paths_.back().last_sample;
         const auto skipped = sample - last - 1;
-        if (skipped > longest_bad_run || (skipped == 0 && !chain_[sample].joined)) {
+        if (skipped > longest_bad_run || (skipped == 0 && !chain_[sample].joined) ||
+            paths_.back().legs.back().start_m > longest_path_m) {
             return false;
         }
         const auto between =

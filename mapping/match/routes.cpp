@@ -10,6 +10,7 @@ namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180;
 constexpr std::size_t first_labels = 1024;
+constexpr std::size_t most_kept = 1'000'000; // edges reached, 20 MB
 constexpr double dead_end_share = 0.25; // of the price of a U-turn, where there is no other way
 
 constexpr auto dearer = [](const auto& a, const auto& b) {
@@ -153,9 +154,14 @@ Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
 }
 
 const std::vector<Reached>& Routes::around(EdgeId edge) {
+    if (around_count_ > most_kept) { // a trip seldom comes back
+        around_.clear();
+        around_count_ = 0;
+    }
     const auto [found, is_new] = around_.try_emplace(static_cast<std::uint32_t>(edge));
     if (is_new) {
         found->second = search(edge, {}, kept_m);
+        around_count_ += found->second.size();
     }
     return found->second;
 }

@@ -17,6 +17,7 @@ constexpr float wheels_stand_mps = 0.3F; // by the wheels
 constexpr double wheels_near_s = 1;      // a wheel speed holds so long
 constexpr double stands_s = 20;          // within stands_m for so long: 0.6 m/s, no driving
 constexpr double stands_m = 12;
+constexpr double least_step_s = 0.02;       // no receiver is faster; what comes between is skipped
 constexpr double least_step_share = 0.5;    // of the spacing; nearer points are one
 constexpr double widest_kernel = 3;         // standard deviations
 constexpr double fastest_mps = 90;          // more is no car, ...
@@ -71,8 +72,9 @@ Fixes serving(const TripLog& trip, const LocalFrame& frame, const TraceConfig& c
     const auto faults = faults_of(trip.fixes, config.worst_accuracy_m);
     std::vector<GeoPoint> places;
     for (std::size_t i = 0; i < faults.size(); ++i) {
-        if (!faults[i]) {
-            const auto& fix = trip.fixes[i];
+        const auto& fix = trip.fixes[i];
+        const bool is_new = fixes.fix.empty() || fix.t_s - fixes.fix.back().t_s >= least_step_s;
+        if (!faults[i] && is_new) {
             fixes.fix.push_back(fix);
             places.push_back(fix.at);
             fixes.stands.push_back(fix.speed_mps < standing_mps ||

@@ -1,5 +1,11 @@
 #include "storage/foreign/trip_files.hpp"
 
+#include "estimator/common/error.hpp"
+#include "storage/text.hpp"
+#include "storage/trip_contents.hpp"
+
+#include <fmt/core.h>
+
 namespace macadam {
 
 namespace {
@@ -10,17 +16,16 @@ namespace fs = std::filesystem;
 struct Place {
     fs::path file;
     std::string prefix; ///< of members; "" at the archive's top
-    bool is_archive;
 };
 
 Place place_of(const TripSource& source) {
     if (source.mapping == nullptr) {
-        return {source.file, source.member, !fs::is_directory(source.file)};
+        return {source.file, source.member};
     }
-    if (source.member.empty()) {
-        return {source.file.parent_path(), "", false};
+    if (!source.contents) {
+        return {source.file.parent_path(), ""};
     }
-    return {source.file, source.member.substr(0, source.member.rfind('/') + 1), true};
+    return {source.file, source.member.substr(0, source.member.rfind('/') + 1)};
 }
 
 } // namespace
@@ -32,11 +37,15 @@ std::string name_of_file(const TripSource& source, const std::string& file) {
 
 std::unique_ptr<ByteStream> bytes_of_file(const TripSource& source, const std::string& file) {
     const auto place = place_of(source);
-    const auto name = name_of_file(source, file);
-    if (!place.is_archive) {
-        return decompressed(file_bytes(place.file / file), name);
+    if (!source.contents) {
+        return decompressed(file_bytes(place.file / file), name_of_file(source, file));
     }
-    return decompressed(bounded(member_bytes(place.file, place.prefix + file), name), name);
+    auto bytes = bytes_of(source.contents, file);
+    if (bytes == nullptr) {
+        throw InputError{fmt::format(
+            "{}: has no file {}", place.file.string(), in_quotes(place.prefix + file, 200))};
+    }
+    return bytes;
 }
 
 } // namespace macadam

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -158,6 +159,35 @@ TEST(Heading, IsEmptyWithoutAGyroAndWhereTheCoursesContradictIt) {
 TEST(Heading, IsSmall) {
     const auto heading = heading_of(trip_of({}), level);
     EXPECT_LE(heading.turned_rad.size(), 6001u); // ten values a second, whatever the gyro's rate
+}
+
+/// The second half later, by whatever a clock does.
+TripLog with_silence(TripLog trip, double from_s, double silence_s) {
+    const auto late = [=](double& t_s) { t_s += t_s > from_s ? silence_s : 0; };
+    std::ranges::for_each(trip.gyro.t_s, late);
+    std::ranges::for_each(trip.speed.t_s, late);
+    std::ranges::for_each(trip.fixes, late, &GnssFix::t_s);
+    return trip;
+}
+
+TEST(Heading, TakesNoMemoryForASilence) {
+    const auto trip = with_silence(trip_of({}), 200, 1.7e9);
+    const auto heading = heading_of(trip, level);
+    EXPECT_LE(heading.turned_rad.size(), 6010u);
+    EXPECT_TRUE(std::isinf(turned(heading, 150, 1.7e9 + 250).sd_rad));
+}
+
+TEST(Heading, TurnsAlikeOnBothSidesOfASilenceHoweverLong) {
+    for (const double silence_s : {2.0, 300.0, 1e9}) {
+        const auto heading =
+            heading_of(with_silence(trip_of({.bias_radps = 0.01}), 200, silence_s), level);
+        const double later_s = 380 + silence_s;
+        EXPECT_NEAR(turned(heading, 100, 130).rad, truth_rad(130) - truth_rad(100), 0.03)
+            << silence_s;
+        EXPECT_NEAR(
+            turned(heading, later_s, later_s + 30).rad, truth_rad(410) - truth_rad(380), 0.03)
+            << silence_s;
+    }
 }
 
 } // namespace

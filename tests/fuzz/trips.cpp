@@ -8,6 +8,7 @@
 #include "storage/mapping_file.hpp"
 #include "storage/trip_reader.hpp"
 #include "storage/trip_writer.hpp"
+#include "support/walked_trips.hpp"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +54,7 @@ void expect_sound(const TripLog& trip) {
                       .fixes = std::vector<std::uint8_t>(trip.fixes.size())});
 }
 
-void read_all(const TripSearch& search) {
+void read_all(const testing::WalkedTrips& search) {
     for (const auto& source : search.trips) {
         may_refuse([&] { expect_sound(read_trip(source, needs_of_import())); });
     }
@@ -102,7 +103,7 @@ void trip_compressed(std::string_view input) {
 void trip_archive(std::string_view input) {
     const bool is_zip = input.starts_with("PK");
     const auto file = input_file(is_zip ? "a.zip" : "a.tar.gz", input);
-    may_refuse([&] { read_all(find_trips(file)); });
+    may_refuse([&] { read_all(testing::find_trips(file)); });
 }
 
 void rawlog(std::string_view input) {
@@ -155,7 +156,7 @@ void phone_export(std::string_view input) {
                                                             "inner/Accelerometer.csv",
                                                             "inner/Location.csv"};
     const auto folder = input_folder(names, input);
-    may_refuse([&] { read_all(find_trips(folder)); });
+    may_refuse([&] { read_all(testing::find_trips(folder)); });
 }
 
 void mapped_trip(std::string_view input) {
@@ -165,8 +166,8 @@ void mapped_trip(std::string_view input) {
     may_refuse([&] {
         const auto mapping =
             std::make_shared<const TripMapping>(read_mapping(folder / "mapping.toml"));
-        read_all(find_trips(folder / "a_acc.csv", mapping));
-        read_all(find_trips(folder, mapping));
+        read_all(testing::find_trips(folder / "a_acc.csv", mapping));
+        read_all(testing::find_trips(folder, mapping));
     });
 }
 

@@ -7,6 +7,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/files.hpp"
+#include "support/walked_trips.hpp"
 
 #include <gmock/gmock.h>
 

@@ -5,6 +5,7 @@
 #include "storage/compressed.hpp"
 #include "storage/files.hpp"
 #include "storage/rising.hpp"
+#include "support/walked_trips.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,6 +2,7 @@
 
 #include "files.hpp"
 #include "storage/trip_reader.hpp"
+#include "support/walked_trips.hpp"
 
 #include <gmock/gmock.h>
 

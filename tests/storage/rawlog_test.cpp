@@ -6,6 +6,7 @@
 #include "storage/compressed.hpp"
 #include "storage/files.hpp"
 #include "storage/trip_writer.hpp"
+#include "support/walked_trips.hpp"
 
 #include <gmock/gmock.h>
 #include <mrpt/io/CFileGZOutputStream.h>
