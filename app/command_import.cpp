@@ -87,7 +87,7 @@ std::string spoken(const OpenImport& earlier) {
 
 void import_known(RoadStore& store, const ImportOptions& options, const Console& console) {
     const auto& known = options.known;
-    const auto roads = kept_roads(store);
+    const auto roads = kept_roads(store, [&](const std::string& words) { console.say(words); });
     if (known.survey) {
         const auto outcome = import_survey(store, roads, known);
         if (options.json) {
@@ -135,13 +135,14 @@ void run_import(const Arguments& arguments, const Console& console) {
     std::ranges::for_each(refused, tell);
     auto importing = console.progress("importing");
     importing.stop = interruption.stop();
-    auto totals = import_trips(store,
-                               trips,
-                               vehicles,
-                               options.pipeline,
-                               {options.jobs, options.take_back},
-                               importing,
-                               tell);
+    auto totals = import_trips(
+        store,
+        trips,
+        vehicles,
+        options.pipeline,
+        {options.jobs, options.take_back, [&](const std::string& words) { console.say(words); }},
+        importing,
+        tell);
     totals.rejected += refused.size();
     const auto fused = store.refresh(console.progress("fusing"));
 

@@ -330,7 +330,7 @@ ImportTotals import_trips(RoadStore& store,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell) {
     using Result = TripOutcome::Result;
-    const auto roads = kept_roads(store);
+    const auto roads = kept_roads(store, work.warn);
     const Purpose purpose{
         .leave = [&](const std::string& sha256)
             -> std::optional<std::pair<Result, std::vector<std::string>>> {

@@ -153,9 +153,15 @@ Routes::search(EdgeId edge, std::span<const EdgeId> targets, double longest_m) {
 }
 
 const std::vector<Reached>& Routes::around(EdgeId edge) {
+    constexpr std::size_t most_kept = 4'000'000; // 80 MB: some 10,000 edges of a dense city
+    if (kept_ > most_kept) {
+        around_.clear();
+        kept_ = 0;
+    }
     const auto [found, is_new] = around_.try_emplace(static_cast<std::uint32_t>(edge));
     if (is_new) {
         found->second = search(edge, {}, kept_m);
+        kept_ += found->second.size();
     }
     return found->second;
 }

@@ -27,8 +27,8 @@ class Routes {
 public:
     Routes(const RoadNetwork& roads, double u_turn_cost_m);
 
-    /// Everything within kept_m after the end of `edge`, in the order of edges. Valid as long as
-    /// this object lives.
+    /// Everything within kept_m after the end of `edge`, in the order of edges. Valid until the
+    /// next call.
     const std::vector<Reached>& around(EdgeId edge);
     static constexpr double kept_m = 200;
 
@@ -74,6 +74,7 @@ private:
     std::optional<Goal> goal_; ///< of the present search
     double u_turn_cost_m_;
     std::unordered_map<std::uint32_t, std::vector<Reached>> around_; ///< by EdgeId
+    std::size_t kept_ = 0;                                           ///< edges in around_
     std::vector<Reached> settled_;                                   ///< of the last search
     std::vector<Label> labels_; ///< a hash table with open addressing, a power of two long
     std::size_t labelled_ = 0;
