@@ -93,7 +93,7 @@ std::string spoken(const OpenImport& earlier) {
 
 void import_known(RoadStore& store, const ImportOptions& options, const Console& console) {
     const auto& known = options.known;
-    const auto roads = kept_roads(store);
+    const auto roads = kept_roads(store, [&](const std::string& words) { console.say(words); });
     if (known.survey) {
         const auto outcome = import_survey(store, roads, known);
         if (options.json) {
@@ -142,13 +142,14 @@ void run_import(const Arguments& arguments, const Console& console) {
     const auto tell = [&](const TripOutcome& outcome) { tell_of(outcome, options.json); };
     auto importing = console.progress("importing");
     importing.stop = interruption.stop();
-    const auto totals = import_trips(store,
-                                     trips,
-                                     vehicles,
-                                     options.pipeline,
-                                     {options.jobs, options.take_back},
-                                     importing,
-                                     tell);
+    const auto totals = import_trips(
+        store,
+        trips,
+        vehicles,
+        options.pipeline,
+        {options.jobs, options.take_back, [&](const std::string& words) { console.say(words); }},
+        importing,
+        tell);
     const auto fused = store.refresh(console.progress("fusing"));
 
     console.say(fmt::format("{} imported, {} known, {} rejected; {}, {} fused",

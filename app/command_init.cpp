@@ -140,9 +140,11 @@ NetworkSource source_of(const std::filesystem::path& network, const std::string&
 }
 
 void make_store(const InitOptions& options, const Console& console) {
+    const auto warn = [&](const std::string& words) { console.say(words); };
     auto ways =
         options.network
-            ? read_network(*options.network, options.columns, console.progress("reading roads"))
+            ? read_network(
+                  *options.network, options.columns, console.progress("reading roads"), warn)
             : traced_ways(options, console);
 
     const auto source =
@@ -183,9 +185,10 @@ void update_store(const InitOptions& options, const Console& console) {
     };
     auto store = RoadStore::open(options.store, RoadStore::Access::write);
     store.be_patient(patience_for(options.store, console, interruption.stop()));
-    const auto before = kept_roads(store);
+    const auto warn = [&](const std::string& words) { console.say(words); };
+    const auto before = kept_roads(store, warn);
     const auto after = build_network(
-        read_network(*options.update, options.columns, console.progress("reading roads")),
+        read_network(*options.update, options.columns, console.progress("reading roads"), warn),
         store.settings().segment_length_m);
 
     const auto comparing = told("comparing roads");

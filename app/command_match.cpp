@@ -58,14 +58,15 @@ MatchOptions parse_match(const Arguments& arguments) {
 
 /// Of a map, of a store that was made from one, or of the file beside such a store.
 RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
+    const auto warn = [&](const std::string& words) { console.say(words); };
     if (options.network.extension() == ".gpkg" && is_store(options.network)) {
-        return kept_roads(RoadStore::open(options.network, RoadStore::Access::read));
+        return kept_roads(RoadStore::open(options.network, RoadStore::Access::read), warn);
     }
     if (is_network_file(options.network)) {
         return open_network_file(options.network).roads;
     }
     return build_network(
-        read_network(options.network, options.columns, console.progress("reading roads")));
+        read_network(options.network, options.columns, console.progress("reading roads"), warn));
 }
 
 /// The trip with its receiver's latency; made-up times have none.

@@ -61,7 +61,8 @@ void print_worst_stretches(const RoadStore& store,
     RoadStretchConfig config;
     config.above_mm_per_m = options.worst.above_mm_per_m.value_or(poor_above(classes));
     config.least_length_m = options.worst.least_length_m;
-    auto stretches = worst_stretches(kept_roads(store), records, config);
+    auto stretches = worst_stretches(
+        kept_roads(store, [&](const std::string& words) { console.say(words); }), records, config);
     stretches.resize(std::min(stretches.size(), options.worst.count));
     if (stretches.empty()) {
         console.say(fmt::format(

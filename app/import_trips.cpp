@@ -365,7 +365,7 @@ ImportTotals import_trips(RoadStore& store,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell) {
     using Result = TripOutcome::Result;
-    const auto roads = kept_roads(store);
+    const auto roads = kept_roads(store, work.warn);
     auto config = asked;
     config.trim = trim_in(store, asked.trim);
     const Purpose purpose{
