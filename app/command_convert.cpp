@@ -1,5 +1,4 @@
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/mapping_option.hpp"
 #include "app/output_guard.hpp"
 
@@ -15,7 +14,6 @@
 #include <array>
 #include <filesystem>
 #include <map>
-#include <stop_token>
 #include <utility>
 
 namespace macadam {
@@ -197,14 +195,10 @@ void make_folder(const fs::path& folder) {
     }
 }
 
-void convert(const Task& task,
-             const ConvertOptions& options,
-             const Console& console,
-             const std::stop_token& stop) {
+void convert(const Task& task, const ConvertOptions& options, const Console& console) {
     const TripNeeds all{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
-    auto reading = console.progress("reading");
-    reading.stop = stop;
-    const auto trip = read_trip(task.trip, all, reading);
+    const auto& stop = console.stop();
+    const auto trip = read_trip(task.trip, all, console.progress("reading"));
     if (!names_a_file(options.output)) {
         make_folder(task.output.parent_path());
     }
@@ -225,14 +219,12 @@ void convert(const Task& task,
 
 /// \returns how many could not be converted.
 std::size_t convert_all(const Tasks& all, const ConvertOptions& options, const Console& console) {
-    const Interruption interruption;
-    const auto stop = interruption.stop();
     std::size_t failed = all.refused.size();
     for (std::size_t done = 0; done < all.tasks.size(); ++done) {
         try {
-            convert(all.tasks[done], options, console, stop);
+            convert(all.tasks[done], options, console);
         } catch (const InputError& error) {
-            if (stop.stop_requested()) {
+            if (console.stop().stop_requested()) {
                 throw InputError{fmt::format("interrupted: {} of {} were not converted",
                                              all.tasks.size() - done,
                                              counted(all.tasks.size(), "trip"))};

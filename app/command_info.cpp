@@ -4,6 +4,7 @@
 #include "app/info_tables.hpp"
 #include "app/laid_words.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 #include "app/truth_output.hpp"
 
 #include "storage/json.hpp"
@@ -118,10 +119,7 @@ std::string text_of(const StoreInfo& info) {
     return text;
 }
 
-void run_info(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
-    warn_of_waiting(store, file, console);
+void print_info(const RoadStore& store, const Arguments& arguments) {
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
         return;
@@ -144,6 +142,14 @@ void run_info(const Arguments& arguments, const Console& console) {
         print_words(text_of(info) + text_of(tables) + text_of(known.surveys) +
                     text_of(known.controls) + (truth ? "\n" + text_of(*truth) : ""));
     }
+}
+
+void run_info(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const auto store = opened_store(file, RoadStore::Access::read, console);
+    warn_of_waiting(store, file, console);
+    print_info(store, arguments);
+    store.expect_in_place();
 }
 
 constexpr std::array operands{store_operand};

@@ -3,6 +3,7 @@
 #include "app/match_output.hpp"
 #include "app/output_guard.hpp"
 #include "app/pipeline.hpp"
+#include "app/store_patience.hpp"
 #include "app/trip_place.hpp"
 
 #include "estimator/common/error.hpp"
@@ -59,7 +60,10 @@ MatchOptions parse_match(const Arguments& arguments) {
 /// Of a map, of a store that was made from one, or of the file beside such a store.
 RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
     if (options.network.extension() == ".gpkg" && is_store(options.network)) {
-        return kept_roads(RoadStore::open(options.network, RoadStore::Access::read));
+        const auto store = opened_store(options.network, RoadStore::Access::read, console);
+        auto roads = kept_roads(store);
+        store.expect_in_place();
+        return roads;
     }
     if (is_network_file(options.network)) {
         return open_network_file(options.network).roads;

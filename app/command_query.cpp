@@ -7,6 +7,7 @@
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
 #include "app/segment_output.hpp"
+#include "app/store_patience.hpp"
 #include "app/stretch_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -121,7 +122,7 @@ void print_sections(const RoadStore& store, const QueryOptions& options, const C
 
 void run_query(const Arguments& arguments, const Console& console) {
     const auto options = parse_query(arguments);
-    const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    const auto store = opened_store(options.store, RoadStore::Access::read, console);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
     expect_segment(store, options);
@@ -140,6 +141,7 @@ void run_query(const Arguments& arguments, const Console& console) {
     } else {
         print_segments(store, options, console);
     }
+    store.expect_in_place();
 }
 
 constexpr std::array operands{store_operand};

@@ -116,14 +116,17 @@ public:
         }
     }
 
-    /// Waits for its outcome, but no longer than until then; nothing: it is not there yet.
-    std::optional<TripOutcome> take(std::size_t number, const Deadline& until) {
+    /// Waits for its outcome, but no longer than until then or until a stop is wanted; nothing: it
+    /// is not there yet.
+    std::optional<TripOutcome>
+    take(std::size_t number, const Deadline& until, const std::stop_token& stop) {
+        constexpr std::chrono::milliseconds look_every{50};
         std::unique_lock lock{mutex_};
         const auto is_there = [&] { return done_.contains(number) || failure_; };
-        if (!until) {
-            changed_.wait(lock, is_there);
-        } else if (!changed_.wait_until(lock, *until, is_there)) {
-            return std::nullopt;
+        while (!changed_.wait_for(lock, look_every, is_there)) {
+            if (stop.stop_requested() || (until && Clock::now() >= *until)) {
+                return std::nullopt;
+            }
         }
         if (failure_) {
             std::rethrow_exception(failure_);
@@ -286,12 +289,12 @@ ImportTotals work_on(const Purpose& purpose,
             totals.left = trips.size() - i;
             break;
         }
-        auto outcome = workshop.take(i, batch.due());
+        auto outcome = workshop.take(i, batch.due(), progress.stop);
         if (!outcome) { // a long one: what was done before it does not wait
             commit();
-            outcome = workshop.take(i, {});
+            outcome = workshop.take(i, {}, progress.stop);
         }
-        if (progress.stop.stop_requested() && outcome->result == Result::rejected) {
+        if (!outcome || (progress.stop.stop_requested() && outcome->result == Result::rejected)) {
             totals.left = trips.size() - i; // rejected only for being stopped, it may be
             break;
         }

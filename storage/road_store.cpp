@@ -1,7 +1,7 @@
 #include "storage/road_store.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/atomic_file.hpp"
+#include "storage/atomic_file_set.hpp"
 #include "storage/forgotten_trips.hpp"
 #include "storage/network_rows.hpp"
 #include "storage/pass_writer.hpp"
@@ -77,24 +77,22 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
                             const StoreSettings& settings,
                             const Progress& progress) {
     refuse_existing(file);
-    AtomicFile whole{file};
-    Database database{whole.temporary(), Database::Access::create, file};
+    AtomicFileSet whole{file};
+    Database database{whole.main_file(), Database::Access::create, file};
     add_geometry_functions(database);
     write_store(database, roads, settings, progress);
     database.close();
     remove_leftovers_of(file);
-    whole.commit();
+    whole.commit_new();
     return open(file, Access::write);
 }
 
-RoadStore RoadStore::open(const std::filesystem::path& file, Access access) {
+RoadStore RoadStore::open(const std::filesystem::path& file, Access access, LockPatience patience) {
     expect_store_file(file);
-    return RoadStore{std::make_unique<Impl>(
-        file, access == Access::read ? Database::Access::read : Database::Access::write)};
-}
-
-void RoadStore::be_patient(LockPatience patience) {
-    impl_->database.be_patient(std::move(patience));
+    return RoadStore{std::make_unique<Impl>(file,
+                                            access == Access::read ? Database::Access::read
+                                                                   : Database::Access::write,
+                                            std::move(patience))};
 }
 
 const StoreSettings& RoadStore::settings() const {
@@ -103,6 +101,10 @@ const StoreSettings& RoadStore::settings() const {
 
 const std::filesystem::path& RoadStore::file() const {
     return impl_->database.file();
+}
+
+void RoadStore::expect_in_place() const {
+    impl_->database.expect_in_place();
 }
 
 std::string RoadStore::network_hash() const {
