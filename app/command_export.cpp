@@ -6,6 +6,7 @@
 #include "app/publication_words.hpp"
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 #include "app/tile_export.hpp"
 
 #include "storage/atomic_file.hpp"
@@ -102,6 +103,7 @@ void export_sections(const RoadStore& store, const ExportOptions& options, const
             writer.add(section);
         });
     writer.finish();
+    store.expect_in_place();
     file.commit();
     console.say(fmt::format(
         "{}: {}, {}", options.output.string(), counted(writer.count(), "section"), spoken(total)));
@@ -115,7 +117,7 @@ void run_export(const Arguments& arguments, const Console& console) {
             options.store, options.filter.box, options.output, *options.pictures, console);
         return;
     }
-    const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    const auto store = opened_store(options.store, RoadStore::Access::read, console);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
     tell_publication(store, console);

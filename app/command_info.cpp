@@ -149,11 +149,7 @@ std::string text_of(const StoreInfo& info, bool operates) {
     return text;
 }
 
-void run_info(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
-    const auto store = open_for_operator(file, console);
-    warn_of_waiting(store, file, console);
-    warn_of_open_key(store, console);
+void print_info(const RoadStore& store, const Arguments& arguments) {
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
         return;
@@ -182,6 +178,15 @@ void run_info(const Arguments& arguments, const Console& console) {
         print_words(text_of(info, store.is_operator()) + text_of(tables) + text_of(known.surveys) +
                     text_of(known.controls) + (truth ? "\n" + text_of(*truth) : ""));
     }
+}
+
+void run_info(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const auto store = open_for_operator(file, console);
+    warn_of_waiting(store, file, console);
+    warn_of_open_key(store, console);
+    print_info(store, arguments);
+    store.expect_in_place();
 }
 
 constexpr std::array operands{store_operand};

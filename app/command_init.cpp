@@ -1,6 +1,5 @@
 #include "app/asked_trips.hpp"
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/network_update_output.hpp"
 #include "app/output_guard.hpp"
 #include "app/store_patience.hpp"
@@ -177,28 +176,21 @@ void expect_to_go_on(const Progress& progress, const std::filesystem::path& stor
 }
 
 void update_store(const InitOptions& options, const Console& console) {
-    const Interruption interruption;
-    const auto told = [&](const char* label) {
-        auto progress = console.progress(label);
-        progress.stop = interruption.stop();
-        return progress;
-    };
-    auto store = RoadStore::open(options.store, RoadStore::Access::write);
-    store.be_patient(patience_for(options.store, console, interruption.stop()));
+    auto store = opened_store(options.store, RoadStore::Access::write, console);
     const auto warn = [&](const std::string& words) { console.say(words); };
     const auto before = kept_roads(store, warn);
     const auto after = build_network(
         read_network(*options.update, options.columns, console.progress("reading roads"), warn),
         store.settings().segment_length_m);
 
-    const auto comparing = told("comparing roads");
+    const auto comparing = console.progress("comparing roads");
     const auto change = change_between(before, after, {}, comparing);
     expect_to_go_on(comparing, options.store);
     const auto update = store.update_network(before,
                                              after,
                                              change,
                                              source_of(*options.update, options.attribution),
-                                             told("carrying passes"));
+                                             console.progress("carrying passes"));
     keep_roads(store, after);
     if (options.json) {
         print(json_of(update));

@@ -1,5 +1,4 @@
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/segment_options.hpp"
 #include "app/store_patience.hpp"
 
@@ -28,11 +27,8 @@ void expect_crowd(const std::string& profile, const std::filesystem::path& file)
 void run_privacy(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     expect_crowd(arguments.operand("PROFILE"), file);
-    auto store = RoadStore::open(file, RoadStore::Access::write);
-    const Interruption interruption;
-    auto progress = console.progress("trimming");
-    progress.stop = interruption.stop();
-    store.be_patient(patience_for(file, console, progress.stop));
+    auto store = opened_store(file, RoadStore::Access::write, console);
+    const auto progress = console.progress("trimming");
     const auto made = store.make_crowd(progress);
     print_words(fmt::format("a crowd's database from now on: {} trimmed, {} taken out\n",
                             counted(made.trips, "trip"),

@@ -1,5 +1,4 @@
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/store_patience.hpp"
@@ -21,11 +20,8 @@ std::int64_t now_utc_ms() {
 
 void run_publish(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
-    auto store = RoadStore::open(file, RoadStore::Access::write);
-    const Interruption interruption;
-    auto progress = console.progress("publishing");
-    progress.stop = interruption.stop();
-    store.be_patient(patience_for(file, console, progress.stop));
+    auto store = opened_store(file, RoadStore::Access::write, console);
+    const auto progress = console.progress("publishing");
     const auto done = store.publish(kept_roads(store), now_utc_ms(), progress);
     if (arguments.flag("--json")) {
         print(json_of(std::optional{done.publication}) + "\n");

@@ -8,6 +8,7 @@
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
 #include "app/segment_output.hpp"
+#include "app/store_patience.hpp"
 #include "app/stretch_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -144,6 +145,7 @@ void run_query(const Arguments& arguments, const Console& console) {
     } else {
         print_segments(store, options, console);
     }
+    store.expect_in_place();
 }
 
 constexpr std::array operands{store_operand};

@@ -1,5 +1,4 @@
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/segment_options.hpp"
 #include "app/store_patience.hpp"
 
@@ -45,13 +44,9 @@ std::string text_of(const StoreUpgrade& done, const std::filesystem::path& file)
 
 void run_upgrade(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
-    const Interruption interruption;
-    const auto done = upgrade_store(
-        file, patience_for(file, console, interruption.stop()), [&](std::string_view part) {
-            auto progress = console.progress(std::string{part});
-            progress.stop = interruption.stop();
-            return progress;
-        });
+    const auto done = upgrade_store(file, patience_for(file, console), [&](std::string_view part) {
+        return console.progress(std::string{part});
+    });
     if (arguments.flag("--json")) {
         print(json_of(done));
     } else {

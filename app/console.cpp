@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include <unistd.h>
 
@@ -42,7 +43,8 @@ void require_written(bool written) {
 
 } // namespace
 
-Console::Console(bool quiet) : quiet_{quiet}, terminal_{isatty(STDERR_FILENO) == 1} {}
+Console::Console(bool quiet, std::stop_token stop)
+    : stop_{std::move(stop)}, quiet_{quiet}, terminal_{isatty(STDERR_FILENO) == 1} {}
 
 void Console::say(std::string_view line) const {
     if (!quiet_) {
@@ -56,7 +58,7 @@ void Console::warn(std::string_view line) const { // NOLINT(*-convert-member-fun
 
 Progress Console::progress(std::string label) const {
     if (quiet_ || !terminal_) {
-        return {};
+        return {.report = {}, .stop = stop_};
     }
     auto shown = std::make_shared<int>(-1);
     const auto begin = Clock::now();
@@ -80,7 +82,7 @@ Progress Console::progress(std::string label) const {
                     std::fputs(line.c_str(), stderr);
                     std::fflush(stderr);
                 },
-            .stop = {}};
+            .stop = stop_};
 }
 
 std::string counted(std::size_t count, std::string_view one) {

@@ -123,15 +123,16 @@ public:
         bool over = false;                  ///< there is no such trip
     };
 
-    /// Waits for its outcome, but no longer than until then.
-    Taken take(std::size_t number, const Deadline& until) {
+    /// Waits for its outcome, but no longer than until then or until a stop is wanted.
+    Taken take(std::size_t number, const Deadline& until, const std::stop_token& stop) {
+        constexpr std::chrono::milliseconds look_every{50};
         std::unique_lock lock{mutex_};
         const auto is_over = [&] { return count_ && number >= *count_; };
         const auto is_there = [&] { return done_.contains(number) || failure_ || is_over(); };
-        if (!until) {
-            changed_.wait(lock, is_there);
-        } else if (!changed_.wait_until(lock, *until, is_there)) {
-            return {};
+        while (!changed_.wait_for(lock, look_every, is_there)) {
+            if (stop.stop_requested() || (until && Clock::now() >= *until)) {
+                return {};
+            }
         }
         if (failure_) {
             std::rethrow_exception(failure_);
@@ -318,10 +319,14 @@ ImportTotals work_on(const Purpose& purpose,
             totals.interrupted = true;
             break;
         }
-        auto taken = workshop.take(i, batch.due());
+        auto taken = workshop.take(i, batch.due(), progress.stop);
         if (!taken.outcome && !taken.over) { // a long one: what was done before it does not wait
             commit();
-            taken = workshop.take(i, {});
+            taken = workshop.take(i, {}, progress.stop);
+        }
+        if (!taken.outcome && !taken.over) {
+            totals.interrupted = true;
+            break;
         }
         if (taken.over) {
             break;

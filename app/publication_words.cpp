@@ -1,5 +1,6 @@
 #include "app/publication_words.hpp"
 
+#include "app/store_patience.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/json.hpp"
 
@@ -35,7 +36,7 @@ void tell_publication(const RoadStore& store, const Console& console) {
 }
 
 RoadStore open_for_operator(const std::filesystem::path& file, const Console& console) {
-    auto store = RoadStore::open(file, RoadStore::Access::read, Reader::operator_);
+    auto store = opened_store(file, RoadStore::Access::read, console, Reader::operator_);
     if (store.settings().privacy == PrivacyProfile::crowd && !store.shows_published_alone()) {
         console.say("shown to the operator: more than is published, not to be handed on");
     }

@@ -230,6 +230,7 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
         }
     }
     std::filesystem::remove(files.folder() / "plain.fgb");
+    what.store.expect_in_place();
     files.commit();
     return written;
 }
@@ -253,6 +254,7 @@ std::size_t export_shapefile(const SegmentExport& what) {
         throw InputError{
             fmt::format("{}: cannot be written; the disk may be full", what.file.string())};
     }
+    what.store.expect_in_place();
     files.commit(stale_beside(stem));
     return written;
 }

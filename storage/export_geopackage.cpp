@@ -1,9 +1,11 @@
 #include "storage/segment_export.hpp"
 
 #include "mapping/antimeridian.hpp"
+#include "storage/atomic_file_set.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/sqlite.hpp"
+#include "storage/utc.hpp"
 
 namespace macadam {
 namespace {
@@ -58,10 +60,17 @@ void write_row(Statement& insert,
     insert.step();
 }
 
-} // namespace
+/// Not the time of the export but the day of the last pass, so that the same roads make the same
+/// bytes.
+void date_by_content(Database& database, const SeenSpan& seen) {
+    const auto day = utc_text(seen.last_ms.value_or(0)).substr(0, 10);
+    const auto time = day + "T00:00:00.000Z";
+    database.prepare("UPDATE gpkg_contents SET last_change = ?").run(time);
+    database.prepare("UPDATE layer_styles SET update_time = ?").run(time);
+}
 
-std::size_t write_geopackage(const SegmentExport& what, AtomicFile& file) {
-    Database database{file.temporary(), Database::Access::create, what.file};
+std::size_t write_geopackage(const SegmentExport& what, const std::filesystem::path& file) {
+    Database database{file, Database::Access::create, what.file};
     add_geometry_functions(database);
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
@@ -88,7 +97,19 @@ std::size_t write_geopackage(const SegmentExport& what, AtomicFile& file) {
     index_features(database, "roughness");
     add_style_table(database);
     add_default_style(database, "roughness", what.classes);
+    date_by_content(database, what.store.seen());
     all.commit();
+    return written;
+}
+
+} // namespace
+
+std::size_t export_geopackage(const SegmentExport& what) {
+    AtomicFileSet files{what.file};
+    const auto written = write_geopackage(what, files.main_file());
+    what.store.expect_in_place();
+    remove_leftovers_of(what.file);
+    files.commit();
     return written;
 }
 

@@ -1,7 +1,7 @@
 #include "storage/road_store.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/atomic_file.hpp"
+#include "storage/atomic_file_set.hpp"
 #include "storage/forgotten_trips.hpp"
 #include "storage/network_rows.hpp"
 #include "storage/pass_writer.hpp"
@@ -82,8 +82,8 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
     const auto key_file = key_file_of(file);
     const auto old_key = read_key(key_file);
     const auto key = old_key.value_or(PrivacyKey::make());
-    AtomicFile whole{file};
-    Database database{whole.temporary(), Database::Access::create, file};
+    AtomicFileSet whole{file};
+    Database database{whole.main_file(), Database::Access::create, file};
     add_geometry_functions(database);
     write_store(database, roads, settings, key.id(), progress);
     database.close();
@@ -92,7 +92,7 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
         write_key(key_file, key);
     }
     try {
-        whole.commit();
+        whole.commit_new();
     } catch (...) {
         std::error_code ignored;
         if (!old_key && !std::filesystem::exists(file, ignored)) {
@@ -103,19 +103,20 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
     return open(file, Access::write);
 }
 
-RoadStore RoadStore::open(const std::filesystem::path& file, Access access, Reader reader) {
+RoadStore RoadStore::open(const std::filesystem::path& file,
+                          Access access,
+                          LockPatience patience,
+                          Reader reader) {
     expect_store_file(file);
-    auto impl = std::make_unique<Impl>(
-        file, access == Access::read ? Database::Access::read : Database::Access::write);
+    auto impl = std::make_unique<Impl>(file,
+                                       access == Access::read ? Database::Access::read
+                                                              : Database::Access::write,
+                                       std::move(patience));
     const bool sees_all = reader == Reader::operator_ && impl->key;
     if (impl->settings.privacy == PrivacyProfile::crowd && access == Access::read && !sees_all) {
         impl->show_published_alone();
     }
     return RoadStore{std::move(impl)};
-}
-
-void RoadStore::be_patient(LockPatience patience) {
-    impl_->database.be_patient(std::move(patience));
 }
 
 const StoreSettings& RoadStore::settings() const {
@@ -124,6 +125,10 @@ const StoreSettings& RoadStore::settings() const {
 
 const std::filesystem::path& RoadStore::file() const {
     return impl_->database.file();
+}
+
+void RoadStore::expect_in_place() const {
+    impl_->database.expect_in_place();
 }
 
 std::string RoadStore::network_hash() const {

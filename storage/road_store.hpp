@@ -168,17 +168,18 @@ public:
                             const Progress& progress = {});
 
     enum class Access { read, write };
+    /// \param patience  how it waits, from its opening on, while another process writes, and what
+    /// ends the wait: what then was to be written is not. Without a word from here it waits as long
+    /// as the other works. Its stop also ends what is read.
     /// \param reader  for whom a store is read; who writes it sees all.
-    static RoadStore
-    open(const std::filesystem::path& file, Access access, Reader reader = Reader::anyone);
+    static RoadStore open(const std::filesystem::path& file,
+                          Access access,
+                          LockPatience patience = {},
+                          Reader reader = Reader::anyone);
 
     RoadStore(RoadStore&&) noexcept;
     RoadStore& operator=(RoadStore&&) noexcept;
     ~RoadStore();
-
-    /// How it waits from now on while another process writes, and what ends the wait: what then
-    /// was to be written is not. Without a word from here it waits as long as the other works.
-    void be_patient(LockPatience patience);
 
     const StoreSettings& settings() const;
 
@@ -216,6 +217,9 @@ public:
     /// and long stops of its trips and overwrites the bytes, in one transaction.
     /// \throws InputError  if it is one, or its roads were traced from trips.
     CrowdMade make_crowd(const Progress& progress = {});
+    /// To be asked at the end of what was read. \throws InputError  if the file was removed, or
+    /// another one has taken its place, since it was opened.
+    void expect_in_place() const;
 
     /// The network this store was made for; its segments are cut from it. Built from the ways that
     /// the store holds: kept_roads (storage/network_file.hpp) has it quicker.

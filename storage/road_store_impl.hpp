@@ -11,11 +11,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace macadam {
 
 struct RoadStore::Impl {
-    Impl(const std::filesystem::path& file, Database::Access access) : database{file, access} {
+    Impl(const std::filesystem::path& file, Database::Access access, LockPatience patience)
+        : database{file, access, {}, std::move(patience)} {
         add_geometry_functions(database);
         add_row_visits(database);
         check_store(database);

@@ -5,15 +5,25 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 namespace macadam {
 namespace {
 
 // Readers wait only in the moments in which a log is begun or brought in.
-constexpr std::chrono::seconds idle_limit_of_readers{20};
+constexpr std::chrono::milliseconds idle_limit_of_readers{20'000};
+
+// Of SQLite's virtual machine, between two looks at whether a reader is to stop: about 1 ms.
+constexpr int instructions_between_looks = 20'000;
+
+std::atomic<int> open_for_writing = 0;
+
+int is_to_stop(void* wait) {
+    return static_cast<const LockWait*>(wait)->is_stop_wanted() ? 1 : 0;
+}
 
 int wait_for_turn(void* wait, int pauses) {
     return static_cast<LockWait*>(wait)->wait(pauses) ? 1 : 0;
@@ -55,6 +65,8 @@ std::string cause_of(sqlite3* database, const OpenFile& file, int code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         return file.wait.reason();
+    case SQLITE_INTERRUPT:
+        return "interrupted while it was read";
     case SQLITE_IOERR:
         return cause_of_io_error(database, code);
     default:
@@ -113,7 +125,18 @@ sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file
     if (!is_of_ours(access)) { // whose R-tree is written node by node
         guard_from_others(database);
     }
+    if (access ==
+        Database::Access::read) { // who writes looks himself, between what belongs together
+        sqlite3_progress_handler(database, instructions_between_looks, is_to_stop, &file.wait);
+    }
     return database;
+}
+
+LockPatience patience_of(Database::Access access, LockPatience patience) {
+    if (access == Database::Access::read) {
+        patience.idle_limit = std::min(patience.idle_limit, idle_limit_of_readers);
+    }
+    return patience;
 }
 
 /// A store that was copied while it was written is in the mode of a write-ahead log, which cannot
@@ -262,17 +285,23 @@ void Database::Close::operator()(sqlite3* database) const {
         sqlite3_exec(database, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
     }
     sqlite3_close_v2(database);
+    if (writes) {
+        --open_for_writing;
+    }
+}
+
+int databases_open_for_writing() noexcept {
+    return open_for_writing;
 }
 
 Database::Database(const std::filesystem::path& file,
                    Access access,
-                   const std::filesystem::path& known_as)
+                   const std::filesystem::path& known_as,
+                   LockPatience patience)
     : file_{std::make_unique<OpenFile>(OpenFile{
           known_as.empty() ? file : known_as,
-          LockWait{std::filesystem::absolute(file),
-                   access == Access::read ? LockPatience{.idle_limit = idle_limit_of_readers}
-                                          : LockPatience{}}})},
-      database_{nullptr, Close{.takes_log_away = false}} {
+          LockWait{std::filesystem::absolute(file), patience_of(access, std::move(patience))}})},
+      database_{nullptr, Close{.writes = false, .takes_log_away = false}} {
     const auto name = std::filesystem::absolute(file); // never ":memory:"
     database_.reset(opened(name.string(), access, *file_));
     if (access == Access::read && must_be_taken_as_it_is(handle(), name, file_->name)) {
@@ -281,6 +310,10 @@ Database::Database(const std::filesystem::path& file,
     auto* const database = handle();
     if (access == Access::write && sqlite3_db_readonly(database, "main") == 1) {
         check(database, *file_, SQLITE_READONLY);
+    }
+    if (access == Access::write) {
+        database_.get_deleter().writes = true;
+        ++open_for_writing;
     }
     run(guarded);
     run(settings_for(access));
@@ -293,11 +326,12 @@ void Database::be_patient(LockPatience patience) {
 void Database::write_beside_readers(std::chrono::milliseconds patience) {
     database_.get_deleter().takes_log_away = true;
     wants_log_ = true;
-    constexpr std::chrono::milliseconds pause{5};
-    const auto pauses = patience / pause;
+    const auto end = std::chrono::steady_clock::now() + patience;
     begin_log_if_wanted();
-    for (int i = 0; wants_log_ && i < pauses; ++i) {
-        std::this_thread::sleep_for(pause);
+    for (int pauses = 0; wants_log_ && std::chrono::steady_clock::now() < end; ++pauses) {
+        if (!file_->wait.wait(pauses)) {
+            check(handle(), *file_, SQLITE_BUSY);
+        }
         begin_log_if_wanted();
     }
 }
@@ -349,6 +383,16 @@ bool Database::in_transaction() const {
     return sqlite3_get_autocommit(handle()) == 0;
 }
 
+void Database::expect_in_place() const {
+    int has_moved = 0;
+    sqlite3_file_control(handle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+    if (has_moved != 0) {
+        throw InputError{fmt::format("{}: was removed, or another file has taken its place, while "
+                                     "this command worked on it; run it again",
+                                     file().string())};
+    }
+}
+
 void Database::close() {
     database_.reset();
 }
@@ -395,6 +439,9 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
+    if (is_outermost_) { // a lost file would take the commit without a word
+        database_->expect_in_place();
+    }
     database_->run("COMMIT");
 }
 
