@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <map>
+
 namespace macadam::testing {
 namespace {
 
@@ -71,8 +74,10 @@ protected:
             texts["segments as " + format] =
                 out_of({"query", "--worst", "50", "--segments", "--format", format});
             texts["stretches as " + format] = out_of({"query", "--worst", "5", "--format", format});
+        }
+        for (const std::string format : {"table", "json", "csv"}) {
             texts["history as " + format] =
-                out_of({"query", "--worst", "1", "--history", "--format", format});
+                out_of({"query", "--bbox", "10,47,12,49", "--history", "--format", format});
         }
         const auto out = folder_ / "out";
         fs::create_directories(out);
@@ -124,8 +129,16 @@ TEST_F(PrivacyProgram, TellsNoIdOfACarAnywhere) {
 TEST_F(PrivacyProgram, HandsOnDaysAndNoTimes) {
     std::size_t with_day = 0;
     for (const auto& [name, text] : handed_on()) {
-        EXPECT_THAT(text, Not(ContainsRegex("2026-05-0[12][T ]0?8:"))) << name;
-        EXPECT_THAT(text, Not(ContainsRegex("2026/05/0[12] 0?8:"))) << name;
+        for (const auto* const time : {"2026-05-01T",
+                                       "2026-05-02T",
+                                       "2026-05-01 0",
+                                       "2026-05-02 0",
+                                       "2026/05/01 0",
+                                       "2026/05/02 0",
+                                       "T08:1",
+                                       " 08:1"}) {
+            EXPECT_EQ(text.find(time), std::string::npos) << name << " " << time;
+        }
         with_day += text.find("2026-05-01") != std::string::npos ? 1 : 0;
     }
     EXPECT_GE(with_day, 10U);
