@@ -1,5 +1,4 @@
 #include "storage/sqlite.hpp"
-
 #include "storage/sqlite_guard.hpp"
 
 #include <fmt/format.h>
