@@ -9,6 +9,7 @@
 #include "storage/publication_rows.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/store_moment.hpp"
+#include "storage/store_schema.hpp"
 #include "storage/strip_states.hpp"
 
 #include <fmt/format.h>
@@ -94,7 +95,8 @@ public:
         : database_{&database}, work_{work}, blocks_{*work.roads}, trips_{rows_of_trips(database)},
           ends_{end_passes_of(database, blocks_, trips_)}, states_{database},
           number_{1 + database.number("SELECT coalesce(max(number), 0) FROM publication")},
-          before_{reach_of(database, number_ - 1)},
+          before_{reach_of(database, number_ - 1)}, rule_{.last_of_key =
+                                                              read_last_of_keys(database)},
           until_{database.prepare(
               "SELECT last_trip, pending_from_ms FROM published_until WHERE segment = ?")},
           put_until_{database.prepare("INSERT OR REPLACE INTO published_until VALUES (?, ?, ?)")},
@@ -159,7 +161,7 @@ private:
                                    .has_aged = trip <= aged});
             }
         }
-        segment.release = release(pending, {});
+        segment.release = release(pending, rule_);
         return segment;
     }
 
@@ -246,7 +248,7 @@ private:
     }
 
     SegmentState state_of(const std::vector<FusionInput>& inputs) const {
-        return published(fuse(inputs, states_.config()), inputs, ReleaseRule{}.min_cars);
+        return published(fuse(inputs, states_.config()), inputs, rule_);
     }
 
     void write_figure(std::int64_t fid, const ReleaseBatch& batch, const SegmentState& state) {
@@ -281,6 +283,7 @@ private:
     StripStates states_;
     std::int64_t number_;
     PublicationReach before_;
+    ReleaseRule rule_;
     std::vector<std::int64_t> reach_; ///< last trips of so many publications ago; 0: of none
     std::unordered_map<std::uint64_t, std::int64_t> aged_; ///< by block
     Statement until_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -26,14 +27,15 @@ std::int64_t begin_of(const std::chrono::year_month& month) {
 }
 
 template <typename Condition>
-std::int32_t cars_in(std::span<const PendingPass> passes, Condition is_meant) {
+std::int32_t
+cars_in(std::span<const PendingPass> passes, const ReleaseRule& rule, Condition is_meant) {
     std::set<std::int64_t> cars;
     for (const auto& pass : passes) {
         if (is_meant(pass)) {
             cars.insert(pass.vehicle);
         }
     }
-    return static_cast<std::int32_t>(cars.size());
+    return min_count(cars, rule);
 }
 
 ReleaseBatch batch_of(const Months& months) {
@@ -55,6 +57,17 @@ std::optional<std::int64_t> first_of(const Months& months) {
 
 } // namespace
 
+std::int32_t min_count(const std::set<std::int64_t>& vehicles, const ReleaseRule& rule) {
+    std::ptrdiff_t most = 0;
+    auto first = vehicles.begin();
+    for (const auto last : rule.last_of_key) {
+        const auto past = vehicles.upper_bound(last);
+        most = std::max(most, std::distance(first, past));
+        first = past;
+    }
+    return static_cast<std::int32_t>(std::max(most, std::distance(first, vehicles.end())));
+}
+
 std::int64_t month_begin_ms(std::int64_t utc_ms) {
     return begin_of(month_of(utc_ms));
 }
@@ -70,9 +83,10 @@ Release release(std::span<const PendingPass> pending, const ReleaseRule& rule) {
         months[utc_ms ? month_begin_ms(*utc_ms) : undated].push_back(i);
     }
     const bool may_appear =
-        cars_in(pending, [](const PendingPass& pass) { return pass.is_new; }) >=
+        cars_in(pending, rule, [](const PendingPass& pass) { return pass.is_new; }) >=
             rule.min_new_cars ||
-        cars_in(pending, [](const PendingPass& pass) { return pass.has_aged; }) >= rule.min_cars;
+        cars_in(pending, rule, [](const PendingPass& pass) { return pass.has_aged; }) >=
+            rule.min_cars;
     Release result;
     Months together;
     std::set<std::int64_t> cars;
@@ -81,7 +95,7 @@ Release release(std::span<const PendingPass> pending, const ReleaseRule& rule) {
             cars.insert(pending[i].vehicle);
         }
         together.emplace(month, std::move(passes));
-        if (may_appear && std::cmp_greater_equal(cars.size(), rule.min_cars)) {
+        if (may_appear && min_count(cars, rule) >= rule.min_cars) {
             result.batches.push_back(batch_of(together));
             together.clear();
             cars.clear();
