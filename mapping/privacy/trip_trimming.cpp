@@ -138,8 +138,8 @@ travel_away(Iterator place, Iterator past, const GeoPoint& hidden, double away_m
 class HiddenPlaces {
 public:
     HiddenPlaces(const TripLog& trip, const Odometer& odometer, const TrimRule& rule)
-        : trip_{&trip}, rule_{&rule}, places_{places_of(trip, odometer)}, whole_m_{
-                                                                              odometer.whole_m()} {}
+        : trip_{&trip}, rule_{&rule}, places_{places_of(trip, odometer)},
+          whole_m_{odometer.whole_m()} {}
 
     /// From where on the trip may be told after a place; beyond the trip: nowhere.
     double end_after(double hidden_m, std::size_t n) const {
@@ -164,7 +164,7 @@ public:
         const auto away_m = travel_away(std::make_reverse_iterator(from),
                                         places_.rend(),
                                         place_at(places_, hidden_m),
-                                        length_m);
+                                        length_m + fix_error_m);
         return away_m ? std::min(by_travel_m, *away_m) : 0;
     }
 
