@@ -42,8 +42,7 @@ struct ReleaseBatch {
 
 struct Release {
     std::vector<ReleaseBatch> batches; ///< in the order of time
-    /// From this month on passes stay pending; nothing: none does.
-    std::optional<std::int64_t> pending_from_ms;
+    std::vector<std::size_t> left;     ///< of the passes: those that stay pending
 };
 
 /// Groups the pending passes of a segment. A batch takes month after month, those without a date

@@ -138,8 +138,8 @@ travel_away(Iterator place, Iterator past, const GeoPoint& hidden, double away_m
 class HiddenPlaces {
 public:
     HiddenPlaces(const TripLog& trip, const Odometer& odometer, const TrimRule& rule)
-        : trip_{&trip}, rule_{&rule}, places_{places_of(trip, odometer)},
-          whole_m_{odometer.whole_m()} {}
+        : trip_{&trip}, rule_{&rule}, places_{places_of(trip, odometer)}, whole_m_{
+                                                                              odometer.whole_m()} {}
 
     /// From where on the trip may be told after a place; beyond the trip: nowhere.
     double end_after(double hidden_m, std::size_t n) const {

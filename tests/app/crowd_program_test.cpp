@@ -114,7 +114,7 @@ TEST_F(Crowd, HandsOnWhatIsPublishedAndNothingElse) {
     const auto report = read_file(folder_ / "report.html");
     EXPECT_THAT(report, HasSubstr("rest on five cars or more"));
     EXPECT_THAT(report, Not(HasSubstr("not anonymised")));
-    run({"render", store_, "-o", at("map.png"), "--size", "200x200"});
+    run({"render", store_, "-o", at("map.png"), "--size", "400x300"});
 }
 
 TEST_F(Crowd, ShowsMoreToWhoHoldsTheKey) {

@@ -28,6 +28,10 @@ TEST(Months, BeginOnTheirFirstDay) {
     EXPECT_EQ(month_begin_ms(february_ms - 1), january_ms);
     EXPECT_EQ(next_month_ms(january_ms + 5 * day_ms), february_ms);
     EXPECT_EQ(next_month_ms(february_ms), march_ms);
+    EXPECT_EQ(month_begin_ms(1'709'164'800'000), 1'706'745'600'000); // 2024-02-29
+    EXPECT_EQ(next_month_ms(1'709'164'800'000), 1'709'251'200'000);
+    EXPECT_EQ(month_begin_ms(-1), -2'678'400'000); // 1969-12-31
+    EXPECT_EQ(next_month_ms(-1), 0);
 }
 
 // --------------------------------------------------------------------------------------- release
@@ -45,7 +49,9 @@ std::vector<PendingPass> passes_of_cars(int cars, std::int64_t month_ms) {
 }
 
 TEST(Release, NeedsFiveCars) {
-    EXPECT_THAT(release(passes_of_cars(4, january_ms), {}).batches, IsEmpty());
+    const auto four = release(passes_of_cars(4, january_ms), {});
+    EXPECT_THAT(four.batches, IsEmpty());
+    EXPECT_THAT(four.left, SizeIs(4));
     EXPECT_THAT(release(passes_of_cars(5, january_ms), {}).batches, SizeIs(1));
 }
 
@@ -64,7 +70,7 @@ TEST(Release, GivesEachMonthABatchOfItsOwnWhereEnoughCarsDrove) {
     EXPECT_EQ(released.batches[0].from_ms, january_ms);
     EXPECT_EQ(released.batches[0].until_ms, february_ms);
     EXPECT_EQ(released.batches[1].from_ms, february_ms);
-    EXPECT_EQ(released.pending_from_ms, std::nullopt);
+    EXPECT_THAT(released.left, IsEmpty());
 }
 
 TEST(Release, JoinsMonthsUntilTheyAreOfFiveCars) {
@@ -85,7 +91,7 @@ TEST(Release, KeepsTheRestPending) { // or the whole less its months would tell 
     const auto released = release(passes, {});
     ASSERT_THAT(released.batches, SizeIs(1));
     EXPECT_THAT(released.batches[0].passes, SizeIs(5));
-    EXPECT_EQ(released.pending_from_ms, february_ms);
+    EXPECT_THAT(released.left, ElementsAre(5));
 }
 
 TEST(Release, PutsPassesWithoutADateIntoTheFirstBatch) {
