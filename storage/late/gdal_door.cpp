@@ -12,6 +12,7 @@
 #include <cpl_string.h>
 #include <fmt/core.h>
 #include <gdal_frmts.h>
+#include <gdal_priv.h>
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
@@ -104,7 +105,7 @@ GDALDriver& driver_named(const char* name) {
     return *found;
 }
 
-GDALDatasetUniquePtr opened(const fs::path& file, MapKind kind, unsigned purpose) {
+std::shared_ptr<GDALDataset> opened(const fs::path& file, MapKind kind, unsigned purpose) {
     const std::array<const char*, 2> allowed{driver_of(kind), nullptr};
     CPLStringList options;
     if (kind == MapKind::gml) {
@@ -221,7 +222,7 @@ GDALDriver& driver_to_write(const char* name, const fs::path& folder) {
     return driver;
 }
 
-GDALDatasetUniquePtr reopen_lines(const fs::path& file, const char* driver) {
+std::shared_ptr<GDALDataset> reopen_lines(const fs::path& file, const char* driver) {
     const std::array<const char*, 2> allowed{driver, nullptr};
     return GDALDatasetUniquePtr{GDALDataset::Open(fs::absolute(file).c_str(),
                                                   GDAL_OF_VECTOR | GDAL_OF_READONLY,

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <gdal_priv.h>
-
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <vector>
+
+class GDALDataset;
+class GDALDriver;
 
 namespace macadam {
 
@@ -13,7 +15,7 @@ namespace macadam {
 // plug-ins, no network, and opens no file but that one and those that belong to it.
 
 struct LineDataset {
-    GDALDatasetUniquePtr dataset;
+    std::shared_ptr<GDALDataset> dataset;
     std::uintmax_t bytes; ///< of its files
 };
 
@@ -21,7 +23,7 @@ struct LineDataset {
 LineDataset open_lines(const std::filesystem::path& file);
 
 struct RasterDataset {
-    GDALDatasetUniquePtr dataset;
+    std::shared_ptr<GDALDataset> dataset;
     std::vector<std::filesystem::path> files; ///< that it is read from
 };
 
@@ -34,7 +36,7 @@ RasterDataset open_raster(const std::filesystem::path& file);
 GDALDriver& driver_to_write(const char* name, const std::filesystem::path& folder);
 
 /// Reads again what driver_to_write() made; empty if it cannot be read.
-GDALDatasetUniquePtr reopen_lines(const std::filesystem::path& file, const char* driver);
+std::shared_ptr<GDALDataset> reopen_lines(const std::filesystem::path& file, const char* driver);
 
 /// The driver that makes rasters in memory.
 GDALDriver& driver_in_memory(const char* name);

@@ -109,7 +109,7 @@ struct RasterFile::Impl {
     void colour(std::vector<std::uint8_t>& rgba) const;
 
     std::string name;
-    GDALDatasetUniquePtr raster;
+    std::shared_ptr<GDALDataset> raster;
     std::vector<fs::path> files;
     Transforms transforms;
     OGRSpatialReference system;
