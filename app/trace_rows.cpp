@@ -1,6 +1,5 @@
 #include "app/trace_rows.hpp"
 
-#include "estimator/travel_gap.hpp"
 #include "storage/json.hpp"
 
 #include <fmt/format.h>
@@ -104,7 +103,7 @@ void each_trace_row(const TripTrace& trace,
     for (std::size_t i = 0; static_cast<double>(i + 1) * length_m <= whole_m;) {
         const double from_m = static_cast<double>(i) * length_m;
         const double seen_m =
-            past_gap_m(trace.odometer, from_m, static_cast<double>(i + 1) * length_m);
+            trace.odometer.past_gap_m(from_m, static_cast<double>(i + 1) * length_m);
         if (seen_m > from_m) {
             i = std::max(i + 1, static_cast<std::size_t>(seen_m / length_m));
         } else {

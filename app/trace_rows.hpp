@@ -20,7 +20,7 @@ struct TraceRow {
 };
 
 /// Hands out the rows of a whole trip, one after the other, on multiples of length_m. Rows that lie
-/// within a gap of over longest_unseen_m (estimator/travel_gap.hpp) are left out.
+/// within a gap of over Odometer::longest_unseen_m are left out.
 void each_trace_row(const TripTrace& trace,
                     double length_m,
                     const TripPlace& place,

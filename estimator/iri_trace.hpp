@@ -99,7 +99,7 @@ struct IriRun {
 /// In the order of travel, not overlapping; between two runs nothing is known.
 struct IriTrace {
     std::vector<IriRun> runs;
-    std::vector<TravelSpan> slow; ///< why there is no run: the car was too slow (slow_parts)
+    std::vector<TravelSpan> slow; ///< in order, too: there is no run as the car was too slow
 };
 
 /// Method and vehicle behind one function: what a stretch says of the road under it.

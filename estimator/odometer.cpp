@@ -116,6 +116,14 @@ double Odometer::t_s(double travel_m) const {
     return knots_.t_s[i] + piece.length_s * time_part(piece, part);
 }
 
+double Odometer::past_gap_m(double from_m, double to_m) const {
+    const auto after = std::ranges::upper_bound(knots_.travel_m, from_m);
+    if (after == knots_.travel_m.begin() || after == knots_.travel_m.end()) {
+        return from_m;
+    }
+    return *after - *(after - 1) > longest_unseen_m && to_m < *after ? *after : from_m;
+}
+
 double Odometer::whole_m() const {
     return knots_.travel_m.back() - knots_.travel_m.front();
 }

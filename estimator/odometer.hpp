@@ -56,6 +56,13 @@ public:
     /// By how much wheel speed was multiplied; 1 where it was not compared.
     double scale() const { return scale_; }
 
+    /// The end of the gap of over `longest_unseen_m` within which nothing was recorded and that
+    /// holds all of this travel; from_m if there is none. What goes step by step along the travel
+    /// goes on there, so that its work goes with what was recorded and not with how far places
+    /// lie apart.
+    double past_gap_m(double from_m, double to_m) const;
+    static constexpr double longest_unseen_m = 1000;
+
     /// In order, not overlapping; the travel over them is straight from place to place.
     const std::vector<Pause>& pauses() const { return pauses_; }
 

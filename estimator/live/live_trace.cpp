@@ -2,7 +2,6 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/latency.hpp"
-#include "estimator/travel_gap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -166,7 +165,7 @@ std::vector<LiveRow> LiveTrace::rows_until(double travel_m) {
     while (static_cast<double>(told_ + 1) * config_.length_m <= travel_m) {
         const double from_m = static_cast<double>(told_) * config_.length_m;
         const double seen_m =
-            past_gap_m(*ruler_.odometer, from_m, static_cast<double>(told_ + 1) * config_.length_m);
+            ruler_.odometer->past_gap_m(from_m, static_cast<double>(told_ + 1) * config_.length_m);
         if (seen_m > from_m) {
             told_ = std::max(told_ + 1, static_cast<std::size_t>(seen_m / config_.length_m));
         } else {
