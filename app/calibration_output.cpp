@@ -14,7 +14,7 @@ namespace {
 constexpr double um_per_mm = 1000;
 
 std::string row_of(const CalibratedCar& car) {
-    const auto row = fmt::format("{:<18} {:>6} {:>9}", car.vehicle, car.trips, car.shared);
+    const auto row = fmt::format("{:<34} {:>6} {:>9}", car.vehicle, car.trips, car.shared);
     if (!car.calibration) {
         return row + "       -  shares too little with others\n";
     }
@@ -27,7 +27,7 @@ std::string row_of(const CalibratedCar& car) {
 } // namespace
 
 std::string text_of(const CalibrationReport& report) {
-    auto text = fmt::format("{:<18} {:>6} {:>9} {:>7} {:>9} {:>9}\n",
+    auto text = fmt::format("{:<34} {:>6} {:>9} {:>7} {:>9} {:>9}\n",
                             "car",
                             "trips",
                             "shared",

@@ -1,6 +1,6 @@
 #include "app/calibration_output.hpp"
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
+#include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/store_patience.hpp"
 
@@ -17,12 +17,14 @@ namespace {
 void run_calibrate(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     const bool keep = !arguments.flag("--dry-run");
-    auto store = RoadStore::open(file, keep ? RoadStore::Access::write : RoadStore::Access::read);
+    expect_operator(opened_store(file, RoadStore::Access::read, console, Reader::operator_),
+                    "calibrations of single cars");
+    auto store = opened_store(file,
+                              keep ? RoadStore::Access::write : RoadStore::Access::read,
+                              console,
+                              Reader::operator_);
     warn_of_waiting(store, file, console);
-    const Interruption interruption;
-    auto progress = console.progress("calibrating");
-    progress.stop = interruption.stop();
-    store.be_patient(patience_for(file, console, progress.stop));
+    const auto progress = console.progress("calibrating");
     const auto report = store.calibrate(keep, progress);
     if (arguments.flag("--json")) {
         print(json_of(report));

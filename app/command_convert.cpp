@@ -1,6 +1,5 @@
 #include "app/asked_trips.hpp"
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/mapping_option.hpp"
 #include "app/output_guard.hpp"
 
@@ -18,7 +17,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <stop_token>
 #include <utility>
 
 namespace macadam {
@@ -284,14 +282,10 @@ void make_folder(const fs::path& folder) {
     }
 }
 
-void convert(const Task& task,
-             const ConvertOptions& options,
-             const Console& console,
-             const std::stop_token& stop) {
+void convert(const Task& task, const ConvertOptions& options, const Console& console) {
     const TripNeeds all{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
-    auto reading = console.progress("reading");
-    reading.stop = stop;
-    const auto trip = read_trip(task.trip, all, reading);
+    const auto& stop = console.stop();
+    const auto trip = read_trip(task.trip, all, console.progress("reading"));
     if (!names_a_file(options.output)) {
         make_folder(task.output.parent_path());
     }
@@ -312,15 +306,13 @@ void convert(const Task& task,
 
 /// \returns how many could not be converted.
 std::size_t convert_all(Tasks& tasks, const ConvertOptions& options, const Console& console) {
-    const Interruption interruption;
-    const auto stop = interruption.stop();
     std::size_t failed = 0;
     while (const auto task = tasks.next()) {
         refuse_to_replace(task->output, tasks.inputs());
         try {
-            convert(*task, options, console, stop);
+            convert(*task, options, console);
         } catch (const InputError& error) {
-            if (stop.stop_requested()) {
+            if (console.stop().stop_requested()) {
                 const auto count = tasks.count();
                 throw InputError{fmt::format(
                     "interrupted: {} were not converted",

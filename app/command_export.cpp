@@ -3,8 +3,10 @@
 #include "app/output_guard.hpp"
 #include "app/period_options.hpp"
 #include "app/picture_export.hpp"
+#include "app/publication_words.hpp"
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 #include "app/tile_export.hpp"
 
 #include "storage/atomic_file.hpp"
@@ -101,6 +103,7 @@ void export_sections(const RoadStore& store, const ExportOptions& options, const
             writer.add(section);
         });
     writer.finish();
+    store.expect_in_place();
     file.commit();
     console.say(fmt::format(
         "{}: {}, {}", options.output.string(), counted(writer.count(), "section"), spoken(total)));
@@ -114,9 +117,10 @@ void run_export(const Arguments& arguments, const Console& console) {
             options.store, options.filter.box, options.output, *options.pictures, console);
         return;
     }
-    const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    const auto store = opened_store(options.store, RoadStore::Access::read, console);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
+    tell_publication(store, console);
     if (options.sections) {
         export_sections(store, options, console);
         return;

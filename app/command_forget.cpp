@@ -1,5 +1,4 @@
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/segment_options.hpp"
 #include "app/store_patience.hpp"
 
@@ -30,11 +29,8 @@ void run_forget(const Arguments& arguments, const Console& console) {
     if (request.trips.empty() && request.vehicles.empty()) {
         throw UsageError{"expected --trip or --vehicle: whom to forget"};
     }
-    auto store = RoadStore::open(file, RoadStore::Access::write);
-    const Interruption interruption;
-    auto progress = console.progress("forgetting");
-    progress.stop = interruption.stop();
-    store.be_patient(patience_for(file, console, progress.stop));
+    auto store = opened_store(file, RoadStore::Access::write, console);
+    const auto progress = console.progress("forgetting");
     const auto forgotten = store.forget(request, progress);
     if (arguments.flag("--json")) {
         print(json_of(forgotten));

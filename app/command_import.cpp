@@ -4,6 +4,7 @@
 #include "app/import_references.hpp"
 #include "app/import_trips.hpp"
 #include "app/interruption.hpp"
+#include "app/key_words.hpp"
 #include "app/laid_words.hpp"
 #include "app/mapping_option.hpp"
 #include "app/segment_options.hpp"
@@ -19,7 +20,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
+#include <stop_token>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -42,10 +46,10 @@ constexpr double most_trim_m = 100000;
 PipelineConfig config_of(const Arguments& arguments) {
     auto config = pipeline_config_of(arguments);
     config.estimator.tracks = false; // a map lives by its headline
-    config.trim_m = arguments.number("--trim", 0);
-    if (!(config.trim_m >= 0 && config.trim_m <= most_trim_m)) {
+    config.trim.min_m = arguments.number("--trim", 0);
+    if (!(config.trim.min_m >= 0 && config.trim.min_m <= most_trim_m)) {
         throw UsageError{
-            fmt::format("--trim is {}, expected 0 to {} m", config.trim_m, most_trim_m)};
+            fmt::format("--trim is {}, expected 0 to {} m", config.trim.min_m, most_trim_m)};
     }
     return config;
 }
@@ -92,7 +96,7 @@ std::string spoken(const OpenImport& earlier) {
 
 void import_known(RoadStore& store, const ImportOptions& options, const Console& console) {
     const auto& known = options.known;
-    const auto roads = kept_roads(store);
+    const auto roads = kept_roads(store, [&](const std::string& words) { console.say(words); });
     if (known.survey) {
         const auto outcome = import_survey(store, roads, known);
         if (options.json) {
@@ -111,16 +115,43 @@ void import_known(RoadStore& store, const ImportOptions& options, const Console&
     }
 }
 
+/// After an interruption, what came in before it is fused as far as that goes quickly.
+Progress until_it_takes_long(Progress fusing) {
+    std::stop_source late;
+    fusing.stop = late.get_token();
+    fusing.report = [late, end = std::chrono::steady_clock::now() + Interruption::patience() / 3](
+                        std::size_t, std::size_t) mutable {
+        if (std::chrono::steady_clock::now() > end) {
+            late.request_stop();
+        }
+    };
+    return fusing;
+}
+
+std::size_t fuse(RoadStore& store, const Console& console) {
+    auto fusing = console.progress("fusing");
+    return store.refresh(console.stop().stop_requested() ? until_it_takes_long(std::move(fusing))
+                                                         : fusing);
+}
+
+void expect_all_fused(const RoadStore& store, const Console& console) {
+    if (console.stop().stop_requested() && store.waiting() > 0) {
+        throw InputError{fmt::format("interrupted: all trips are in the store, but {} wait to be "
+                                     "fused; the same command goes on with them",
+                                     counted(store.waiting(), "segment"))};
+    }
+}
+
 void fuse_new(RoadStore& store, const Console& console) {
-    const auto fused = store.refresh(console.progress("fusing"));
+    const auto fused = fuse(store, console);
+    expect_all_fused(store, console);
     console.say(fmt::format("{} fused", counted(fused, "segment")));
 }
 
 void run_import(const Arguments& arguments, const Console& console) {
     const auto options = parse_import(arguments);
     VehicleChoice vehicles{arguments};
-    auto store = RoadStore::open(options.store, RoadStore::Access::write);
-    store.be_patient(patience_for(options.store, console));
+    auto store = opened_store(options.store, RoadStore::Access::write, console);
     if (options.known.survey || options.known.control) {
         import_known(store, options, console);
     }
@@ -128,26 +159,25 @@ void run_import(const Arguments& arguments, const Console& console) {
         fuse_new(store, console);
         return;
     }
+    make_missing_key(store, console);
     AskedTrips trips{
         options.paths, {.mapping = options.mapping, .most_files = options.max_members}, console};
     const auto name = name_of_import(options.paths);
     if (const auto earlier = store.begin_import(name, trips.count().value_or(0))) {
         console.say(spoken(*earlier));
     }
-    const Interruption interruption;
-    store.be_patient(patience_for(options.store, console, interruption.stop()));
 
     const auto tell = [&](const TripOutcome& outcome) { tell_of(outcome, options.json); };
-    auto importing = console.progress("importing");
-    importing.stop = interruption.stop();
-    const auto totals = import_trips(store,
-                                     trips,
-                                     vehicles,
-                                     options.pipeline,
-                                     {options.jobs, options.take_back},
-                                     importing,
-                                     tell);
-    const auto fused = store.refresh(console.progress("fusing"));
+    const auto importing = console.progress("importing");
+    const auto totals = import_trips(
+        store,
+        trips,
+        vehicles,
+        options.pipeline,
+        {options.jobs, options.take_back, [&](const std::string& words) { console.say(words); }},
+        importing,
+        tell);
+    const auto fused = fuse(store, console);
 
     console.say(fmt::format("{} imported, {} known, {} rejected; {}, {} fused",
                             counted(totals.imported, "trip"),
@@ -169,6 +199,7 @@ void run_import(const Arguments& arguments, const Console& console) {
                                      left)};
     }
     trips.tell_rest(console);
+    expect_all_fused(store, console);
     store.end_import(name);
     if (totals.rejected > 0) {
         const auto asked = totals.looked_at();

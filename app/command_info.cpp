@@ -2,7 +2,9 @@
 #include "app/commands.hpp"
 #include "app/control_watch.hpp"
 #include "app/info_tables.hpp"
+#include "app/key_words.hpp"
 #include "app/laid_words.hpp"
+#include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
 #include "app/truth_output.hpp"
 
@@ -44,6 +46,7 @@ struct KnownRoads {
 std::string json_of(const StoreInfo& info,
                     const InfoTables& tables,
                     const KnownRoads& known,
+                    bool operates,
                     const std::string& digest,
                     const std::string& truth) {
     const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
@@ -68,6 +71,11 @@ std::string json_of(const StoreInfo& info,
         .add("classes", JsonRaw{json_array(classes)})
         .add("laid_on_others", JsonRaw{json_of(info.laid)});
     add_to(object, tables);
+    object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);
+    if (info.settings.privacy == PrivacyProfile::crowd) {
+        object.add("publication", JsonRaw{json_of(info.publication)})
+            .add("published_alone", info.published_alone);
+    }
     object.add("surveys", JsonRaw{json_of(known.surveys)})
         .add("control_sections", JsonRaw{json_of(known.controls)});
     object.add("generation", std::int64_t{info.generation}).add("digest", digest);
@@ -81,29 +89,52 @@ std::string period_of(const StoreInfo& info) {
     if (!info.first_seen_ms || !info.last_seen_ms) {
         return "not dated";
     }
-    const auto first = utc_text(*info.first_seen_ms).substr(0, 10);
-    const auto last = utc_text(*info.last_seen_ms).substr(0, 10);
+    const auto first = utc_day(*info.first_seen_ms);
+    const auto last = utc_day(*info.last_seen_ms);
     return first == last ? first : fmt::format("{} to {}", first, last);
 }
 
-std::string text_of(const StoreInfo& info) {
+std::string_view words_for(PrivacyProfile privacy) {
+    return privacy == PrivacyProfile::crowd ? "crowd: cars of others"
+                                            : "own: one's own cars, nothing is anonymised";
+}
+
+std::string trips_of(const StoreInfo& info) {
+    if (info.published_alone) {
+        return fmt::format("at least {} of {} cars, {}",
+                           info.trips,
+                           info.publication ? info.publication->vehicles : 0,
+                           counted(info.passes, "pass"));
+    }
+    return fmt::format("{} ({} undated), {}, {}",
+                       info.trips,
+                       info.undated_trips,
+                       counted(info.vehicles.size(), "vehicle"),
+                       counted(info.passes, "pass"));
+}
+
+std::string text_of(const StoreInfo& info, bool operates) {
     auto text = fmt::format(
         "network     {}, {:.1f} km counting each direction, {} segments of about {:g} m\n"
-        "trips       {} ({} undated), {}, {}\n"
+        "trips       {}\n"
         "period      {}\n"
-        "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n",
+        "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n"
+        "privacy     {}; the key of its cars is {}\n",
         info.settings.network_source,
         info.network_km,
         info.segments,
         info.settings.segment_length_m,
-        info.trips,
-        info.undated_trips,
-        counted(info.vehicles.size(), "vehicle"),
-        counted(info.passes, "pass"),
+        trips_of(info),
         period_of(info),
         info.km,
         info.segments_with_passes,
-        100 * share(info.km, info.network_km));
+        100 * share(info.km, info.network_km),
+        words_for(info.settings.privacy),
+        operates ? "beside it" : "not here");
+    if (info.settings.privacy == PrivacyProfile::crowd) {
+        text += fmt::format("published   {}\n",
+                            info.publication ? words_for(*info.publication) : "nothing yet");
+    }
     if (info.lateral_passes > 0) {
         text += fmt::format("lateral     {} of the passes from lateral vibration alone, which is "
                             "far less accurate\n",
@@ -118,15 +149,13 @@ std::string text_of(const StoreInfo& info) {
     return text;
 }
 
-void run_info(const Arguments& arguments, const Console& console) {
-    const auto file = store_file(arguments);
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
-    warn_of_waiting(store, file, console);
+void print_info(const RoadStore& store, const Arguments& arguments) {
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
         return;
     }
     if (arguments.flag("--audit")) {
+        expect_operator(store, "what was done to the numbers");
         const auto entries = store.audit();
         arguments.flag("--json") ? print(json_of(entries)) : print_words(text_of(entries));
         return;
@@ -139,11 +168,25 @@ void run_info(const Arguments& arguments, const Console& console) {
     const auto tables = info_tables(store);
     const KnownRoads known{store.surveys(), watched_sections(store)};
     if (arguments.flag("--json")) {
-        print(json_of(info, tables, known, store.digest(), truth ? json_of(*truth) : ""));
+        print(json_of(info,
+                      tables,
+                      known,
+                      store.is_operator(),
+                      store.digest(),
+                      truth ? json_of(*truth) : ""));
     } else {
-        print_words(text_of(info) + text_of(tables) + text_of(known.surveys) +
+        print_words(text_of(info, store.is_operator()) + text_of(tables) + text_of(known.surveys) +
                     text_of(known.controls) + (truth ? "\n" + text_of(*truth) : ""));
     }
+}
+
+void run_info(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const auto store = open_for_operator(file, console);
+    warn_of_waiting(store, file, console);
+    warn_of_open_key(store, console);
+    print_info(store, arguments);
+    store.expect_in_place();
 }
 
 constexpr std::array operands{store_operand};

@@ -1,6 +1,5 @@
 #include "app/asked_trips.hpp"
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/network_update_output.hpp"
 #include "app/output_guard.hpp"
 #include "app/store_patience.hpp"
@@ -11,6 +10,7 @@
 #include "storage/network_file.hpp"
 #include "storage/network_reader.hpp"
 #include "storage/road_store.hpp"
+#include "storage/text.hpp"
 #include "storage/trip_reader.hpp"
 #include "storage/trip_walk.hpp"
 
@@ -33,9 +33,19 @@ struct InitOptions {
     LayerColumns columns;
     std::string attribution;
     double segment_length_m;
+    PrivacyProfile privacy;
     std::size_t max_members; ///< of an archive of trips
     bool json;
 };
+
+PrivacyProfile privacy_in(const Arguments& arguments) {
+    const auto name = arguments.value("--privacy").value_or("own");
+    const auto profile = privacy_profile_named(name);
+    if (!profile) {
+        throw UsageError{fmt::format("--privacy is {}, expected own or crowd", in_quotes(name))};
+    }
+    return *profile;
+}
 
 InitOptions parse_init(const Arguments& arguments) {
     InitOptions options;
@@ -58,6 +68,15 @@ InitOptions parse_init(const Arguments& arguments) {
     }
     if (options.update && arguments.number("--segment-length")) {
         throw UsageError{"--segment-length cannot be changed by --update: the store's stays"};
+    }
+    if (options.update && arguments.value("--privacy")) {
+        throw UsageError{"--privacy cannot be changed by --update: the store's stays"};
+    }
+    options.privacy = privacy_in(arguments);
+    if (options.privacy == PrivacyProfile::crowd && !trips.empty()) {
+        throw UsageError{
+            "--trace does not go with --privacy crowd: roads drawn from trips end where "
+            "these did; expected --network"};
     }
     options.segment_length_m = arguments.number("--segment-length", RoadNetwork{}.segment_length_m);
     if (!(options.segment_length_m >= least_segment_m &&
@@ -120,18 +139,21 @@ NetworkSource source_of(const std::filesystem::path& network, const std::string&
 }
 
 void make_store(const InitOptions& options, const Console& console) {
+    const auto warn = [&](const std::string& words) { console.say(words); };
     auto ways =
         options.network
-            ? read_network(*options.network, options.columns, console.progress("reading roads"))
+            ? read_network(
+                  *options.network, options.columns, console.progress("reading roads"), warn)
             : traced_ways(options, console);
 
-    const auto source = options.network
-                            ? source_of(*options.network, options.attribution)
-                            : NetworkSource{"traced from the trips", options.attribution};
+    const auto source =
+        options.network ? source_of(*options.network, options.attribution)
+                        : NetworkSource{std::string{traced_network_source}, options.attribution};
     StoreSettings settings;
     settings.segment_length_m = options.segment_length_m;
     settings.network_source = source.name;
     settings.attribution = source.attribution;
+    settings.privacy = options.privacy;
     const auto roads = build_network(std::move(ways), options.segment_length_m);
     const auto store =
         RoadStore::create(options.store, roads, settings, console.progress("writing segments"));
@@ -154,27 +176,21 @@ void expect_to_go_on(const Progress& progress, const std::filesystem::path& stor
 }
 
 void update_store(const InitOptions& options, const Console& console) {
-    const Interruption interruption;
-    const auto told = [&](const char* label) {
-        auto progress = console.progress(label);
-        progress.stop = interruption.stop();
-        return progress;
-    };
-    auto store = RoadStore::open(options.store, RoadStore::Access::write);
-    store.be_patient(patience_for(options.store, console, interruption.stop()));
-    const auto before = kept_roads(store);
+    auto store = opened_store(options.store, RoadStore::Access::write, console);
+    const auto warn = [&](const std::string& words) { console.say(words); };
+    const auto before = kept_roads(store, warn);
     const auto after = build_network(
-        read_network(*options.update, options.columns, console.progress("reading roads")),
+        read_network(*options.update, options.columns, console.progress("reading roads"), warn),
         store.settings().segment_length_m);
 
-    const auto comparing = told("comparing roads");
+    const auto comparing = console.progress("comparing roads");
     const auto change = change_between(before, after, {}, comparing);
     expect_to_go_on(comparing, options.store);
     const auto update = store.update_network(before,
                                              after,
                                              change,
                                              source_of(*options.update, options.attribution),
-                                             told("carrying passes"));
+                                             console.progress("carrying passes"));
     keep_roads(store, after);
     if (options.json) {
         print(json_of(update));
@@ -214,6 +230,11 @@ constexpr std::array options{
            "Where there is no map: draw the roads from these trips (logs, .gpx).",
            "",
            true},
+    Option{
+        "--privacy",
+        "PROFILE",
+        "Whose cars it is for: own (one's own: nothing is anonymised) or crowd (cars of others).",
+        "own"},
     max_members_option,
     Option{"--segment-length", "METRES", "About how long a segment is, the unit of fusion.", "20"},
     Option{"--layer", "NAME", "Of a line layer file: which layer.", "the first with lines"},

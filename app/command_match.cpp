@@ -3,6 +3,7 @@
 #include "app/match_output.hpp"
 #include "app/output_guard.hpp"
 #include "app/pipeline.hpp"
+#include "app/store_patience.hpp"
 #include "app/trip_place.hpp"
 
 #include "estimator/common/error.hpp"
@@ -58,14 +59,18 @@ MatchOptions parse_match(const Arguments& arguments) {
 
 /// Of a map, of a store that was made from one, or of the file beside such a store.
 RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
+    const auto warn = [&](const std::string& words) { console.say(words); };
     if (options.network.extension() == ".gpkg" && is_store(options.network)) {
-        return kept_roads(RoadStore::open(options.network, RoadStore::Access::read));
+        const auto store = opened_store(options.network, RoadStore::Access::read, console);
+        auto roads = kept_roads(store, warn);
+        store.expect_in_place();
+        return roads;
     }
     if (is_network_file(options.network)) {
         return open_network_file(options.network).roads;
     }
     return build_network(
-        read_network(options.network, options.columns, console.progress("reading roads")));
+        read_network(options.network, options.columns, console.progress("reading roads"), warn));
 }
 
 /// The trip with its receiver's latency; made-up times have none.

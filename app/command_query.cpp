@@ -3,10 +3,12 @@
 #include "app/month_history.hpp"
 #include "app/near_search.hpp"
 #include "app/period_options.hpp"
+#include "app/publication_words.hpp"
 #include "app/query_options.hpp"
 #include "app/section_output.hpp"
 #include "app/segment_options.hpp"
 #include "app/segment_output.hpp"
+#include "app/store_patience.hpp"
 #include "app/stretch_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -60,7 +62,8 @@ void print_worst_stretches(const RoadStore& store,
     RoadStretchConfig config;
     config.above_mm_per_m = options.worst.above_mm_per_m.value_or(poor_above(classes));
     config.least_length_m = options.worst.least_length_m;
-    auto stretches = worst_stretches(kept_roads(store), records, config);
+    auto stretches = worst_stretches(
+        kept_roads(store, [&](const std::string& words) { console.say(words); }), records, config);
     stretches.resize(std::min(stretches.size(), options.worst.count));
     if (stretches.empty()) {
         console.say(fmt::format(
@@ -121,7 +124,7 @@ void print_sections(const RoadStore& store, const QueryOptions& options, const C
 
 void run_query(const Arguments& arguments, const Console& console) {
     const auto options = parse_query(arguments);
-    const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    const auto store = open_for_operator(options.store, console);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
     expect_segment(store, options);
@@ -129,8 +132,10 @@ void run_query(const Arguments& arguments, const Console& console) {
     if (options.sections) {
         print_sections(store, options, console);
     } else if (options.passes) {
+        expect_operator(store, "single passes");
         print_in(options.format, passes_text(store.history(*options.filter.key), options.format));
     } else if (options.changes) {
+        expect_operator(store, "changes of numbers");
         print_in(options.format, changes_text(store.changes(*options.filter.key), options.format));
     } else if (options.history) {
         print_history(store, options, console);
@@ -140,6 +145,7 @@ void run_query(const Arguments& arguments, const Console& console) {
     } else {
         print_segments(store, options, console);
     }
+    store.expect_in_place();
 }
 
 constexpr std::array operands{store_operand};

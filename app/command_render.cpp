@@ -1,12 +1,13 @@
 #include "app/base_map_option.hpp"
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/map_box.hpp"
 #include "app/map_scene.hpp"
 #include "app/map_style.hpp"
 #include "app/output_guard.hpp"
 #include "app/picture_output.hpp"
+#include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 
 #include "estimator/common/error.hpp"
 #include "render/colour.hpp"
@@ -91,8 +92,9 @@ void expect_files_apart(const RenderOptions& options) {
 void run_render(const Arguments& arguments, const Console& console) {
     auto options = parse_render(arguments);
     expect_files_apart(options);
-    const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    const auto store = opened_store(options.store, RoadStore::Access::read, console);
     warn_of_waiting(store, options.store, console);
+    tell_publication(store, console);
     if (options.style.classes == nullptr) {
         options.style.classes = class_table(store.settings().class_table);
     }
@@ -113,15 +115,15 @@ void run_render(const Arguments& arguments, const Console& console) {
                             .base = base.map,
                             .width_px = options.output.width_px,
                             .height_px = options.output.height_px});
-    const Interruption interruption;
-    auto progress = console.progress("drawing");
-    progress.stop = interruption.stop();
+    const auto progress = console.progress("drawing");
     const auto last_seen_ms = store.seen().last_ms;
-    const auto words = write_picture(std::move(scene),
-                                     options.style,
-                                     options.output,
-                                     last_seen_ms ? utc_text(*last_seen_ms) : std::string{},
-                                     progress);
+    const auto words =
+        write_picture(std::move(scene),
+                      options.style,
+                      options.output,
+                      last_seen_ms ? utc_day(*last_seen_ms) + "T00:00:00Z" : std::string{},
+                      progress,
+                      [&] { store.expect_in_place(); });
     if (base.map && !*base.is_seen) {
         console.warn(fmt::format("{}: nothing of it lies on the map, which is drawn without it",
                                  options.base->file.string()));

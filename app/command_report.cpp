@@ -2,9 +2,11 @@
 #include "app/map_style.hpp"
 #include "app/output_guard.hpp"
 #include "app/period_options.hpp"
+#include "app/publication_words.hpp"
 #include "app/reference_report.hpp"
 #include "app/report_values.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 
 #include "render/report/pdf.hpp"
 #include "storage/atomic_file.hpp"
@@ -145,15 +147,18 @@ void report_against_reference(const Arguments& arguments, const Console& console
         refuse_for_programs(arguments);
     }
     const auto file = store_file(arguments);
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto store = opened_store(file, RoadStore::Access::read, console);
     warn_of_waiting(store, file, console);
+    tell_publication(store, console);
     const auto report = reference_report(
         store, arguments.value("--title").value_or(wording("reference.title")), wording);
     if (output.empty()) {
         print_words(reference_text(report));
+        store.expect_in_place();
         return;
     }
     refuse_to_replace(output, {file});
+    store.expect_in_place();
     AtomicFile written{output};
     written.write(text_for(report, ending, pdf));
     written.commit();
@@ -165,9 +170,10 @@ void run_report(const Arguments& arguments, const Console& console) {
         return;
     }
     auto options = parse_report(arguments);
-    const auto store = RoadStore::open(options.store, RoadStore::Access::read);
+    const auto store = opened_store(options.store, RoadStore::Access::read, console);
     refuse_to_replace(options.output, {options.store});
     warn_of_waiting(store, options.store, console);
+    tell_publication(store, console);
     if (options.report.style.classes == nullptr) {
         options.report.style.classes = class_table(store.settings().class_table);
     }
@@ -176,7 +182,7 @@ void run_report(const Arguments& arguments, const Console& console) {
         report_document(report_of(store, options.report, console.progress("drawing maps")));
     const auto bytes = options.report.pictures == PictureUse::paper ? pdf_of(document, options.pdf)
                                                                     : html_of(document);
-
+    store.expect_in_place();
     AtomicFile file{options.output};
     file.write(bytes);
     file.commit();

@@ -2,7 +2,6 @@
 #include "app/commands.hpp"
 #include "app/estimation_options.hpp"
 #include "app/import_trips.hpp"
-#include "app/interruption.hpp"
 #include "app/mapping_option.hpp"
 #include "app/segment_options.hpp"
 #include "app/store_patience.hpp"
@@ -35,17 +34,14 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     const auto& words = arguments.operands("PATH");
     VehicleChoice vehicles{arguments};
     const auto file = store_file(arguments);
-    auto store = RoadStore::open(file, RoadStore::Access::write);
+    auto store = opened_store(file, RoadStore::Access::write, console);
     AskedTrips trips{{words.begin(), words.end()},
                      {.mapping = mapping_of(arguments), .most_files = max_members_of(arguments)},
                      console};
     const bool json = arguments.flag("--json");
     const auto tell = [&](const TripOutcome& outcome) { tell_of(outcome, json); };
-    const Interruption interruption;
 
-    auto working = console.progress("reprocessing");
-    working.stop = interruption.stop();
-    store.be_patient(patience_for(file, console, working.stop));
+    const auto working = console.progress("reprocessing");
     const auto totals = rework_trips(store, trips, vehicles, config, jobs, working, tell);
     working(1, 1); // takes the bar off the line
     if (totals.interrupted) {
@@ -56,8 +52,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
                                      counted(totals.looked_at(), "trip"))};
     }
     trips.tell_rest(console);
-    auto fusing = console.progress("fusing");
-    fusing.stop = interruption.stop();
+    const auto fusing = console.progress("fusing");
     const auto method = config.estimator.method == Method::kf ? "kf" : "smoother";
     const auto done = store.take_staged(fmt::format("method {}", method), fusing);
     console.say(fmt::format("generation {}: {} worked out anew, {} as before{}",

@@ -1,6 +1,5 @@
 #include "app/commands.hpp"
 #include "app/in_parallel.hpp"
-#include "app/interruption.hpp"
 #include "app/lane_store.hpp"
 #include "app/trip_place.hpp"
 
@@ -23,7 +22,6 @@
 #include <filesystem>
 #include <functional>
 #include <numeric>
-#include <stop_token>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -98,29 +96,18 @@ void write_file(const fs::path& file, std::string_view text) {
     out.commit();
 }
 
-/// How to speak of the work and to end it before its time.
-struct Talk {
-    const Console& console;
-    std::stop_token stop;
-
-    Progress progress(const char* label) const {
-        auto progress = console.progress(label);
-        progress.stop = stop;
-        return progress;
-    }
-};
-
-void stop_if_wanted(const Talk& talk) {
-    if (talk.stop.stop_requested()) {
+void stop_if_wanted(const Console& console) {
+    if (console.stop().stop_requested()) {
         throw InputError{"interrupted: nothing was left behind"};
     }
 }
 
 /// The network as whoever reads network.osm.pbf has it: places are on that format's grid.
-RoadNetwork written_network(const fs::path& network, const fs::path& folder, const Talk& talk) {
+RoadNetwork
+written_network(const fs::path& network, const fs::path& folder, const Console& console) {
     const auto file = folder / "network.osm.pbf";
     const auto given =
-        copies_of_ways(build_network(read_network(network, {}, talk.progress("reading roads"))));
+        copies_of_ways(build_network(read_network(network, {}, console.progress("reading roads"))));
     naming(network.string(), [&] { expect_osm(given); });
     write_osm(given, file);
     return build_network(read_network(file));
@@ -130,7 +117,7 @@ void write_truth(const RoadNetwork& roads,
                  LaneStore& surfaces,
                  const fs::path& file,
                  std::size_t jobs,
-                 const Talk& talk) {
+                 const Console& console) {
     const auto lanes = drivable_lanes(roads);
     std::vector<std::string> rows(lanes.size());
     in_parallel(
@@ -139,8 +126,8 @@ void write_truth(const RoadNetwork& roads,
         [&](std::size_t i) {
             rows[i] = truth_rows(lane_truth(roads, lanes[i], *surfaces(lanes[i])));
         },
-        talk.progress("paving"));
-    stop_if_wanted(talk);
+        console.progress("paving"));
+    stop_if_wanted(console);
     AtomicFile out{file};
     out.write(std::string{truth_header} + "\n");
     for (const auto& lane : rows) {
@@ -172,7 +159,7 @@ double write_trips(const Fleet& fleet,
                    LaneStore& surfaces,
                    const fs::path& folder,
                    std::size_t jobs,
-                   const Talk& talk) {
+                   const Console& console) {
     make_folder(folder);
     std::vector<double> km(fleet.recipe.driving.trips);
     in_parallel(
@@ -183,8 +170,8 @@ double write_trips(const Fleet& fleet,
             km[number] = driven_km(trip);
             write_trip(trip, folder / (trip.meta.trip_id + ".trip.csv.gz"), quick_compression);
         },
-        talk.progress("driving"));
-    stop_if_wanted(talk);
+        console.progress("driving"));
+    stop_if_wanted(console);
     return std::accumulate(km.begin(), km.end(), 0.0);
 }
 
@@ -195,11 +182,11 @@ struct Made {
     double km;
 };
 
-Made simulated(const SimulateOptions& options, const fs::path& folder, const Talk& talk) {
-    const auto roads = written_network(options.network, folder, talk);
-    stop_if_wanted(talk);
+Made simulated(const SimulateOptions& options, const fs::path& folder, const Console& console) {
+    const auto roads = written_network(options.network, folder, console);
+    stop_if_wanted(console);
     for (const auto& words : idle_rules(options.recipe, roads)) {
-        talk.console.warn(fmt::format("{}: {}", options.recipe_name, words));
+        console.warn(fmt::format("{}: {}", options.recipe_name, words));
     }
     const auto fleet = naming(options.network.string(),
                               [&] { return make_fleet(options.recipe, roads, options.seed); });
@@ -207,8 +194,8 @@ Made simulated(const SimulateOptions& options, const fs::path& folder, const Tal
     LaneStore surfaces{
         [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
         most_lane_bytes};
-    write_truth(roads, surfaces, folder / "truth.csv", options.jobs, talk);
-    const double km = write_trips(fleet, roads, surfaces, folder / "trips", options.jobs, talk);
+    write_truth(roads, surfaces, folder / "truth.csv", options.jobs, console);
+    const double km = write_trips(fleet, roads, surfaces, folder / "trips", options.jobs, console);
     return {fleet.recipe.driving.trips, fleet.cars.size(), way_count(roads), km};
 }
 
@@ -218,9 +205,8 @@ void run_simulate(const Arguments& arguments, const Console& console) {
         return;
     }
     const auto options = parse_simulate(arguments);
-    const Interruption interruption;
     AtomicFolder folder{options.folder};
-    const auto made = simulated(options, folder.temporary(), {console, interruption.stop()});
+    const auto made = simulated(options, folder.temporary(), console);
     folder.commit();
     console.say(fmt::format("{}: {} by {}, {:.0f} km, over {}",
                             options.folder.string(),

@@ -1,5 +1,4 @@
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/period_options.hpp"
 #include "app/segment_options.hpp"
 #include "app/store_patience.hpp"
@@ -68,17 +67,14 @@ void run_valid_from(const Arguments& arguments, const Console& console) {
         throw UsageError{"--from and --any-day do not go together"};
     }
     if (!from_ms && !take_back) {
-        const auto store = RoadStore::open(file, RoadStore::Access::read);
+        const auto store = opened_store(file, RoadStore::Access::read, console);
         const auto all = store.valid_since();
         print(arguments.flag("--json") ? json_of(all) : text_of(all));
         return;
     }
-    auto store = RoadStore::open(file, RoadStore::Access::write);
+    auto store = opened_store(file, RoadStore::Access::write, console);
     const auto segments = segments_named(store, arguments);
-    const Interruption interruption;
-    auto progress = console.progress("fusing");
-    progress.stop = interruption.stop();
-    store.be_patient(patience_for(file, console, progress.stop));
+    const auto progress = console.progress("fusing");
     const auto found =
         store.set_valid_from(segments, from_ms, arguments.value("--reason").value_or(""), progress);
     console.say(from_ms ? fmt::format("{}: only passes from {} on count",

@@ -1,5 +1,8 @@
 #include "app/commands.hpp"
 
+#include "app/interruption.hpp"
+#include "storage/temporary_folder.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,26 +40,35 @@ std::string described(const Option& option) {
     return described(term, text);
 }
 
+/// Programs that were killed leave unfinished files beside what they were to make.
+void say_what_was_left(const Command& command, const Arguments& arguments, const Console& console) {
+    std::vector<std::string> made;
+    if (command.name == init_command.name) {
+        made.push_back(arguments.operand("STORE"));
+    }
+    for (const auto& option : command.options) {
+        if (option.name == "-o,--output") {
+            made = arguments.values("--output");
+        }
+    }
+    for (const auto& output : made) {
+        for (const auto& [name, bytes] : leftovers_of(output)) {
+            console.warn(fmt::format("{}: left of a run that was killed ({:.1f} MB); it is not "
+                                     "needed, remove it",
+                                     name.string(),
+                                     static_cast<double>(bytes) / 1e6));
+        }
+    }
+}
+
 } // namespace
 
 std::span<const Command> commands() {
-    static const std::array table{init_command,
-                                  import_command,
-                                  calibrate_command,
-                                  reprocess_command,
-                                  valid_from_command,
-                                  forget_command,
-                                  query_command,
-                                  export_command,
-                                  render_command,
-                                  report_command,
-                                  info_command,
-                                  iri_command,
-                                  identify_command,
-                                  trace_command,
-                                  match_command,
-                                  convert_command,
-                                  simulate_command};
+    static const std::array table{
+        init_command,     import_command,  calibrate_command, reprocess_command, valid_from_command,
+        forget_command,   privacy_command, publish_command,   upgrade_command,   query_command,
+        export_command,   render_command,  report_command,    info_command,      iri_command,
+        identify_command, trace_command,   match_command,     convert_command,   simulate_command};
     return table;
 }
 
@@ -107,7 +119,10 @@ std::string help_of_all() {
 void run(const Command& command, std::vector<std::string> words) {
     const auto options = options_of(command);
     const Arguments arguments{options, command.operands, std::move(words)};
-    command.run(arguments, Console{arguments.flag("--quiet")});
+    const Interruption interruption{command.name};
+    const Console console{arguments.flag("--quiet"), interruption.stop()};
+    say_what_was_left(command, arguments, console);
+    command.run(arguments, console);
     flush_results();
 }
 

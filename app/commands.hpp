@@ -45,6 +45,9 @@ extern const Command calibrate_command;  // app/command_calibrate.cpp
 extern const Command reprocess_command;  // app/command_reprocess.cpp
 extern const Command valid_from_command; // app/command_valid_from.cpp
 extern const Command forget_command;     // app/command_forget.cpp
+extern const Command privacy_command;    // app/command_privacy.cpp
+extern const Command publish_command;    // app/command_publish.cpp
+extern const Command upgrade_command;    // app/command_upgrade.cpp
 extern const Command query_command;      // app/command_query.cpp
 extern const Command export_command;     // app/command_export.cpp
 extern const Command render_command;     // app/command_render.cpp

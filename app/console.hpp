@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 
 #include <cstddef>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -13,15 +14,20 @@ namespace macadam {
 class Console {
 public:
     /// \param quiet  only warnings and errors.
-    explicit Console(bool quiet);
+    /// \param stop   when the user wants the command to end
+    explicit Console(bool quiet, std::stop_token stop = {});
 
     void say(std::string_view line) const;  ///< left out when quiet
     void warn(std::string_view line) const; ///< "macadam: warning: ..."
 
-    /// A bar on a terminal, nothing elsewhere or when quiet. It goes when it is full.
+    /// A bar on a terminal, nothing elsewhere or when quiet. It goes when it is full. With the
+    /// user's wish to stop.
     Progress progress(std::string label) const;
 
+    const std::stop_token& stop() const { return stop_; }
+
 private:
+    std::stop_token stop_;
     bool quiet_;
     bool terminal_;
 };

@@ -71,7 +71,7 @@ WatchedSection watched(const RoadStore& store, const ControlSection& section) {
 }
 
 std::string day_of(const std::optional<std::int64_t>& utc_ms) {
-    return utc_ms ? utc_text(*utc_ms).substr(0, 10) : "undated";
+    return utc_ms ? utc_day(*utc_ms) : "undated";
 }
 
 JsonValue json_day(const std::optional<std::int64_t>& utc_ms) {
@@ -166,6 +166,9 @@ std::string array_of(const Values& values) {
 
 std::vector<WatchedSection> watched_sections(const RoadStore& store) {
     std::vector<WatchedSection> all;
+    if (store.shows_published_alone()) {
+        return all;
+    }
     for (const auto& section : store.control_sections()) {
         all.push_back(watched(store, section));
     }

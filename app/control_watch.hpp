@@ -22,7 +22,7 @@ struct WatchedSection {
 };
 
 /// All control sections of a store, in the order of their names. References are left out of what
-/// the cars say.
+/// the cars say. None of a crowd whose published figures are read: months of some days are watched.
 std::vector<WatchedSection> watched_sections(const RoadStore& store);
 
 /// A table for people, "" where there is none.

@@ -1,6 +1,7 @@
 #include "app/import_trips.hpp"
 
 #include "app/trip_place.hpp"
+#include "app/trip_trim.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/network_file.hpp"
@@ -52,7 +53,7 @@ TripRecord record_of(const TripSource& source,
 
 /// What to say of a trip that is in the store already.
 std::vector<std::string> spoken_known(const PipelineConfig& config) {
-    if (config.trim_m > 0) {
+    if (config.trim.is_active() && !config.trim.hides_places) {
         return {"stays as it was imported: its ends are not left out after the fact; a new store "
                 "has to be made for that"};
     }
@@ -122,15 +123,16 @@ public:
         bool over = false;                  ///< there is no such trip
     };
 
-    /// Waits for its outcome, but no longer than until then.
-    Taken take(std::size_t number, const Deadline& until) {
+    /// Waits for its outcome, but no longer than until then or until a stop is wanted.
+    Taken take(std::size_t number, const Deadline& until, const std::stop_token& stop) {
+        constexpr std::chrono::milliseconds look_every{50};
         std::unique_lock lock{mutex_};
         const auto is_over = [&] { return count_ && number >= *count_; };
         const auto is_there = [&] { return done_.contains(number) || failure_ || is_over(); };
-        if (!until) {
-            changed_.wait(lock, is_there);
-        } else if (!changed_.wait_until(lock, *until, is_there)) {
-            return {};
+        while (!changed_.wait_for(lock, look_every, is_there)) {
+            if (stop.stop_requested() || (until && Clock::now() >= *until)) {
+                return {};
+            }
         }
         if (failure_) {
             std::rethrow_exception(failure_);
@@ -317,10 +319,14 @@ ImportTotals work_on(const Purpose& purpose,
             totals.interrupted = true;
             break;
         }
-        auto taken = workshop.take(i, batch.due());
+        auto taken = workshop.take(i, batch.due(), progress.stop);
         if (!taken.outcome && !taken.over) { // a long one: what was done before it does not wait
             commit();
-            taken = workshop.take(i, {});
+            taken = workshop.take(i, {}, progress.stop);
+        }
+        if (!taken.outcome && !taken.over) {
+            totals.interrupted = true;
+            break;
         }
         if (taken.over) {
             break;
@@ -359,12 +365,14 @@ std::string_view name_of(TripOutcome::Result result) {
 ImportTotals import_trips(RoadStore& store,
                           AskedTrips& trips,
                           VehicleChoice& vehicles,
-                          const PipelineConfig& config,
+                          const PipelineConfig& asked,
                           const ImportWork& work,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell) {
     using Result = TripOutcome::Result;
-    const auto roads = kept_roads(store);
+    const auto roads = kept_roads(store, work.warn);
+    auto config = asked;
+    config.trim = trim_in(store, asked.trim);
     const Purpose purpose{
         .leave = [&](const std::string& sha256)
             -> std::optional<std::pair<Result, std::vector<std::string>>> {
@@ -399,12 +407,14 @@ ImportTotals import_trips(RoadStore& store,
 ImportTotals rework_trips(RoadStore& store,
                           AskedTrips& trips,
                           VehicleChoice& vehicles,
-                          const PipelineConfig& config,
+                          const PipelineConfig& asked,
                           std::size_t jobs,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell) {
     using Result = TripOutcome::Result;
     const auto roads = kept_roads(store);
+    auto config = asked;
+    config.trim = trim_in(store, asked.trim);
     const Purpose purpose{
         .leave = [&](const std::string& sha256)
             -> std::optional<std::pair<Result, std::vector<std::string>>> {

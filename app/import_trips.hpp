@@ -41,7 +41,8 @@ struct ImportTotals {
 
 struct ImportWork {
     std::size_t jobs = 1;
-    bool take_back = false; ///< also trips that were forgotten
+    bool take_back = false;                         ///< also trips that were forgotten
+    std::function<void(const std::string&)> warn{}; ///< of the network beside the store
 };
 
 /// Brings trips into a store: read and estimated by `jobs` threads, written by this one in the

@@ -63,6 +63,10 @@ std::vector<CarInfo> cars_of(const RoadStore& store) {
         car.km += use.km;
         passes += use.passes;
     }
+    std::size_t number = 0;
+    for (const auto& car : store.cars()) {
+        by_name[car].number = car == unknown_car ? 0 : ++number;
+    }
     for (const auto& car : store.calibrated_cars()) {
         by_name[car.vehicle].calibration = car.calibration;
     }
@@ -104,11 +108,12 @@ std::string calibration_words(const CarInfo& car) {
 }
 
 std::string car_lines(const std::vector<CarInfo>& cars) {
-    auto text =
-        fmt::format("\n{:<18} {:>6} {:>9} {:>7} {:>9}\n", "car", "trips", "passes", "share", "km");
+    auto text = fmt::format(
+        "\n{:>4} {:<34} {:>6} {:>9} {:>7} {:>9}\n", "no.", "car", "trips", "passes", "share", "km");
     for (std::size_t i = 0; i < std::min(cars.size(), most_rows); ++i) {
         const auto& car = cars[i];
-        text += fmt::format("{:<18} {:>6} {:>9} {:>5.1f} % {:>9.1f}{}\n",
+        text += fmt::format("{:>4} {:<34} {:>6} {:>9} {:>5.1f} % {:>9.1f}{}\n",
+                            car.number > 0 ? std::to_string(car.number) : "-",
                             car.vehicle,
                             car.trips,
                             car.passes,
@@ -154,6 +159,8 @@ std::string json_of(const RoadClassInfo& info) {
 std::string json_of(const CarInfo& car) {
     JsonObject object;
     object.add("vehicle", car.vehicle)
+        .add("number",
+             car.number > 0 ? JsonValue{static_cast<std::int64_t>(car.number)} : JsonValue{nullptr})
         .add("trips", static_cast<std::int64_t>(car.trips))
         .add("passes", static_cast<std::int64_t>(car.passes))
         .add("share", JsonNumber{car.share, 4})

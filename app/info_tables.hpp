@@ -20,7 +20,8 @@ struct RoadClassInfo {
 
 /// What one car gave, whatever the models and methods.
 struct CarInfo {
-    std::string vehicle; ///< pseudonym
+    std::string vehicle;    ///< pseudonym
+    std::size_t number = 0; ///< by which reports call it, from 1; 0: trips that name no car
     std::size_t trips = 0;
     std::size_t passes = 0;
     double share = 0; ///< of all passes

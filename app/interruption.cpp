@@ -1,51 +1,130 @@
 #include "app/interruption.hpp"
 
+#include "storage/removed_if_cut_off.hpp"
+#include "storage/sqlite.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <optional>
+#include <string>
+
+#include <sys/time.h>
+#include <unistd.h>
 
 namespace macadam {
 namespace {
 
-sigset_t interrupting_signals() {
-    sigset_t signals;
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    return signals;
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int slowness = 10; // of a program under sanitizers
+#else
+constexpr int slowness = 1;
+#endif
+
+// Within which a command comes to an end of its own. All of it, with what is removed then, is to
+// stay below 2 s. Who only reads has little to bring to an end.
+constexpr int patience_ms = 1500 * slowness;
+constexpr int patience_with_readers_ms = 300 * slowness;
+
+constexpr std::array interrupting{SIGINT, SIGTERM, SIGHUP};
+
+/// What the handlers of signals use. They may run at any moment, in any thread.
+struct Wish {
+    /// A request takes no lock as long as nobody registers a std::stop_callback.
+    std::optional<std::stop_source> stop;
+    std::string last_words;
+    pid_t process = 0; ///< a forked one answers for itself
+    std::atomic<bool> is_known = false;
+};
+Wish wish;
+
+std::array<struct sigaction, interrupting.size()> before;
+struct sigaction before_of_pipe;
+
+void wake_after(int time_ms) {
+    itimerval timer{};
+    timer.it_value = {.tv_sec = time_ms / 1000, .tv_usec = time_ms % 1000 * 1000};
+    ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
 /// Ends the process as if nobody had waited for the signal.
 void cut_off(int signal) {
+    remove_unfinished();
     std::signal(signal, SIG_DFL);
-    const auto signals = interrupting_signals();
-    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
-    raise(signal);
+    ::raise(signal); // comes when the handler returns
+}
+
+void interrupted(int signal) {
+    const int error = errno;
+    if (wish.process != ::getpid() || wish.is_known.exchange(true)) {
+        cut_off(signal);
+    } else {
+        wish.stop->request_stop();
+        wake_after(databases_open_for_writing() > 0 ? patience_ms : patience_with_readers_ms);
+    }
+    errno = error;
+}
+
+void end_of_patience(int /*signal*/) {
+    remove_unfinished();
+    [[maybe_unused]] const auto told =
+        ::write(STDERR_FILENO, wish.last_words.data(), wish.last_words.size());
+    ::_exit(1);
+}
+
+/// While one is handled, the others wait.
+void handle(int signal, void (*handler)(int), struct sigaction* replaced) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    for (const int other : interrupting) {
+        sigaddset(&action.sa_mask, other);
+    }
+    sigaddset(&action.sa_mask, SIGALRM);
+    ::sigaction(signal, &action, replaced);
 }
 
 } // namespace
 
-Interruption::Interruption() {
-    const auto signals = interrupting_signals();
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    watcher_ = std::jthread{[this](const std::stop_token& over) { watch(over); }};
+Interruption::Interruption(std::string_view command) {
+    wish.stop.emplace();
+    wish.last_words = fmt::format("{}macadam {}: interrupted; what was not finished is not kept\n",
+                                  ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", // of a bar
+                                  command);
+    wish.process = ::getpid();
+    wish.is_known = false;
+    handle(SIGALRM, end_of_patience, nullptr);
+    handle(SIGPIPE, cut_off, &before_of_pipe);
+    if (before_of_pipe.sa_handler == SIG_IGN) {
+        std::signal(SIGPIPE, SIG_IGN);
+    }
+    for (std::size_t i = 0; i < interrupting.size(); ++i) {
+        handle(interrupting[i], interrupted, &before[i]);
+        if (before[i].sa_handler == SIG_IGN) {
+            std::signal(interrupting[i], SIG_IGN);
+        }
+    }
 }
 
 Interruption::~Interruption() {
-    watcher_.request_stop();
-    pthread_kill(watcher_.native_handle(), SIGTERM); // wakes it; it knows that it is over
-    watcher_.join();
-    const auto signals = interrupting_signals();
-    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+    for (std::size_t i = 0; i < interrupting.size(); ++i) {
+        ::sigaction(interrupting[i], &before[i], nullptr);
+    }
+    wake_after(0);
+    std::signal(SIGALRM, SIG_DFL);
+    ::sigaction(SIGPIPE, &before_of_pipe, nullptr);
 }
 
-void Interruption::watch(const std::stop_token& over) {
-    const auto signals = interrupting_signals();
-    int signal = 0;
-    while (sigwait(&signals, &signal) == 0 && !over.stop_requested()) {
-        if (stop_.stop_requested()) {
-            cut_off(signal);
-        }
-        stop_.request_stop();
-    }
+std::chrono::milliseconds Interruption::patience() {
+    return std::chrono::milliseconds{patience_ms};
+}
+
+// Of all that are alive, but there is one at a time.
+std::stop_token Interruption::stop() const { // NOLINT(*-convert-member-functions-to-static)
+    return wish.stop->get_token();
 }
 
 } // namespace macadam

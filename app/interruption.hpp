@@ -1,28 +1,33 @@
 #pragma once
 
+#include <chrono>
 #include <stop_token>
-#include <thread>
+#include <string_view>
 
 namespace macadam {
 
-/// While it lives, Ctrl-C and `kill` ask the work to come to an end of its own instead of cutting
-/// it off: `stop()` says so. A second one cuts off after all.
+/// While it lives, Ctrl-C, `kill` and a terminal that closes (INT, TERM, HUP) ask the command to
+/// come to an end of its own: `stop()` says so. Where it has not within 1.5 s (0.3 s
+/// if it writes to no database), it is ended with words and exit status 1; what it had begun is
+/// removed (storage/removed_if_cut_off.hpp), and what it had not committed to a database is undone
+/// by who opens that next. A second signal cuts off at once. A signal that was ignored when the
+/// program began, as under `nohup`, stays so.
 ///
-/// Make it before threads are started, so that they leave the signals to it. One at a time.
+/// Where nobody reads what is printed (SIGPIPE), what it had begun is removed likewise.
+///
+/// It needs no thread, and processes may be forked beside it. One at a time.
 class Interruption {
 public:
-    Interruption();
+    /// \param command  whose words these are
+    explicit Interruption(std::string_view command);
     Interruption(const Interruption&) = delete;
     Interruption& operator=(const Interruption&) = delete;
     ~Interruption();
 
-    std::stop_token stop() const { return stop_.get_token(); }
+    std::stop_token stop() const;
 
-private:
-    void watch(const std::stop_token& over);
-
-    std::stop_source stop_;
-    std::jthread watcher_;
+    /// How long a command may take to come to an end of its own: 1.5 s; more under sanitizers.
+    static std::chrono::milliseconds patience();
 };
 
 } // namespace macadam

@@ -1,9 +1,11 @@
 #include "app/commands.hpp"
+#include "app/memory_limit.hpp"
 #include "app/printable.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -55,6 +57,8 @@ int main(int argc, char** argv) {
     constexpr int large_block_bytes = 1 << 20;
     mallopt(M_MMAP_THRESHOLD, large_block_bytes);
 
+    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of a write, with words
+
     std::vector<std::string> words{argv + 1, argv + argc};
     if (words.empty()) {
         say(macadam::help_of_all());
@@ -78,5 +82,6 @@ int main(int argc, char** argv) {
         std::ranges::find(words, "-h") != words.end()) {
         return tell(macadam::help_of(*command));
     }
+    macadam::bear_memory_limit(name);
     return run_command(*command, std::move(words));
 }

@@ -38,8 +38,8 @@ std::string period_of(const SeenSpan& seen) {
     if (!seen.first_ms || !seen.last_ms) {
         return "dates not known";
     }
-    const auto first = utc_text(*seen.first_ms).substr(0, 10);
-    const auto last = utc_text(*seen.last_ms).substr(0, 10);
+    const auto first = utc_day(*seen.first_ms);
+    const auto last = utc_day(*seen.last_ms);
     return first == last ? first : first + " to " + last;
 }
 

@@ -1,8 +1,9 @@
 #include "app/picture_export.hpp"
 
-#include "app/interruption.hpp"
 #include "app/map_style.hpp"
+#include "app/publication_words.hpp"
 #include "app/segment_options.hpp"
+#include "app/store_patience.hpp"
 #include "app/tile_export.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/tile_archive.hpp"
@@ -10,6 +11,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
+
+#include <sys/stat.h>
 
 namespace macadam {
 namespace {
@@ -63,10 +67,18 @@ TileSetNote note_of(const StoreInfo& info, const std::string& name, const Pictur
             .tile_px = plan.tile_px};
 }
 
+/// Device and inode of the file of a name.
+std::pair<dev_t, ino_t> identity_of(const std::filesystem::path& file) {
+    struct stat status {};
+    return ::stat(file.c_str(), &status) == 0 ? std::pair{status.st_dev, status.st_ino}
+                                              : std::pair{dev_t{}, ino_t{}};
+}
+
 /// Reads what concerns the whole store; it is closed again before processes are made.
 StoreInfo info_of(const std::filesystem::path& file, const Console& console) {
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto store = opened_store(file, RoadStore::Access::read, console);
     warn_of_waiting(store, file, console);
+    tell_publication(store, console);
     return store.info();
 }
 
@@ -100,6 +112,7 @@ void export_picture_tiles(const std::filesystem::path& store,
                           const std::filesystem::path& file,
                           PicturePlan plan,
                           const Console& console) {
+    const auto identity = identity_of(store);
     const auto info = info_of(store, console);
     if (info.segments == 0) {
         throw InputError{
@@ -110,18 +123,17 @@ void export_picture_tiles(const std::filesystem::path& store,
     }
     warn_of_look(plan.style, console);
     plan.box = box.value_or(info.box);
-    PicturePainters painters{store, plan}; // before the thread of the interruption
-    const Interruption interruption;
-    const auto stage = [&](const char* label) {
-        auto progress = console.progress(label);
-        progress.stop = interruption.stop();
-        return progress;
-    };
+    PicturePainters painters{store, plan, patience_for(store, console)};
     TileArchive archive{file, note_of(info, store.stem().string(), plan)};
     const auto count = painters.collect(
         [&](const TileId& tile, std::string_view bytes) { archive.add(tile, bytes); },
-        stage("drawing tiles"));
-    const auto size = archive.commit(stage("writing tiles"));
+        console.progress("drawing tiles"));
+    if (identity_of(store) != identity) {
+        throw InputError{fmt::format("{}: was removed, or another file has taken its place, while "
+                                     "this command worked on it; run it again",
+                                     store.string())};
+    }
+    const auto size = archive.commit(console.progress("writing tiles"));
     console.say(
         fmt::format("{}: {} of {} x {} px, {} different, zooms {} to {}, the largest {:.1f} kB",
                     file.string(),

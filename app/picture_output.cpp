@@ -150,11 +150,12 @@ void expect_not_stopped(const Progress& progress) {
     }
 }
 
-/// A map that is drawn as pixels, and how large.
+/// A map that is drawn as pixels, how large, and what is looked at when all of it is drawn.
 struct PixelMap {
     const MapScene& scene;
     const MapStyle& style;
     PictureSize size;
+    const std::function<void()>& expect_valid;
 };
 
 void give_png(const PixelMap& map, const PngWriter::PutBytes& put, const Progress& progress) {
@@ -162,6 +163,7 @@ void give_png(const PixelMap& map, const PngWriter::PutBytes& put, const Progres
     draw_map(
         map.scene, map.style, map.size, [&](auto rows) { png.add(rows); }, progress);
     png.finish();
+    map.expect_valid();
 }
 
 void write_png(const PixelMap& map, const PictureOutput& output, const Progress& progress) {
@@ -185,7 +187,10 @@ void write_tif(const PixelMap& map,
     picture.copyright = copyright;
     write_geotiff(
         picture,
-        [&](const auto& take) { draw_map(map.scene, map.style, map.size, take, progress); },
+        [&](const auto& take) {
+            draw_map(map.scene, map.style, map.size, take, progress);
+            map.expect_valid();
+        },
         file);
 }
 
@@ -231,7 +236,8 @@ std::string write_picture(MapScene scene,
                           MapStyle style,
                           const PictureOutput& output,
                           const std::string& made,
-                          const Progress& progress) {
+                          const Progress& progress,
+                          const std::function<void()>& expect_valid) {
     const auto copyright = scene.attribution;
     const auto title = scene.title;
     if (output.bare) {
@@ -247,6 +253,7 @@ std::string write_picture(MapScene scene,
                                   .author = copyright,
                                   .made = made});
         expect_not_stopped(progress);
+        expect_valid();
         write_bytes(output.file, pdf);
         return fmt::format("{:.0f} x {:.0f} mm",
                            output.width_px / px_per_inch * mm_per_inch,
@@ -255,7 +262,7 @@ std::string write_picture(MapScene scene,
 
     const auto [width, height] =
         output.bare ? bare_size(scene, output) : std::pair{output.width_px, output.height_px};
-    const PixelMap map{scene, style, {width, height}};
+    const PixelMap map{scene, style, {width, height}, expect_valid};
     if (output.kind == Kind::geotiff) {
         write_tif(map, copyright, output.file, progress);
     } else {

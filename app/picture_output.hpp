@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace macadam {
@@ -57,11 +58,13 @@ std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output
 ///
 /// \param made  when, ISO 8601 in UTC, as a PDF says it; "" = not known
 /// \returns     what was written, for people: "1600 x 1200 pixels".
+/// \param expect_valid  throws where what was drawn must not be written after all
 /// \throws InputError   also when `progress`, which counts rows of pixels, is told to stop.
 std::string write_picture(MapScene scene,
                           MapStyle style,
                           const PictureOutput& output,
                           const std::string& made,
-                          const Progress& progress);
+                          const Progress& progress,
+                          const std::function<void()>& expect_valid);
 
 } // namespace macadam

@@ -20,6 +20,7 @@
 #include <iterator>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -88,8 +89,8 @@ std::size_t count_of(const std::vector<Square>& squares) {
 /// Draws squares, one after the other.
 class Drawer {
 public:
-    Drawer(const std::filesystem::path& store, const PicturePlan& plan)
-        : store_{RoadStore::open(store, RoadStore::Access::read)}, plan_{plan},
+    Drawer(const std::filesystem::path& store, const PicturePlan& plan, LockPatience patience)
+        : store_{RoadStore::open(store, RoadStore::Access::read, std::move(patience))}, plan_{plan},
           painter_{{plan.style, plan.tile_px, square_px / plan.tile_px}}, png_{plan.style},
           empty_{png_.empty(plan.tile_px)} {}
 
@@ -185,10 +186,11 @@ using TakeTile = std::function<void(const TileId& tile, std::string_view bytes)>
 /// The part of a process that draws every `step`-th square; it never returns.
 [[noreturn]] void draw_part(const std::filesystem::path& store,
                             const PicturePlan& plan,
+                            const LockPatience& patience,
                             std::size_t first,
                             int pipe) {
     try {
-        Drawer drawer{store, plan};
+        Drawer drawer{store, plan, patience};
         const auto squares = squares_of(plan);
         for (auto i = first; i < squares.size(); i += plan.jobs) {
             drawer.draw(squares[i], [&](const TileId& tile, const std::vector<std::uint8_t>& png) {
@@ -208,7 +210,10 @@ using TakeTile = std::function<void(const TileId& tile, std::string_view bytes)>
 /// A process that draws, and what it has told so far.
 class Worker {
 public:
-    Worker(const std::filesystem::path& store, const PicturePlan& plan, std::size_t number) {
+    Worker(const std::filesystem::path& store,
+           const PicturePlan& plan,
+           const LockPatience& patience,
+           std::size_t number) {
         std::array<int, 2> ends{};
         if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
             throw InputError{fmt::format("cannot start to draw: {}", std::strerror(errno))};
@@ -217,7 +222,7 @@ public:
         if (process_ == 0) {
             ::close(ends[0]);
             leave_signals_to_parent();
-            draw_part(store, plan, number, ends[1]);
+            draw_part(store, plan, patience, number, ends[1]);
         }
         ::close(ends[1]);
         pipe_ = ends[0];
@@ -342,13 +347,15 @@ struct PicturePainters::Impl {
     std::vector<std::unique_ptr<Worker>> workers;
 };
 
-PicturePainters::PicturePainters(const std::filesystem::path& store, const PicturePlan& plan)
+PicturePainters::PicturePainters(const std::filesystem::path& store,
+                                 const PicturePlan& plan,
+                                 LockPatience patience)
     : impl_{std::make_unique<Impl>()} {
     expect_one_thread();
     const auto squares = squares_of(plan);
     impl_->tile_count = count_of(squares);
     for (std::size_t i = 0; i < std::min(plan.jobs, squares.size()); ++i) {
-        impl_->workers.push_back(std::make_unique<Worker>(store, plan, i));
+        impl_->workers.push_back(std::make_unique<Worker>(store, plan, patience, i));
     }
 }
 

@@ -3,6 +3,7 @@
 #include "app/tile_pyramid.hpp"
 #include "estimator/common/progress.hpp"
 #include "render/map.hpp"
+#include "storage/lock_wait.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -37,9 +38,12 @@ public:
     ///
     /// \param store  its file; this process must not have it open
     /// \param plan   needed in this constructor alone
+    /// \param patience  how each waits while another program keeps it from the database
     /// \throws InputError        if no process can be started
     /// \throws std::logic_error  if there is another thread
-    PicturePainters(const std::filesystem::path& store, const PicturePlan& plan);
+    PicturePainters(const std::filesystem::path& store,
+                    const PicturePlan& plan,
+                    LockPatience patience = {});
     PicturePainters(const PicturePainters&) = delete;
     PicturePainters& operator=(const PicturePainters&) = delete;
     ~PicturePainters();

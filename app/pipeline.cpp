@@ -147,11 +147,11 @@ silent_parts(const TripLog& trip, const Odometer& odometer, double longest_gap_s
     return parts;
 }
 
-/// Told travel that nobody recorded, as while a phone was told to pause: the ruler goes on there,
+/// Kept travel that nobody recorded, as while a phone was told to pause: the ruler goes on there,
 /// straight from place to place, but no sensor felt the car drive.
 double unrecorded_m(const TripLog& trip,
                     const Odometer& odometer,
-                    const TravelSpan& told,
+                    const TravelSpan& kept,
                     double longest_gap_s) {
     auto parts = silent_parts(trip, odometer, longest_gap_s);
     for (const auto& pause : odometer.pauses()) {
@@ -159,23 +159,35 @@ double unrecorded_m(const TripLog& trip,
     }
     std::ranges::sort(parts, {}, &TravelSpan::from_m);
     double sum_m = 0;
-    double counted_to_m = told.from_m;
+    double counted_to_m = kept.from_m;
     for (const auto& part : parts) {
-        const double to_m = std::min(part.to_m, told.to_m);
+        const double to_m = std::min(part.to_m, kept.to_m);
         sum_m += std::max(0.0, to_m - std::max(part.from_m, counted_to_m));
         counted_to_m = std::max(counted_to_m, to_m);
     }
     return sum_m;
 }
 
-/// When what is told of a trip begins, since its t0: not where it departed if its ends are left
-/// out. Nothing if nothing is told.
-std::optional<std::int64_t> begin_of(const TravelSpan& told, const Odometer& odometer) {
-    if (told.from_m <= 0) {
+double recorded_m(const TripLog& trip,
+                  const Odometer& odometer,
+                  const KeptParts& kept,
+                  double longest_gap_s) {
+    double sum_m = length_m(kept);
+    for (const auto& part : kept.parts) {
+        sum_m -= unrecorded_m(trip, odometer, part, longest_gap_s);
+    }
+    return std::max(0.0, sum_m);
+}
+
+/// When what is kept of a trip begins, since its t0: not where it departed if its ends are left
+/// out. Nothing if nothing is kept.
+std::optional<std::int64_t> begin_of(const KeptParts& kept, const Odometer& odometer) {
+    if (kept.is_whole) {
         return 0;
     }
-    return told.from_m < told.to_m ? std::optional{std::llround(1000 * odometer.t_s(told.from_m))}
-                                   : std::nullopt;
+    return kept.parts.empty()
+               ? std::nullopt
+               : std::optional{std::llround(1000 * odometer.t_s(kept.parts.front().from_m))};
 }
 
 std::vector<Pass> counting_from(std::int64_t begin_ms, std::vector<Pass> passes) {
@@ -349,25 +361,24 @@ TripResult passes_of(TripLog trip,
     std::vector<std::string> warnings;
     trip = with_latency(std::move(trip), warnings);
     auto trace = trace_of(trip, vehicle, config);
-    trace.use =
-        without_vibration_outside(std::move(trace.use), trip, trace.odometer, config.trim_m);
-    const auto told = told_part(trace.odometer, config.trim_m);
-    const double paused_m = unrecorded_m(trip, trace.odometer, told, config.odometer.max_gap_s);
+    const auto kept = kept_of(trip, trace.odometer, config.trim);
+    trace.use = without_vibration_outside(std::move(trace.use), trip, trace.odometer, kept);
+    const double distance_m = recorded_m(trip, trace.odometer, kept, config.odometer.max_gap_s);
     trip.acc = {};
     trip.gyro.x = trip.gyro.y = trip.gyro.z = {};
     const auto matched = behind_antenna(
         map_match(trip, trace.odometer, roads, config.match, trace.use, trace.heading),
         antenna_ahead_m(trip.meta, vehicle));
 
-    trace.use = without_places_outside(std::move(trace.use), trip, trace.odometer, config.trim_m);
+    trace.use = without_places_outside(std::move(trace.use), trip, trace.odometer, kept);
     std::ranges::move(trace.warnings, std::back_inserter(warnings));
 
-    const auto kept = config.trim_m > 0 ? trimmed(matched, told, roads) : matched;
-    const auto begin_ms = begin_of(told, trace.odometer);
-    auto passes = cut_passes(trace.roughness, kept, roads, vehicle, config.pass);
-    auto traces = cut_traces(trace.roughness, kept, roads, vehicle, config.pass);
-    if (config.trim_m > 0) {
-        warnings.push_back(spoken_trim(told, config.trim_m));
+    const auto kept_match = trimmed(matched, kept, roads);
+    const auto begin_ms = begin_of(kept, trace.odometer);
+    auto passes = cut_passes(trace.roughness, kept_match, roads, vehicle, config.pass);
+    auto traces = cut_traces(trace.roughness, kept_match, roads, vehicle, config.pass);
+    if (!kept.is_whole) {
+        warnings.push_back(spoken_trim(kept, trace.odometer.whole_m(), config.trim));
     }
     if (passes.empty() && begin_ms) {
         warnings.push_back(spoken_emptiness(trace.roughness, matched));
@@ -376,8 +387,8 @@ TripResult passes_of(TripLog trip,
             .traces = std::move(traces),
             .rows = account(trip, trace.use),
             .begin_ms = begin_ms,
-            .distance_m = std::max(0.0, told.to_m - told.from_m - paused_m),
-            .matched_m = length_on_roads_m(kept),
+            .distance_m = distance_m,
+            .matched_m = length_on_roads_m(kept_match),
             .warnings = std::move(warnings)};
 }
 

@@ -5,6 +5,7 @@
 #include "estimator/stretch.hpp"
 #include "mapping/map_match.hpp"
 #include "mapping/pass.hpp"
+#include "mapping/privacy/trip_trimming.hpp"
 #include "mapping/strip_trace.hpp"
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct PipelineConfig {
     EstimatorConfig estimator;
     MatchConfig match;
     PassConfig pass;
-    double trim_m = 0; ///< nothing nearer to the trip's ends enters a pass; 0: all may
+    TrimRule trim; ///< what of a trip enters no pass
 };
 
 /// Roughness along one trip, and what it was made of.

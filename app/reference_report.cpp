@@ -29,7 +29,7 @@ void widen(Span& span, const std::optional<std::int64_t>& utc_ms) {
 }
 
 ComparedDays days_of(const Span& span) {
-    const auto day = [](std::int64_t utc_ms) { return utc_text(utc_ms).substr(0, 10); };
+    const auto day = [](std::int64_t utc_ms) { return utc_day(utc_ms); };
     return span.first_ms ? ComparedDays{day(*span.first_ms), day(*span.last_ms)} : ComparedDays{};
 }
 
@@ -148,6 +148,7 @@ reference_report(const RoadStore& store, const std::string& title, const Wording
     ReferenceReport report;
     report.wording = wording;
     report.title = title;
+    report.is_own = store.settings().privacy == PrivacyProfile::own;
     report.segment_length_m = store.settings().segment_length_m;
     report.controls = controls_of(store);
     if (surveys.empty() && report.controls.empty()) {
@@ -166,15 +167,14 @@ reference_report(const RoadStore& store, const std::string& title, const Wording
     report.segments = compared(segment_pairs(segments));
     for (std::size_t i = 0; i < surveys.size(); ++i) {
         const auto& use = surveys[i];
-        report.surveys.push_back(
-            {.name = use.name,
-             .day = use.utc_ms ? utc_text(*use.utc_ms).substr(0, 10) : std::string{},
-             .relative_sd = use.relative_sd,
-             .row_m = use.row_m,
-             .segments = use.passes,
-             .km = use.km,
-             .alone_km = use.alone_km,
-             .score = score_of_survey(report.hundreds.pairs, i)});
+        report.surveys.push_back({.name = use.name,
+                                  .day = use.utc_ms ? utc_day(*use.utc_ms) : std::string{},
+                                  .relative_sd = use.relative_sd,
+                                  .row_m = use.row_m,
+                                  .segments = use.passes,
+                                  .km = use.km,
+                                  .alone_km = use.alone_km,
+                                  .score = score_of_survey(report.hundreds.pairs, i)});
     }
     return report;
 }

@@ -20,8 +20,6 @@
 namespace macadam {
 namespace {
 
-constexpr std::string_view traced_source = "traced from the trips"; // StoreSettings
-
 constexpr double histogram_step_mm_per_m = 0.25;
 constexpr double least_histogram_mm_per_m = 4;
 constexpr double most_histogram_mm_per_m = 12;
@@ -61,7 +59,7 @@ std::size_t histogram_bins(const std::vector<SegmentRecord>& measured) {
 }
 
 std::string day_of(std::int64_t utc_ms) {
-    return utc_text(utc_ms).substr(0, 10);
+    return utc_day(utc_ms);
 }
 
 ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int64_t> last_ms) {
@@ -70,10 +68,21 @@ ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int6
 
 // --------------------------------------------------------------------------------------- values
 
+/// Cars from 1 on, as RoadStore::cars(); "" for trips that name none.
+std::map<std::string, std::string> numbers_of_cars(const RoadStore& store) {
+    std::map<std::string, std::string> numbers;
+    for (const auto& car : store.cars()) {
+        numbers[car] = car == unknown_car ? "" : std::to_string(numbers.size() + 1);
+    }
+    return numbers;
+}
+
 std::vector<ReportVehicle> vehicles_of(const RoadStore& store) {
+    const auto uses = store.vehicle_uses();
+    auto numbers = numbers_of_cars(store);
     std::vector<ReportVehicle> vehicles;
-    for (const auto& use : store.vehicle_uses()) {
-        vehicles.push_back({.name = use.vehicle,
+    for (const auto& use : uses) {
+        vehicles.push_back({.name = numbers[use.vehicle],
                             .model = use.vehicle_model == own_file_model ? "" : use.vehicle_model,
                             .method = use.method,
                             .trips = use.trips,
@@ -99,6 +108,22 @@ std::vector<ReportSection> sections_of(const RoadStore& store, const SectionOpti
                             .measured = named.section.measured});
     });
     return sections;
+}
+
+std::optional<ReportPublication> publication_of(const StoreInfo& info) {
+    if (!info.published_alone) {
+        return std::nullopt;
+    }
+    ReportPublication crowd;
+    if (const auto& publication = info.publication) {
+        crowd = {.month = publication->month,
+                 .trips = info.trips,
+                 .cars = static_cast<std::size_t>(publication->vehicles),
+                 .passes = info.passes,
+                 .left_out = publication->left_out,
+                 .left_out_m = 1000 * publication->left_out_km};
+    }
+    return crowd;
 }
 
 // --------------------------------------------------------------------------------------- change
@@ -244,7 +269,7 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     report.title = config.title;
     report.period = days_of(info.first_seen_ms, info.last_seen_ms);
     report.network_source =
-        info.settings.network_source == traced_source ? "" : info.settings.network_source;
+        info.settings.network_source == traced_network_source ? "" : info.settings.network_source;
     report.attribution = info.settings.attribution;
     report.segment_length_m = info.settings.segment_length_m;
     report.classes = &classes;
@@ -266,6 +291,8 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     }
     report.vehicles = vehicles_of(store);
     report.quality = data_quality(survey.measured);
+    report.publication = publication_of(info);
+    report.is_own = info.settings.privacy == PrivacyProfile::own;
     report.lateral_passes = info.lateral_passes;
     report.row_reasons = store.row_reasons();
 

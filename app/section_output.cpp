@@ -24,8 +24,8 @@ std::string_view class_of(const NamedSection& section, const ClassTable& classes
     return classes.classes[class_index(classes, section.section.measured.mean.iri)].name;
 }
 
-std::string time_cell(const std::optional<std::int64_t>& utc_ms) {
-    return utc_ms ? utc_text(*utc_ms) : "";
+std::string day_cell(const std::optional<std::int64_t>& utc_ms) {
+    return utc_ms ? utc_day(*utc_ms) : "";
 }
 
 // --------------------------------------------------------------------------------------- table
@@ -66,8 +66,7 @@ std::string table_row(const NamedSection& named, const ClassTable& classes) {
                              class_of(named, classes),
                              passes,
                              measured.vehicles,
-                             measured.last_seen_ms ? utc_text(*measured.last_seen_ms).substr(0, 10)
-                                                   : "undated");
+                             measured.last_seen_ms ? utc_day(*measured.last_seen_ms) : "undated");
 }
 
 // --------------------------------------------------------------------------------- CSV and JSON
@@ -104,8 +103,8 @@ std::vector<Value> values_of(const NamedSection& named, const ClassTable& classe
             {"passes_least", std::int64_t{least_passes}},
             {"passes_median", JsonRaw{fmt::format("{}", median_passes)}},
             {"vehicles", std::int64_t{vehicles}},
-            {"first_seen", text_or_null(time_cell(first_ms))},
-            {"last_seen", text_or_null(time_cell(last_ms))}};
+            {"first_seen", text_or_null(day_cell(first_ms))},
+            {"last_seen", text_or_null(day_cell(last_ms))}};
 }
 
 std::string cell_of(const JsonValue& value) {

@@ -44,8 +44,7 @@ std::string table_row(const SegmentRecord& record, const ClassTable& classes) {
                              classes.classes[class_index(classes, state.iri_um / 1000.0)].name,
                              state.passes,
                              state.vehicles,
-                             state.last_seen_ms ? utc_text(*state.last_seen_ms).substr(0, 10)
-                                                : "undated");
+                             state.last_seen_ms ? utc_day(*state.last_seen_ms) : "undated");
 }
 
 std::string json_object_of(const SegmentRecord& record, const ClassTable& classes) {
@@ -85,7 +84,7 @@ std::string_view name_of(LagFinding finding) {
 }
 
 std::string passes_table(const std::vector<PassRecord>& passes) {
-    auto table = fmt::format("{:<22} {:<16} {:>6} {:>6} {:>6} {:>7} {:>10}  {}\n",
+    auto table = fmt::format("{:<22} {:<34} {:>6} {:>6} {:>6} {:>7} {:>10}  {}\n",
                              "when",
                              "vehicle",
                              "IRI",

@@ -3,17 +3,22 @@
 #include <fmt/format.h>
 
 #include <string>
-#include <utility>
 
 namespace macadam {
 
-LockPatience
-patience_for(const std::filesystem::path& store, const Console& console, std::stop_token stop) {
+LockPatience patience_for(const std::filesystem::path& store, const Console& console) {
     return {.tell =
                 [store, console](const std::string& words) {
                     console.say(fmt::format("{}: {}", store.string(), words));
                 },
-            .stop = std::move(stop)};
+            .stop = console.stop()};
+}
+
+RoadStore opened_store(const std::filesystem::path& file,
+                       RoadStore::Access access,
+                       const Console& console,
+                       Reader reader) {
+    return RoadStore::open(file, access, patience_for(file, console), reader);
 }
 
 } // namespace macadam

@@ -2,15 +2,20 @@
 
 #include "app/console.hpp"
 #include "storage/lock_wait.hpp"
+#include "storage/road_store.hpp"
 
 #include <filesystem>
-#include <stop_token>
 
 namespace macadam {
 
-/// How a command waits while another one writes the store: it says once for whom, and `stop` ends
-/// the wait. Without a stop, Ctrl-C ends the program.
-LockPatience
-patience_for(const std::filesystem::path& store, const Console& console, std::stop_token stop = {});
+/// How a command waits while another one writes the store: it says once for whom, and Ctrl-C ends
+/// the wait.
+LockPatience patience_for(const std::filesystem::path& store, const Console& console);
+
+/// Opens a store for a command, which waits so.
+RoadStore opened_store(const std::filesystem::path& file,
+                       RoadStore::Access access,
+                       const Console& console,
+                       Reader reader = Reader::anyone);
 
 } // namespace macadam

@@ -78,8 +78,8 @@ constexpr std::string_view csv_header =
     "rank,name,highway,way_ids,direction,from_m,to_m,length_m,iri,iri_low,iri_high,iri_worst,"
     "passes_least,passes_median,vehicles,first_seen,last_seen,lat_deg,lon_deg\n";
 
-std::string time_cell(const std::optional<std::int64_t>& utc_ms) {
-    return utc_ms ? utc_text(*utc_ms) : "";
+std::string day_cell(const std::optional<std::int64_t>& utc_ms) {
+    return utc_ms ? utc_day(*utc_ms) : "";
 }
 
 std::string csv_row(const RoadStretch& s, std::size_t rank) {
@@ -105,8 +105,8 @@ std::string csv_row(const RoadStretch& s, std::size_t rank) {
         s.least_passes,
         s.median_passes,
         s.vehicles,
-        time_cell(s.first_seen_ms),
-        time_cell(s.last_seen_ms),
+        day_cell(s.first_seen_ms),
+        day_cell(s.last_seen_ms),
         s.middle.lat_deg,
         place_decimals,
         s.middle.lon_deg,
@@ -154,8 +154,8 @@ std::string json_object_of(const RoadStretch& s, std::size_t rank) {
         .add("passes_least", std::int64_t{s.least_passes})
         .add("passes_median", JsonRaw{fmt::format("{}", s.median_passes)})
         .add("vehicles", std::int64_t{s.vehicles})
-        .add("first_seen", text_or_null(time_cell(s.first_seen_ms)))
-        .add("last_seen", text_or_null(time_cell(s.last_seen_ms)))
+        .add("first_seen", text_or_null(day_cell(s.first_seen_ms)))
+        .add("last_seen", text_or_null(day_cell(s.last_seen_ms)))
         .add("lat_deg", JsonNumber{s.middle.lat_deg, place_decimals})
         .add("lon_deg", JsonNumber{s.middle.lon_deg, place_decimals});
     return object.text();

@@ -1,6 +1,5 @@
 #include "app/tile_export.hpp"
 
-#include "app/interruption.hpp"
 #include "estimator/common/error.hpp"
 #include "render/vector_tile.hpp"
 #include "storage/atomic_folder.hpp"
@@ -120,17 +119,11 @@ void export_tiles(const RoadStore& store,
     if (!filter.with_state_only) {
         throw UsageError{"--all goes with files of segments: tiles show what was driven"};
     }
-    const Interruption interruption;
-    const auto stage = [&](const char* label) {
-        auto progress = console.progress(label);
-        progress.stop = interruption.stop();
-        return progress;
-    };
     if (is_tile_folder(file)) {
         expect_new_or_empty(file.has_filename() ? file : file.parent_path()); // before long work
     }
     TileSource source{beside_tiles(file)};
-    read_tile_source(store, filter, source, stage("reading segments"));
+    read_tile_source(store, filter, source, console.progress("reading segments"));
     if (source.count == 0) {
         throw InputError{fmt::format("{}: no measured segment is asked for, expected at least one",
                                      store.file().string())};
@@ -141,8 +134,9 @@ void export_tiles(const RoadStore& store,
         *class_table(store.settings().class_table),
         plan,
         [&](const TileId& tile, std::string_view bytes) { archive.add(tile, bytes); },
-        stage("drawing tiles"));
-    archive.commit(stage("writing tiles"));
+        console.progress("drawing tiles"));
+    store.expect_in_place();
+    archive.commit(console.progress("writing tiles"));
     console.say(fmt::format("{}: {} of {}, zooms {} to {}, the largest {} gzipped",
                             file.string(),
                             counted(count.tiles, "tile"),

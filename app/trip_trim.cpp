@@ -1,9 +1,12 @@
 #include "app/trip_trim.hpp"
 
+#include "storage/crowd_trim.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -11,10 +14,6 @@ namespace macadam {
 namespace {
 
 constexpr double rounding_m = 1e-6; // a cut at a border of segments is at it
-
-bool is_empty(const TravelSpan& told) {
-    return told.from_m >= told.to_m;
-}
 
 double share(double value, double from, double to) {
     return to > from ? (value - from) / (to - from) : 0;
@@ -89,17 +88,29 @@ MatchedTrace backward(MatchedTrace matched) {
     return matched;
 }
 
+/// The trace within one part of its travel.
+MatchedTrace within(const MatchedTrace& matched, const TravelSpan& part, const RoadNetwork& roads) {
+    return backward(
+        cut_before(backward(cut_before(matched, part.from_m, roads)), -part.to_m, roads));
+}
+
 std::vector<std::uint8_t> trimmed(std::vector<std::uint8_t> use,
                                   const std::vector<double>& t_s,
                                   double latency_s,
                                   const Odometer& odometer,
-                                  double trim_m) {
-    const auto told = told_part(odometer, trim_m);
-    const double from_s = odometer.t_s(told.from_m);
-    const double to_s = odometer.t_s(told.to_m);
-    for (std::size_t i = 0; trim_m > 0 && i < use.size(); ++i) {
+                                  const KeptParts& kept) {
+    if (kept.is_whole) {
+        return use;
+    }
+    std::vector<std::pair<double, double>> times_s;
+    for (const auto& part : kept.parts) {
+        times_s.emplace_back(odometer.t_s(part.from_m), odometer.t_s(part.to_m));
+    }
+    for (std::size_t i = 0; i < use.size(); ++i) {
         const double at_s = t_s[i] - latency_s;
-        if (is_empty(told) || at_s < from_s || at_s > to_s) {
+        const auto after =
+            std::ranges::upper_bound(times_s, at_s, {}, &std::pair<double, double>::first);
+        if (after == times_s.begin() || at_s > std::prev(after)->second) {
             use[i] = static_cast<std::uint8_t>(RowReason::trimmed);
         }
     }
@@ -108,44 +119,75 @@ std::vector<std::uint8_t> trimmed(std::vector<std::uint8_t> use,
 
 } // namespace
 
-TravelSpan told_part(const Odometer& odometer, double trim_m) {
-    return {trim_m, odometer.whole_m() - trim_m};
+TrimRule trim_in(RoadStore& store, TrimRule asked) {
+    if (store.settings().privacy != PrivacyProfile::crowd) {
+        return asked;
+    }
+    store.make_missing_key();
+    auto rule = crowd_trim(*store.key());
+    rule.min_m = std::max(rule.min_m, asked.min_m);
+    return rule;
 }
 
-MatchedTrace trimmed(MatchedTrace matched, const TravelSpan& told, const RoadNetwork& roads) {
-    if (is_empty(told)) {
-        return {};
+KeptParts kept_of(const TripLog& trip, const Odometer& odometer, const TrimRule& rule) {
+    return {kept_parts(trip, odometer, rule), !rule.is_active()};
+}
+
+double length_m(const KeptParts& kept) {
+    double sum_m = 0;
+    for (const auto& part : kept.parts) {
+        sum_m += part.to_m - part.from_m;
     }
-    matched = cut_before(matched, told.from_m, roads);
-    return backward(cut_before(backward(std::move(matched)), -told.to_m, roads));
+    return sum_m;
+}
+
+MatchedTrace trimmed(const MatchedTrace& matched, const KeptParts& kept, const RoadNetwork& roads) {
+    if (kept.is_whole) {
+        return matched;
+    }
+    MatchedTrace all;
+    for (const auto& part : kept.parts) {
+        std::ranges::move(within(matched, part, roads), std::back_inserter(all));
+    }
+    return all;
 }
 
 TripUse without_vibration_outside(TripUse use,
                                   const TripLog& trip,
                                   const Odometer& odometer,
-                                  double trim_m) {
-    use.acc = trimmed(std::move(use.acc), trip.acc.t_s, 0, odometer, trim_m);
-    use.gyro = trimmed(std::move(use.gyro), trip.gyro.t_s, 0, odometer, trim_m);
+                                  const KeptParts& kept) {
+    use.acc = trimmed(std::move(use.acc), trip.acc.t_s, 0, odometer, kept);
+    use.gyro = trimmed(std::move(use.gyro), trip.gyro.t_s, 0, odometer, kept);
     return use;
 }
 
-TripUse
-without_places_outside(TripUse use, const TripLog& trip, const Odometer& odometer, double trim_m) {
+TripUse without_places_outside(TripUse use,
+                               const TripLog& trip,
+                               const Odometer& odometer,
+                               const KeptParts& kept) {
     std::vector<double> fixes_s(trip.fixes.size());
     std::ranges::transform(trip.fixes, fixes_s.begin(), &GnssFix::t_s);
     use.speed =
-        trimmed(std::move(use.speed), trip.speed.t_s, trip.meta.speed_latency_s, odometer, trim_m);
-    use.fixes = trimmed(std::move(use.fixes), fixes_s, trip.meta.gnss_latency_s, odometer, trim_m);
+        trimmed(std::move(use.speed), trip.speed.t_s, trip.meta.speed_latency_s, odometer, kept);
+    use.fixes = trimmed(std::move(use.fixes), fixes_s, trip.meta.gnss_latency_s, odometer, kept);
     return use;
 }
 
-std::string spoken_trim(const TravelSpan& told, double trim_m) {
-    if (is_empty(told)) {
-        return fmt::format("goes {:.0f} m, which is all within {:g} m of its ends: no pass",
-                           told.to_m + trim_m,
-                           trim_m);
+std::string spoken_trim(const KeptParts& kept, double whole_m, const TrimRule& rule) {
+    if (kept.parts.empty() && rule.hides_places) {
+        return fmt::format("goes {:.0f} m, all of it near its ends or stops: no pass", whole_m);
     }
-    return fmt::format("the first and the last {:g} m were left out", trim_m);
+    if (kept.parts.empty()) {
+        return fmt::format(
+            "goes {:.0f} m, which is all within {:g} m of its ends: no pass", whole_m, rule.min_m);
+    }
+    if (rule.hides_places) {
+        const auto stops = kept.parts.size() - 1;
+        return fmt::format("{:.0f} m at its ends{} were left out, for privacy",
+                           whole_m - length_m(kept),
+                           stops > 0 ? " and stops" : "");
+    }
+    return fmt::format("the first and the last {:g} m were left out", rule.min_m);
 }
 
 } // namespace macadam

@@ -3,31 +3,46 @@
 #include "estimator/odometer.hpp"
 #include "estimator/stretch.hpp"
 #include "mapping/map_match.hpp"
+#include "mapping/privacy/trip_trimming.hpp"
+#include "storage/road_store.hpp"
 
 #include <string>
+#include <vector>
 
 namespace macadam {
 
-/// What of a trip may be told when `trim_m` of travel are left out at both ends, so that nobody
-/// learns where it began; all of it if trim_m is 0. Empty (from_m >= to_m) for a trip that is too
-/// short.
-TravelSpan told_part(const Odometer& odometer, double trim_m);
+/// How trips that come into a store are trimmed: those of a crowd as its key draws it, and by what
+/// was asked for where that is more. Makes the key if it is missing.
+TrimRule trim_in(RoadStore& store, TrimRule asked);
 
-/// The match within that part. A segment that reaches out of it where it was cut is left out whole.
-MatchedTrace trimmed(MatchedTrace matched, const TravelSpan& told, const RoadNetwork& roads);
+/// Parts of a trip that enter passes, traces, distances and times; nothing of the rest is kept.
+struct KeptParts {
+    std::vector<TravelSpan> parts; ///< in order; empty: the trip is too short
+    bool is_whole;                 ///< nothing was left out
+};
 
-/// Readings of vibration and rotation outside that part count as not used, for the reason
+KeptParts kept_of(const TripLog& trip, const Odometer& odometer, const TrimRule& rule);
+
+double length_m(const KeptParts& kept);
+
+/// The match within these parts. A segment that reaches out of one where it was cut is left out
+/// whole.
+MatchedTrace trimmed(const MatchedTrace& matched, const KeptParts& kept, const RoadNetwork& roads);
+
+/// Readings of vibration and rotation outside these parts count as not used, for the reason
 /// `trimmed`.
 TripUse without_vibration_outside(TripUse use,
                                   const TripLog& trip,
                                   const Odometer& odometer,
-                                  double trim_m);
+                                  const KeptParts& kept);
 
 /// The same of speeds and fixes.
-TripUse
-without_places_outside(TripUse use, const TripLog& trip, const Odometer& odometer, double trim_m);
+TripUse without_places_outside(TripUse use,
+                               const TripLog& trip,
+                               const Odometer& odometer,
+                               const KeptParts& kept);
 
-/// What to say of it.
-std::string spoken_trim(const TravelSpan& told, double trim_m);
+/// What to say of it. \param whole_m  of the trip
+std::string spoken_trim(const KeptParts& kept, double whole_m, const TrimRule& rule);
 
 } // namespace macadam

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -22,24 +24,32 @@ departure(const NetworkTables& tables, std::uint32_t way, std::uint32_t node) {
     return found;
 }
 
-/// The one drivable edge of a way that arrives at a node; nothing if there are two or none.
-std::optional<EdgeId> arrival(const NetworkTables& tables, std::uint32_t way, std::uint32_t node) {
-    std::optional<EdgeId> found;
-    const auto take = [&](EdgeId edge, bool arrives) {
-        const bool twice = arrives && found;
-        found = arrives ? std::optional{edge} : found;
-        return !twice;
-    };
+/// A drivable edge and the node that it leads to.
+struct Arrival {
+    std::uint32_t node;
+    EdgeId edge;
+};
+
+/// The drivable edges of a way, in the order of the nodes that they lead to.
+std::vector<Arrival> arrivals_of(const NetworkTables& tables, std::uint32_t way) {
+    std::vector<Arrival> arrivals;
     for (auto i = tables.ways[way].first_link; i < tables.ways[way + 1].first_link; ++i) {
         const auto& link = tables.links[i];
-        const bool forward = link.to == node && (link.flags & link_flags::forward) != 0;
-        const bool backward = link.from == node && (link.flags & link_flags::backward) != 0;
-        if (!take(edge_of(LinkId{i}, true), forward) ||
-            !take(edge_of(LinkId{i}, false), backward)) {
-            return {};
+        if ((link.flags & link_flags::forward) != 0) {
+            arrivals.push_back({link.to, edge_of(LinkId{i}, true)});
+        }
+        if ((link.flags & link_flags::backward) != 0) {
+            arrivals.push_back({link.from, edge_of(LinkId{i}, false)});
         }
     }
-    return found;
+    std::ranges::sort(arrivals, {}, &Arrival::node);
+    return arrivals;
+}
+
+/// The one edge that leads to a node; nothing if there are two or none.
+std::optional<EdgeId> arrival(std::span<const Arrival> arrivals, std::uint32_t node) {
+    const auto found = std::ranges::equal_range(arrivals, node, {}, &Arrival::node);
+    return found.size() == 1 ? std::optional{found.front().edge} : std::nullopt;
 }
 
 std::optional<std::uint32_t> number_of_way(const NetworkTables& tables, std::int64_t id) {
@@ -53,14 +63,22 @@ std::optional<std::uint32_t> number_of_way(const NetworkTables& tables, std::int
                : std::nullopt;
 }
 
+/// More edges leave no junction: a rule for each way there would forbid a square of turns.
+constexpr std::uint32_t most_departures = 64;
+
 /// The turns that a rule forbids. A rule that the ways' ends do not make plain forbids none.
+///
+/// \param arrivals  of the way that the rule is for
 void add_barred(NetworkTables& tables,
-                std::uint32_t way,
+                std::span<const Arrival> arrivals,
                 const TurnRule& rule,
                 const std::vector<std::int64_t>& nodes) {
     const auto node = number_of_node(nodes, rule.via_node);
+    if (!node || tables.first_out[*node + 1] - tables.first_out[*node] > most_departures) {
+        return;
+    }
     const auto to_way = number_of_way(tables, rule.to_way);
-    const auto from = node && to_way ? arrival(tables, way, *node) : std::nullopt;
+    const auto from = to_way ? arrival(arrivals, *node) : std::nullopt;
     const auto to = from ? departure(tables, *to_way, *node) : std::nullopt;
     if (!to) {
         return;
@@ -78,8 +96,11 @@ void add_barred(NetworkTables& tables,
 
 void add_barred_turns(NetworkTables& tables, const std::vector<std::int64_t>& nodes) {
     for (std::uint32_t way = 0; way + 1 < tables.ways.size(); ++way) {
-        for (auto i = tables.ways[way].first_turn; i < tables.ways[way + 1].first_turn; ++i) {
-            add_barred(tables, way, tables.turns[i], nodes);
+        const auto first = tables.ways[way].first_turn;
+        const auto past = tables.ways[way + 1].first_turn;
+        const auto arrivals = first < past ? arrivals_of(tables, way) : std::vector<Arrival>{};
+        for (auto i = first; i < past; ++i) {
+            add_barred(tables, arrivals, tables.turns[i], nodes);
         }
     }
     auto& turns = tables.barred_turns;

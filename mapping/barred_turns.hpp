@@ -8,7 +8,8 @@
 namespace macadam {
 
 /// Adds the turns that the ways' rules forbid, in order, each once, and flags the links that they
-/// begin on. A rule that the ways' ends do not make plain forbids none.
+/// begin on. A rule that the ways' ends do not make plain forbids none, nor does
+/// one at a node that over 64 edges leave, which is no junction.
 ///
 /// \param tables  with ways, links and departures
 /// \param nodes   identities of the nodes, rising

@@ -17,9 +17,6 @@
 namespace macadam {
 namespace {
 
-/// Of a link, under one box of the tree: a long winding link is several small boxes.
-constexpr std::uint32_t most_steps_of_a_piece = 16;
-
 // ---------------------------------------------------------------------------------------- ways
 
 /// Without repeats of one and the same point in sequence, which maps hold now and then.
@@ -62,10 +59,15 @@ std::vector<Way> in_order(std::vector<Way> ways) {
 }
 
 /// Where longitudes jump from 180 to -180 neither lines nor boxes nor plane metres hold.
-void expect_away_from_antimeridian(const std::vector<Way>& ways) {
-    constexpr double farthest_lon_deg = 179.9; // 11 km of room at the equator
+void expect_on_globe(const std::vector<Way>& ways) {
     for (const auto& way : ways) {
         for (const auto& point : way.line) {
+            if (!(std::abs(point.lat_deg) <= 90 && std::isfinite(point.lon_deg))) {
+                throw InputError{fmt::format("way '{}' reaches {:g}, {:g}, which is no place",
+                                             way.id,
+                                             point.lat_deg,
+                                             point.lon_deg)};
+            }
             if (std::abs(point.lon_deg) > farthest_lon_deg) {
                 throw InputError{fmt::format("way '{}' reaches longitude {:g}, expected roads at "
                                              "least {:.1f} degrees from the antimeridian",
@@ -80,12 +82,21 @@ void expect_away_from_antimeridian(const std::vector<Way>& ways) {
 /// Texts that are kept once each.
 class TextPool {
 public:
-    explicit TextPool(NetworkTables& tables) : tables_{tables} { tables_.first_letter = {0}; }
+    TextPool(NetworkTables& tables, const NetworkLimits& limits)
+        : tables_{tables}, most_letters_{limits.letters} {
+        tables_.first_letter = {0};
+    }
 
     std::uint32_t number_of(const std::string& text) {
         const auto [found, fresh] =
             numbers_.try_emplace(text, static_cast<std::uint32_t>(numbers_.size()));
         if (fresh) {
+            if (tables_.letters.size() + text.size() >= most_letters_) {
+                throw InputError{
+                    fmt::format("the names of the roads are too long for one network: they have "
+                                "{} bytes or more, expected fewer",
+                                most_letters_)};
+            }
             tables_.letters.insert(tables_.letters.end(), text.begin(), text.end());
             tables_.first_letter.push_back(static_cast<std::uint32_t>(tables_.letters.size()));
         }
@@ -94,6 +105,7 @@ public:
 
 private:
     NetworkTables& tables_;
+    std::uint64_t most_letters_;
     std::unordered_map<std::string, std::uint32_t> numbers_;
 };
 
@@ -116,8 +128,8 @@ void add_lengths(NetworkTables& tables, const Way& way) {
 
 /// Records of the ways with their points, and one past the last; each way is let go of when it is
 /// told, because a map of a country has millions. Links are not there yet.
-void add_ways(NetworkTables& tables, std::vector<Way> ways) {
-    TextPool texts{tables};
+void add_ways(NetworkTables& tables, std::vector<Way> ways, const NetworkLimits& limits) {
+    TextPool texts{tables, limits};
     const auto start = [&] {
         return PackedWay{.id = 0,
                          .first_point = static_cast<std::uint32_t>(tables.points.size()),
@@ -165,11 +177,6 @@ std::vector<std::int64_t> node_identities(const NetworkTables& tables) {
     return nodes;
 }
 
-std::uint16_t flags_of(Oneway oneway) {
-    return static_cast<std::uint16_t>((oneway != Oneway::backward ? link_flags::forward : 0) |
-                                      (oneway != Oneway::forward ? link_flags::backward : 0));
-}
-
 std::string_view text(const NetworkTables& tables, std::uint32_t number) {
     const auto first = tables.first_letter[number];
     return {tables.letters.data() + first, tables.first_letter[number + 1] - first};
@@ -180,11 +187,12 @@ std::uint16_t speed_limit_cmps(const NetworkTables& tables, const PackedWay& way
                                     : usual_speed_limit_cmps(text(tables, way.highway));
 }
 
-/// The way's parts between nodes, in its own direction.
-void add_links(NetworkTables& tables,
-               std::uint32_t way,
-               const std::vector<std::int64_t>& nodes,
-               double segment_length_m) {
+/// The way's parts between nodes, in its own direction. \returns how many segments they have.
+std::uint64_t add_links(NetworkTables& tables,
+                        std::uint32_t way,
+                        const std::vector<std::int64_t>& nodes,
+                        double segment_length_m) {
+    std::uint64_t segments = 0;
     const auto& record = tables.ways[way];
     PackedLink link{.way = way,
                     .from = *number_of_node(nodes, tables.node_ids[record.first_point]),
@@ -206,18 +214,36 @@ void add_links(NetworkTables& tables,
         tables.node_point[link.to] = i;
         link.from = link.to;
         link.first_point = i;
-        link.first_segment += segments_in(Unpacked{}(link.length_mm), segment_length_m);
+        segments += segments_in(Unpacked{}(link.length_mm), segment_length_m);
+        link.first_segment = static_cast<std::uint32_t>(segments); // held in bounds by the caller
     }
+    return segments;
+}
+
+[[noreturn]] void refuse_segments(std::size_t points, double segment_length_m, std::uint64_t most) {
+    throw InputError{fmt::format("the roads are too long for their {} points: they have more than "
+                                 "{} segments of {:g} m; expected coordinates of real roads, or a "
+                                 "longer segment length",
+                                 points,
+                                 most,
+                                 segment_length_m)};
 }
 
 void add_links(NetworkTables& tables,
                const std::vector<std::int64_t>& nodes,
-               double segment_length_m) {
+               double segment_length_m,
+               const NetworkLimits& limits) {
     tables.node_point.resize(nodes.size());
     const auto past = static_cast<std::uint32_t>(tables.ways.size() - 1);
+    const auto most = most_segments(tables.points.size(), limits);
+    std::uint64_t segments = 0;
     for (std::uint32_t way = 0; way < past; ++way) {
         tables.ways[way].first_link = static_cast<std::uint32_t>(tables.links.size());
-        add_links(tables, way, nodes, segment_length_m);
+        const auto of_way = add_links(tables, way, nodes, segment_length_m);
+        segments += of_way;
+        if (segments > most || of_way > std::numeric_limits<std::uint32_t>::max()) {
+            refuse_segments(tables.points.size(), segment_length_m, most);
+        }
     }
     tables.ways[past].first_link = static_cast<std::uint32_t>(tables.links.size());
     tables.links.push_back({.way = past,
@@ -278,9 +304,10 @@ BoxTreeArrays tree_of(const NetworkTables& tables) {
         const auto& next = tables.links[i + 1];
         const auto last =
             next.way == link.way ? next.first_point : tables.ways[link.way + 1].first_point - 1;
-        const auto steps = last - link.first_point;
-        const auto pieces = (steps + most_steps_of_a_piece - 1) / most_steps_of_a_piece;
-        for (std::uint32_t piece = 0; piece < pieces; ++piece) {
+        const auto pieces = pieces_of(last - link.first_point);
+        // In 64 bits: steps times pieces of a link of 262,144 points are more than 2^32.
+        const std::uint64_t steps = last - link.first_point;
+        for (std::uint64_t piece = 0; piece < pieces; ++piece) {
             const auto from = link.first_point + steps * piece / pieces;
             const auto to = link.first_point + steps * (piece + 1) / pieces;
             boxes.push_back(box_of(std::span{tables.points}.subspan(from, to - from + 1)));
@@ -290,33 +317,38 @@ BoxTreeArrays tree_of(const NetworkTables& tables) {
     return build_box_tree(std::move(boxes), std::move(numbers));
 }
 
-void expect_to_be_numbered(const std::vector<Way>& ways) {
-    std::size_t points = 0;
+void expect_to_be_numbered(const std::vector<Way>& ways, const NetworkLimits& limits) {
+    std::uint64_t points = 0;
+    std::uint64_t turns = 0;
     for (const auto& way : ways) {
         points += way.line.size();
+        turns += way.turns.size();
     }
-    // Edges are two for each link, and there are fewer links than points.
-    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() / 2;
-    if (points >= most) {
+    if (points >= limits.points) {
         throw InputError{
-            fmt::format("the roads have {} points, expected fewer than {}", points, most)};
+            fmt::format("the roads have {} points, expected fewer than {}", points, limits.points)};
+    }
+    if (turns >= limits.turns) {
+        throw InputError{fmt::format(
+            "the roads have {} turn restrictions, expected fewer than {}", turns, limits.turns)};
     }
 }
 
 } // namespace
 
-RoadNetwork build_network(std::vector<Way> ways, double segment_length_m) {
+RoadNetwork
+build_network(std::vector<Way> ways, double segment_length_m, const NetworkLimits& limits) {
     if (!(segment_length_m > 0) || !std::isfinite(segment_length_m)) {
         throw InputError{
             fmt::format("segment length '{}', expected metres above 0", segment_length_m)};
     }
     auto ordered = in_order(std::move(ways));
-    expect_away_from_antimeridian(ordered);
-    expect_to_be_numbered(ordered);
+    expect_on_globe(ordered);
+    expect_to_be_numbered(ordered, limits);
     const auto tables = std::make_shared<NetworkTables>();
-    add_ways(*tables, std::move(ordered));
+    add_ways(*tables, std::move(ordered), limits);
     const auto nodes = node_identities(*tables);
-    add_links(*tables, nodes, segment_length_m);
+    add_links(*tables, nodes, segment_length_m, limits);
     add_departures(*tables);
     add_barred_turns(*tables, nodes);
     tables->tree = tree_of(*tables);

@@ -1,6 +1,7 @@
 #include "mapping/network_image.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/network_check.hpp"
 
 #include <fmt/format.h>
 
@@ -129,16 +130,19 @@ std::uint64_t sum_of(const Head& head) {
     return sum_of(std::as_bytes(std::span{&head, 1}).first(offsetof(Head, head_sum)));
 }
 
+/// \param begin  where the section must begin. \returns where the next one does.
 template <typename Value>
-void look_into(std::span<const Value>& array,
-               const Section& section,
-               std::span<const std::byte> image) {
+std::size_t look_into(std::span<const Value>& array,
+                      const Section& section,
+                      std::size_t begin,
+                      std::span<const std::byte> image) {
     static_assert(std::is_trivially_copyable_v<Value>);
-    if (section.offset % image_alignment != 0 || section.offset > image.size() ||
-        section.count > (image.size() - section.offset) / sizeof(Value)) {
+    if (section.offset != begin || begin > image.size() ||
+        section.count > (image.size() - begin) / sizeof(Value)) {
         throw InputError{"its parts do not lie within it, expected a whole network file"};
     }
-    array = {reinterpret_cast<const Value*>(image.data() + section.offset), section.count};
+    array = {reinterpret_cast<const Value*>(image.data() + begin), section.count};
+    return begin + filled(section.count * sizeof(Value));
 }
 
 Head head_in(std::span<const std::byte> image) {
@@ -169,14 +173,6 @@ Head head_in(std::span<const std::byte> image) {
             fmt::format("has {} bytes, expected {}: it was cut off", image.size(), head.bytes)};
     }
     return head;
-}
-
-bool fit_each_other(const RoadNetwork& roads) {
-    return !roads.ways.empty() && !roads.links.empty() && !roads.first_letter.empty() &&
-           roads.points.size() == roads.node_ids.size() &&
-           roads.points.size() == roads.along_mm.size() &&
-           roads.first_out.size() == roads.node_point.size() + 1 &&
-           roads.tree.boxes.size() == box_tree_size(roads.tree.numbers.size());
 }
 
 } // namespace
@@ -211,15 +207,20 @@ bool begins_as_image(std::span<const std::byte> bytes) {
 
 ImageContent network_in(std::span<const std::byte> image, std::shared_ptr<const void> owner) {
     const auto head = head_in(image);
-    RoadNetwork roads;
-    for_each_array(roads, [&](auto& array, std::size_t number) {
-        look_into(array, head.sections[number], image);
-    });
-    if (!fit_each_other(roads) || sum_of(image.subspan(head_bytes)) != head.sum) {
+    if (sum_of(image.subspan(head_bytes)) != head.sum) {
         throw InputError{"is damaged: the sum of its bytes is another"};
     }
-    roads.owner = std::move(owner);
+    RoadNetwork roads;
+    auto begin = head_bytes;
+    for_each_array(roads, [&](auto& array, std::size_t number) {
+        begin = look_into(array, head.sections[number], begin, image);
+    });
+    if (begin != image.size()) {
+        throw InputError{"its parts do not fill it, expected a whole network file"};
+    }
     roads.segment_length_m = head.segment_length_m;
+    expect_sound(roads);
+    roads.owner = std::move(owner);
     return {std::move(roads), std::string{head.source.data(), head.source.size()}};
 }
 

@@ -29,4 +29,25 @@ struct NetworkTables {
 std::optional<std::uint32_t> number_of_node(const std::vector<std::int64_t>& nodes,
                                             std::int64_t id);
 
+/// Of places of roads: 11 km of room to the antimeridian at the equator.
+inline constexpr double farthest_lon_deg = 179.9;
+
+/// Boxes of the index over a link of so many steps from point to point: a long winding link has
+/// several small ones, each of at most 16 steps.
+constexpr std::uint32_t pieces_of(std::uint32_t steps) {
+    constexpr std::uint32_t most_steps = 16;
+    return steps / most_steps + (steps % most_steps == 0 ? 0U : 1U);
+}
+
+/// Segments of one direction that a network of so many points may have.
+constexpr std::uint64_t most_segments(std::uint64_t points, const NetworkLimits& limits) {
+    return limits.free_segments + limits.segments_per_point * points;
+}
+
+/// What a way's traffic rule leaves of its links' directions.
+constexpr std::uint16_t flags_of(Oneway oneway) {
+    return static_cast<std::uint16_t>((oneway != Oneway::backward ? link_flags::forward : 0) |
+                                      (oneway != Oneway::forward ? link_flags::backward : 0));
+}
+
 } // namespace macadam

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace macadam {
 namespace {
@@ -30,7 +31,8 @@ PackedPoint packed(const GeoPoint& place) {
 }
 
 std::uint32_t segments_in(double link_m, double segment_length_m) {
-    return static_cast<std::uint32_t>(std::max(1.0, std::round(link_m / segment_length_m)));
+    constexpr double most = std::numeric_limits<std::uint32_t>::max();
+    return static_cast<std::uint32_t>(std::clamp(std::round(link_m / segment_length_m), 1.0, most));
 }
 
 WayView way_at(const RoadNetwork& roads, std::uint32_t way) {

@@ -84,24 +84,29 @@ SegmentKey parse_segment_key(std::string_view text) {
     throw InputError{fmt::format("'{}' is no segment, expected a key such as 123456+0007", text)};
 }
 
-std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge) {
+Segment segment_of(const RoadNetwork& roads, EdgeId edge, std::uint32_t number) {
     const auto link = link_at(roads, edge);
-    const bool forward = is_forward(edge);
-    std::vector<Segment> segments;
-    segments.reserve(link.segments);
-    for (std::uint32_t i = 0; i < link.segments; ++i) {
-        const double from_m = border_m(link, i);
-        const double to_m = border_m(link, i + 1);
-        segments.push_back({{way_at(roads, link.way).id, forward, link.first_segment + i},
-                            from_m,
-                            to_m,
-                            line_between(roads, link, from_m, to_m)});
+    const double from_m = border_m(link, number);
+    const double to_m = border_m(link, number + 1);
+    Segment segment{{way_at(roads, link.way).id, is_forward(edge), link.first_segment + number},
+                    from_m,
+                    to_m,
+                    line_between(roads, link, from_m, to_m)};
+    if (!is_forward(edge)) {
+        std::reverse(segment.line.begin(), segment.line.end());
     }
-    if (!forward) {
+    return segment;
+}
+
+std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge) {
+    const auto count = link_at(roads, edge).segments;
+    std::vector<Segment> segments;
+    segments.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        segments.push_back(segment_of(roads, edge, i));
+    }
+    if (!is_forward(edge)) {
         std::reverse(segments.begin(), segments.end());
-        for (auto& segment : segments) {
-            std::reverse(segment.line.begin(), segment.line.end());
-        }
     }
     return segments;
 }

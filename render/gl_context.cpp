@@ -8,7 +8,10 @@
 
 #include <array>
 #include <cassert>
+#include <cstddef>
 #include <cstdlib>
+
+#include <sys/mman.h>
 
 namespace macadam {
 namespace {
@@ -27,6 +30,26 @@ void check_size(int width_px, int height_px) {
                 "'{}x{}', expected sides of 1 to {} px", width_px, height_px, most_window_px)};
         }
     }
+}
+
+/// Mesa and its compiler do not bear to be refused memory: they crash. So it is tried before
+/// whether as much is there as they take, which is what was measured and half as much again.
+void expect_memory(int width_px, int height_px) {
+    constexpr std::size_t own_bytes = 100'000'000;
+    constexpr std::size_t bytes_per_px = 12;
+    const auto bytes =
+        own_bytes + bytes_per_px * static_cast<std::size_t>(width_px) * std::size_t(height_px);
+    void* const tried =
+        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (tried == MAP_FAILED) {
+        constexpr double megabyte = 1e6;
+        throw InputError{fmt::format("not enough memory to draw {} x {} pixels, expected {:.0f} MB "
+                                     "more",
+                                     width_px,
+                                     height_px,
+                                     static_cast<double>(bytes) / megabyte)};
+    }
+    ::munmap(tried, bytes);
 }
 
 void* new_context() {
@@ -58,6 +81,8 @@ GlContext::GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px)
     check_size(width_px, height_px);
     assert(rgba.size() == std::size_t(width_px) * std::size_t(height_px) * 4);
 
+    mesa<decltype(OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs"); // opens the library
+    expect_memory(width_px, height_px);
     context_ = new_context();
     if (context_ == nullptr) {
         throw InputError{fmt::format("'{}' gives no OpenGL 3.3 core context", library)};

@@ -5,7 +5,7 @@
 #include "storage/foreign/phone_export.hpp"
 #include "storage/foreign/trip_mapping.hpp"
 #include "storage/trip_contents.hpp"
-#include "storage/trip_names.hpp"
+#include "storage/trip_file_names.hpp"
 
 #include <fmt/core.h>
 

@@ -5,28 +5,32 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace macadam {
 namespace {
 
+constexpr mode_t mode = 0666; // less the umask
+constexpr const char* name_in_folder = "file";
+
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
     throw InputError{fmt::format("{}: cannot be written: {}", file.string(), std::strerror(error))};
 }
 
-std::filesystem::path name_beside(const std::filesystem::path& file) {
-    auto name = file;
-    name += fmt::format(".part-{}", ::getpid());
-    return name;
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+    return file.has_parent_path() ? file.parent_path() : std::filesystem::path{"."};
 }
 
-/// What the system says of syncing the file or folder of that name: 0 or an errno.
-int sync_by_name(const std::filesystem::path& name, int flags) {
-    const int descriptor = ::open(name.c_str(), flags | O_CLOEXEC);
+/// What the system says of syncing a folder: 0 or an errno.
+int sync_folder(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) {
         return errno;
     }
@@ -35,15 +39,36 @@ int sync_by_name(const std::filesystem::path& name, int flags) {
     return error;
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& file) {
-    return file.has_parent_path() ? file.parent_path() : std::filesystem::path{"."};
+/// By which a file without a name is given one.
+std::string way_to(int descriptor) {
+    return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+/// \returns 0 or an errno.
+int link_to(int descriptor, const std::filesystem::path& name) {
+    return ::linkat(
+               AT_FDCWD, way_to(descriptor).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0
+               ? 0
+               : errno;
+}
+
+/// A file without a name; -1 where there are none, or where it could not be given one later.
+int nameless_file(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+    if (descriptor >= 0 && ::access(way_to(descriptor).c_str(), F_OK) != 0) {
+        ::close(descriptor);
+        return -1;
+    }
+    return descriptor;
 }
 
 } // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path file)
-    : file_{std::move(file)}, temporary_{name_beside(file_)}, out_{std::fopen(temporary_.c_str(),
-                                                                              "wbe")} {
+AtomicFile::AtomicFile(std::filesystem::path file) : file_{std::move(file)} {
+    const int descriptor = opened();
+    if (descriptor >= 0) {
+        out_ = ::fdopen(descriptor, "wb");
+    }
     if (out_ == nullptr) {
         fail(file_, errno);
     }
@@ -53,10 +78,21 @@ AtomicFile::~AtomicFile() {
     if (out_ != nullptr) {
         std::fclose(out_);
     }
-    if (!temporary_.empty()) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary_, ignored);
+}
+
+int AtomicFile::opened() {
+    const int descriptor = nameless_file(folder_of(file_));
+    if (descriptor >= 0) {
+        return descriptor;
     }
+    try {
+        folder_.emplace(file_);
+    } catch (const std::system_error& error) {
+        fail(file_, error.code().value());
+    }
+    return ::open((folder_->path() / name_in_folder).c_str(),
+                  O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC,
+                  mode);
 }
 
 void AtomicFile::write(std::string_view text) {
@@ -68,22 +104,41 @@ void AtomicFile::write(std::string_view text) {
     }
 }
 
+/// A link replaces no file; only a file with a name can take the place of another.
+void AtomicFile::put_in_place() {
+    if (folder_) {
+        const auto whole = folder_->path() / name_in_folder;
+        if (std::rename(whole.c_str(), file_.c_str()) != 0) {
+            fail(file_, errno);
+        }
+        return;
+    }
+    const int descriptor = ::fileno(out_);
+    int error = link_to(descriptor, file_);
+    if (error == EEXIST) {
+        ::flock(descriptor, LOCK_SH | LOCK_NB); // it is worked on
+        const auto name = temporary_name(file_);
+        const RemovedIfCutOff removed{name};
+        error = link_to(descriptor, name);
+        if (error == 0 && std::rename(name.c_str(), file_.c_str()) != 0) {
+            error = errno;
+            ::unlink(name.c_str());
+        }
+    }
+    if (error != 0) {
+        fail(file_, error);
+    }
+}
+
 void AtomicFile::commit() {
-    if (std::fflush(out_) != 0) {
+    if (std::fflush(out_) != 0 || ::fsync(::fileno(out_)) != 0) {
         fail(file_, errno);
     }
+    put_in_place();
     if (std::fclose(std::exchange(out_, nullptr)) != 0) {
         fail(file_, errno);
     }
-    // By name: a library that wrote it may have put another file in its place.
-    if (const int error = sync_by_name(temporary_, O_RDONLY)) {
-        fail(file_, error);
-    }
-    if (std::rename(temporary_.c_str(), file_.c_str()) != 0) {
-        fail(file_, errno);
-    }
-    temporary_.clear();
-    if (const int error = sync_by_name(folder_of(file_), O_RDONLY | O_DIRECTORY)) {
+    if (const int error = sync_folder(folder_of(file_))) {
         fail(file_, error);
     }
 }

@@ -5,12 +5,16 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace macadam {
@@ -66,38 +70,30 @@ private:
     std::vector<std::pair<fs::path, fs::path>> moves_;
 };
 
-} // namespace
-
-AtomicFileSet::AtomicFileSet(fs::path main_file) : main_file_{std::move(main_file)} {
-    folder_ = main_file_;
-    folder_ += fmt::format(".part-{}", ::getpid());
-    if (fs::is_directory(main_file_)) {
-        fail(main_file_, std::strerror(EISDIR));
-    }
-    std::error_code error;
-    fs::create_directory(folder_, error);
-    if (error) {
-        fail(main_file_, error.message());
-    }
-}
-
-AtomicFileSet::~AtomicFileSet() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-}
-
-void AtomicFileSet::commit(const std::vector<std::string>& stale) {
-    const auto place = parent_of(main_file_);
+/// Syncs what is in the folder. \returns names, in order.
+std::vector<std::string> synced_names(const fs::path& folder, const fs::path& place) {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator{folder_}) {
+    for (const auto& entry : fs::directory_iterator{folder}) {
         names.push_back(entry.path().filename().string());
     }
     std::ranges::sort(names);
     for (const auto& name : names) {
-        sync(folder_ / name, O_RDONLY, place / name);
+        sync(folder / name, O_RDONLY, place / name);
     }
+    return names;
+}
 
-    const auto before = folder_ / "before";
+void replace(const fs::path& from, const fs::path& to) {
+    if (std::rename(from.c_str(), to.c_str()) != 0) {
+        fail(to, std::strerror(errno));
+    }
+}
+
+void move_together(const std::vector<std::string>& names,
+                   const std::vector<std::string>& stale,
+                   const fs::path& folder,
+                   const fs::path& place) {
+    const auto before = folder / "before";
     fs::create_directory(before);
     Moves moves;
     const auto set_aside = [&](const std::string& name) {
@@ -113,9 +109,81 @@ void AtomicFileSet::commit(const std::vector<std::string>& stale) {
     std::ranges::for_each(names, set_aside);
     std::ranges::for_each(stale, set_aside);
     for (const auto& name : names) {
-        moves.move(folder_ / name, place / name);
+        moves.move(folder / name, place / name);
     }
     moves.are_final();
+}
+
+/// Held on a folder while files are moved into it.
+class PlaceLock {
+public:
+    PlaceLock(const fs::path& place, const fs::path& file)
+        : descriptor_{::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)} {
+        constexpr auto patience = std::chrono::milliseconds{1500};
+        constexpr auto pause = std::chrono::milliseconds{5};
+        if (descriptor_ < 0) {
+            fail(file, std::strerror(errno));
+        }
+        const auto give_up = std::chrono::steady_clock::now() + patience;
+        while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            if (std::chrono::steady_clock::now() > give_up) {
+                ::close(descriptor_);
+                fail(file,
+                     "another program has been moving files into this folder for 1.5 s; end it "
+                     "and run this again");
+            }
+            std::this_thread::sleep_for(pause);
+        }
+    }
+    PlaceLock(const PlaceLock&) = delete;
+    PlaceLock& operator=(const PlaceLock&) = delete;
+    ~PlaceLock() { ::close(descriptor_); }
+
+private:
+    int descriptor_;
+};
+
+} // namespace
+
+AtomicFileSet::AtomicFileSet(fs::path main_file) : main_file_{std::move(main_file)} {
+    if (fs::is_directory(main_file_)) {
+        fail(main_file_, std::strerror(EISDIR));
+    }
+    try {
+        folder_.emplace(main_file_);
+    } catch (const std::system_error& error) {
+        fail(main_file_, error.code().message());
+    }
+}
+
+void AtomicFileSet::commit(const std::vector<std::string>& stale) {
+    const auto place = parent_of(main_file_);
+    const auto names = synced_names(folder(), place);
+    const PlaceLock one_at_a_time{place, main_file_};
+    folder_->keep_if_cut_off(); // what was there before is in it for a moment
+    if (names.size() == 1 && stale.empty()) {
+        replace(folder() / names.front(), place / names.front());
+    } else {
+        move_together(names, stale, folder(), place);
+    }
+    sync(place, O_RDONLY | O_DIRECTORY, main_file_);
+}
+
+void AtomicFileSet::commit_new() {
+    const auto place = parent_of(main_file_);
+    synced_names(folder(), place);
+    if (::renameat2(
+            AT_FDCWD, main_file().c_str(), AT_FDCWD, main_file_.c_str(), RENAME_NOREPLACE) != 0) {
+        if (errno == EEXIST) {
+            throw InputError{fmt::format("{}: was made by another program meanwhile, expected the "
+                                         "name of a new file",
+                                         main_file_.string())};
+        }
+        if (errno != EINVAL && errno != ENOSYS) { // not every file system can
+            fail(main_file_, std::strerror(errno));
+        }
+        replace(main_file(), main_file_);
+    }
     sync(place, O_RDONLY | O_DIRECTORY, main_file_);
 }
 

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -15,8 +13,6 @@ namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view part_mark = ".part-";
 
 [[noreturn]] void fail(const fs::path& folder, const std::string& cause) {
     throw InputError{fmt::format("{}: cannot be made as a folder: {}", folder.string(), cause)};
@@ -56,11 +52,13 @@ bool expect_new_or_empty(const fs::path& folder) {
         fail(folder, "a file is in the way");
     }
     const auto entries = entries_of(folder);
-    if (entries.size() == 1 &&
-        entries.front().filename().string().find(part_mark) != std::string::npos) {
-        throw InputError{fmt::format("{}: is left of work that was cut off, expected that nothing "
-                                     "else is in the folder: remove it first",
-                                     entries.front().string())};
+    if (entries.size() == 1 && is_temporary_name(entries.front())) {
+        throw InputError{
+            fmt::format("{}: is {}, expected that nothing else is in the folder: {}",
+                        entries.front().string(),
+                        is_worked_on(entries.front()) ? "what another program works on"
+                                                      : "left of work that was cut off",
+                        is_worked_on(entries.front()) ? "wait for its end" : "remove it first")};
     }
     if (!entries.empty()) {
         throw InputError{
@@ -71,35 +69,33 @@ bool expect_new_or_empty(const fs::path& folder) {
 
 AtomicFolder::AtomicFolder(fs::path folder)
     : folder_{without_slash(folder)}, exists_{expect_new_or_empty(folder_)} {
-    // The parent of a folder that is there may belong to somebody else, or to another disk.
-    const auto name =
-        fmt::format("{}{}{}", exists_ ? "" : folder_.filename().string(), part_mark, ::getpid());
-    temporary_ = (exists_ ? folder_ : folder_.parent_path()) / name;
     std::error_code error;
-    fs::create_directories(temporary_, error);
-    require(error, folder_);
-}
-
-AtomicFolder::~AtomicFolder() {
-    std::error_code ignored;
-    if (!temporary_.empty()) {
-        fs::remove_all(temporary_, ignored);
+    if (folder_.has_parent_path()) {
+        fs::create_directories(folder_.parent_path(), error);
+        require(error, folder_);
     }
+    try {
+        // The parent of a folder that is there may belong to somebody else, or to another disk.
+        temporary_.emplace(exists_ ? folder_ / "" : folder_);
+    } catch (const std::system_error& failure) {
+        fail(folder_, failure.code().message());
+    }
+    content_ = temporary_->path() / "content"; // with the rights of an ordinary folder
+    fs::create_directory(content_, error);
+    require(error, folder_);
 }
 
 void AtomicFolder::commit() {
     std::error_code error;
     if (!exists_) {
-        fs::rename(temporary_, folder_, error);
+        fs::rename(content_, folder_, error);
         require(error, folder_);
-    } else {
-        for (const auto& entry : entries_of(temporary_)) {
-            fs::rename(entry, folder_ / entry.filename(), error);
-            require(error, folder_);
-        }
-        fs::remove(temporary_, error);
+        return;
     }
-    temporary_.clear();
+    for (const auto& entry : entries_of(content_)) {
+        fs::rename(entry, folder_ / entry.filename(), error);
+        require(error, folder_);
+    }
 }
 
 } // namespace macadam

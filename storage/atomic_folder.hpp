@@ -1,6 +1,9 @@
 #pragma once
 
+#include "storage/temporary_folder.hpp"
+
 #include <filesystem>
+#include <optional>
 
 namespace macadam {
 
@@ -9,9 +12,10 @@ namespace macadam {
 /// \throws InputError  for a folder with something in it, and for what is no folder.
 bool expect_new_or_empty(const std::filesystem::path& folder);
 
-/// A folder that is filled when all of it is there, or not at all: work goes on in another folder,
-/// `NAME.part-PID`, which commit() moves into place. Without commit() nothing is left. If the
-/// program is killed, that folder lies beside the place, or in it if the place was there before.
+/// A folder that is filled when all of it is there, or not at all: work goes on in a
+/// TemporaryFolder, whose content commit() moves into place. Without commit() nothing is left. If
+/// the program is killed, that folder lies beside the place, or in it if the place was there
+/// before.
 ///
 /// \throws InputError  from every call that fails; the message names the folder and the cause.
 class AtomicFolder {
@@ -20,17 +24,17 @@ public:
     explicit AtomicFolder(std::filesystem::path folder);
     AtomicFolder(const AtomicFolder&) = delete;
     AtomicFolder& operator=(const AtomicFolder&) = delete;
-    ~AtomicFolder();
 
     /// Where to work before commit().
-    const std::filesystem::path& temporary() const { return temporary_; }
+    const std::filesystem::path& temporary() const { return content_; }
 
     void commit();
 
 private:
     std::filesystem::path folder_;
     bool exists_;
-    std::filesystem::path temporary_;
+    std::optional<TemporaryFolder> temporary_;
+    std::filesystem::path content_;
 };
 
 } // namespace macadam

@@ -52,10 +52,7 @@ std::size_t write_as(std::string_view suffix, const SegmentExport& what, AtomicF
     if (suffix == ".csv") {
         return write_csv(what, file);
     }
-    if (suffix == ".kml") {
-        return write_kml(what, file);
-    }
-    return write_geopackage(what, file);
+    return write_kml(what, file);
 }
 
 } // namespace
@@ -103,11 +100,12 @@ std::size_t export_segments(const RoadStore& store,
     if (suffix == ".shp") {
         return export_shapefile(what);
     }
+    if (suffix == ".gpkg") {
+        return export_geopackage(what);
+    }
     AtomicFile out{file};
     const auto written = write_as(suffix, what, out);
-    if (suffix == ".gpkg") {
-        remove_leftovers_of(file);
-    }
+    store.expect_in_place();
     out.commit();
     return written;
 }

@@ -23,7 +23,7 @@ struct Field {
 std::span<const Field> segment_fields();
 
 /// Whether a field of type text says a time, as ISO 8601 in UTC.
-bool is_time(const Field& field);
+bool is_day(const Field& field);
 
 /// The value of each of segment_fields() as text; nothing: not known.
 std::vector<std::optional<std::string>> field_values(const SegmentRecord& record,

@@ -47,8 +47,7 @@ std::vector<LineFileColumn> flatgeobuf_columns() {
     std::vector<LineFileColumn> columns;
     for (const auto& field : segment_fields()) {
         columns.push_back({field.name,
-                           is_time(field)                    ? Type::time
-                           : field.type == Field::Type::text ? Type::text
+                           field.type == Field::Type::text   ? Type::text
                            : field.type == Field::Type::real ? Type::real
                                                              : Type::integer});
     }
@@ -109,7 +108,7 @@ Measure measured(const SegmentExport& what) {
 
 LineFileColumn shapefile_column(const Field& field, std::size_t widest) {
     const auto name = short_name(field);
-    if (is_time(field)) {
+    if (is_day(field)) {
         return {name, Type::day, day_bytes};
     }
     switch (field.type) {
@@ -171,7 +170,7 @@ std::string day_of(const Measure& measure) {
     constexpr std::int64_t earliest_ms = -2'208'988'800'000; // 1900: a .dbf counts years from there
     constexpr std::int64_t latest_ms = 5'837'097'599'999;    // 2154, in one byte
     const auto utc_ms = std::clamp(measure.last_seen_ms.value_or(0), earliest_ms, latest_ms);
-    return utc_text(utc_ms).substr(0, 10);
+    return utc_day(utc_ms);
 }
 
 /// Indexes that other programs put beside a Shapefile: of other lines than the new ones.
@@ -231,6 +230,7 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
         }
     }
     std::filesystem::remove(files.folder() / "plain.fgb");
+    what.store.expect_in_place();
     files.commit();
     return written;
 }
@@ -254,6 +254,7 @@ std::size_t export_shapefile(const SegmentExport& what) {
         throw InputError{
             fmt::format("{}: cannot be written; the disk may be full", what.file.string())};
     }
+    what.store.expect_in_place();
     files.commit(stale_beside(stem));
     return written;
 }

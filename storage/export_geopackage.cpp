@@ -1,9 +1,11 @@
 #include "storage/segment_export.hpp"
 
 #include "mapping/antimeridian.hpp"
+#include "storage/atomic_file_set.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/sqlite.hpp"
+#include "storage/utc.hpp"
 
 namespace macadam {
 namespace {
@@ -29,11 +31,11 @@ CREATE TABLE roughness (
     class TEXT,
     passes INTEGER NOT NULL,
     vehicles INTEGER NOT NULL,
-    first_seen DATETIME,
-    last_seen DATETIME,
+    first_seen DATE,
+    last_seen DATE,
     trend_per_year DOUBLE,
     trend_sd DOUBLE,
-    changed DATETIME,
+    changed DATE,
     change DOUBLE,
     validity TEXT
 );
@@ -45,31 +47,30 @@ std::vector<GeoPoint> smooth_line(const SegmentRecord& record) {
     return crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line;
 }
 
-/// The fields' texts become numbers by the columns' affinity; only times are written another way.
+/// The fields' texts become numbers by the columns' affinity.
 void write_row(Statement& insert,
                const SegmentRecord& record,
                std::span<const GeoPoint> line,
                const ClassTable& classes) {
-    const auto fields = segment_fields();
-    auto values = field_values(record, classes);
+    const auto values = field_values(record, classes);
     insert.bind(Blob{geometry_of(line)});
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        if (fields[i].name == "first_seen" && record.state && record.state->first_seen_ms) {
-            values[i] = datetime_text(*record.state->first_seen_ms);
-        } else if (fields[i].name == "last_seen" && record.state && record.state->last_seen_ms) {
-            values[i] = datetime_text(*record.state->last_seen_ms);
-        } else if (fields[i].name == "changed" && record.state && record.state->change) {
-            values[i] = datetime_text(record.state->change->utc_ms);
-        }
+    for (std::size_t i = 0; i < values.size(); ++i) {
         insert.bind_at(static_cast<int>(i) + 2, values[i]);
     }
     insert.step();
 }
 
-} // namespace
+/// Not the time of the export but the day of the last pass, so that the same roads make the same
+/// bytes.
+void date_by_content(Database& database, const SeenSpan& seen) {
+    const auto day = utc_text(seen.last_ms.value_or(0)).substr(0, 10);
+    const auto time = day + "T00:00:00.000Z";
+    database.prepare("UPDATE gpkg_contents SET last_change = ?").run(time);
+    database.prepare("UPDATE layer_styles SET update_time = ?").run(time);
+}
 
-std::size_t write_geopackage(const SegmentExport& what, AtomicFile& file) {
-    Database database{file.temporary(), Database::Access::create, what.file};
+std::size_t write_geopackage(const SegmentExport& what, const std::filesystem::path& file) {
+    Database database{file, Database::Access::create, what.file};
     add_geometry_functions(database);
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
@@ -94,8 +95,21 @@ std::size_t write_geopackage(const SegmentExport& what, AtomicFile& file) {
                    description_of(what),
                    is_empty(box) ? what.store.info().box : box});
     index_features(database, "roughness");
+    add_style_table(database);
     add_default_style(database, "roughness", what.classes);
+    date_by_content(database, what.store.seen());
     all.commit();
+    return written;
+}
+
+} // namespace
+
+std::size_t export_geopackage(const SegmentExport& what) {
+    AtomicFileSet files{what.file};
+    const auto written = write_geopackage(what, files.main_file());
+    what.store.expect_in_place();
+    remove_leftovers_of(what.file);
+    files.commit();
     return written;
 }
 

@@ -43,7 +43,10 @@ void remove_index_triggers(Database& database, std::string_view table);
 /// The functions that these triggers call: ST_IsEmpty, ST_MinX, ST_MaxX, ST_MinY, ST_MaxY.
 void add_geometry_functions(Database& database);
 
-/// A default style for QGIS: lines coloured by the column `class`, with a casing.
+/// The table in which QGIS looks for styles.
+void add_style_table(Database& database);
+
+/// A default style for QGIS, in that table: lines coloured by the column `class`, with a casing.
 void add_default_style(Database& database, std::string_view table, const ClassTable& classes);
 
 /// A line as GeoPackageBinary with its envelope, little endian.

@@ -88,8 +88,11 @@ std::string qml_of(const ClassTable& classes) {
 
 } // namespace
 
-void add_default_style(Database& database, std::string_view table, const ClassTable& classes) {
+void add_style_table(Database& database) {
     database.run(style_table);
+}
+
+void add_default_style(Database& database, std::string_view table, const ClassTable& classes) {
     database
         .prepare(
             "INSERT INTO layer_styles (f_table_catalog, f_table_schema, f_table_name,"

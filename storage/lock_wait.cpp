@@ -29,7 +29,7 @@ constexpr auto pause = 5ms;
 constexpr auto look_every = 200ms; // at who holds the lock
 
 // Who is asked to end while he works ends his work first, and may have to wait a moment for that.
-constexpr auto wait_though_stopped = 2s;
+constexpr auto wait_though_stopped = 1s;
 
 /// Bytes of a file.
 struct Range {
@@ -134,11 +134,23 @@ std::string spoken_name_of(int process, const std::string& name) {
     return command.empty() ? name : name + " " + command;
 }
 
-/// Ticks of the CPU. Fields 14 and 15 of proc_pid_stat(5); the second holds a name in brackets, in
-/// which anything may stand.
-std::uint64_t cpu_time_of(int process) {
+/// The fields of proc_pid_stat(5) from the third on; the second holds a name in brackets, in which
+/// anything may stand.
+std::istringstream fields_of(int process) {
     const auto text = content_of(folder_of(process) / "stat");
-    std::istringstream in{text.substr(std::min(text.size(), text.rfind(')') + 1))};
+    return std::istringstream{text.substr(std::min(text.size(), text.rfind(')') + 1))};
+}
+
+/// By SIGSTOP, Ctrl-Z or a debugger.
+bool is_stopped(int process) {
+    std::string state;
+    fields_of(process) >> state;
+    return state == "T" || state == "t";
+}
+
+/// Ticks of the CPU. Fields 14 and 15 of proc_pid_stat(5).
+std::uint64_t cpu_time_of(int process) {
+    auto in = fields_of(process);
     std::string skipped;
     for (int field = 3; field < 14; ++field) {
         in >> skipped;
@@ -215,8 +227,11 @@ bool LockWait::wait(int pauses) {
     if (!told_ && patience_.tell && now - began_ >= patience_.tell_after) {
         told_ = true;
         holder_ = holder_of_lock(file_);
-        patience_.tell(fmt::format("waiting for {}, which is at work on it; Ctrl-C ends the wait",
-                                   spoken_holder()));
+        patience_.tell(fmt::format("waiting for {}, {}; Ctrl-C ends the wait",
+                                   spoken_holder(),
+                                   holder_ && is_stopped(holder_->process)
+                                       ? "which is stopped ('kill -CONT' lets it go on)"
+                                       : "which is at work on it"));
     }
     std::this_thread::sleep_for(pause);
     return true;

@@ -31,7 +31,7 @@ std::optional<LockHolder> holder_of_lock(const std::filesystem::path& file);
 struct LockPatience {
     std::function<void(const std::string& words)> tell{}; ///< once a wait that lasts
     std::stop_token stop{};                               ///< ends the wait
-    std::chrono::milliseconds tell_after{3'000};
+    std::chrono::milliseconds tell_after{1'000};
     /// For a holder that gives no sign of life: a process of ours that takes no CPU time, any other
     /// program that commits nothing.
     std::chrono::milliseconds idle_limit{600'000};
@@ -47,6 +47,8 @@ public:
     /// Sleeps a moment. \param pauses  how many there were before in this wait.
     /// \returns false if it is over: a stop was asked for, or the holder stands still.
     bool wait(int pauses);
+
+    bool is_stop_wanted() const { return patience_.stop.stop_requested(); }
 
     /// Of the wait that was given up, for a message; "is locked by ...".
     std::string reason() const;

@@ -128,15 +128,20 @@ std::filesystem::path network_file_of(const std::filesystem::path& store) {
     return name;
 }
 
-RoadNetwork kept_roads(const RoadStore& store) {
+RoadNetwork kept_roads(const RoadStore& store,
+                       const std::function<void(const std::string&)>& warn) {
+    const auto file = network_file_of(store.file());
     try {
-        auto kept = open_network_file(network_file_of(store.file()));
+        auto kept = open_network_file(file);
         if (kept.source == store.network_hash() &&
             kept.roads.segment_length_m == store.settings().segment_length_m) {
             return std::move(kept.roads);
         }
-    } catch (const InputError&) {
-        // Missing or not to be used: what follows makes it again.
+    } catch (const InputError& error) {
+        std::error_code unseen;
+        if (warn && std::filesystem::exists(file, unseen)) {
+            warn(fmt::format("{}; its roads are read from the store instead", error.what()));
+        }
     }
     auto roads = store.roads();
     keep_roads(store, roads);

@@ -4,6 +4,7 @@
 #include "storage/road_store.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -34,7 +35,10 @@ std::filesystem::path network_file_of(const std::filesystem::path& store);
 
 /// The network of a store. Taken from the file beside it, if that was made of the store's own ways;
 /// else built from them, and written there if the folder can be written.
-RoadNetwork kept_roads(const RoadStore& store);
+///
+/// \param warn  is told if there is a file that is not to be used
+RoadNetwork kept_roads(const RoadStore& store,
+                       const std::function<void(const std::string&)>& warn = {});
 
 /// Writes the network of a store beside it. \returns false if that cannot be done: the store serves
 /// without it, a little slower.

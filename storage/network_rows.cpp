@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -73,21 +72,17 @@ std::int64_t first_free_row(Database& database) {
                                " WHERE name = 'segment'), 0)");
 }
 
-/// Of the links [first, last), one way's, in one direction; by their number along the way.
-std::vector<Segment>
-drivable_segments(const RoadNetwork& roads, std::uint32_t first, std::uint32_t last, bool forward) {
-    std::vector<Segment> all;
-    for (auto i = first; i < last; ++i) {
+/// Calls `visit` with each segment of a way in one direction, by their number along the way. One
+/// after the other: a way of few points may have very many.
+template <typename Visit>
+void for_each_segment(const RoadNetwork& roads, const WayView& way, bool forward, Visit visit) {
+    for (auto i = way.first_link; i < way.past_link; ++i) {
         const auto edge = edge_of(LinkId{i}, forward);
-        if (is_drivable(roads, edge)) {
-            auto segments = segments_of(roads, edge);
-            all.insert(all.end(),
-                       std::make_move_iterator(segments.begin()),
-                       std::make_move_iterator(segments.end()));
+        const auto count = is_drivable(roads, edge) ? link_at(roads, edge).segments : 0;
+        for (std::uint32_t number = 0; number < count; ++number) {
+            visit(segment_of(roads, edge, number));
         }
     }
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
-    return all;
 }
 
 /// What a network can be built of.
@@ -170,39 +165,35 @@ WrittenSegments write_segments(Database& database,
     std::optional<StripKey> strip;
     const auto first_row = first_free_row(database);
     std::int64_t first_of_strip = 0; // its row
-    const auto count = link_count(roads);
-    for (std::uint32_t first = 0, last = 0; first < count; first = last) {
-        while (last < count &&
-               link_at(roads, LinkId{last}).way == link_at(roads, LinkId{first}).way) {
-            ++last;
+    const auto add = [&](const Segment& segment) {
+        const auto row = first_row + written.segments++;
+        if (const auto key = strip_of(segment.key, roads.segment_length_m); strip != key) {
+            strip = key;
+            first_of_strip = row;
         }
-        if (!left_out.empty() && left_out[link_at(roads, LinkId{first}).way]) {
-            continue;
-        }
-        for (const bool forward : {true, false}) {
-            for (const auto& segment : drivable_segments(roads, first, last, forward)) {
-                const auto row = first_row + written.segments++;
-                if (const auto key = strip_of(segment.key, roads.segment_length_m); strip != key) {
-                    strip = key;
-                    first_of_strip = row;
-                }
-                insert.add(row,
-                           Blob{geometry_of(segment.line)},
-                           name_of(segment.key),
-                           segment.key.way_id,
-                           forward ? "forward" : "backward",
-                           std::int64_t{segment.key.index},
-                           segment.from_m,
-                           segment.to_m,
-                           first_of_strip);
-                written.length_m += segment.to_m - segment.from_m;
-            }
-        }
-        progress(last, count);
+        insert.add(row,
+                   Blob{geometry_of(segment.line)},
+                   name_of(segment.key),
+                   segment.key.way_id,
+                   segment.key.forward ? "forward" : "backward",
+                   std::int64_t{segment.key.index},
+                   segment.from_m,
+                   segment.to_m,
+                   first_of_strip);
+        written.length_m += segment.to_m - segment.from_m;
         if (progress.stop.stop_requested()) {
             throw InputError{
                 fmt::format("{}: stopped before it was whole", database.file().string())};
         }
+    };
+    for (std::uint32_t i = 0; i < way_count(roads); ++i) {
+        if (!left_out.empty() && left_out[i]) {
+            continue;
+        }
+        const auto way = way_at(roads, i);
+        for_each_segment(roads, way, true, add);
+        for_each_segment(roads, way, false, add);
+        progress(way.past_link, link_count(roads));
     }
     insert.flush();
     return written;

@@ -287,6 +287,9 @@ move_to_network(Database& database, const SegmentHeirs& heirs, const Progress& p
     moved.lost_sections = move_control_sections(database, heirs);
     rename_rows(database, heirs, "segment_state", "fid");
     rename_rows(database, heirs, "state_change", "segment");
+    rename_rows(database, heirs, "published_state", "fid");
+    rename_rows(database, heirs, "published_until", "segment");
+    rename_rows(database, heirs, "published_figure", "segment");
     move_valid_from(database, heirs);
     remove_what_is_made_anew(database);
     database.run("DROP TABLE temp.old_segment");

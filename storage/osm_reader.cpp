@@ -1,18 +1,15 @@
 #include "storage/osm_reader.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/osm_tags.hpp"
-#include "storage/osm_turns.hpp"
+#include "storage/osm_objects.hpp"
 
 #include <fmt/core.h>
-
-#include <osmium/io/any_input.hpp>
-#include <osmium/osm/relation.hpp>
-#include <osmium/osm/way.hpp>
 
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <iterator>
+#include <limits>
 #include <new>
 #include <string>
 #include <string_view>
@@ -24,23 +21,31 @@ namespace macadam {
 namespace {
 
 using NodeIds = std::vector<std::int64_t>;
+using Pace = std::function<void(std::uint64_t bytes)>;
 
-void pace(const osmium::io::Reader& reader, std::size_t pass, const Progress& progress) {
-    constexpr std::size_t passes = 2;
-    progress(pass * reader.file_size() + reader.offset(), passes * reader.file_size());
-    if (progress.stop.stop_requested()) {
-        throw InputError{"the reading was stopped"};
-    }
+void visit(const std::filesystem::path& file, const OsmVisitor& visitor) {
+    (file.extension() == ".pbf" ? visit_osm_pbf : visit_osm_xml)(file, visitor);
 }
 
-NodeIds nodes_of(const osmium::Way& way) {
+NodeIds without_repeats(std::span<const std::int64_t> nodes) {
     NodeIds ids;
-    for (const auto& node : way.nodes()) {
-        if (ids.empty() || ids.back() != node.ref()) {
-            ids.push_back(node.ref());
-        }
-    }
+    ids.reserve(nodes.size());
+    std::unique_copy(nodes.begin(), nodes.end(), std::back_inserter(ids));
     return ids;
+}
+
+/// Whether a way goes over its own nodes again and again, as no road does: a few bytes that would
+/// take very much memory. Those of OSM itself have at most 2,000 nodes.
+bool runs_in_circles(NodeIds nodes) {
+    constexpr std::size_t usual_nodes = 2000;
+    constexpr std::size_t most_rounds = 4;
+    if (nodes.size() <= usual_nodes) {
+        return false;
+    }
+    const auto count = nodes.size();
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return count > most_rounds * nodes.size();
 }
 
 /// What a file says of ways, yet without places.
@@ -49,51 +54,46 @@ struct WaysAndTurns {
     std::vector<TurnOutOfWay> turns;
 };
 
-void add(std::vector<Way>& ways, const osmium::Way& way) {
-    const OsmTags tags = [&](const char* key) { return way.tags()[key]; };
-    if (!is_drivable(tags)) {
-        return;
+std::string name_in(const OsmTags& tags, std::int64_t way) {
+    constexpr std::size_t longest = 1024; // OSM has up to 255 characters
+    const auto name = name_of(tags);
+    if (name.size() > longest) {
+        throw InputError{fmt::format(
+            "the name of way '{}' has {} bytes, expected at most {}", way, name.size(), longest)};
     }
-    ways.push_back({.id = way.id(),
-                    .name = std::string{name_of(tags)},
-                    .highway = way.tags()["highway"],
-                    .oneway = oneway_of(tags),
-                    .node_ids = nodes_of(way),
-                    .line = {},
-                    .speed_limit_cmps = speed_limit_cmps_of(tags),
-                    .turns = {}});
+    return std::string{name};
 }
 
-OsmKind kind_of(osmium::item_type type) {
-    return type == osmium::item_type::node  ? OsmKind::node
-           : type == osmium::item_type::way ? OsmKind::way
-                                            : OsmKind::relation;
-}
-
-void add(std::vector<TurnOutOfWay>& turns, const osmium::Relation& relation) {
-    const OsmTags tags = [&](const char* key) { return relation.tags()[key]; };
-    std::vector<OsmMember> members;
-    for (const auto& member : relation.members()) {
-        members.push_back({kind_of(member.type()), member.ref(), member.role()});
-    }
-    const auto found = turns_in(tags, members);
-    turns.insert(turns.end(), found.begin(), found.end());
-}
-
-WaysAndTurns ways_and_turns(const osmium::io::File& file, const Progress& progress) {
-    osmium::io::Reader reader{file,
-                              osmium::osm_entity_bits::way | osmium::osm_entity_bits::relation};
+WaysAndTurns
+ways_and_turns(const std::filesystem::path& file, const Pace& pace, LeftOutWays& left_out) {
     WaysAndTurns all;
-    while (const auto buffer = reader.read()) {
-        for (const auto& way : buffer.select<osmium::Way>()) {
-            add(all.ways, way);
-        }
-        for (const auto& relation : buffer.select<osmium::Relation>()) {
-            add(all.turns, relation);
-        }
-        pace(reader, 0, progress);
-    }
-    reader.close();
+    visit(file,
+          {.node = {},
+           .way =
+               [&](std::int64_t id, const OsmTags& tags, std::span<const std::int64_t> nodes) {
+                   if (!is_drivable(tags)) {
+                       return;
+                   }
+                   auto ids = without_repeats(nodes);
+                   if (runs_in_circles(ids)) {
+                       ++left_out.in_circles;
+                       return;
+                   }
+                   all.ways.push_back({.id = id,
+                                       .name = name_in(tags, id),
+                                       .highway = tags("highway"),
+                                       .oneway = oneway_of(tags),
+                                       .node_ids = std::move(ids),
+                                       .line = {},
+                                       .speed_limit_cmps = speed_limit_cmps_of(tags),
+                                       .turns = {}});
+               },
+           .relation =
+               [&](const OsmTags& tags, std::span<const OsmMember> members) {
+                   const auto found = turns_in(tags, members);
+                   all.turns.insert(all.turns.end(), found.begin(), found.end());
+               },
+           .pace = pace});
     return all;
 }
 
@@ -108,35 +108,34 @@ NodeIds used_nodes(const std::vector<Way>& ways) {
     return ids;
 }
 
-/// Places of the nodes `ids`, which rise; an undefined place where the file has none.
-std::vector<osmium::Location>
-places_of(const NodeIds& ids, const osmium::io::File& file, const Progress& progress) {
-    osmium::io::Reader reader{file, osmium::osm_entity_bits::node};
-    std::vector<osmium::Location> places(ids.size());
+/// Stands for the place of a node that the file does not have.
+constexpr PackedPoint nowhere{std::numeric_limits<std::int32_t>::max(), 0};
+
+/// Places of the nodes `ids`, which rise; `nowhere` where the file has none.
+std::vector<PackedPoint>
+places_of(const NodeIds& ids, const std::filesystem::path& file, const Pace& pace) {
+    std::vector<PackedPoint> places(ids.size(), nowhere);
     auto at = ids.begin();
-    osmium::object_id_type last = 0;
-    while (const auto buffer = reader.read()) {
-        for (const auto& node : buffer.select<osmium::Node>()) {
-            // Nearly every file has its nodes in order: then one step forward finds the next.
-            if (node.id() < last) {
-                at = std::lower_bound(ids.begin(), ids.end(), node.id());
-            }
-            last = node.id();
-            while (at != ids.end() && *at < node.id()) {
-                ++at;
-            }
-            if (at != ids.end() && *at == node.id()) {
-                places[static_cast<std::size_t>(at - ids.begin())] = node.location();
-            }
+    std::int64_t last = 0;
+    const auto take = [&](std::int64_t id, const PackedPoint& place) {
+        // Nearly every file has its nodes in order: then one step forward finds the next.
+        if (id < last) {
+            at = std::lower_bound(ids.begin(), ids.end(), id);
         }
-        pace(reader, 1, progress);
-    }
-    reader.close();
+        last = id;
+        while (at != ids.end() && *at < id) {
+            ++at;
+        }
+        if (at != ids.end() && *at == id) {
+            places[static_cast<std::size_t>(at - ids.begin())] = place;
+        }
+    };
+    visit(file, {.node = take, .way = {}, .relation = {}, .pace = pace});
     return places;
 }
 
 /// The longest part of `way`, by points, all of whose places are known.
-Way placed(Way way, const NodeIds& ids, const std::vector<osmium::Location>& places) {
+Way placed(Way way, const NodeIds& ids, const std::vector<PackedPoint>& places) {
     NodeIds best_ids;
     std::vector<GeoPoint> best_line;
     NodeIds part_ids;
@@ -152,12 +151,12 @@ Way placed(Way way, const NodeIds& ids, const std::vector<osmium::Location>& pla
     for (const auto id : way.node_ids) {
         const auto found = std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
         const auto& place = places[static_cast<std::size_t>(found)];
-        if (!place.valid()) {
+        if (place == nowhere) {
             end_part();
             continue;
         }
         part_ids.push_back(id);
-        part_line.push_back({place.lat_without_check(), place.lon_without_check()});
+        part_line.push_back(Unpacked{}(place));
     }
     end_part();
     way.node_ids = std::move(best_ids);
@@ -166,7 +165,7 @@ Way placed(Way way, const NodeIds& ids, const std::vector<osmium::Location>& pla
 }
 
 std::vector<Way>
-placed(std::vector<Way> ways, const NodeIds& ids, const std::vector<osmium::Location>& places) {
+placed(std::vector<Way> ways, const NodeIds& ids, const std::vector<PackedPoint>& places) {
     for (auto& way : ways) {
         way = placed(std::move(way), ids, places);
     }
@@ -212,13 +211,22 @@ bool is_osm_file(const std::filesystem::path& file) {
         suffixes.begin(), suffixes.end(), [&](auto suffix) { return name.ends_with(suffix); });
 }
 
-std::vector<Way> read_osm(const std::filesystem::path& file, const Progress& progress) {
+std::vector<Way>
+read_osm(const std::filesystem::path& file, const Progress& progress, LeftOutWays& left_out) {
+    const auto bytes = std::filesystem::file_size(file);
+    const auto pace = [&](std::size_t pass) {
+        return [&progress, bytes, pass](std::uint64_t read) {
+            constexpr std::size_t passes = 2;
+            progress(pass * bytes + read, passes * bytes);
+            if (progress.stop.stop_requested()) {
+                throw InputError{"the reading was stopped"};
+            }
+        };
+    };
     try {
-        // An absolute path, because libosmium takes "-" and "https:..." for something else.
-        const osmium::io::File osm{std::filesystem::absolute(file).string()};
-        auto all = ways_and_turns(osm, progress);
+        auto all = ways_and_turns(file, pace(0), left_out);
         const auto ids = used_nodes(all.ways);
-        const auto places = places_of(ids, osm, progress);
+        const auto places = places_of(ids, file, pace(1));
         return with_turns(in_order(placed(std::move(all.ways), ids, places)), std::move(all.turns));
     } catch (const std::bad_alloc&) {
         throw;

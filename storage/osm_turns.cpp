@@ -69,9 +69,14 @@ std::vector<TurnOutOfWay> turns_in(const OsmTags& tags, std::span<const OsmMembe
     if ((!only && !is_one_of(said, forbidden_turns)) || nodes.size() != 1 || over_ways) {
         return {};
     }
+    const auto all_from = ids_of(members, OsmKind::way, "from");
+    const auto all_to = ids_of(members, OsmKind::way, "to");
+    if (all_from.size() > 1 && all_to.size() > 1) {
+        return {}; // only no_entry and no_exit have several, on one side
+    }
     std::vector<TurnOutOfWay> turns;
-    for (const auto from : ids_of(members, OsmKind::way, "from")) {
-        for (const auto to : ids_of(members, OsmKind::way, "to")) {
+    for (const auto from : all_from) {
+        for (const auto to : all_to) {
             turns.push_back({from, {nodes.front(), to, only ? 1 : 0}});
         }
     }

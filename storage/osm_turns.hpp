@@ -26,7 +26,8 @@ struct TurnOutOfWay {
 };
 
 /// The turns that a relation of OSM forbids to cars, or of which it leaves only one: those of type
-/// restriction over one node, that hold at all hours. None for other relations.
+/// restriction over one node, from one way or to one, that hold at all hours. None for other
+/// relations.
 std::vector<TurnOutOfWay> turns_in(const OsmTags& tags, std::span<const OsmMember> members);
 
 } // namespace macadam

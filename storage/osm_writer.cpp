@@ -1,7 +1,7 @@
 #include "storage/osm_writer.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/atomic_file.hpp"
+#include "storage/atomic_file_set.hpp"
 #include "storage/osm_tags.hpp"
 
 #include <fmt/core.h>
@@ -165,9 +165,9 @@ void expect_osm(std::span<const Way> ways) {
 
 void write_osm(std::span<const Way> ways, const std::filesystem::path& file) {
     expect_osm(ways);
-    AtomicFile whole{std::filesystem::absolute(file)};
+    AtomicFileSet whole{std::filesystem::absolute(file)};
     try {
-        write(ways, whole.temporary());
+        write(ways, whole.main_file());
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const InputError&) {

@@ -1,18 +1,19 @@
 #include "storage/road_store.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/atomic_file.hpp"
+#include "storage/atomic_file_set.hpp"
 #include "storage/forgotten_trips.hpp"
 #include "storage/network_rows.hpp"
 #include "storage/pass_writer.hpp"
-#include "storage/pseudonym.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/row_reasons.hpp"
 #include "storage/store_file.hpp"
 #include "storage/strip_fusion.hpp"
+#include "storage/trip_names.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -33,22 +34,23 @@ std::int64_t row_of_vehicle(Database& database, const std::string& pseudonym) {
     return select.integer(0);
 }
 
-std::int64_t write_trip(Database& database, const TripRecord& trip) {
+/// \param car  pseudonym; of no survey.
+std::int64_t write_trip(Database& database, const TripRecord& trip, const std::string& car) {
     std::optional<std::int64_t> vehicle, reference_ppm, reference_row_mm;
     if (trip.reference) {
         reference_ppm = trip.reference->relative_sd_ppm;
         reference_row_mm = trip.reference->row_mm;
     } else {
-        vehicle = row_of_vehicle(database, pseudonym_of(trip.vehicle_id));
+        vehicle = row_of_vehicle(database, car);
     }
     database
         .prepare("INSERT INTO trip (sha256, trip_id, vehicle, file_name, t0_utc_ms, vehicle_model,"
                  " method, distance_mm, matched_mm, rows_read, rows_used, reference_ppm,"
                  " reference_row_mm) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .run(trip.sha256,
-             trip.trip_id,
+             without_vehicle_id(trip.trip_id, trip.vehicle_id),
              vehicle,
-             trip.file_name,
+             without_vehicle_id(trip.file_name, trip.vehicle_id),
              trip.t0_utc_ms,
              trip.vehicle_model,
              trip.method,
@@ -77,24 +79,44 @@ RoadStore RoadStore::create(const std::filesystem::path& file,
                             const StoreSettings& settings,
                             const Progress& progress) {
     refuse_existing(file);
-    AtomicFile whole{file};
-    Database database{whole.temporary(), Database::Access::create, file};
+    const auto key_file = key_file_of(file);
+    const auto old_key = read_key(key_file);
+    const auto key = old_key.value_or(PrivacyKey::make());
+    AtomicFileSet whole{file};
+    Database database{whole.main_file(), Database::Access::create, file};
     add_geometry_functions(database);
-    write_store(database, roads, settings, progress);
+    write_store(database, roads, settings, key.id(), progress);
     database.close();
     remove_leftovers_of(file);
-    whole.commit();
+    if (!old_key) {
+        write_key(key_file, key);
+    }
+    try {
+        whole.commit_new();
+    } catch (...) {
+        std::error_code ignored;
+        if (!old_key && !std::filesystem::exists(file, ignored)) {
+            std::filesystem::remove(key_file, ignored);
+        }
+        throw;
+    }
     return open(file, Access::write);
 }
 
-RoadStore RoadStore::open(const std::filesystem::path& file, Access access) {
+RoadStore RoadStore::open(const std::filesystem::path& file,
+                          Access access,
+                          LockPatience patience,
+                          Reader reader) {
     expect_store_file(file);
-    return RoadStore{std::make_unique<Impl>(
-        file, access == Access::read ? Database::Access::read : Database::Access::write)};
-}
-
-void RoadStore::be_patient(LockPatience patience) {
-    impl_->database.be_patient(std::move(patience));
+    auto impl = std::make_unique<Impl>(file,
+                                       access == Access::read ? Database::Access::read
+                                                              : Database::Access::write,
+                                       std::move(patience));
+    const bool sees_all = reader == Reader::operator_ && impl->key;
+    if (impl->settings.privacy == PrivacyProfile::crowd && access == Access::read && !sees_all) {
+        impl->show_published_alone();
+    }
+    return RoadStore{std::move(impl)};
 }
 
 const StoreSettings& RoadStore::settings() const {
@@ -105,8 +127,20 @@ const std::filesystem::path& RoadStore::file() const {
     return impl_->database.file();
 }
 
+void RoadStore::expect_in_place() const {
+    impl_->database.expect_in_place();
+}
+
 std::string RoadStore::network_hash() const {
     return impl_->network_hash;
+}
+
+const PrivacyKey* RoadStore::key() const {
+    return impl_->key ? &*impl_->key : nullptr;
+}
+
+bool RoadStore::make_missing_key() {
+    return impl_->make_missing_key();
 }
 
 RoadNetwork RoadStore::roads() const {
@@ -128,6 +162,9 @@ bool RoadStore::add_trip(const TripRecord& trip,
 
 std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
     auto& database = impl_->database;
+    if (std::ranges::any_of(trips, [](const auto& t) { return !t.trip->vehicle_id.empty(); })) {
+        impl_->make_missing_key();
+    }
     const UncheckedKeys keys_are_looked_up{database};
     Transaction all{database, Transaction::Kind::write};
     impl_->expect_same_network();
@@ -140,7 +177,7 @@ std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
         }
         added.push_back(!has_trip(database, trip->sha256) && !is_forgotten(database, trip->sha256));
         if (added.back()) {
-            const auto row = write_trip(database, *trip);
+            const auto row = write_trip(database, *trip, impl_->pseudonym(trip->vehicle_id));
             write_row_reasons(database, row, trip->row_reasons);
             writer.write(row, passes, traces);
         }

@@ -12,6 +12,10 @@
 #include "mapping/segment_record.hpp"
 #include "mapping/strip_trace.hpp"
 #include "storage/lock_wait.hpp"
+#include "storage/privacy_key.hpp"
+#include "storage/privacy_profile.hpp"
+#include "storage/publication.hpp"
+#include "storage/segment_filter.hpp"
 #include "storage/store_upkeep.hpp"
 #include "storage/store_use.hpp"
 
@@ -33,7 +37,11 @@ struct StoreSettings {
     std::string class_table = "fhwa";
     std::string network_source; ///< file name of the map, or "traced from the trips"
     std::string attribution;    ///< whom a picture of these roads must name
+    PrivacyProfile privacy = PrivacyProfile::own;
 };
+
+/// Instead of a map's name: no map, roads from `init --trace`.
+inline constexpr std::string_view traced_network_source = "traced from the trips";
 
 /// Instead of a model's name: the user's own, whose name would tell the car.
 inline constexpr std::string_view own_file_model = "own file";
@@ -48,7 +56,8 @@ struct ReferenceNote {
 struct TripRecord {
     std::string sha256; ///< unique
     std::string trip_id;
-    std::string vehicle_id; ///< kept only as a pseudonym; "" = not stated
+    std::string
+        vehicle_id; ///< kept only as a pseudonym, also within the two names; "" = not stated
     std::string file_name;
     std::optional<std::int64_t> t0_utc_ms; ///< nothing: undated
     std::string vehicle_model; ///< name of the built-in Vehicle that was used, or own_file_model
@@ -69,36 +78,6 @@ struct NewTrip {
     std::span<const Pass> passes;
     std::span<const StripTrace> traces;
     bool take_back = false; ///< comes in also if it was forgotten
-};
-
-/// A span of time, ms since 1970 UTC: from <= t < until. Nothing: open on that side.
-struct Period {
-    std::optional<std::int64_t> from_ms;
-    std::optional<std::int64_t> until_ms;
-    friend bool operator==(const Period&, const Period&) = default;
-};
-
-/// Which segments to visit; all conditions hold together.
-struct SegmentFilter {
-    std::optional<GeoBox> box;
-    std::optional<std::int64_t> way_id;
-    std::optional<SegmentKey> key;
-    std::string name_part;       ///< of the road's name, any case; "" = any
-    bool with_state_only = true; ///< false: also those without a pass
-    std::size_t worst = 0;       ///< n > 0: only the n with the highest iri, highest first
-
-    std::optional<std::vector<SegmentRange>> ranges{}; ///< only these, in this order
-    std::string highway{};                             ///< OSM's class of the road; "" = any
-    std::string class_name{};       ///< of the store's class table; "" = any, and none
-    std::int32_t least_passes = 0;  ///< more than 0: segments without a pass are left out
-    std::optional<Period> period{}; ///< states of the dated passes of that time alone
-    bool cars_alone = false;        ///< states of cars' passes alone, without references
-};
-
-/// How much visit() tells of a state: each number takes its time.
-enum class StateDetail {
-    full,
-    tiles, ///< what tiles show: not each track's IRI, the trend's uncertainty and the change
 };
 
 /// One pass with where it came from: a line of a segment's history.
@@ -135,11 +114,13 @@ struct StoreInfo {
     std::size_t undated_trips = 0;
     std::size_t passes = 0;
     std::size_t lateral_passes = 0;    ///< of them, from lateral vibration alone
-    std::vector<std::string> vehicles; ///< pseudonyms, in byte order
+    std::vector<std::string> vehicles; ///< pseudonyms, as RoadStore::cars()
     std::size_t segments = 0;
-    std::size_t segments_with_passes = 0; ///< of cars or references
-    double km = 0;                        ///< of segments with passes
-    double network_km = 0;                ///< of all segments, each direction counted
+    std::size_t segments_with_passes = 0;     ///< of cars or references
+    double km = 0;                            ///< of segments with passes
+    std::optional<Publication> publication{}; ///< the latest of a crowd
+    bool published_alone = false; ///< all here is from it; of trips and passes at least so many
+    double network_km = 0;        ///< of all segments, each direction counted
     std::vector<ClassLength> classes;
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;
@@ -178,27 +159,67 @@ struct NetworkUpdate {
 ///                     the file and the cause).
 class RoadStore {
 public:
-    /// Makes a new store with the segments of a network. \throws InputError if the file exists;
-    /// leaves nothing behind if it fails.
+    /// Makes a new store with the segments of a network, and its key (storage/privacy_key.hpp); a
+    /// key that lies there already is taken. \throws InputError if the file exists; leaves nothing
+    /// behind if it fails.
     static RoadStore create(const std::filesystem::path& file,
                             const RoadNetwork& roads,
                             const StoreSettings& settings,
                             const Progress& progress = {});
 
     enum class Access { read, write };
-    static RoadStore open(const std::filesystem::path& file, Access access);
+    /// \param patience  how it waits, from its opening on, while another process writes, and what
+    /// ends the wait: what then was to be written is not. Without a word from here it waits as long
+    /// as the other works. Its stop also ends what is read.
+    /// \param reader  for whom a store is read; who writes it sees all.
+    static RoadStore open(const std::filesystem::path& file,
+                          Access access,
+                          LockPatience patience = {},
+                          Reader reader = Reader::anyone);
 
     RoadStore(RoadStore&&) noexcept;
     RoadStore& operator=(RoadStore&&) noexcept;
     ~RoadStore();
 
-    /// How it waits from now on while another process writes, and what ends the wait: what then
-    /// was to be written is not. Without a word from here it waits as long as the other works.
-    void be_patient(LockPatience patience);
-
     const StoreSettings& settings() const;
 
     const std::filesystem::path& file() const;
+
+    /// Whether the key of the store lies beside it, for this user to read: who has it is the
+    /// operator, and sees of a crowd more than is published.
+    bool is_operator() const { return key() != nullptr; }
+
+    /// Null for all others than the operator. \throws InputError from open(), if the key that lies
+    /// there is of another store.
+    const PrivacyKey* key() const;
+
+    /// Makes a new key if none lies there; add_trips() does it where a car has to be named.
+    /// \returns true if cars of the store were named under one that is gone: those that come from
+    /// now on cannot be joined to them.
+    bool make_missing_key();
+
+    /// Whether all that is read here comes from the latest publication of a crowd.
+    bool shows_published_alone() const;
+
+    /// None if nothing was published yet.
+    std::optional<Publication> latest_publication() const;
+
+    /// Makes a crowd's publication of this month, from passes of at least five cars a figure
+    /// (mapping/privacy/release_batches.hpp); it is what leaves the store until the next one. In
+    /// one transaction. \param roads  the store's network.
+    ///
+    /// \throws InputError  if the store is no crowd's, the caller not its operator, or there is a
+    /// publication of this month.
+    Published
+    publish(const RoadNetwork& roads, std::int64_t now_utc_ms, const Progress& progress = {});
+
+    /// Makes a crowd's of a database of one's own cars, for good: takes out what is near the ends
+    /// and long stops of its trips and overwrites the bytes, in one transaction.
+    /// \throws InputError  if it is one, or its roads were traced from trips.
+    CrowdMade make_crowd(const Progress& progress = {});
+    /// To be asked at the end of what was read. \throws InputError  if the file was removed, or
+    /// another one has taken its place, since it was opened.
+    void expect_in_place() const;
 
     /// The network this store was made for; its segments are cut from it. Built from the ways that
     /// the store holds: kept_roads (storage/network_file.hpp) has it quicker.
@@ -296,7 +317,7 @@ public:
     /// When and why the number of a segment changed, oldest first.
     std::vector<NumberChange> changes(const SegmentKey& key) const;
 
-    /// How cars of the store are calibrated: by pseudonym, only those that are.
+    /// How cars of the store are calibrated: in the order of cars(), only those that are.
     std::vector<CalibratedCar> calibrated_cars() const;
 
     /// In the order of keys (way, forward before backward, index), of the ranges, or worst first.
@@ -325,7 +346,11 @@ public:
     /// Days with a dated trip, in order.
     std::vector<DayUse> day_uses() const;
 
-    /// In the order of (pseudonym, model, method).
+    /// Cars in the order in which they were first there: by the start of their first dated trip,
+    /// then by the least hash of their trips. It does not depend on the key. "unknown" is last.
+    std::vector<std::string> cars() const;
+
+    /// In the order of (cars(), model, method).
     std::vector<VehicleUse> vehicle_uses() const;
 
     /// Why rows of the trips' logs entered no estimate; trips of version 0.1 did not tell.

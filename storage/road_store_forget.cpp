@@ -1,13 +1,14 @@
 #include "estimator/common/error.hpp"
 #include "storage/audit.hpp"
+#include "storage/car_order.hpp"
 #include "storage/foreseen_upkeep.hpp"
 #include "storage/forgotten_trips.hpp"
 #include "storage/fusion_settings.hpp"
-#include "storage/pseudonym.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/store_calibration.hpp"
 #include "storage/store_moment.hpp"
 #include "storage/text.hpp"
+#include "storage/trip_names.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace macadam {
@@ -29,41 +31,76 @@ using KeptTrips = std::map<std::int64_t, KeptTrip>; ///< by row of table trip
 
 constexpr std::size_t hash_digits = 64;
 
+bool take_all(Statement& select, KeptTrips& trips) {
+    bool found = false;
+    while (select.step()) {
+        found = true;
+        trips[select.integer(0)] = {select.text(1), select.integer(2) != 0};
+    }
+    return found;
+}
+
+/// Words for who has no key, and therefore is not understood.
+std::string_view without_key(const PrivacyKey* key) {
+    return key != nullptr ? ""
+                          : "; the key of the store is not beside it, and without it no id is "
+                            "known";
+}
+
+/// By a name in which the id of its car stands, which the store does not keep.
+bool find_by_full_name(Database& database,
+                       const PrivacyKey& key,
+                       const std::string& name,
+                       KeptTrips& trips) {
+    constexpr std::size_t longest = 255; // of a file's name
+    auto car = database.prepare("SELECT id FROM vehicle WHERE pseudonym = ?");
+    auto select = database.prepare("SELECT id, sha256, calibrates FROM trip"
+                                   " WHERE vehicle = ?1 AND (trip_id = ?2 OR file_name = ?2)");
+    bool found = false;
+    for (const auto& [vehicle_id, kept] :
+         readings_of_name(std::string_view{name}.substr(0, longest))) {
+        if (car.bind(key.pseudonym(vehicle_id)).step()) {
+            select.bind(car.integer(0), kept);
+            found = take_all(select, trips) || found;
+        }
+    }
+    return found;
+}
+
 /// Adds what is found to `trips`. \throws InputError if nothing is.
-void find_trips(Database& database, const std::string& name, KeptTrips& trips) {
+void find_trips(Database& database,
+                const PrivacyKey* key,
+                const std::string& name,
+                KeptTrips& trips) {
     auto select = database.prepare("SELECT id, sha256, calibrates FROM trip"
                                    " WHERE trip_id = ?1 OR file_name = ?1 OR sha256 = ?1");
     select.bind(name);
-    bool found = false;
-    while (select.step()) {
-        found = true;
-        trips[select.integer(0)] = {select.text(1), select.integer(2) != 0};
-    }
-    if (!found) {
+    const bool found = take_all(select, trips);
+    if (!found && !(key != nullptr && find_by_full_name(database, *key, name, trips))) {
         throw InputError{
             fmt::format("{}: has no trip {}, expected a trip_id, the name of its file or the {} "
-                        "hex digits of its SHA-256",
+                        "hex digits of its SHA-256{}",
                         database.file().string(),
                         in_quotes(name),
-                        hash_digits)};
+                        hash_digits,
+                        without_key(key))};
     }
 }
 
-void find_trips_of(Database& database, const std::string& vehicle, KeptTrips& trips) {
+void find_trips_of(Database& database,
+                   const PrivacyKey* key,
+                   const std::string& vehicle,
+                   KeptTrips& trips) {
     auto select = database.prepare(
         "SELECT trip.id, sha256, calibrates FROM trip"
         " JOIN vehicle ON vehicle.id = trip.vehicle WHERE pseudonym = ?1 OR pseudonym = ?2");
-    select.bind(vehicle, pseudonym_of(vehicle));
-    bool found = false;
-    while (select.step()) {
-        found = true;
-        trips[select.integer(0)] = {select.text(1), select.integer(2) != 0};
-    }
-    if (!found) {
+    select.bind(vehicle, key != nullptr ? key->pseudonym(vehicle) : vehicle);
+    if (!take_all(select, trips)) {
         throw InputError{fmt::format("{}: has no trip of vehicle {}, expected a vehicle_id or a "
-                                     "pseudonym as 'macadam info' tells them",
+                                     "pseudonym as 'macadam info' tells them{}",
                                      database.file().string(),
-                                     in_quotes(vehicle))};
+                                     in_quotes(vehicle),
+                                     without_key(key))};
     }
 }
 
@@ -165,13 +202,13 @@ std::ptrdiff_t calibrated_in(const CalibrationReport& report) {
                                  [](const auto& car) { return car.calibration.has_value(); });
 }
 
-KeptTrips trips_of(Database& database, const ForgetRequest& request) {
+KeptTrips trips_of(Database& database, const PrivacyKey* key, const ForgetRequest& request) {
     KeptTrips trips;
     for (const auto& name : request.trips) {
-        find_trips(database, name, trips);
+        find_trips(database, key, name, trips);
     }
     for (const auto& vehicle : request.vehicles) {
-        find_trips_of(database, vehicle, trips);
+        find_trips_of(database, key, vehicle, trips);
     }
     return trips;
 }
@@ -185,7 +222,7 @@ Forgotten RoadStore::forget(const ForgetRequest& request, const Progress& progre
     Forgotten forgotten;
     std::optional<CalibrationReport> calibration;
     const auto foresee = [&]() -> std::optional<std::vector<std::int64_t>> {
-        trips = trips_of(database, request);
+        trips = trips_of(database, key(), request);
         forgotten = {.trips = trips.size(), .segments = segments_of(database, trips).size()};
         forgotten.calibrated =
             std::ranges::any_of(trips, [](const auto& trip) { return trip.second.calibrates; });
@@ -259,7 +296,7 @@ CalibrationReport RoadStore::calibrate(bool keep, const Progress& progress) {
 
 std::vector<CalibratedCar> RoadStore::calibrated_cars() const {
     const auto records = read_calibrations(impl_->database);
-    auto select = impl_->database.prepare("SELECT id, pseudonym FROM vehicle ORDER BY pseudonym");
+    auto select = impl_->database.prepare("SELECT id, pseudonym FROM vehicle");
     std::vector<CalibratedCar> cars;
     while (select.step()) {
         if (const auto found = records.find(select.integer(0)); found != records.end()) {
@@ -271,6 +308,8 @@ std::vector<CalibratedCar> RoadStore::calibrated_cars() const {
                             calibration});
         }
     }
+    const auto places = places_of_cars(this->cars());
+    std::ranges::sort(cars, {}, [&](const auto& car) { return places.at(car.vehicle); });
     return cars;
 }
 

@@ -2,23 +2,28 @@
 
 #include "storage/geopackage.hpp"
 #include "storage/kept_statements.hpp"
+#include "storage/publication_rows.hpp"
 #include "storage/road_store.hpp"
 #include "storage/row_visit.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/store_schema.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace macadam {
 
 struct RoadStore::Impl {
-    Impl(const std::filesystem::path& file, Database::Access access) : database{file, access} {
+    Impl(const std::filesystem::path& file, Database::Access access, LockPatience patience)
+        : database{file, access, {}, std::move(patience)} {
         add_geometry_functions(database);
         add_row_visits(database);
         check_store(database);
         settings = read_settings(database);
         network_hash = read_network_hash(database);
+        find_key();
         if (access == Database::Access::write) { // now that it is known to be ours
             database.write_beside_readers();
         }
@@ -26,14 +31,32 @@ struct RoadStore::Impl {
 
     const ClassTable& classes() const { return *class_table(settings.class_table); }
 
-    /// What was worked out for one network cannot be written into another.
-    /// \throws InputError  if the network was updated since the store was opened.
+    /// What was worked out for one network, or for one's own cars, cannot be written into another
+    /// or into a crowd's.
+    /// \throws InputError  if that has changed since the store was opened.
     void expect_same_network();
+
+    /// Takes the key that lies beside the store, if there is one.
+    /// \throws InputError  if it is of another store.
+    void find_key();
+
+    /// See RoadStore::make_missing_key().
+    bool make_missing_key();
+
+    /// Without a key only of "", the car that is not known.
+    std::string pseudonym(const std::string& vehicle_id) const;
+
+    void show_published_alone() {
+        macadam::show_published_alone(database);
+        published_alone = true;
+    }
 
     Database database;
     KeptStatements statements{database};
     StoreSettings settings;
     std::string network_hash; ///< as it was when the store was opened
+    std::optional<PrivacyKey> key;
+    bool published_alone = false; ///< see RoadStore::shows_published_alone()
 };
 
 } // namespace macadam

@@ -1,4 +1,5 @@
 #include "estimator/common/error.hpp"
+#include "mapping/privacy/release_batches.hpp"
 #include "storage/fold_case.hpp"
 #include "storage/network_rows.hpp"
 #include "storage/road_store_impl.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -121,6 +123,72 @@ private:
     std::vector<FusedSegment> fused_;
 };
 
+/// What a crowd's publication tells of a time: the newest figure that lies within it.
+class PublishedFigures {
+public:
+    PublishedFigures(Database& database, const Period& period)
+        : select_{database.prepare(
+              "SELECT figure.from_ms, figure.until_ms, iri_um, sd_um, low_um, high_um, left_um,"
+              " right_um, centre_only, figure.flags, figure.passes, figure.vehicles"
+              " FROM segment CROSS JOIN published_figure AS figure ON figure.segment = segment.fid"
+              " WHERE way_id = ? AND direction = ? AND seq = ?"
+              " AND figure.from_ms >= ? AND figure.until_ms <= ?"
+              " ORDER BY figure.number DESC LIMIT 1")},
+          period_{period} {
+        expect_whole_months(database);
+    }
+
+    std::optional<SegmentState> of(const SegmentKey& key) {
+        using Limits = std::numeric_limits<std::int64_t>;
+        select_.bind(key.way_id,
+                     key.forward ? "forward" : "backward",
+                     std::int64_t{key.index},
+                     period_.from_ms.value_or(Limits::min()),
+                     period_.until_ms.value_or(Limits::max()));
+        const auto state = select_.step() ? std::optional{state_in(key)} : std::nullopt;
+        select_.reset();
+        return state;
+    }
+
+private:
+    void expect_whole_months(const Database& database) const {
+        const auto is_whole = [](const std::optional<std::int64_t>& border_ms) {
+            return !border_ms || month_begin_ms(*border_ms) == *border_ms;
+        };
+        if (!is_whole(period_.from_ms) || !is_whole(period_.until_ms)) {
+            throw InputError{fmt::format("{}: a crowd's figures are told by whole months, expected "
+                                         "times such as 2026-03",
+                                         database.file().string())};
+        }
+    }
+
+    SegmentState state_in(const SegmentKey& key) const {
+        const auto um = [&](int column) { return static_cast<IriUm>(select_.integer(column)); };
+        const auto known_um = [&](int column) {
+            return select_.is_null(column) ? std::nullopt : std::optional{um(column)};
+        };
+        return {.segment = key,
+                .iri_um = um(2),
+                .sd_um = um(3),
+                .low_um = um(4),
+                .high_um = um(5),
+                .left_um = known_um(6),
+                .right_um = known_um(7),
+                .centre_only = select_.integer(8) != 0,
+                .validity = static_cast<std::uint8_t>(select_.integer(9)),
+                .passes = static_cast<std::int32_t>(select_.integer(10)),
+                .vehicles = static_cast<std::int32_t>(select_.integer(11)),
+                .first_seen_ms = select_.integer(0),
+                .last_seen_ms = month_begin_ms(select_.integer(1) - 1),
+                .trend_um_per_year = std::nullopt,
+                .trend_sd_um_per_year = std::nullopt,
+                .change = std::nullopt};
+    }
+
+    Statement select_;
+    Period period_;
+};
+
 /// The conditions that no index serves.
 class Conditions {
 public:
@@ -196,6 +264,7 @@ struct Source {
     KeptStatements& statements;
     double segment_length_m;
     const ClassTable& classes;
+    bool published_alone;
 };
 
 /// What is read of each row.
@@ -210,7 +279,12 @@ void each_record(const Source& source,
                  const std::function<void(const SegmentRecord&)>& visitor) {
     Transaction one_moment{source.database, Transaction::Kind::read};
     std::optional<ChosenStates> chosen;
-    if (filter.period || filter.cars_alone) {
+    std::optional<PublishedFigures> figures;
+    if (source.published_alone) { // which are of cars alone
+        if (filter.period) {
+            figures.emplace(source.database, *filter.period);
+        }
+    } else if (filter.period || filter.cars_alone) {
         chosen.emplace(
             source.database, source.segment_length_m, PassChoice{filter.period, filter.cars_alone});
     }
@@ -229,6 +303,9 @@ void each_record(const Source& source,
         expect_line(record, source.database);
         if (chosen) {
             record.state = chosen->of(record.segment.key);
+        }
+        if (figures) {
+            record.state = figures->of(record.segment.key);
         }
         if (!conditions.hold_for(record)) {
             return;
@@ -259,21 +336,27 @@ SegmentGlance glance_of(const SegmentRecord& record) {
 void RoadStore::visit(const SegmentFilter& filter,
                       const std::function<void(const SegmentRecord&)>& visitor,
                       StateDetail detail) const {
-    each_record(
-        {impl_->database, impl_->statements, impl_->settings.segment_length_m, impl_->classes()},
-        detail == StateDetail::tiles ? Detail{tile_columns, put_tile_record_in}
-                                     : Detail{record_columns, put_record_in},
-        filter,
-        visitor);
+    each_record({impl_->database,
+                 impl_->statements,
+                 impl_->settings.segment_length_m,
+                 impl_->classes(),
+                 impl_->published_alone},
+                detail == StateDetail::tiles ? Detail{tile_columns, put_tile_record_in}
+                                             : Detail{record_columns, put_record_in},
+                filter,
+                visitor);
 }
 
 void RoadStore::glance(const SegmentFilter& filter,
                        const std::function<void(const SegmentGlance&)>& visitor) const {
-    each_record(
-        {impl_->database, impl_->statements, impl_->settings.segment_length_m, impl_->classes()},
-        {glance_columns, put_glance_in},
-        filter,
-        [&](const SegmentRecord& record) { visitor(glance_of(record)); });
+    each_record({impl_->database,
+                 impl_->statements,
+                 impl_->settings.segment_length_m,
+                 impl_->classes(),
+                 impl_->published_alone},
+                {glance_columns, put_glance_in},
+                filter,
+                [&](const SegmentRecord& record) { visitor(glance_of(record)); });
 }
 
 } // namespace macadam

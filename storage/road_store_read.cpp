@@ -1,7 +1,8 @@
 #include "estimator/common/error.hpp"
+#include "storage/car_order.hpp"
 #include "storage/road_store_impl.hpp"
 #include "storage/segment_row.hpp"
-#include "storage/sha256.hpp"
+#include "storage/store_digest.hpp"
 #include "storage/strip_rows.hpp"
 
 #include <fmt/format.h>
@@ -28,15 +29,6 @@ std::size_t count_with(Database& database, std::uint8_t flag) {
 double real_meta(Database& database, const char* key) {
     auto select = database.prepare("SELECT CAST(value AS REAL) FROM meta WHERE key = ?");
     return select.bind(key).step() ? select.real(0) : 0;
-}
-
-std::vector<std::string> pseudonyms(Database& database) {
-    auto select = database.prepare("SELECT pseudonym FROM vehicle ORDER BY pseudonym");
-    std::vector<std::string> vehicles;
-    while (select.step()) {
-        vehicles.push_back(select.text(0));
-    }
-    return vehicles;
 }
 
 /// Every segment with passes has a state, or waits for one.
@@ -93,60 +85,6 @@ LaySummary laid_in(Database& database) {
     return whole;
 }
 
-// -------------------------------------------------------------------------------------- digest
-
-std::string text_of(const std::optional<std::int64_t>& value) {
-    return value ? fmt::format("{}", *value) : "-";
-}
-
-std::string columns_from(const Statement& row, int first, int last) {
-    std::string text;
-    for (int column = first; column < last; ++column) {
-        text += " " + text_of(row.known_integer(column));
-    }
-    return text + "\n";
-}
-
-std::string state_line(const SegmentState& s) {
-    const auto known = [](const std::optional<IriUm>& um) {
-        return text_of(um ? std::optional<std::int64_t>{*um} : std::nullopt);
-    };
-    return fmt::format("state {} {} {} {} {} {} {} {:d} {} {} {} {} {} {} {} {} {}\n",
-                       name_of(s.segment),
-                       s.iri_um,
-                       s.sd_um,
-                       s.low_um,
-                       s.high_um,
-                       known(s.left_um),
-                       known(s.right_um),
-                       s.centre_only,
-                       s.validity,
-                       s.passes,
-                       s.vehicles,
-                       text_of(s.first_seen_ms),
-                       text_of(s.last_seen_ms),
-                       known(s.trend_um_per_year),
-                       known(s.trend_sd_um_per_year),
-                       text_of(s.change ? std::optional{s.change->utc_ms} : std::nullopt),
-                       known(s.change ? std::optional{s.change->um} : std::nullopt));
-}
-
-void add_passes(Sha256& hash, Database& database) {
-    auto select =
-        database.prepare(fmt::format("SELECT segment.segment, trip.sha256,"
-                                     " trip.reference_ppm IS NOT NULL, {} FROM pass"
-                                     " CROSS JOIN segment ON segment.fid = pass.segment"
-                                     " CROSS JOIN trip ON trip.id = pass.trip"
-                                     " ORDER BY {}, trip.sha256, pass.occurrence",
-                                     pass_columns,
-                                     are_rows_in_order(database) ? "pass.segment" : order_of_keys));
-    while (select.step()) {
-        const auto* const kind = select.integer(2) != 0 ? "reference" : "pass";
-        hash.add(fmt::format("{} {} {}", kind, select.text(0), select.text(1)) +
-                 columns_from(select, 3, 3 + digest_column_count));
-    }
-}
-
 } // namespace
 
 std::vector<PassRecord> RoadStore::history(const SegmentKey& key) const {
@@ -195,32 +133,45 @@ StoreInfo RoadStore::info() const {
     Transaction one_moment{database, Transaction::Kind::read};
     const auto cover = cover_of(database);
     const auto span = seen();
-    return {.settings = impl_->settings,
-            .trips = count(database, "SELECT count(*) FROM trip WHERE reference_ppm IS NULL"),
-            .undated_trips = count(database,
-                                   "SELECT count(*) FROM trip WHERE t0_utc_ms IS NULL"
-                                   " AND reference_ppm IS NULL"),
-            .passes = count(database, "SELECT count(*) FROM pass") -
-                      count(database,
-                            "SELECT count(*) FROM trip CROSS JOIN pass ON pass.trip = trip.id"
-                            " WHERE trip.reference_ppm IS NOT NULL"),
-            .lateral_passes = count_with(database, validity::lateral_alone),
-            .vehicles = pseudonyms(database),
-            .segments = static_cast<std::size_t>(real_meta(database, "segments")),
-            .segments_with_passes = static_cast<std::size_t>(
-                database.number(fmt::format("SELECT count(*) FROM {}", with_passes).c_str())),
-            .km = cover.length_m / 1000,
-            .network_km = real_meta(database, "network_m") / 1000,
-            .classes = lengths_of(database, impl_->classes()),
-            .first_seen_ms = span.first_ms,
-            .last_seen_ms = span.last_ms,
-            .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
-            .laid = laid_in(database),
-            .generation = read_generation(database),
-            .box = cover.box};
+    StoreInfo info{
+        .settings = impl_->settings,
+        .trips = count(database, "SELECT count(*) FROM trip WHERE reference_ppm IS NULL"),
+        .undated_trips = count(database,
+                               "SELECT count(*) FROM trip WHERE t0_utc_ms IS NULL"
+                               " AND reference_ppm IS NULL"),
+        .passes = count(database, "SELECT count(*) FROM pass") -
+                  count(database,
+                        "SELECT count(*) FROM trip CROSS JOIN pass ON pass.trip = trip.id"
+                        " WHERE trip.reference_ppm IS NOT NULL"),
+        .lateral_passes = count_with(database, validity::lateral_alone),
+        .vehicles = read_cars(database),
+        .segments = static_cast<std::size_t>(real_meta(database, "segments")),
+        .segments_with_passes = static_cast<std::size_t>(
+            database.number(fmt::format("SELECT count(*) FROM {}", with_passes).c_str())),
+        .km = cover.length_m / 1000,
+        .network_km = real_meta(database, "network_m") / 1000,
+        .classes = lengths_of(database, impl_->classes()),
+        .first_seen_ms = span.first_ms,
+        .last_seen_ms = span.last_ms,
+        .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
+        .laid = laid_in(database),
+        .generation = read_generation(database),
+        .box = cover.box};
+    info.publication = latest_publication();
+    info.published_alone = impl_->published_alone;
+    if (info.published_alone) {
+        info.trips = static_cast<std::size_t>(info.publication ? info.publication->trips : 0);
+        info.passes = count(database, "SELECT coalesce(sum(passes), 0) FROM segment_state");
+    }
+    return info;
+}
+
+std::vector<std::string> RoadStore::cars() const {
+    return read_cars(impl_->database);
 }
 
 std::vector<VehicleUse> RoadStore::vehicle_uses() const {
+    Transaction one_moment{impl_->database, Transaction::Kind::read};
     auto select = impl_->database.prepare(
         "SELECT vehicle.pseudonym, vehicle_model, method, count(*), count(*) - count(t0_utc_ms),"
         " sum((SELECT count(*) FROM pass WHERE pass.trip = trip.id)), sum(distance_mm),"
@@ -242,6 +193,8 @@ std::vector<VehicleUse> RoadStore::vehicle_uses() const {
                         .rows_read = number(8),
                         .rows_used = number(9)});
     }
+    const auto places = places_of_cars(cars());
+    std::ranges::stable_sort(uses, {}, [&](const auto& use) { return places.at(use.vehicle); });
     return uses;
 }
 
@@ -254,20 +207,8 @@ LaySummary RoadStore::laid() const {
 }
 
 std::string RoadStore::digest() const {
-    Sha256 hash;
-    {
-        Transaction one_moment{impl_->database, Transaction::Kind::read};
-        add_passes(hash, impl_->database);
-        auto select = impl_->database.prepare(fmt::format(
-            "SELECT {} FROM segment JOIN segment_state AS state ON state.fid = segment.fid"
-            " ORDER BY {}",
-            record_columns,
-            are_rows_in_order(impl_->database) ? "segment.fid" : order_of_keys));
-        while (select.step()) {
-            hash.add(state_line(*record_in(select).state));
-        }
-    }
-    return hash.hex();
+    Transaction one_moment{impl_->database, Transaction::Kind::read};
+    return digest_of(impl_->database, {});
 }
 
 } // namespace macadam

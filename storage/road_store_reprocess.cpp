@@ -191,6 +191,7 @@ Reprocessed RoadStore::take_staged(std::string_view how, const Progress& progres
         return strips;
     };
     const auto apply = [&] {
+        impl_->expect_same_network();
         done = swap(database);
         if (calibration) {
             take_calibration(database, *calibration);

@@ -65,6 +65,11 @@ void RoadStore::Impl::expect_same_network() {
                                      "run the command again",
                                      database.file().string())};
     }
+    if (read_settings(database).privacy != settings.privacy) {
+        throw InputError{fmt::format("{}: became a crowd's meanwhile; nothing was written, run the "
+                                     "command again",
+                                     database.file().string())};
+    }
 }
 
 NetworkUpdate RoadStore::update_network(const RoadNetwork& before,

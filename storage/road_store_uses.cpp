@@ -40,7 +40,7 @@ std::vector<DayUse> RoadStore::day_uses() const {
     std::map<std::string, DayUse> days;
     while (select.step()) {
         if (const auto utc_ms = known_utc_ms(select, 0)) {
-            auto& day = days[utc_text(*utc_ms).substr(0, 10)];
+            auto& day = days[utc_day(*utc_ms)];
             ++day.trips;
             day.passes += static_cast<std::size_t>(select.integer(1));
         }

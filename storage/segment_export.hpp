@@ -28,7 +28,7 @@ std::size_t each_segment(const SegmentExport& what,
 /// "Roughness (IRI, mm/m)." and whose roads they are.
 std::string description_of(const SegmentExport& what);
 
-std::size_t write_geopackage(const SegmentExport& what, AtomicFile& file);
+std::size_t export_geopackage(const SegmentExport& what);
 std::size_t write_kml(const SegmentExport& what, AtomicFile& file);
 
 /// These two let GDAL write, in a folder beside the place.

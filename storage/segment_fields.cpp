@@ -41,8 +41,8 @@ Text um_text(const std::optional<IriUm>& um) {
     return um ? Text{fmt::format("{:.3f}", mm_per_m(*um))} : std::nullopt;
 }
 
-Text time_text(const std::optional<std::int64_t>& utc_ms) {
-    return utc_ms ? Text{utc_text(*utc_ms)} : std::nullopt;
+Text day_text(const std::optional<std::int64_t>& utc_ms) {
+    return utc_ms ? Text{utc_day(*utc_ms)} : std::nullopt;
 }
 
 /// From `iri` on, in the order of the fields.
@@ -57,11 +57,11 @@ std::vector<Text> state_values(const SegmentState& state, const ClassTable& clas
             std::string{classes.classes[class_index(classes, mm_per_m(state.iri_um))].name},
             fmt::format("{}", state.passes),
             fmt::format("{}", state.vehicles),
-            time_text(state.first_seen_ms),
-            time_text(state.last_seen_ms),
+            day_text(state.first_seen_ms),
+            day_text(state.last_seen_ms),
             um_text(state.trend_um_per_year),
             um_text(state.trend_sd_um_per_year),
-            state.change ? time_text(state.change->utc_ms) : std::nullopt,
+            state.change ? day_text(state.change->utc_ms) : std::nullopt,
             state.change ? um_text(state.change->um) : std::nullopt,
             name_of_validity(state.validity)};
 }
@@ -120,7 +120,7 @@ std::span<const Field> segment_fields() {
     return fields;
 }
 
-bool is_time(const Field& field) {
+bool is_day(const Field& field) {
     return field.name == "first_seen" || field.name == "last_seen" || field.name == "changed";
 }
 

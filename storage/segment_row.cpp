@@ -22,8 +22,8 @@ std::optional<IriUm> known_um_in(const Row& row, int column) {
     return row.is_null(column) ? std::nullopt : std::optional{um_in(row, column)};
 }
 
-std::optional<std::string> known_datetime_text(const std::optional<std::int64_t>& utc_ms) {
-    return utc_ms ? std::optional{datetime_text(*utc_ms)} : std::nullopt;
+std::optional<std::string> known_day(const std::optional<std::int64_t>& utc_ms) {
+    return utc_ms ? std::optional{utc_day(*utc_ms)} : std::nullopt;
 }
 
 std::optional<IriUm> known_whole_in(const Statement& row, int column) {
@@ -184,11 +184,11 @@ void write_state(BulkInsert& insert,
                classes.classes[class_index(classes, iri)].name,
                std::int64_t{state.passes},
                std::int64_t{state.vehicles},
-               known_datetime_text(state.first_seen_ms),
-               known_datetime_text(state.last_seen_ms),
+               known_day(state.first_seen_ms),
+               known_day(state.last_seen_ms),
                known_mm_per_m(state.trend_um_per_year),
                known_mm_per_m(state.trend_sd_um_per_year),
-               known_datetime_text(changed_ms),
+               known_day(changed_ms),
                change,
                name_of_validity(state.validity),
                state.first_seen_ms,

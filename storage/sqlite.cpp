@@ -1,17 +1,29 @@
 #include "storage/sqlite.hpp"
 
+#include "storage/sqlite_guard.hpp"
+
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 namespace macadam {
 namespace {
 
 // Readers wait only in the moments in which a log is begun or brought in.
-constexpr std::chrono::seconds idle_limit_of_readers{20};
+constexpr std::chrono::milliseconds idle_limit_of_readers{20'000};
+
+// Of SQLite's virtual machine, between two looks at whether a reader is to stop: about 1 ms.
+constexpr int instructions_between_looks = 20'000;
+
+std::atomic<int> open_for_writing = 0;
+
+int is_to_stop(void* wait) {
+    return static_cast<const LockWait*>(wait)->is_stop_wanted() ? 1 : 0;
+}
 
 int wait_for_turn(void* wait, int pauses) {
     return static_cast<LockWait*>(wait)->wait(pauses) ? 1 : 0;
@@ -53,6 +65,8 @@ std::string cause_of(sqlite3* database, const OpenFile& file, int code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         return file.wait.reason();
+    case SQLITE_INTERRUPT:
+        return "interrupted while it was read";
     case SQLITE_IOERR:
         return cause_of_io_error(database, code);
     default:
@@ -66,11 +80,14 @@ void check(sqlite3* database, const OpenFile& file, int code) {
     }
 }
 
-/// Settings that SQLite forgets between two openings. Files from others may hold triggers and views
-/// made to harm: no function runs from the schema that is not declared harmless.
+/// Settings that SQLite forgets between two openings.
 constexpr const char* guarded = "PRAGMA trusted_schema = OFF;"
                                 "PRAGMA foreign_keys = ON;"
                                 "PRAGMA cell_size_check = ON;";
+
+bool is_of_ours(Database::Access access) {
+    return access == Database::Access::create || access == Database::Access::memory;
+}
 
 /// EXTRA is FULL, and also syncs the folder when the journal goes: without it a power loss could
 /// bring the journal back and with it undo what was committed.
@@ -80,6 +97,8 @@ const char* settings_for(Database::Access access) {
         return "PRAGMA query_only = ON; PRAGMA cache_size = -32768";
     case Database::Access::write:
         return "PRAGMA synchronous = EXTRA; PRAGMA secure_delete = ON; PRAGMA cache_size = -65536";
+    case Database::Access::memory:
+        return "";
     case Database::Access::create:
         return "PRAGMA foreign_keys = OFF; PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF;"
                "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -65536";
@@ -92,6 +111,7 @@ const char* settings_for(Database::Access access) {
 sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file) {
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
                       (access == Database::Access::create ? SQLITE_OPEN_CREATE : 0) |
+                      (access == Database::Access::memory ? SQLITE_OPEN_MEMORY : 0) |
                       (access == Database::Access::read ? SQLITE_OPEN_URI : 0);
     sqlite3* database = nullptr;
     const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
@@ -102,10 +122,21 @@ sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file
         throw;
     }
     sqlite3_busy_handler(database, wait_for_turn, &file.wait);
-    // What we make ourselves needs no defence, and its R-tree is written node by node.
-    const int defensive = access == Database::Access::create ? 0 : 1;
-    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, defensive, nullptr);
+    if (!is_of_ours(access)) { // whose R-tree is written node by node
+        guard_from_others(database);
+    }
+    if (access ==
+        Database::Access::read) { // who writes looks himself, between what belongs together
+        sqlite3_progress_handler(database, instructions_between_looks, is_to_stop, &file.wait);
+    }
     return database;
+}
+
+LockPatience patience_of(Database::Access access, LockPatience patience) {
+    if (access == Database::Access::read) {
+        patience.idle_limit = std::min(patience.idle_limit, idle_limit_of_readers);
+    }
+    return patience;
 }
 
 /// A store that was copied while it was written is in the mode of a write-ahead log, which cannot
@@ -254,17 +285,23 @@ void Database::Close::operator()(sqlite3* database) const {
         sqlite3_exec(database, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
     }
     sqlite3_close_v2(database);
+    if (writes) {
+        --open_for_writing;
+    }
+}
+
+int databases_open_for_writing() noexcept {
+    return open_for_writing;
 }
 
 Database::Database(const std::filesystem::path& file,
                    Access access,
-                   const std::filesystem::path& known_as)
+                   const std::filesystem::path& known_as,
+                   LockPatience patience)
     : file_{std::make_unique<OpenFile>(OpenFile{
           known_as.empty() ? file : known_as,
-          LockWait{std::filesystem::absolute(file),
-                   access == Access::read ? LockPatience{.idle_limit = idle_limit_of_readers}
-                                          : LockPatience{}}})},
-      database_{nullptr, Close{.takes_log_away = false}} {
+          LockWait{std::filesystem::absolute(file), patience_of(access, std::move(patience))}})},
+      database_{nullptr, Close{.writes = false, .takes_log_away = false}} {
     const auto name = std::filesystem::absolute(file); // never ":memory:"
     database_.reset(opened(name.string(), access, *file_));
     if (access == Access::read && must_be_taken_as_it_is(handle(), name, file_->name)) {
@@ -273,6 +310,10 @@ Database::Database(const std::filesystem::path& file,
     auto* const database = handle();
     if (access == Access::write && sqlite3_db_readonly(database, "main") == 1) {
         check(database, *file_, SQLITE_READONLY);
+    }
+    if (access == Access::write) {
+        database_.get_deleter().writes = true;
+        ++open_for_writing;
     }
     run(guarded);
     run(settings_for(access));
@@ -285,11 +326,12 @@ void Database::be_patient(LockPatience patience) {
 void Database::write_beside_readers(std::chrono::milliseconds patience) {
     database_.get_deleter().takes_log_away = true;
     wants_log_ = true;
-    constexpr std::chrono::milliseconds pause{5};
-    const auto pauses = patience / pause;
+    const auto end = std::chrono::steady_clock::now() + patience;
     begin_log_if_wanted();
-    for (int i = 0; wants_log_ && i < pauses; ++i) {
-        std::this_thread::sleep_for(pause);
+    for (int pauses = 0; wants_log_ && std::chrono::steady_clock::now() < end; ++pauses) {
+        if (!file_->wait.wait(pauses)) {
+            check(handle(), *file_, SQLITE_BUSY);
+        }
         begin_log_if_wanted();
     }
 }
@@ -341,6 +383,16 @@ bool Database::in_transaction() const {
     return sqlite3_get_autocommit(handle()) == 0;
 }
 
+void Database::expect_in_place() const {
+    int has_moved = 0;
+    sqlite3_file_control(handle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+    if (has_moved != 0) {
+        throw InputError{fmt::format("{}: was removed, or another file has taken its place, while "
+                                     "this command worked on it; run it again",
+                                     file().string())};
+    }
+}
+
 void Database::close() {
     database_.reset();
 }
@@ -387,6 +439,9 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
+    if (is_outermost_) { // a lost file would take the commit without a word
+        database_->expect_in_place();
+    }
     database_->run("COMMIT");
 }
 

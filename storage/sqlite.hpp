@@ -121,11 +121,15 @@ public:
         read,   ///< works on media that cannot be written
         write,  ///< each commit is on disk when it returns
         create, ///< a new file that nobody sees before it is whole: no journal on disk, no syncs
+        memory, ///< no file at all: the name is for messages alone
     };
     /// `known_as`: what messages call it, where that is not its name.
+    /// \param patience  how it waits for others, also to be opened; its stop also ends a reader's
+    ///                  statements.
     Database(const std::filesystem::path& file,
              Access access,
-             const std::filesystem::path& known_as = {});
+             const std::filesystem::path& known_as = {},
+             LockPatience patience = {});
 
     /// How it waits from now on where another process keeps it from its turn.
     void be_patient(LockPatience patience);
@@ -163,10 +167,15 @@ public:
     const std::filesystem::path& file() const { return file_->name; }
     sqlite3* handle() const { return database_.get(); }
 
+    /// \throws InputError  if its name no longer leads to it: it was removed, or another file has
+    /// taken its place.
+    void expect_in_place() const;
+
     void close();
 
 private:
     struct Close {
+        bool writes;
         bool takes_log_away;
         void operator()(sqlite3* database) const;
     };
@@ -174,6 +183,9 @@ private:
     std::unique_ptr<sqlite3, Close> database_;
     bool wants_log_ = false;
 };
+
+/// How many this process has open with Access::write. A signal handler may ask.
+int databases_open_for_writing() noexcept;
 
 /// Removes what another file of that name has left beside it, journal and log: SQLite would bring
 /// them into a new file that takes the name.

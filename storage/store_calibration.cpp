@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/fleet_calibration.hpp"
+#include "storage/car_order.hpp"
 #include "storage/fusion_settings.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/store_schema.hpp"
@@ -37,7 +38,7 @@ struct Car {
 
 /// Cars have the first numbers, surveys those that follow.
 struct Fleet {
-    std::vector<Car> cars; ///< by pseudonym
+    std::vector<Car> cars; ///< by the least hash of their trips of the basis
     std::unordered_map<std::int64_t, std::uint32_t> number_of_car;
     struct Trip {
         std::uint32_t number;
@@ -49,9 +50,13 @@ struct Fleet {
     std::int64_t newest_ms = std::numeric_limits<std::int64_t>::min();
 };
 
-void add_cars(Fleet& fleet, Database& database) {
+/// Sums depend on the order in the last digits, so it must not depend on the key that names cars.
+void add_cars(Fleet& fleet, Database& database, CalibrationBasis basis) {
     auto cars = database.prepare(
-        "SELECT id, pseudonym FROM vehicle WHERE pseudonym <> 'unknown' ORDER BY pseudonym");
+        "SELECT vehicle.id, pseudonym FROM vehicle LEFT JOIN trip ON trip.vehicle = vehicle.id"
+        " AND (?1 OR calibrates) WHERE pseudonym <> 'unknown'"
+        " GROUP BY vehicle.id ORDER BY min(sha256)");
+    cars.bind(basis == CalibrationBasis::all);
     while (cars.step()) {
         fleet.number_of_car[cars.integer(0)] = static_cast<std::uint32_t>(fleet.cars.size());
         fleet.cars.push_back({cars.integer(0), cars.text(1)});
@@ -62,7 +67,7 @@ void add_cars(Fleet& fleet, Database& database) {
 /// Trips without a vehicle_id are of no car that could be calibrated.
 Fleet fleet_of(Database& database, CalibrationBasis basis) {
     Fleet fleet;
-    add_cars(fleet, database);
+    add_cars(fleet, database, basis);
     auto trips = database.prepare("SELECT sha256, vehicle, t0_utc_ms, reference_ppm FROM trip"
                                   " WHERE ?1 OR calibrates ORDER BY sha256");
     trips.bind(basis == CalibrationBasis::all);
@@ -234,6 +239,8 @@ CalibrationReport find_calibration(Database& database,
         report.cars.push_back({row, pseudonym, trips, found.shared[i], found.cars[i]});
         any = any || found.cars[i].has_value();
     }
+    const auto places = places_of_cars(read_cars(database));
+    std::ranges::sort(report.cars, {}, [&](const auto& car) { return places.at(car.vehicle); });
     if (any) {
         report.components = components_of(found, readings.stated_square / count);
     }

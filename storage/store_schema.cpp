@@ -3,7 +3,9 @@
 #include "estimator/common/error.hpp"
 #include "storage/geopackage.hpp"
 #include "storage/network_rows.hpp"
+#include "storage/schema_check.hpp"
 #include "storage/store_tables.hpp"
+#include "storage/store_versions.hpp"
 #include "storage/text.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +18,6 @@
 namespace macadam {
 namespace {
 
-constexpr int store_version = 2;
 constexpr const char* format_name = "macadam-store";
 
 // ---------------------------------------------------------------------------------------- meta
@@ -26,6 +27,13 @@ constexpr double most_segment_m = 100'000;
 
 void put(Database& database, std::string_view key, std::string_view value) {
     database.prepare("INSERT INTO meta VALUES (?, ?)").run(key, value);
+}
+
+void replace(Database& database, std::string_view key, std::string_view value) {
+    database
+        .prepare("INSERT INTO meta VALUES (?, ?)"
+                 " ON CONFLICT (key) DO UPDATE SET value = excluded.value")
+        .run(key, value);
 }
 
 std::string meta(Database& database, std::string_view key) {
@@ -55,26 +63,29 @@ void write_meta(Database& database,
     put(database, "segments", fmt::format("{}", written.segments));
     put(database, "network_m", fmt::format("{}", written.length_m));
     put(database, "generation", "1");
+    put(database, "privacy", name_of(settings.privacy));
 }
 
-bool has_table(Database& database, std::string_view name) {
-    auto statement =
-        database.prepare("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
-    return statement.bind(name).step();
-}
-
-std::string_view what_to_do_with(const std::string& version) {
-    int number = 0;
-    std::from_chars(version.data(), version.data() + version.size(), number);
-    return number > store_version ? "it was made by a newer macadam, which can read it"
-                                  : "make it anew with 'macadam init' and import its trips again";
+/// Those whose rows come first.
+void index_store_tables(Database& database) {
+    database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
+    database.run("CREATE INDEX way_name ON way(name)");
+    index_features(database, "segment");
 }
 
 } // namespace
 
+void make_store_tables(Database& database) {
+    make_geopackage(database);
+    database.run(store_tables);
+    add_style_table(database);
+    index_store_tables(database);
+}
+
 void write_store(Database& database,
                  const RoadNetwork& roads,
                  const StoreSettings& settings,
+                 const std::string& key_id,
                  const Progress& progress) {
     const auto* classes = class_table(settings.class_table);
     if (classes == nullptr) {
@@ -84,22 +95,22 @@ void write_store(Database& database,
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
     database.run(store_tables);
+    add_style_table(database);
     const auto network_hash = write_ways(database, roads);
     const auto written = write_segments(database, roads, progress);
-    database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
-    database.run("CREATE INDEX way_name ON way(name)");
     write_meta(database, roads, settings, network_hash, written);
+    put_key_id(database, key_id);
 
     const auto box = extent_of(roads);
     list_features(database, {"segment", "segment", "Pieces of road, one for each direction", box});
     list_features(database,
                   {"roughness", "roughness", "Roughness (IRI, mm/m) of the segments driven", box});
-    index_features(database, "segment");
+    index_store_tables(database); // by far quicker with the rows there
     add_default_style(database, "roughness", *classes);
     all.commit();
 }
 
-void check_store(Database& database) {
+int expect_store(Database& database, const Schema& found) {
     const auto refuse = [&](std::string_view what, std::string_view is) {
         throw InputError{fmt::format(
             "{}: {}, expected one made by 'macadam init'{}", database.file().string(), what, is)};
@@ -111,20 +122,41 @@ void check_store(Database& database) {
                                      "({:#010x})",
                                      static_cast<std::uint32_t>(id)));
     }
-    if (!has_table(database, "meta") || meta(database, "format") != format_name) {
+    const auto table = found.find({"table", "meta"});
+    const bool is_ours =
+        table != found.end() && table->second == own_schema().at({"table", "meta"});
+    if (!is_ours || meta(database, "format") != format_name) {
         refuse("is a GeoPackage but no Macadam store", "");
     }
-    if (const auto version = meta(database, "version"); version != std::to_string(store_version)) {
+    const auto text = meta(database, "version");
+    int version = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), version);
+    const bool is_number = error == std::errc{} && end == text.data() + text.size();
+    if (!is_number || version < oldest_store_version || version > store_version) {
         throw InputError{fmt::format("{}: is a store of version {}, expected version {}: {}",
                                      database.file().string(),
-                                     in_quotes(version),
+                                     in_quotes(text),
                                      store_version,
-                                     what_to_do_with(version))};
+                                     version > store_version
+                                         ? "it was made by a newer macadam, which can read it"
+                                         : "make it anew with 'macadam init' and import its trips "
+                                           "again")};
     }
-    if (!has_table(database, "audit")) {
-        refuse("is a store of version 2 as it was before it was released",
-               ": make it anew with 'macadam init' and import its trips again");
+    return version;
+}
+
+void check_store(Database& database) {
+    const auto found = read_schema(database);
+    if (const int version = expect_store(database, found); version < store_version) {
+        expect_no_foreign_object(database, found, schema_of_version(version));
+        throw InputError{fmt::format("{0}: is a store of version {1}, expected version {2}: run "
+                                     "'macadam upgrade {0}', which keeps all that is in it",
+                                     database.file().string(),
+                                     version,
+                                     store_version)};
     }
+    expect_no_foreign_object(database, found, own_schema());
+    expect_whole_schema(database, found, own_schema());
 }
 
 StoreSettings read_settings(Database& database) {
@@ -142,6 +174,11 @@ StoreSettings read_settings(Database& database) {
     if (class_table(settings.class_table) == nullptr) {
         refuse("class_table", "fhwa or five");
     }
+    const auto privacy = privacy_profile_named(meta(database, "privacy"));
+    if (!privacy) {
+        refuse("privacy", "own or crowd");
+    }
+    settings.privacy = *privacy;
     if (!(settings.segment_length_m >= least_segment_m &&
           settings.segment_length_m <= most_segment_m)) {
         refuse("segment_length_m", "a length of segments");
@@ -159,18 +196,20 @@ bool are_rows_in_order(Statement& select) {
 }
 
 void update_network_meta(Database& database, const NetworkMeta& network) {
-    const auto set = [&](std::string_view key, std::string_view value) {
-        database
-            .prepare("INSERT INTO meta VALUES (?, ?)"
-                     " ON CONFLICT (key) DO UPDATE SET value = excluded.value")
-            .run(key, value);
-    };
-    set("network_source", network.source);
-    set("attribution", network.attribution);
-    set("network_sha256", network.hash);
-    set("segments", fmt::format("{}", network.segments));
-    set("network_m", fmt::format("{}", network.length_m));
-    set("rows_in_order", "0");
+    replace(database, "network_source", network.source);
+    replace(database, "attribution", network.attribution);
+    replace(database, "network_sha256", network.hash);
+    replace(database, "segments", fmt::format("{}", network.segments));
+    replace(database, "network_m", fmt::format("{}", network.length_m));
+    replace(database, "rows_in_order", "0");
+}
+
+std::string read_key_id(Database& database) {
+    return meta(database, "key_id");
+}
+
+void put_key_id(Database& database, const std::string& key_id) {
+    replace(database, "key_id", key_id);
 }
 
 std::string read_network_hash(Database& database) {

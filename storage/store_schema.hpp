@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "mapping/road_network.hpp"
 #include "storage/road_store.hpp"
+#include "storage/schema_check.hpp"
 #include "storage/sqlite.hpp"
 
 #include <cstdint>
@@ -11,13 +12,29 @@
 namespace macadam {
 
 /// Makes all tables of a store and fills those that hold the network (docs/store.md).
+/// \param key_id  PrivacyKey::id()
 void write_store(Database& database,
                  const RoadNetwork& roads,
                  const StoreSettings& settings,
+                 const std::string& key_id,
                  const Progress& progress);
 
-/// \throws InputError  if the file is no GeoPackage, no store, or of a version that is not known.
+/// All tables, indexes, views and triggers, without rows but those that make it a GeoPackage.
+void make_store_tables(Database& database);
+
+/// \returns the version of a database that is a store by its marks alone.
+/// \throws InputError  if it is none, or of a version that is not known.
+int expect_store(Database& database, const Schema& found);
+
+/// Nothing of the database is run before it is known to be made by this program.
+///
+/// \throws InputError  if the file is no GeoPackage, no store, of a version that is not known, or
+///                     holds views, triggers or tables of others.
 void check_store(Database& database);
+
+/// Version of the store's format; what 'macadam init' makes, and what can be brought up to it.
+inline constexpr int store_version = 3;
+inline constexpr int oldest_store_version = 2;
 
 /// \throws InputError  for a class table or segment length that nobody knows.
 StoreSettings read_settings(Database& database);
@@ -45,6 +62,10 @@ void update_network_meta(Database& database, const NetworkMeta& network);
 
 /// SHA-256 of the ways and all that they say, in hex digits.
 std::string read_network_hash(Database& database);
+
+/// PrivacyKey::id() of the key under which cars are named.
+std::string read_key_id(Database& database);
+void put_key_id(Database& database, const std::string& key_id);
 
 /// Counts from 1; one more each time that all numbers were made anew by other rules.
 int read_generation(Database& database);

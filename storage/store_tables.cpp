@@ -100,11 +100,11 @@ CREATE TABLE segment_state (
     class TEXT NOT NULL,
     passes INTEGER NOT NULL,
     vehicles INTEGER NOT NULL,
-    first_seen DATETIME,
-    last_seen DATETIME,
+    first_seen DATE,
+    last_seen DATE,
     trend_per_year DOUBLE,
     trend_sd DOUBLE,
-    changed DATETIME,
+    changed DATE,
     change DOUBLE,
     validity TEXT NOT NULL,
     first_seen_ms INTEGER,
@@ -172,6 +172,65 @@ CREATE TABLE state_change (
 ) WITHOUT ROWID;
 CREATE TABLE forgotten (
     mark TEXT PRIMARY KEY NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE publication (
+    number INTEGER PRIMARY KEY NOT NULL,
+    month TEXT NOT NULL UNIQUE,
+    last_trip INTEGER NOT NULL,
+    last_segment INTEGER NOT NULL,
+    segments INTEGER NOT NULL,
+    length_m DOUBLE NOT NULL,
+    left_segments INTEGER NOT NULL,
+    left_m DOUBLE NOT NULL,
+    trips INTEGER NOT NULL,
+    cars INTEGER NOT NULL
+);
+CREATE TABLE published_state (
+    fid INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
+    iri DOUBLE NOT NULL,
+    iri_sd DOUBLE NOT NULL,
+    iri_low DOUBLE NOT NULL,
+    iri_high DOUBLE NOT NULL,
+    iri_left DOUBLE,
+    iri_right DOUBLE,
+    "index" TEXT NOT NULL,
+    class TEXT NOT NULL,
+    passes INTEGER NOT NULL,
+    vehicles INTEGER NOT NULL,
+    first_seen DATE,
+    last_seen DATE,
+    trend_per_year DOUBLE,
+    trend_sd DOUBLE,
+    changed DATE,
+    change DOUBLE,
+    validity TEXT NOT NULL,
+    first_seen_ms INTEGER,
+    last_seen_ms INTEGER,
+    changed_ms INTEGER,
+    flags INTEGER NOT NULL
+);
+CREATE TABLE published_until (
+    segment INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
+    last_trip INTEGER NOT NULL,
+    pending_from_ms INTEGER
+);
+CREATE TABLE published_figure (
+    segment INTEGER NOT NULL REFERENCES segment(fid),
+    number INTEGER NOT NULL,
+    publication INTEGER NOT NULL REFERENCES publication(number),
+    from_ms INTEGER,
+    until_ms INTEGER,
+    iri_um INTEGER NOT NULL,
+    sd_um INTEGER NOT NULL,
+    low_um INTEGER NOT NULL,
+    high_um INTEGER NOT NULL,
+    left_um INTEGER,
+    right_um INTEGER,
+    centre_only INTEGER NOT NULL,
+    flags INTEGER NOT NULL,
+    passes INTEGER NOT NULL,
+    vehicles INTEGER NOT NULL,
+    PRIMARY KEY (segment, number)
 ) WITHOUT ROWID;
 CREATE VIEW roughness AS
     SELECT segment.fid AS OGC_FID, segment.geom, segment.segment, segment.way_id, way.name,

@@ -16,7 +16,7 @@ namespace macadam {
 /// Which trips a store is to forget.
 struct ForgetRequest {
     std::vector<std::string> trips;    ///< each a trip_id, a file's name or the hash of its content
-    std::vector<std::string> vehicles; ///< each a vehicle_id or its pseudonym
+    std::vector<std::string> vehicles; ///< each a vehicle_id, for who has the key, or its pseudonym
 };
 
 struct Forgotten {
@@ -65,7 +65,7 @@ struct CalibratedCar {
 /// How the cars of a store read, and of what their errors are made (mapping/fleet_calibration.hpp).
 struct CalibrationReport {
     int generation;
-    std::vector<CalibratedCar> cars; ///< by pseudonym; without trips that name none
+    std::vector<CalibratedCar> cars; ///< as RoadStore::cars(); without trips that name none
     FusionConfig components;         ///< the shipped ones if no car could be calibrated
     double car_relative_sd;          ///< how far cars are off each other
     std::size_t readings;            ///< passes of cars that were looked at

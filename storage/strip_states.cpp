@@ -89,11 +89,21 @@ std::vector<StripPass> StripStates::readings(std::int64_t strip,
     auto passes = passes_.of(strip, segments);
     std::erase_if(passes,
                   [&](const auto& pass) { return !trips.contains(pass.input.trip_sha256); });
+    lay_on_each_other(strip, passes);
+    return passes;
+}
+
+std::vector<StripPass> StripStates::passes_of_cars(std::int64_t strip, std::int64_t segments) {
+    auto passes = valid_passes(strip, segments);
+    std::erase_if(passes, [](const StripPass& pass) { return pass.input.reference; });
+    return passes;
+}
+
+void StripStates::lay_on_each_other(std::int64_t strip, std::vector<StripPass>& passes) {
     const auto traces = traces_.placed(strip, drives_of(passes));
     for (auto& pass : passes) {
         put_in_its_place(pass, traces);
     }
-    return passes;
 }
 
 FusedStrip StripStates::of(std::int64_t strip, std::int64_t segments_in_strip) {

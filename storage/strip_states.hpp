@@ -50,6 +50,14 @@ public:
                                     std::int64_t segments_in_strip,
                                     const std::unordered_set<std::string>& trips);
 
+    /// The passes of cars from which states are fused, where their own trips put them.
+    std::vector<StripPass> passes_of_cars(std::int64_t strip, std::int64_t segments_in_strip);
+
+    /// Takes them to where they lie among each other, as if there were no others.
+    void lay_on_each_other(std::int64_t strip, std::vector<StripPass>& passes);
+
+    const FusionConfig& config() const { return config_; }
+
 private:
     std::vector<StripPass> valid_passes(std::int64_t strip, std::int64_t segments_in_strip);
 

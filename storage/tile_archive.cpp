@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/atomic_file_set.hpp"
 #include "storage/atomic_folder.hpp"
 #include "storage/json.hpp"
 #include "storage/sqlite.hpp"
@@ -133,15 +134,18 @@ struct TileArchive::Impl {
     std::filesystem::path place;
     TileSetNote note;
     std::optional<AtomicFolder> folder; ///< or else
-    std::optional<AtomicFile> file;
+    std::optional<AtomicFile> file;     ///< or else
+    std::optional<AtomicFileSet> database;
     TileContents contents;
 
     Impl(const std::filesystem::path& path, TileSetNote said)
         : place{path}, note{std::move(said)}, contents{beside_tiles(path)} {
         if (is_tile_folder(place)) {
             folder.emplace(place);
+        } else if (expect_known_suffix(place).extension() == ".pmtiles") {
+            file.emplace(place);
         } else {
-            file.emplace(expect_known_suffix(place));
+            database.emplace(place);
         }
     }
 
@@ -149,15 +153,14 @@ struct TileArchive::Impl {
         if (folder) {
             write_tile_folder(folder->temporary(), place, contents, note, progress);
             folder->commit();
-            return;
-        }
-        if (place.extension() == ".pmtiles") {
+        } else if (file) {
             write_pmtiles(*file, contents, note, progress);
+            file->commit();
         } else {
-            write_mbtiles(file->temporary(), place, contents, note, progress);
+            write_mbtiles(database->main_file(), place, contents, note, progress);
             remove_leftovers_of(place);
+            database->commit();
         }
-        file->commit();
     }
 };
 

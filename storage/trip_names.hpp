@@ -1,35 +1,28 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace macadam {
 
-struct TripMapping;
+// Names of trips and of their files often begin with the id of the car, which a database does not
+// keep: there it is "*".
 
-// What files are to trips, by their names.
+/// \param vehicle_id  "" leaves the name as it is.
+std::string without_vehicle_id(std::string_view name, std::string_view vehicle_id);
 
-/// *.trip.csv[.gz|.zst], *.rawlog.
-bool is_trip_name(std::string_view name);
+/// A way to read a name: as that of a trip of a car.
+struct NameReading {
+    std::string vehicle_id;
+    std::string kept; ///< what is left of the name
+};
 
-/// .zip, .tar, .tar.gz, .tgz, .tar.zst.
-bool is_archive_name(std::string_view name);
+/// All ways to read it, one for each distinct text in it. Some ten thousand for a name of 200
+/// letters.
+std::vector<NameReading> readings_of_name(std::string_view name);
 
-/// A path's folder, "" or with a '/' at its end, and what follows.
-std::pair<std::string, std::string> folder_and_file(const std::string& path);
-
-/// The folder of the phone's export to which a file would belong, and what it is called in it;
-/// the file's name is "" if it would belong to none.
-std::pair<std::string, std::string> place_in_export(const std::string& path);
-
-/// Exports of phones among paths: the folder of each, and its files as they are called in it, in
-/// byte order.
-std::map<std::string, std::vector<std::string>> exports_in(const std::vector<std::string>& paths);
-
-/// What the file of one of a mapping's later tables is called that lies beside a file of its first.
-std::string companion(const std::string& file, const TripMapping& mapping, std::size_t table);
+/// The text in a name that a database of version 2 called so (unkeyed_name_of()); "" = none does.
+std::string text_of_unkeyed_name(std::string_view name, std::string_view unkeyed);
 
 } // namespace macadam

@@ -5,7 +5,7 @@
 #include "storage/foreign/cells.hpp"
 #include "storage/foreign/gpx_reader.hpp"
 #include "storage/foreign/trip_mapping.hpp"
-#include "storage/trip_names.hpp"
+#include "storage/trip_file_names.hpp"
 
 #include <fmt/core.h>
 

@@ -86,6 +86,11 @@ std::string utc_text(std::int64_t utc_ms) {
     return text;
 }
 
+std::string utc_day(std::int64_t utc_ms) {
+    const auto text = utc_text(utc_ms);
+    return text.substr(0, text.find('T'));
+}
+
 std::optional<double> parse_utc_s(std::string_view text) {
     const auto year = take_number(text, 4);
     const bool dash = take(text, '-');

@@ -52,8 +52,11 @@ Table vehicle_table(const Report& report) {
     table.stacks = true;
     const auto shown = std::min(vehicles.size(), most_vehicles);
     for (std::size_t i = 0; i < shown; ++i) {
-        table.rows.push_back(
-            row_of(say, vehicles[i], vehicles[i].name, model_text(say, vehicles[i])));
+        const auto& name = vehicles[i].name;
+        table.rows.push_back(row_of(say,
+                                    vehicles[i],
+                                    name.empty() ? say("car.unnamed") : name,
+                                    model_text(say, vehicles[i])));
     }
     if (shown < vehicles.size()) {
         const auto first = vehicles.begin() + static_cast<std::ptrdiff_t>(shown);
@@ -161,6 +164,19 @@ void add_reasons(DocumentSection& section, const Report& report) {
 DocumentSection data_section(const Report& report) {
     const auto& say = report.wording;
     DocumentSection section{say("data"), {}};
+    if (report.is_own) {
+        section.blocks.emplace_back(Paragraph{say("data.own")});
+    }
+    if (const auto& crowd = report.publication) {
+        section.blocks.emplace_back(Paragraph{
+            crowd->month.empty() ? say("data.crowd.nothing")
+                                 : say("data.crowd",
+                                       {{"month", crowd->month},
+                                        {"segments", say.count(crowd->left_out)},
+                                        {"km", say.number(crowd->left_out_m / 1000, 1)}})});
+        add_quality(section, report);
+        return section;
+    }
     if (report.vehicles.empty()) {
         section.blocks.emplace_back(Paragraph{say("data.nothing")});
         return section;

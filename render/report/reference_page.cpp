@@ -238,6 +238,10 @@ Document reference_document(const ReferenceReport& report) {
     if (!report.controls.empty()) {
         document.sections.push_back(controls_section(report));
     }
+    if (report.is_own) {
+        document.sections.push_back(
+            {report.wording("data"), {Paragraph{report.wording("data.own")}}});
+    }
     return document;
 }
 

@@ -69,6 +69,7 @@ struct ReferenceReport {
     ComparedPieces segments;             ///< of surveys whose rows are not much longer
     ComparedPieces hundreds;
     std::vector<ComparedControl> controls;
+    bool is_own = true; ///< as Report::is_own
 };
 
 /// What the report says, in its language and unit, for any kind of page.

@@ -44,7 +44,7 @@ struct ReportSection {
 
 /// What the trips of one car gave.
 struct ReportVehicle {
-    std::string name;  ///< pseudonym
+    std::string name;  ///< number of the car in the store; "" = trips that name none
     std::string model; ///< name of a built-in one; "" = the user's own
     std::string method;
     std::size_t trips = 0;
@@ -81,6 +81,16 @@ struct ReportFewPasses {
     std::uint32_t dark_rgb; ///< on dark pages
 };
 
+/// What a crowd's publication tells in all. Trips and cars: at least so many.
+struct ReportPublication {
+    std::string month; ///< "2026-11"; "" = nothing was published yet
+    std::size_t trips = 0;
+    std::size_t cars = 0;
+    std::size_t passes = 0;
+    std::size_t left_out = 0; ///< segments that too few cars drove, up to tens
+    double left_out_m = 0;    ///< of them
+};
+
 /// All that a report says, as plain values. Texts are as they came.
 struct Report {
     Wording wording{};
@@ -110,6 +120,8 @@ struct Report {
     DataQuality quality;
     std::size_t lateral_passes = 0;                 ///< from lateral vibration alone
     std::map<std::string, std::size_t> row_reasons; ///< why rows of the logs entered no estimate
+    std::optional<ReportPublication> publication;   ///< of a crowd: it tells of no single car
+    bool is_own = true; ///< of the operator's own cars: nothing is anonymised
 };
 
 /// What the report says, in its language and unit, for any kind of page.

@@ -92,6 +92,13 @@ KeyNumber stretches_key(const Report& report) {
 
 KeyNumber cars_key(const Report& report) {
     const auto& say = report.wording;
+    if (const auto& crowd = report.publication) {
+        return {say("key.cars"),
+                say("key.cars.least", {{"cars", say.counted("cars", crowd->cars)}}),
+                say("key.cars.more",
+                    {{"trips", say.counted("trips", crowd->trips)},
+                     {"passes", say.counted("passes_over_segments", crowd->passes)}})};
+    }
     const auto total = total_of(report.vehicles);
     return {say("key.cars"),
             say.counted("cars", cars_in(report.vehicles)),
@@ -199,7 +206,9 @@ Rich subtitle_of(const Report& report) {
     const auto& say = report.wording;
     const auto period = say.period(report.period.first, report.period.last);
     const auto about = say("head.about") + " ";
-    if (total_of(report.vehicles).trips == 0) {
+    const bool is_empty =
+        report.publication ? report.publication->trips == 0 : total_of(report.vehicles).trips == 0;
+    if (is_empty) {
         return about + say("head.nothing");
     }
     if (period.empty()) {

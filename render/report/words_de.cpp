@@ -130,6 +130,7 @@ constexpr std::array messages{
     Message{"key.stretches.more", "von mindestens {least} m, zusammen {km} km"},
     Message{"key.cars", "Gefahren von"},
     Message{"key.cars.more", "{trips}, {passes}"},
+    Message{"key.cars.least", "mindestens {cars}"},
 
     Message{"condition", "Zustand"},
     Message{"classes.caption", "Straßenlänge nach Klasse der Unebenheit"},
@@ -224,12 +225,26 @@ constexpr std::array messages{
             "zählen zu ihrer Straße. Was befahren wurde, ist keine Zufallsstichprobe des Netzes."},
 
     Message{"data", "Fahrzeuge und Daten"},
+    Message{
+        "data.own",
+        "Der Bericht zeigt die eigenen Fahrzeuge des Betreibers und ist nicht anonymisiert: Wer "
+        "weiß, wann ein Fahrzeug auf einer Straße war, erkennt es unter Umständen wieder."},
+    Message{"data.crowd",
+            "Fahrzeuge Dritter haben diese Straßen befahren. Alle Werte stammen aus der "
+            "Veröffentlichung vom {month} und beruhen auf mindestens fünf Fahrzeugen; Zahlen von "
+            "Fahrten, Fahrzeugen und Überfahrten sind abgerundet, Zeiten sind Monate. Ausgelassen: "
+            "bis zu {segments} Segmente ({km} km), die zu wenige Fahrzeuge befuhren."},
+    Message{"data.crowd.nothing",
+            "Fahrzeuge Dritter haben diese Straßen befahren; veröffentlicht ist davon noch "
+            "nichts."},
     Message{"data.nothing", "Noch wurde keine Fahrt aufgenommen."},
     Message{"data.remark",
-            "Fahrzeuge stehen unter Pseudonymen. Modell: aus der eigenen Datei des Benutzers oder "
+            "Fahrzeuge sind nach ihrer ersten Fahrt nummeriert. Modell: aus der eigenen Datei des "
+            "Benutzers oder "
             "ein eingebautes. Auf der Karte: der Anteil des Weges, der einer Straße zugeordnet "
             "wurde. Zeilen genutzt: der Anteil der Sensorzeilen, der in eine Schätzung einging."},
-    Message{"cars.caption", "Fahrzeuge (Pseudonyme) und die Güte ihrer Daten"},
+    Message{"cars.caption", "Fahrzeuge und die Güte ihrer Daten"},
+    Message{"car.unnamed", "nicht benannt"},
     Message{"cars.more.one", "{count} weitere Zeile"},
     Message{"cars.more.other", "{count} weitere Zeilen"},
     Message{"model.own", "eigene Datei"},

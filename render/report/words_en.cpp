@@ -130,6 +130,7 @@ constexpr std::array messages{
     Message{"key.stretches.more", "of {least} m or more, {km} km together"},
     Message{"key.cars", "Driven by"},
     Message{"key.cars.more", "{trips}, {passes}"},
+    Message{"key.cars.least", "at least {cars}"},
 
     Message{"condition", "Condition"},
     Message{"classes.caption", "Length of road by class of roughness"},
@@ -218,12 +219,23 @@ constexpr std::array messages{
             "with their road. What was driven is no random sample of the network."},
 
     Message{"data", "Cars and data"},
+    Message{"data.own",
+            "The report is of the operator's own cars and is not anonymised: who knows when a car "
+            "was on a road may recognise it."},
+    Message{"data.crowd",
+            "Cars of others drove these roads. All figures are of the publication of {month} and "
+            "rest on five cars or more; numbers of trips, cars and passes are rounded down, dates "
+            "are months. Left out: up to {segments} segments ({km} km) that too few cars drove."},
+    Message{"data.crowd.nothing",
+            "Cars of others drove these roads, and nothing of them was published yet."},
     Message{"data.nothing", "No trip was imported yet."},
     Message{"data.remark",
-            "Cars stand under pseudonyms. Model: from the user's own file, or a built-in one. On "
+            "Cars are numbered in the order in which they first drove. Model: from the user's own "
+            "file, or a built-in one. On "
             "the map: the share of the distance that was matched to a road. Rows used: the share "
             "of the sensors' rows that entered an estimate."},
-    Message{"cars.caption", "Cars (pseudonyms) and the quality of their data"},
+    Message{"cars.caption", "Cars and the quality of their data"},
+    Message{"car.unnamed", "not named"},
     Message{"cars.more.one", "{count} more row"},
     Message{"cars.more.other", "{count} more rows"},
     Message{"model.own", "own file"},

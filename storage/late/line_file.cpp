@@ -31,8 +31,6 @@ OGRFieldType type_of(const LineFileColumn& column) {
         return OFTInteger64;
     case LineFileColumn::Type::real:
         return OFTReal;
-    case LineFileColumn::Type::time:
-        return OFTDateTime;
     case LineFileColumn::Type::day:
         return OFTDate;
     case LineFileColumn::Type::text:

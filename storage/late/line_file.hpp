@@ -16,7 +16,7 @@ namespace macadam {
 // What storage/export_gdal.cpp asks of the late library macadam_gdal.
 
 struct LineFileColumn {
-    enum class Type : std::uint8_t { text, integer, real, time, day };
+    enum class Type : std::uint8_t { text, integer, real, day };
     std::string_view name;
     Type type;
     int width = 0; ///< bytes, where the kind of file has columns of a width

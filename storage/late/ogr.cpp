@@ -320,7 +320,11 @@ private:
               const OGRLineString& line,
               std::int64_t part,
               const std::function<void(Way)>& take) {
-        way.id += part * layer_part_id_step;
+        std::int64_t beyond = 0;
+        if (__builtin_mul_overflow(part, layer_part_id_step, &beyond) ||
+            __builtin_add_overflow(way.id, beyond, &way.id)) {
+            fail(fmt::format("feature {} has more parts than there are ids", way.id));
+        }
         if (!ids_.insert(way.id).second) {
             fail(fmt::format("the id {} stands twice, expected each once", way.id));
         }
@@ -331,9 +335,7 @@ private:
                 way.line.push_back(node.place);
             }
         }
-        if (way.line.size() >= 2) {
-            take(std::move(way));
-        }
+        take(std::move(way));
     }
 
     std::vector<GeoPoint> places_of(const OGRLineString& line) const {

@@ -10,7 +10,7 @@ namespace macadam {
 // What storage/network_reader.cpp asks of the late library macadam_gdal.
 
 /// Hands over the drivable lines of a layer, feature by feature, with ids that occur once and nodes
-/// numbered from 1 in the order in which they first appear.
+/// numbered from 1 in the order in which they first appear; also those of fewer than two points.
 ///
 /// \throws InputError  if the file is no line layer that we know, or has ids that are not whole
 ///                     numbers or occur twice.

@@ -67,7 +67,8 @@ TEST(HostileMetadata, OfTripsIsTextOrRefusedWithWords) {
     fs::create_directory(folder / "trips");
     const auto log = driven({.length_m = 200});
     for (const auto& [what, text] : hostile) {
-        const Drive drive{.length_m = 200, .trip_id = text, .vehicle_id = text};
+        const Drive drive{
+            .length_m = 200, .trip_id = text, .vehicle_id = "car of " + text};
         write_file(folder / "trips" / (what + ".trip.csv"), text_of(log, drive));
     }
     const auto first = (folder / "trips/sql.trip.csv").string();
@@ -249,6 +250,7 @@ TEST(StoreOfAnotherVersion, IsRefusedWithWhatToDo) {
         return run.err;
     };
     EXPECT_THAT(refusal_of_version("1"), HasSubstr("is a store of version '1', "));
+    EXPECT_THAT(refusal_of_version("2"), HasSubstr("run 'macadam upgrade "));
     EXPECT_THAT(refusal_of_version("1"), HasSubstr("make it anew with 'macadam init'"));
     EXPECT_THAT(refusal_of_version("99"), HasSubstr("made by a newer macadam"));
 }

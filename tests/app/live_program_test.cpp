@@ -199,6 +199,18 @@ TEST(LiveProgram, EndsWhenNobodyReadsAnyMore) {
     EXPECT_EQ(program.wait().exit_status, 128 + SIGPIPE);
 }
 
+TEST(LiveProgram, EndsWithWordsWhenItIsInterrupted) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        PipedProgram program{{"trace", "--live", "--method", "kf"}};
+        program.write(until(log_text(), 40));
+        ASSERT_TRUE(program.line(patience)); // and waits for more
+        program.signal(signal);
+        const auto end = program.wait();
+        EXPECT_EQ(end.exit_status, 1);
+        EXPECT_THAT(end.err, HasSubstr("macadam trace: interrupted"));
+    }
+}
+
 TEST(LiveProgram, AloneReadsStandardInput) {
     const auto run = run_macadam({"trace"});
     EXPECT_EQ(run.exit_status, 2);

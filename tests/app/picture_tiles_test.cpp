@@ -1,7 +1,6 @@
 #include "app/picture_tiles.hpp"
 
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/tile_lines.hpp"
 #include "estimator/common/error.hpp"
 #include "render/tile_painter.hpp"
@@ -205,7 +204,11 @@ TEST(PictureTiles, EndWithWordsWhenADrawingProcessStandsStill) {
 TEST(PictureTiles, AreNotBegunBesideAThread) {
     const auto file = town_store();
     const auto plan = plan_of(file, 14, 15);
-    const Interruption interruption;
+    const std::jthread another{[](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+            std::this_thread::yield();
+        }
+    }};
     EXPECT_THAT([&] { PicturePainters(file, plan); },
                 ::testing::ThrowsMessage<std::logic_error>(
                     "drawing processes must be started before any thread"));

@@ -36,7 +36,7 @@ protected:
 
     static TripResult result(double trim_m) {
         PipelineConfig config;
-        config.trim_m = trim_m;
+        config.trim.min_m = trim_m;
         const auto& car = *built_in_vehicle("golden-car");
         const auto road = testing::patched_road([](double) { return false; }, 1);
         return passes_of(

@@ -47,7 +47,7 @@ Report whole_report() {
     }
     report.vehicles.assign(60, report.vehicles[0]);
     for (std::size_t i = 0; i < report.vehicles.size(); ++i) {
-        report.vehicles[i].name = fmt::format("v-{:012}", i);
+        report.vehicles[i].name = fmt::format("{}", i + 1);
     }
     return report;
 }

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <random>
 
@@ -18,6 +19,7 @@ using ::testing::HasSubstr;
 using testing::import_trips;
 using ::testing::IsEmpty;
 using testing::new_store;
+using ::testing::MatchesRegex;
 using ::testing::Not;
 using testing::passes_of;
 using testing::refusal_of;
@@ -113,12 +115,16 @@ TEST(RoadStore, KeepsPassesAndStatesToTheLastDigit) {
     import_trips(store, 8);
     const auto records = records_of(store);
     ASSERT_THAT(records, SizeIs(20));
+    std::map<std::string, std::int64_t> cars;
+    for (const auto& car : store.cars()) {
+        cars.emplace(car, cars.size());
+    }
     for (const auto& record : records) {
         std::vector<FusionInput> inputs;
         for (const auto& known : store.history(record.segment.key)) {
             inputs.push_back({known.pass,
                               known.trip_sha256,
-                              known.vehicle.back(), // the pseudonyms end differently
+                              cars.at(known.vehicle),
                               known.utc_ms});
         }
         EXPECT_EQ(record.state, fuse(inputs, {}));
@@ -241,8 +247,7 @@ TEST(RoadStore, KnowsCarsOnlyByPseudonyms) {
     auto nobody = trip_record(1);
     nobody.vehicle_id = "";
     store.add_trip(nobody, passes_of(1));
-    // printf %s WVWZZZ1JZXW000001 | sha256sum
-    EXPECT_THAT(store.info().vehicles, ElementsAre("unknown", "v-38657c765e00"));
+    EXPECT_THAT(store.info().vehicles, ElementsAre(MatchesRegex("v-[0-9a-f]{32}"), "unknown"));
     std::ifstream in{file, std::ios::binary};
     const std::string bytes{std::istreambuf_iterator<char>{in}, {}};
     EXPECT_THAT(bytes, Not(HasSubstr("WVWZZZ")));

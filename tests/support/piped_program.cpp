@@ -110,6 +110,10 @@ std::optional<std::string> PipedProgram::line(std::chrono::seconds patience) {
     }
 }
 
+void PipedProgram::signal(int number) const {
+    kill(child_, number);
+}
+
 void PipedProgram::close_output() {
     close_once(output_);
 }

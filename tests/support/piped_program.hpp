@@ -24,6 +24,8 @@ public:
     /// Without its newline; nothing if the output ends, or no line comes in time.
     std::optional<std::string> line(std::chrono::seconds patience);
 
+    void signal(int number) const;
+
     void close_output(); ///< as `head` does when it has seen enough
 
     struct End {

@@ -63,7 +63,7 @@ inline Report town() {
     report.stretches = 12;
     report.stretches_m = 2345;
     report.worst = {stretch_named("Rue de l'Épée"), stretch_named("")};
-    report.vehicles = {{"v-0123456789ab", "suv", "kf", 12, 2, 12345, 80, 60, 1000, 900}};
+    report.vehicles = {{"1", "suv", "kf", 12, 2, 12345, 80, 60, 1000, 900}};
     report.quality.measured = {400, 8000};
     report.quality.both_tracks = {100, 2000};
     report.quality.inferred = {290, 5800};

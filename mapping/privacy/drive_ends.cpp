@@ -1,0 +1,31 @@
+#include "mapping/privacy/drive_ends.hpp"
+
+#include <cstddef>
+
+namespace macadam {
+namespace {
+
+constexpr std::int64_t longest_pause_ms = 300'000;
+
+} // namespace
+
+std::vector<bool> in_end_blocks(std::span<const BlockPassage> passages) {
+    std::vector<bool> at_end(passages.size());
+    for (std::size_t first = 0; first < passages.size();) {
+        std::size_t past = first + 1;
+        while (past < passages.size() &&
+               passages[past].t_ms - passages[past - 1].t_ms <= longest_pause_ms) {
+            ++past;
+        }
+        for (auto i = first; i < past && passages[i].block == passages[first].block; ++i) {
+            at_end[i] = true;
+        }
+        for (auto i = past; i > first && passages[i - 1].block == passages[past - 1].block; --i) {
+            at_end[i - 1] = true;
+        }
+        first = past;
+    }
+    return at_end;
+}
+
+} // namespace macadam

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace macadam {
+
+/// Whose cars a database holds, and with it what may leave it (docs/store.md).
+enum class PrivacyProfile : std::uint8_t {
+    own,   ///< one's own cars: nothing is anonymised
+    crowd, ///< cars of others
+};
+
+constexpr std::string_view name_of(PrivacyProfile profile) {
+    return profile == PrivacyProfile::crowd ? "crowd" : "own";
+}
+
+constexpr std::optional<PrivacyProfile> privacy_profile_named(std::string_view name) {
+    for (const auto profile : {PrivacyProfile::own, PrivacyProfile::crowd}) {
+        if (name == name_of(profile)) {
+            return profile;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace macadam
