@@ -206,8 +206,8 @@ std::vector<Reading> standing_readings(const Heading& heading, const Odometer& o
         }
         before_radps = radps;
         const double skipped_to_s = skipper.after(t_s, step_s);
-        if (odometer.travel_m(skipped_to_s) - odometer.travel_m(t_s) > left_m &&
-            skipped_to_s > t_s) {
+        if (skipped_to_s > t_s &&
+            odometer.travel_m(skipped_to_s) - odometer.travel_m(t_s) > left_m) {
             from_s = unknown;
         }
         t_s = skipped_to_s;

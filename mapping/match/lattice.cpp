@@ -28,6 +28,9 @@ constexpr double fit_course_sd_rad = 15 * std::numbers::pi / 180;
 constexpr double farthest_fit_m = 20;
 constexpr double fit_without_course_nats = 1.2; // a road so near may lead another way
 
+constexpr std::size_t most_samples = 8192;     // that are held at once: 250 km
+constexpr std::size_t settling_samples = 1024; // which later positions may still change
+
 constexpr double never = std::numeric_limits<double>::infinity();
 
 double distance_nats(double distance_m, double sd_m) {
@@ -138,15 +141,42 @@ public:
         : roads_{roads}, plane_{plane}, routes_{routes}, positions_{positions}, config_{config},
           spread_{road_spread(positions, roads, plane, config)} {}
 
-    Lattice build() && {
-        for (std::size_t sample = 0; sample < positions_.samples.size(); ++sample) {
-            add_states(sample);
-            if (sample > 0) {
-                add_transitions(sample);
-            }
-            lattice_.first_transition.push_back(lattice_.transitions.size());
+    /// One sample after the other.
+    void add(std::size_t sample) {
+        add_states(sample);
+        if (sample > 0) {
+            add_transitions(sample);
         }
-        return std::move(lattice_);
+        lattice_.first_transition.push_back(lattice_.transitions.size());
+    }
+
+    const Lattice& lattice() const { return lattice_; }
+    std::size_t first() const { return first_; } ///< sample that is held
+    std::size_t held() const { return lattice_.first_state.size() - 1; }
+
+    /// Lets go of the first samples, and of how the one after them was come to.
+    void drop(std::size_t count) {
+        const auto cut = [](auto& values, std::size_t until) {
+            values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(until));
+        };
+        const auto states = lattice_.first_state[count];
+        const auto transitions = lattice_.first_transition[count + 1];
+        cut(lattice_.states, states);
+        cut(lattice_.transitions, transitions);
+        cut(lattice_.first_state, count);
+        cut(lattice_.first_transition, count);
+        lattice_.first_transition.front() = transitions;
+        for (auto& state : lattice_.states) {
+            state.arrival -= static_cast<std::uint32_t>(transitions);
+        }
+        for (auto& transition : lattice_.transitions) {
+            transition.from -= static_cast<std::uint32_t>(states);
+            transition.to -= static_cast<std::uint32_t>(states);
+        }
+        std::ranges::for_each(lattice_.first_state, [=](auto& first) { first -= states; });
+        std::ranges::for_each(lattice_.first_transition,
+                              [=](auto& first) { first -= transitions; });
+        first_ += count;
     }
 
 private:
@@ -178,9 +208,10 @@ private:
         const auto between = between_samples(
             positions_, positions_.samples[sample - 1], positions_.samples[sample], config_);
         const bool far = between.travelled_m > far_m;
-        const auto from = survivors(lattice_, sample - 1, far ? widest_far_beam : widest_beam);
+        const auto from =
+            survivors(lattice_, sample - 1 - first_, far ? widest_far_beam : widest_beam);
         const auto targets = longest_way_m(between, config_) > Routes::kept_m
-                                 ? edges_of(lattice_.states_of(sample))
+                                 ? edges_of(lattice_.states_of(sample - first_))
                                  : std::vector<EdgeId>{};
         for (const auto state : from) {
             leave(state, sample, targets, between, state == from.front());
@@ -198,7 +229,8 @@ private:
                 ? nullptr
                 : &reached_from(routes_, candidate.edge, targets, between, config_);
         const auto last = static_cast<std::uint32_t>(lattice_.states.size());
-        for (auto to = static_cast<std::uint32_t>(lattice_.first_state[sample]); to < last; ++to) {
+        for (auto to = static_cast<std::uint32_t>(lattice_.first_state[sample - first_]); to < last;
+             ++to) {
             const auto& target = lattice_.states[to].candidate;
             if (candidate.off_network || target.off_network) {
                 double cost = off_way_nats(between);
@@ -266,6 +298,7 @@ private:
     const MatchConfig& config_;
     RoadSpread spread_;
     Lattice lattice_;
+    std::size_t first_ = 0; ///< sample of the lattice's first
 };
 
 double confidence_of(const Lattice& lattice,
@@ -282,6 +315,33 @@ double confidence_of(const Lattice& lattice,
     return std::min(sum, 1.0);
 }
 
+/// Chooses for the samples of a lattice, the first `settled` + 1 of them, as the cheapest chain to
+/// its end has it. What was chosen before for the first of it stays: it knew how that was come to.
+void choose(std::vector<Chosen>& chain,
+            const Lattice& lattice,
+            const std::vector<double>& posterior,
+            std::size_t first,
+            std::size_t settled,
+            const Positions& positions) {
+    const auto held = lattice.first_state.size() - 1;
+    const auto last = lattice.states_of(held - 1);
+    auto at = static_cast<std::size_t>(
+        std::min_element(last.begin(),
+                         last.end(),
+                         [](const State& a, const State& b) { return a.cost < b.cost; }) -
+        last.begin() + static_cast<std::ptrdiff_t>(lattice.first_state[held - 1]));
+    for (auto sample = held; sample-- > (first > 0 ? 1U : 0U);) {
+        const auto& state = lattice.states[at];
+        if (sample <= settled) {
+            chain[first + sample] = {positions.samples[first + sample],
+                                     state.candidate,
+                                     sample > 0 && lattice.transitions[state.arrival].joined,
+                                     confidence_of(lattice, posterior, sample, state.candidate)};
+        }
+        at = sample > 0 ? lattice.transitions[state.arrival].from : 0;
+    }
+}
+
 } // namespace
 
 std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
@@ -294,21 +354,24 @@ std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
     if (samples == 0) {
         return chain;
     }
-    const auto lattice = Builder{roads, plane, routes, positions, config}.build();
-    const auto posterior = posteriors(lattice);
-    const auto last = lattice.states_of(samples - 1);
-    auto at = static_cast<std::size_t>(
-        std::min_element(last.begin(),
-                         last.end(),
-                         [](const State& a, const State& b) { return a.cost < b.cost; }) -
-        last.begin() + static_cast<std::ptrdiff_t>(lattice.first_state[samples - 1]));
-    for (auto sample = samples; sample-- > 0;) {
-        const auto& state = lattice.states[at];
-        chain[sample] = {positions.samples[sample],
-                         state.candidate,
-                         sample > 0 && lattice.transitions[state.arrival].joined,
-                         confidence_of(lattice, posterior, sample, state.candidate)};
-        at = sample > 0 ? lattice.transitions[state.arrival].from : 0;
+    Builder builder{roads, plane, routes, positions, config};
+    std::vector<double> before; // weights of the first sample that is held
+    for (std::size_t sample = 0; sample < samples; ++sample) {
+        builder.add(sample);
+        const bool is_last = sample + 1 == samples;
+        if (!is_last && builder.held() < most_samples) {
+            continue;
+        }
+        const auto settled = is_last ? builder.held() - 1 : builder.held() - settling_samples;
+        const auto weights = posteriors(builder.lattice(), before);
+        choose(chain, builder.lattice(), weights.all, builder.first(), settled, positions);
+        if (!is_last) {
+            const auto first = builder.lattice().first_state[settled];
+            const auto past = weights.past.begin() + static_cast<std::ptrdiff_t>(first);
+            const auto count = builder.lattice().first_state[settled + 1] - first;
+            before.assign(past, past + static_cast<std::ptrdiff_t>(count));
+            builder.drop(settled);
+        }
     }
     return chain;
 }

@@ -109,12 +109,20 @@ double excursion_share(const Lattice& lattice,
                        RoadPlane& plane,
                        const RoadNetwork& roads);
 
+/// Weights of the states of a lattice, those of each sample with the sum 1.
+struct StateWeights {
+    std::vector<double> past; ///< by the positions up to the state's own
+    std::vector<double> all;  ///< by all positions: probabilities
+};
+
 /// Probability of each state given all positions: the forward-backward recursion, with costs
 /// sharpened, because the lattice is wider than errors are so that it never loses a road.
 ///
 /// Source: L. R. Rabiner, "A tutorial on hidden Markov models and selected applications in speech
 /// recognition", Proceedings of the IEEE 77 (1989), pp. 257-286, eqs. 19 to 27.
-std::vector<double> posteriors(const Lattice& lattice);
+///
+/// \param before  `past` of the first sample's states, if others came before; empty: none did.
+StateWeights posteriors(const Lattice& lattice, std::span<const double> before = {});
 
 /// The place in the lattice that a sample was given.
 struct Chosen {
@@ -124,7 +132,8 @@ struct Chosen {
     double confidence; ///< posterior of the edge and direction
 };
 
-/// The cheapest chain through the candidates of all samples, one for each sample.
+/// The cheapest chain through the candidates of all samples, one for each sample. Of a long trip
+/// a part is held at a time: what was driven 30 km ago is settled.
 std::vector<Chosen> cheapest_chain(const RoadNetwork& roads,
                                    RoadPlane& plane,
                                    Routes& routes,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -54,7 +55,7 @@ std::vector<double> state_weights(const Lattice& lattice, std::size_t samples) {
 
 } // namespace
 
-std::vector<double> posteriors(const Lattice& lattice) {
+StateWeights posteriors(const Lattice& lattice, std::span<const double> before) {
     const auto samples = lattice.first_state.size() - 1;
     const auto own = state_weights(lattice, samples);
     std::vector<double> step(lattice.transitions.size());
@@ -72,22 +73,23 @@ std::vector<double> posteriors(const Lattice& lattice) {
         }
         const auto states = states_of(lattice, sample);
         for (auto i = states.first; i < states.last; ++i) {
-            forward[i] = (sample == 0 ? 1 : forward[i]) * own[i];
+            forward[i] = sample > 0 ? forward[i] * own[i] : before.empty() ? own[i] : before[i];
         }
         scale_to_one(forward, states);
     }
     for (std::size_t sample = samples - 1; sample > 0; --sample) {
-        const auto before = states_of(lattice, sample - 1);
-        std::fill(backward.begin() + static_cast<std::ptrdiff_t>(before.first),
-                  backward.begin() + static_cast<std::ptrdiff_t>(before.last),
+        const auto earlier = states_of(lattice, sample - 1);
+        std::fill(backward.begin() + static_cast<std::ptrdiff_t>(earlier.first),
+                  backward.begin() + static_cast<std::ptrdiff_t>(earlier.last),
                   0.0);
         const auto ways = into(lattice, sample);
         for (auto i = ways.first; i < ways.last; ++i) {
             const auto& way = lattice.transitions[i];
             backward[way.from] += backward[way.to] * own[way.to] * step[i];
         }
-        scale_to_one(backward, before);
+        scale_to_one(backward, earlier);
     }
+    auto past = forward;
     for (std::size_t sample = 0; sample < samples; ++sample) {
         const auto states = states_of(lattice, sample);
         for (auto i = states.first; i < states.last; ++i) {
@@ -95,7 +97,7 @@ std::vector<double> posteriors(const Lattice& lattice) {
         }
         scale_to_one(forward, states);
     }
-    return forward;
+    return {std::move(past), std::move(forward)};
 }
 
 } // namespace macadam

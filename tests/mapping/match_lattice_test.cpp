@@ -171,7 +171,7 @@ TEST(MatchLattice, WeighsStatesAsAllChainsThroughThemDo) {
             expected[state] += weight;
         }
     }
-    const auto posterior = posteriors(lattice);
+    const auto posterior = posteriors(lattice).all;
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_NEAR(posterior[i], expected[i] / whole, 1e-6); // costs are floats
     }
