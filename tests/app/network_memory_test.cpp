@@ -79,8 +79,8 @@ std::string gzipped(const std::string& text) {
     return packed;
 }
 
-constexpr double of_pbf = 300;
-constexpr double of_text = 100;
+constexpr double of_a_map = 300;
+constexpr double of_logs = 3000;
 
 } // namespace
 
@@ -93,7 +93,7 @@ TEST(NetworkMemory, OfOneWayOverAMillionPointsIsBounded) {
         refs.push_back(i + 1);
     }
     map.nodes(nodes).way(1, refs);
-    expect_bounded("a.osm.pbf", map.end_block(PbfMap::Packing::raw).file(), of_pbf);
+    expect_bounded("a.osm.pbf", map.end_block(PbfMap::Packing::raw).file(), of_a_map);
 }
 
 TEST(NetworkMemory, OfAHundredThousandWaysOverTheSameNodesIsBounded) {
@@ -102,7 +102,7 @@ TEST(NetworkMemory, OfAHundredThousandWaysOverTheSameNodesIsBounded) {
     for (std::int64_t i = 0; i < 100'000; ++i) {
         map.way(i + 1, {1, 2}, std::string(1000, 'x'));
     }
-    expect_bounded("a.osm.pbf", map.end_block(PbfMap::Packing::raw).file(), of_pbf);
+    expect_bounded("a.osm.pbf", map.end_block(PbfMap::Packing::raw).file(), of_a_map);
 }
 
 TEST(NetworkMemory, OfMillionsOfNodesThatAreNotThereIsBounded) {
@@ -112,7 +112,7 @@ TEST(NetworkMemory, OfMillionsOfNodesThatAreNotThereIsBounded) {
         refs.push_back(i + 10);
     }
     map.nodes({node(1, 0), node(2, 1)}).way(1, {1, 2}).way(2, refs);
-    expect_bounded("a.osm.pbf", map.end_block(PbfMap::Packing::raw).file(), of_pbf);
+    expect_bounded("a.osm.pbf", map.end_block(PbfMap::Packing::raw).file(), of_a_map);
 }
 
 TEST(NetworkMemory, OfMillionsOfStepsBetweenTwoNodesIsBounded) {
@@ -122,7 +122,7 @@ TEST(NetworkMemory, OfMillionsOfStepsBetweenTwoNodesIsBounded) {
         refs.push_back(1 + i % 2);
     }
     map.nodes({node(1, 0), node(2, 1)}).way(1, {1, 2}).way(2, refs);
-    expect_bounded("a.osm.pbf", map.end_block(PbfMap::Packing::raw).file(), of_pbf);
+    expect_bounded("a.osm.pbf", map.end_block(PbfMap::Packing::raw).file(), of_a_map);
 }
 
 TEST(NetworkMemory, OfTurnRestrictionsByTheThousandAtOneNodeIsBounded) {
@@ -137,7 +137,7 @@ TEST(NetworkMemory, OfTurnRestrictionsByTheThousandAtOneNodeIsBounded) {
             i,
             2 + (i + 1) % 9'000);
     }
-    expect_bounded("a.osm", xml + "</osm>", of_text);
+    expect_bounded("a.osm", xml + "</osm>", of_a_map);
 }
 
 TEST(NetworkMemory, OfALineLayerIsBounded) {
@@ -150,8 +150,8 @@ TEST(NetworkMemory, OfALineLayerIsBounded) {
         many += (i == 0 ? "" : ",") +
                 line_feature(i, fmt::format("[15,{0:.4f}],[15.001,{0:.4f}]", i * 1e-3));
     }
-    expect_bounded("one.geojson", features(line_feature(1, places)), of_text);
-    expect_bounded("many.geojson", features(many), of_text);
+    expect_bounded("one.geojson", features(line_feature(1, places)), of_a_map);
+    expect_bounded("many.geojson", features(many), of_a_map);
 }
 
 TEST(NetworkMemory, OfPointsFarApartIsBounded) {
@@ -163,7 +163,7 @@ TEST(NetworkMemory, OfPointsFarApartIsBounded) {
         far +=
             fmt::format("{}[{},{:.4f}]", i == 0 ? "" : ",", i % 2 == 0 ? "15" : "-160", i * 1e-4);
     }
-    EXPECT_THAT(expect_bounded("far.geojson", features(line_feature(1, far)), of_text).err,
+    EXPECT_THAT(expect_bounded("far.geojson", features(line_feature(1, far)), of_a_map).err,
                 HasSubstr("1 way with points more than 50 km apart"));
     std::string ways; // of 80 points, 3,900 km, each
     for (int i = 0; i < 40; ++i) {
@@ -176,9 +176,9 @@ TEST(NetworkMemory, OfPointsFarApartIsBounded) {
         }
         ways += (i == 0 ? "" : ",") + line_feature(i, one);
     }
-    EXPECT_THAT(expect_bounded("many.geojson", features(ways), of_text).err,
+    EXPECT_THAT(expect_bounded("many.geojson", features(ways), of_a_map).err,
                 HasSubstr("too long for their 3200 points"));
-    EXPECT_THAT(expect_bounded("long.geojson", features(line_feature(1, nearer)), of_text).err,
+    EXPECT_THAT(expect_bounded("long.geojson", features(line_feature(1, nearer)), of_a_map).err,
                 HasSubstr("longer than 4294 km"));
 }
 
@@ -188,7 +188,7 @@ TEST(NetworkMemory, OfPackedBombsIsBounded) {
     for (int i = 0; i < 4'000'000; ++i) {
         bomb += "<nd ref='1'/>";
     }
-    EXPECT_THAT(expect_bounded("a.osm.gz", gzipped(bomb), of_text).err,
+    EXPECT_THAT(expect_bounded("a.osm.gz", gzipped(bomb), of_a_map).err,
                 HasSubstr("it unpacks to more than 100 times its size"));
     PbfMap map;
     map.nodes({node(1, 0), node(2, 1)}).way(1, {1, 2}).end_block();
@@ -196,7 +196,7 @@ TEST(NetworkMemory, OfPackedBombsIsBounded) {
     for (int i = 0; i < 20; ++i) {
         map.blob("OSMData", zeros, PbfMap::Packing::zlib, static_cast<std::int64_t>(zeros.size()));
     }
-    EXPECT_THAT(expect_bounded("a.osm.pbf", map.file(), of_text).err,
+    EXPECT_THAT(expect_bounded("a.osm.pbf", map.file(), of_a_map).err,
                 HasSubstr("it unpacks to more than 20 times its size"));
 }
 
@@ -209,7 +209,7 @@ TEST(NetworkMemory, OfRoadsDrawnByATripOfLongJumpsIsBounded) {
                            48 + 0.0072 * (i % 200),
                            15 + 0.0001 * static_cast<double>(i / 200));
     }
-    expect_bounded("a.trip.csv", log + fmt::format("# end rows: {}\n", rows), 3000, "--trace");
+    expect_bounded("a.trip.csv", log + fmt::format("# end rows: {}\n", rows), of_logs, "--trace");
 }
 
 } // namespace macadam::testing
