@@ -4,11 +4,15 @@
 
 #include "mapping/segment.hpp"
 #include "storage/network_reader.hpp"
+#include "support/sealed_image.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace macadam::fuzz {
 namespace {
@@ -62,6 +66,13 @@ void osm_pbf(std::string_view input) {
 
 void line_layer(std::string_view input) {
     read_as("a.geojson", input);
+}
+
+void network_image(std::string_view input) {
+    const auto bytes = std::as_bytes(std::span{input});
+    std::vector<std::byte> image{bytes.begin(), bytes.end()};
+    testing::seal(image);
+    may_refuse([&] { testing::use(testing::opened(std::move(image))); });
 }
 
 } // namespace macadam::fuzz

@@ -116,6 +116,10 @@ TEST(Fuzz, LineLayerSurvivesEverySeedAndFinding) {
     survives(line_layer, "line_layer");
 }
 
+TEST(Fuzz, NetworkImageSurvivesEverySeedAndFinding) {
+    survives(network_image, "network_image");
+}
+
 TEST(Fuzz, StoreBytesSurvivesEverySeedAndFinding) {
     survives(store_bytes, "store_bytes");
 }

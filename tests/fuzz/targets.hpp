@@ -30,6 +30,9 @@ void osm_xml(std::string_view input);
 void osm_pbf(std::string_view input);
 void line_layer(std::string_view input); ///< GeoJSON, by GDAL
 
+/// The file beside a store, with the sums that its bytes have; what is opened is used.
+void network_image(std::string_view input);
+
 /// Overwrites bytes of a good store and reads it. The input is a list of patches: where (4 bytes,
 /// little endian, modulo the size of the file), how many (1 byte), the new bytes.
 void store_bytes(std::string_view input);
