@@ -85,14 +85,14 @@ struct SegmentPasses {
     std::int64_t fid;
     std::size_t first;
     std::size_t past;
-    Release release;                  ///< its batches count from `first`
-    std::vector<std::size_t> pending; ///< those that `release` tells of
+    std::vector<std::size_t> pending; ///< those of them that no publication tells of
+    Release release;                  ///< of these
 };
 
 class PublicationMaker {
 public:
     PublicationMaker(Database& database, const PublicationWork& work)
-        : database_{&database}, work_{work}, blocks_{*work.roads}, trips_{rows_of_trips(database)},
+        : work_{work}, blocks_{*work.roads}, trips_{rows_of_trips(database)},
           ends_{end_passes_of(database, blocks_, trips_)}, states_{database},
           number_{1 + database.number("SELECT coalesce(max(number), 0) FROM publication")},
           before_{reach_of(database, number_ - 1)}, rule_{.last_of_key =
@@ -283,7 +283,6 @@ private:
                         state.vehicles);
     }
 
-    Database* database_;
     PublicationWork work_;
     NetworkBlocks blocks_;
     TripRows trips_;

@@ -39,10 +39,11 @@ struct Crowd {
     RoadStore store;
 
     explicit Crowd(PrivacyProfile privacy = PrivacyProfile::crowd)
-        : file{test_folder() / "crowd.gpkg"}, store{RoadStore::create(
-                                                  file,
-                                                  three_roads(),
-                                                  {.network_source = "map", .privacy = privacy})} {}
+        : file{test_folder() / "crowd.gpkg"}, store{RoadStore::create(file,
+                                                                      three_roads(),
+                                                                      {.network_source = "map",
+                                                                       .attribution = "",
+                                                                       .privacy = privacy})} {}
 
     void drive(int car, std::int64_t utc_ms, IriUm iri_um = 2000) {
         auto record = testing::trip_record(1000 + trips_++);
