@@ -23,7 +23,8 @@ constexpr double least_sd_rad = 0.003;         // of stamps that are not quite t
 constexpr double prior_bias_sd_radps = 0.02;        // 1 degree a second: not calibrated
 constexpr double bias_walk_radps_per_sqrt_s = 5e-5; // with temperature: 0.003 rad/s in an hour
 constexpr double block_s = 10;                      // the bias is one within it
-constexpr double far_off = 3;                       // sds: beyond, a reading counts less
+constexpr double longest_drift_s = 3600;
+constexpr double far_off = 3; // sds: beyond, a reading counts less
 
 constexpr double standing_mps = 0.1;
 constexpr double least_stand_s = 2;
@@ -364,7 +365,8 @@ std::vector<Block> smoothed_bias(const Heading& heading, std::vector<Reading> re
     return blocks;
 }
 
-/// Between two runs, what is thought of the bias at their ends holds half and half.
+/// Between two runs, what is thought of the bias at their ends holds half and half; over a long
+/// silence nothing is taken off, or what is left of a float would not tell turns.
 Heading without_bias(Heading heading, const std::vector<Block>& blocks) {
     double bias_rad = 0;
     double variance = 0;
@@ -382,7 +384,8 @@ Heading without_bias(Heading heading, const std::vector<Block>& blocks) {
                 const auto before = run - 1;
                 const auto steps = static_cast<double>(run->first_step - before->first_step) -
                                    static_cast<double>(size_of(heading, before)); // without a value
-                bias_rad += (last.mean + belief.mean) / 2 * heading.step_s * steps;
+                const double drift_s = heading.step_s * steps;
+                bias_rad += drift_s < longest_drift_s ? (last.mean + belief.mean) / 2 * drift_s : 0;
                 variance += (last.variance + belief.variance) / 2 * steps;
             }
             const auto at = run->first + i;
