@@ -47,7 +47,7 @@ protected:
 
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
-    static Run run(const std::vector<std::string>& words, int expected = 0) {
+    static testing::Run run(const std::vector<std::string>& words, int expected = 0) {
         auto done = run_macadam(words);
         EXPECT_EQ(done.exit_status, expected) << words.front() << ": " << done.err;
         return done;
