@@ -17,7 +17,7 @@ namespace {
 
 std::string last_words;
 
-void crashed(int /*signal*/) {
+[[maybe_unused]] void crashed(int /*signal*/) {
     remove_unfinished();
     [[maybe_unused]] const auto told = ::write(STDERR_FILENO, last_words.data(), last_words.size());
     ::_exit(1);
