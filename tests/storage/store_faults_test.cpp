@@ -22,6 +22,7 @@
 namespace macadam {
 namespace {
 
+using testing::fork_without_threads;
 using ::testing::HasSubstr;
 using testing::import_trips;
 using testing::new_store;
