@@ -4,7 +4,9 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
+#include <cstdlib>
+#include <memory>
+#include <string>
 #include <string_view>
 
 #include <dlfcn.h>
@@ -14,14 +16,23 @@ namespace {
 
 /// Our own libraries stand in lib/ beside the program; no search path, and no variable of the
 /// environment, leads to others of their names.
-std::filesystem::path path_of(std::string_view library) {
+std::string path_of(std::string_view library) {
     constexpr std::string_view our_prefix = "macadam_";
     if (!library.starts_with(our_prefix)) {
-        return library;
+        return std::string{library};
     }
-    static const auto folder =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "lib";
-    return folder / library;
+    struct Free {
+        void operator()(char* text) const { std::free(text); } // NOLINT(*-no-malloc)
+    };
+    const std::unique_ptr<char, Free> program{::realpath("/proc/self/exe", nullptr)};
+    if (!program) {
+        throw InputError{
+            fmt::format("cannot find the folder of the program, in whose lib/ '{}' is: "
+                        "expected /proc to be there",
+                        library)};
+    }
+    const std::string path{program.get()};
+    return fmt::format("{}/lib/{}", path.substr(0, path.rfind('/')), library);
 }
 
 } // namespace
