@@ -27,7 +27,8 @@ bool is_below(const fs::path& folder, const fs::path& file) {
 }
 
 fs::path plain(const fs::path& file) {
-    return fs::absolute(file).lexically_normal();
+    std::error_code no_name; // the empty one
+    return fs::absolute(file, no_name).lexically_normal();
 }
 
 /// What leads GDAL on to other files: a file that lies beside another one is never of these kinds.

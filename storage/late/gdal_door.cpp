@@ -64,6 +64,7 @@ constexpr std::array<std::pair<const char*, const char*>, 8> settings{
      {"LIBKML_EXTERNAL_STYLE", "NO"},
      {"LIBKML_RESOLVE_STYLE", "NO"}}};
 
+/// GDAL asks the server itself where it gets no answer here.
 CPLHTTPResult* fetch_nothing(const char* /*url*/,
                              CSLConstList /*options*/,
                              GDALProgressFunc /*progress*/,
@@ -71,7 +72,10 @@ CPLHTTPResult* fetch_nothing(const char* /*url*/,
                              CPLHTTPFetchWriteFunc /*write*/,
                              void* /*write_data*/,
                              void* /*user_data*/) {
-    return nullptr;
+    auto* const answer = static_cast<CPLHTTPResult*>(CPLCalloc(1, sizeof(CPLHTTPResult)));
+    answer->nStatus = 1;
+    answer->pszErrBuf = CPLStrdup("the network is closed");
+    return answer;
 }
 
 void prepare() {
