@@ -12,7 +12,7 @@ std::string words_for(const Publication& publication) {
     const auto left_out =
         publication.left_out == 0
             ? std::string{"no driven segment is left out"}
-            : fmt::format("left out: up to {} segments ({:.1f} km) that too few cars drove",
+            : fmt::format("left out: up to {} segments ({:.1f} km) that too few cars drove through",
                           publication.left_out,
                           publication.left_out_km);
     return fmt::format("publication of {}: {:.1f} km in {}, from at least {} trips of {} cars; {}",

@@ -74,25 +74,6 @@ Levels levels_of(std::size_t leaves) {
     return levels;
 }
 
-GridBox around(std::span<const GridBox> boxes) {
-    auto box = boxes.front();
-    for (const auto& other : boxes.subspan(1)) {
-        box = around(box, other);
-    }
-    return box;
-}
-
-/// Calls `visit(first, past)` with the boxes below each parent, in the order of the parents.
-template <typename Visit>
-void for_each_parent(const Levels& levels, Visit visit) {
-    for (std::size_t level = 0; level + 1 < levels.count; ++level) {
-        const auto past = levels.first[level + 1];
-        for (auto first = levels.first[level]; first < past; first += box_tree_fan_out) {
-            visit(first, std::min(first + box_tree_fan_out, past));
-        }
-    }
-}
-
 } // namespace
 
 GridBox on_grid(const GeoBox& box) {
@@ -133,19 +114,17 @@ BoxTreeArrays build_box_tree(std::vector<GridBox> leaves, std::vector<std::uint3
         tree.boxes.push_back(leaves[leaf]);
         tree.numbers.push_back(numbers[leaf]);
     }
-    for_each_parent(levels, [&](std::size_t first, std::size_t past) {
-        tree.boxes.push_back(around(std::span{tree.boxes}.subspan(first, past - first)));
-    });
+    for (std::size_t level = 0; level + 1 < levels.count; ++level) {
+        const auto past = levels.first[level + 1];
+        for (auto first = levels.first[level]; first < past; first += box_tree_fan_out) {
+            auto box = tree.boxes[first];
+            for (auto i = first + 1; i < std::min(first + box_tree_fan_out, past); ++i) {
+                box = around(box, tree.boxes[i]);
+            }
+            tree.boxes.push_back(box);
+        }
+    }
     return tree;
-}
-
-bool holds_what_is_below(const BoxTree& tree) {
-    auto parent = tree.numbers.size();
-    bool holds = true;
-    for_each_parent(levels_of(tree.numbers.size()), [&](std::size_t first, std::size_t past) {
-        holds = holds && tree.boxes[parent++] == around(tree.boxes.subspan(first, past - first));
-    });
-    return holds;
 }
 
 std::vector<std::uint32_t> numbers_meeting(const BoxTree& tree, const GridBox& box) {

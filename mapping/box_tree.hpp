@@ -41,10 +41,6 @@ struct BoxTreeArrays {
 /// Boxes in all for so many leaves.
 std::size_t box_tree_size(std::size_t leaves);
 
-/// Whether every box above the leaves is the smallest around those below it. The tree has the size
-/// of its leaves.
-bool holds_what_is_below(const BoxTree& tree);
-
 /// \param leaves   any number of boxes, also none
 /// \param numbers  as many; the same one may stand at several boxes
 BoxTreeArrays build_box_tree(std::vector<GridBox> leaves, std::vector<std::uint32_t> numbers);

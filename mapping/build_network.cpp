@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/barred_turns.hpp"
+#include "mapping/network_limits.hpp"
 #include "mapping/network_tables.hpp"
 #include "mapping/speed_limits.hpp"
 
@@ -335,6 +336,10 @@ void expect_to_be_numbered(const std::vector<Way>& ways, const NetworkLimits& li
 }
 
 } // namespace
+
+RoadNetwork build_network(std::vector<Way> ways, double segment_length_m) {
+    return build_network(std::move(ways), segment_length_m, NetworkLimits{});
+}
 
 RoadNetwork
 build_network(std::vector<Way> ways, double segment_length_m, const NetworkLimits& limits) {

@@ -76,8 +76,10 @@ std::vector<bool> edges_named(const RoadNetwork& roads, std::string_view name) {
 
 /// The segment of an edge in which an offset lies, counted in driving direction.
 std::uint32_t segment_at(const Link& link, double segment_m, double offset_m) {
-    const auto number = static_cast<std::uint32_t>(std::max(0.0, offset_m / segment_m));
-    return std::min(number, link.segments - 1);
+    const double last = link.segments - 1;
+    const bool has_length = segment_m > 0; // two points near a pole may be one place
+    return static_cast<std::uint32_t>(has_length ? std::clamp(offset_m / segment_m, 0.0, last)
+                                                 : 0.0);
 }
 
 void add_pieces(std::vector<FollowedPiece>& pieces,

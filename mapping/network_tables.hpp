@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/network_limits.hpp"
 #include "mapping/road_network.hpp"
 
 #include <cstdint>

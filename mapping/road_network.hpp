@@ -108,28 +108,15 @@ struct RoadNetwork {
     std::span<const char> letters;
 };
 
-/// Segments of a link: their length is as near as can be to the one that is asked for. At most
-/// 2^32 - 1, whatever the lengths.
+/// Segments of a link: their length is as near as can be to the one that is asked for.
 std::uint32_t segments_in(double link_m, double segment_length_m);
-
-/// Bounds of a network: its records count in 32 bits, and a few points far apart must not become
-/// millions of segments.
-struct NetworkLimits {
-    std::uint64_t points = std::uint64_t{1} << 31U;  ///< fewer: a link has two edges
-    std::uint64_t letters = std::uint64_t{1} << 32U; ///< fewer, of all different names
-    std::uint64_t turns = std::uint64_t{1} << 32U;   ///< fewer, of rules
-    std::uint64_t free_segments = 2'000'000;         ///< of one direction: 40,000 km of 20 m
-    std::uint64_t segments_per_point = 50;           ///< and so many more for each point
-};
 
 /// Links, topology, segments and index of the ways. A node is an end of a way, or a point that two
 /// ways (or one way twice) share. Ways with fewer than two different points are left out.
 ///
 /// \throws InputError  if two ways have one id, or a way comes within 0.1 degrees of the
-/// antimeridian, or is longer than 4294 km, or the ways are beyond the limits.
-RoadNetwork build_network(std::vector<Way> ways,
-                          double segment_length_m = 20,
-                          const NetworkLimits& limits = {});
+/// antimeridian, or is longer than 4294 km.
+RoadNetwork build_network(std::vector<Way> ways, double segment_length_m = 20);
 
 inline std::uint32_t way_count(const RoadNetwork& roads) { ///< in the order of their ids
     return roads.ways.empty() ? 0 : static_cast<std::uint32_t>(roads.ways.size() - 1);

@@ -84,29 +84,24 @@ SegmentKey parse_segment_key(std::string_view text) {
     throw InputError{fmt::format("'{}' is no segment, expected a key such as 123456+0007", text)};
 }
 
-Segment segment_of(const RoadNetwork& roads, EdgeId edge, std::uint32_t number) {
-    const auto link = link_at(roads, edge);
-    const double from_m = border_m(link, number);
-    const double to_m = border_m(link, number + 1);
-    Segment segment{{way_at(roads, link.way).id, is_forward(edge), link.first_segment + number},
-                    from_m,
-                    to_m,
-                    line_between(roads, link, from_m, to_m)};
-    if (!is_forward(edge)) {
-        std::reverse(segment.line.begin(), segment.line.end());
-    }
-    return segment;
-}
-
 std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge) {
-    const auto count = link_at(roads, edge).segments;
+    const auto link = link_at(roads, edge);
+    const bool forward = is_forward(edge);
     std::vector<Segment> segments;
-    segments.reserve(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        segments.push_back(segment_of(roads, edge, i));
+    segments.reserve(link.segments);
+    for (std::uint32_t i = 0; i < link.segments; ++i) {
+        const double from_m = border_m(link, i);
+        const double to_m = border_m(link, i + 1);
+        segments.push_back({{way_at(roads, link.way).id, forward, link.first_segment + i},
+                            from_m,
+                            to_m,
+                            line_between(roads, link, from_m, to_m)});
     }
-    if (!is_forward(edge)) {
+    if (!forward) {
         std::reverse(segments.begin(), segments.end());
+        for (auto& segment : segments) {
+            std::reverse(segment.line.begin(), segment.line.end());
+        }
     }
     return segments;
 }

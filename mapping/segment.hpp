@@ -50,10 +50,6 @@ struct Segment {
     std::vector<GeoPoint> line;
 };
 
-/// The segment of an edge whose number along the link is `number`, below Link::segments, counted
-/// in the way's own direction.
-Segment segment_of(const RoadNetwork& roads, EdgeId edge, std::uint32_t number);
-
 /// The segments of one edge, in driving direction: equal parts of it.
 std::vector<Segment> segments_of(const RoadNetwork& roads, EdgeId edge);
 

@@ -28,7 +28,7 @@ inline constexpr std::int64_t layer_part_id_step = 1'000'000'000'000;
 /// Points of a road on a map are nearer than this, in any desert.
 inline constexpr double longest_step_m = 50'000;
 
-/// Drivable roads of a map: OSM (.osm.pbf, .osm, .osm.gz, .osm.bz2) by libosmium, with the ids of
+/// Drivable roads of a map: OSM (.osm.pbf, .osm, .osm.gz, .osm.bz2), with the ids of
 /// its nodes, oneway and the highway classes that cars may use; any other file as a line layer by
 /// GDAL, in whatever coordinates, where two lines meet if they share an end point or vertex (to
 /// 1e-7 degrees; nodes are numbered from 1 in the order of the features). In the order of their

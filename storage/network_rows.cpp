@@ -72,15 +72,18 @@ std::int64_t first_free_row(Database& database) {
                                " WHERE name = 'segment'), 0)");
 }
 
-/// Calls `visit` with each segment of a way in one direction, by their number along the way. One
-/// after the other: a way of few points may have very many.
+/// Calls `visit` with each segment of a way in one direction, by their number along the way. Link
+/// by link: a way of a few points may have very many.
 template <typename Visit>
 void for_each_segment(const RoadNetwork& roads, const WayView& way, bool forward, Visit visit) {
     for (auto i = way.first_link; i < way.past_link; ++i) {
         const auto edge = edge_of(LinkId{i}, forward);
-        const auto count = is_drivable(roads, edge) ? link_at(roads, edge).segments : 0;
-        for (std::uint32_t number = 0; number < count; ++number) {
-            visit(segment_of(roads, edge, number));
+        if (is_drivable(roads, edge)) {
+            auto segments = segments_of(roads, edge);
+            if (!forward) {
+                std::reverse(segments.begin(), segments.end());
+            }
+            std::ranges::for_each(segments, visit);
         }
     }
 }

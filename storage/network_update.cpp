@@ -289,6 +289,7 @@ move_to_network(Database& database, const SegmentHeirs& heirs, const Progress& p
     rename_rows(database, heirs, "state_change", "segment");
     rename_rows(database, heirs, "published_state", "fid");
     rename_rows(database, heirs, "published_until", "segment");
+    rename_rows(database, heirs, "published_pending", "segment");
     rename_rows(database, heirs, "published_figure", "segment");
     move_valid_from(database, heirs);
     remove_what_is_made_anew(database);

@@ -8,10 +8,9 @@
 #include <osmium/io/any_compression.hpp>
 #include <osmium/io/detail/read_write.hpp>
 
+#include <atomic>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>

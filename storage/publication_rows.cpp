@@ -39,6 +39,7 @@ CREATE TEMP VIEW calibration AS SELECT * FROM main.calibration WHERE 0;
 CREATE TEMP VIEW audit AS SELECT * FROM main.audit WHERE 0;
 CREATE TEMP VIEW import_note AS SELECT * FROM main.import_note WHERE 0;
 CREATE TEMP VIEW forgotten AS SELECT * FROM main.forgotten WHERE 0;
+CREATE TEMP VIEW published_pending AS SELECT * FROM main.published_pending WHERE 0;
 CREATE TEMP VIEW published_until AS SELECT * FROM main.published_until WHERE 0;
 )";
 

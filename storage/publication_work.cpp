@@ -9,6 +9,7 @@
 #include "storage/publication_rows.hpp"
 #include "storage/segment_row.hpp"
 #include "storage/store_moment.hpp"
+#include "storage/store_schema.hpp"
 #include "storage/strip_states.hpp"
 
 #include <fmt/format.h>
@@ -73,10 +74,10 @@ EndPasses end_passes_of(Database& database, const NetworkBlocks& blocks, const T
     return ends;
 }
 
-/// What was published of a segment: passes of trips up to a row, before a month.
+/// What was published of a segment: passes of trips up to a row, but for some.
 struct PublishedUntil {
     std::int64_t last_trip = 0;
-    std::optional<std::int64_t> pending_from_ms;
+    std::set<std::pair<std::int64_t, std::uint32_t>> pending{}; ///< trip, occurrence
 };
 
 /// A segment's passes, by their place in those of the strip.
@@ -84,20 +85,24 @@ struct SegmentPasses {
     std::int64_t fid;
     std::size_t first;
     std::size_t past;
-    Release release;                  ///< its batches count from `first`
-    std::vector<std::size_t> pending; ///< those that `release` tells of
+    std::vector<std::size_t> pending; ///< those of them that no publication tells of
+    Release release;                  ///< of these
 };
 
 class PublicationMaker {
 public:
     PublicationMaker(Database& database, const PublicationWork& work)
-        : database_{&database}, work_{work}, blocks_{*work.roads}, trips_{rows_of_trips(database)},
+        : work_{work}, blocks_{*work.roads}, trips_{rows_of_trips(database)},
           ends_{end_passes_of(database, blocks_, trips_)}, states_{database},
           number_{1 + database.number("SELECT coalesce(max(number), 0) FROM publication")},
-          before_{reach_of(database, number_ - 1)},
-          until_{database.prepare(
-              "SELECT last_trip, pending_from_ms FROM published_until WHERE segment = ?")},
-          put_until_{database.prepare("INSERT OR REPLACE INTO published_until VALUES (?, ?, ?)")},
+          before_{reach_of(database, number_ - 1)}, rule_{.last_of_key =
+                                                              read_last_of_keys(database)},
+          until_{database.prepare("SELECT last_trip FROM published_until WHERE segment = ?")},
+          put_until_{database.prepare("INSERT OR REPLACE INTO published_until VALUES (?, ?)")},
+          pending_{
+              database.prepare("SELECT trip, occurrence FROM published_pending WHERE segment = ?")},
+          drop_pending_{database.prepare("DELETE FROM published_pending WHERE segment = ?")},
+          put_pending_{database.prepare("INSERT INTO published_pending VALUES (?, ?, ?)")},
           figures_{database.prepare(
               "SELECT coalesce(max(number), 0) FROM published_figure WHERE segment = ?")},
           put_figure_{database.prepare("INSERT INTO published_figure VALUES"
@@ -151,7 +156,7 @@ private:
         for (auto i = first; i < past; ++i) {
             const auto& input = passes[i].input;
             const auto trip = trips_.at(input.trip_sha256);
-            if (is_pending(told, trip, input.utc_ms)) {
+            if (trip > told.last_trip || told.pending.contains({trip, input.pass.occurrence})) {
                 segment.pending.push_back(i);
                 pending.push_back({.vehicle = input.vehicle,
                                    .utc_ms = input.utc_ms,
@@ -159,7 +164,7 @@ private:
                                    .has_aged = trip <= aged});
             }
         }
-        segment.release = release(pending, {});
+        segment.release = release(pending, rule_);
         return segment;
     }
 
@@ -168,19 +173,17 @@ private:
         until_.bind(fid);
         PublishedUntil until;
         if (until_.step()) {
-            until = {until_.integer(0), until_.known_integer(1)};
+            until.last_trip = until_.integer(0);
+            for (pending_.bind(fid); pending_.step();) {
+                until.pending.emplace(pending_.integer(0),
+                                      static_cast<std::uint32_t>(pending_.integer(1)));
+            }
+            pending_.reset();
         } else if (number_ > 1 && fid > before_.last_segment) {
             until.last_trip = before_.last_trip;
         }
         until_.reset();
         return until;
-    }
-
-    static bool is_pending(const PublishedUntil& told,
-                           std::int64_t trip,
-                           const std::optional<std::int64_t>& utc_ms) {
-        return trip > told.last_trip ||
-               (told.pending_from_ms && (!utc_ms || *utc_ms >= *told.pending_from_ms));
     }
 
     /// Trips up to this row were there one to three publications ago; how many, the key draws for
@@ -201,13 +204,11 @@ private:
                const std::vector<SegmentPasses>& segments) {
         std::vector<bool> stays_pending(passes.size());
         for (const auto& segment : segments) {
-            for (const auto i : segment.pending) {
-                stays_pending[i] = true;
+            for (const auto i : segment.release.left) {
+                stays_pending[segment.pending[i]] = true;
             }
-            for (const auto& batch : segment.release.batches) {
-                for (const auto i : batch.passes) {
-                    stays_pending[segment.pending[i]] = false;
-                }
+            if (!segment.release.batches.empty()) {
+                put_until(segment, passes);
             }
         }
         std::vector<StripPass> told;
@@ -223,6 +224,16 @@ private:
             if (!segment.release.batches.empty()) {
                 write_segment(segment, told, place);
             }
+        }
+    }
+
+    void put_until(const SegmentPasses& segment, const std::vector<StripPass>& passes) {
+        put_until_.run(segment.fid, last_trip_);
+        drop_pending_.run(segment.fid);
+        for (const auto i : segment.release.left) {
+            const auto& input = passes[segment.pending[i]].input;
+            put_pending_.run(
+                segment.fid, trips_.at(input.trip_sha256), std::int64_t{input.pass.occurrence});
         }
     }
 
@@ -242,11 +253,10 @@ private:
             inputs.push_back(told[i].input);
         }
         write_state(put_state_, segment.fid, state_of(inputs), *work_.classes);
-        put_until_.run(segment.fid, last_trip_, segment.release.pending_from_ms);
     }
 
     SegmentState state_of(const std::vector<FusionInput>& inputs) const {
-        return published(fuse(inputs, states_.config()), inputs, ReleaseRule{}.min_cars);
+        return published(fuse(inputs, states_.config()), inputs, rule_);
     }
 
     void write_figure(std::int64_t fid, const ReleaseBatch& batch, const SegmentState& state) {
@@ -273,7 +283,6 @@ private:
                         state.vehicles);
     }
 
-    Database* database_;
     PublicationWork work_;
     NetworkBlocks blocks_;
     TripRows trips_;
@@ -281,10 +290,14 @@ private:
     StripStates states_;
     std::int64_t number_;
     PublicationReach before_;
+    ReleaseRule rule_;
     std::vector<std::int64_t> reach_; ///< last trips of so many publications ago; 0: of none
     std::unordered_map<std::uint64_t, std::int64_t> aged_; ///< by block
     Statement until_;
     Statement put_until_;
+    Statement pending_;
+    Statement drop_pending_;
+    Statement put_pending_;
     Statement figures_;
     Statement put_figure_;
     BulkInsert put_state_;

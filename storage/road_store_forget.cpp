@@ -116,6 +116,7 @@ void erase(Database& database, std::int64_t trip) {
     for (const char* const sql : {"DELETE FROM pass WHERE trip = ?",
                                   "DELETE FROM trace WHERE trip = ?",
                                   "DELETE FROM row_reason WHERE trip = ?",
+                                  "DELETE FROM published_pending WHERE trip = ?",
                                   "DELETE FROM trip WHERE id = ?"}) {
         database.prepare(sql).run(trip);
     }
@@ -134,6 +135,12 @@ constexpr const char* erase_cars_without_trips =
     "DELETE FROM calibration WHERE NOT EXISTS"
     " (SELECT 1 FROM trip WHERE trip.vehicle = calibration.vehicle);"
     "DELETE FROM vehicle WHERE NOT EXISTS (SELECT 1 FROM trip WHERE trip.vehicle = vehicle.id)";
+
+/// Trips that come in later may get the rows of those that went: none of them is published.
+constexpr const char* free_rows_of_trips =
+    "UPDATE publication SET last_trip = min(last_trip, (SELECT coalesce(max(id), 0) FROM trip));"
+    "UPDATE published_until SET last_trip = min(last_trip,"
+    " (SELECT coalesce(max(id), 0) FROM trip))";
 
 std::set<std::int64_t> segments_of(Database& database, const KeptTrips& trips) {
     auto select = database.prepare("SELECT segment FROM pass WHERE trip = ?");
@@ -194,6 +201,7 @@ std::size_t erase(Database& database, const KeptTrips& trips, std::int64_t segme
         mark_forgotten(database, trip.sha256);
     }
     database.run(erase_cars_without_trips);
+    database.run(free_rows_of_trips);
     return passes;
 }
 

@@ -37,6 +37,7 @@ bool RoadStore::Impl::make_missing_key() {
     }
     const auto made = PrivacyKey::make();
     put_key_id(database, made.id());
+    add_last_of_key(database);
     const auto file = key_file_of(database.file());
     write_key(file, made);
     try {

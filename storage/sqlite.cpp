@@ -1,5 +1,4 @@
 #include "storage/sqlite.hpp"
-
 #include "storage/sqlite_guard.hpp"
 
 #include <fmt/format.h>
@@ -213,11 +212,12 @@ void Statement::bind_one(int position, double value) {
 void Statement::bind_one(int position, std::string_view value) {
     check(sqlite3_db_handle(statement_.get()),
           *file_,
-          sqlite3_bind_text(statement_.get(),
-                            position,
-                            value.empty() ? "" : value.data(), // a null pointer would be NULL
-                            static_cast<int>(value.size()),
-                            SQLITE_TRANSIENT));
+          sqlite3_bind_text64(statement_.get(),
+                              position,
+                              value.empty() ? "" : value.data(), // a null pointer would be NULL
+                              value.size(),
+                              SQLITE_TRANSIENT,
+                              SQLITE_UTF8));
 }
 
 void Statement::bind_one(int position, Blob value) {

@@ -212,6 +212,31 @@ void put_key_id(Database& database, const std::string& key_id) {
     replace(database, "key_id", key_id);
 }
 
+std::vector<std::int64_t> read_last_of_keys(Database& database) {
+    const auto text = meta(database, "last_of_keys");
+    const char* const past = text.data() + text.size();
+    std::vector<std::int64_t> rows;
+    for (const char* at = text.data(); at != past;) {
+        std::int64_t row = 0;
+        const auto [end, error] = std::from_chars(at, past, row);
+        if (error != std::errc{} || (!rows.empty() && row < rows.back())) {
+            throw InputError{fmt::format("{}: last_of_keys is {}, expected rows of cars; the store "
+                                         "was changed",
+                                         database.file().string(),
+                                         in_quotes(text))};
+        }
+        rows.push_back(row);
+        at = end == past ? past : end + 1;
+    }
+    return rows;
+}
+
+void add_last_of_key(Database& database) {
+    const auto row = database.number("SELECT coalesce(max(id), 0) FROM vehicle");
+    const auto rows = meta(database, "last_of_keys");
+    replace(database, "last_of_keys", fmt::format("{}{}{}", rows, rows.empty() ? "" : " ", row));
+}
+
 std::string read_network_hash(Database& database) {
     return meta(database, "network_sha256");
 }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace macadam {
 
@@ -66,6 +67,10 @@ std::string read_network_hash(Database& database);
 /// PrivacyKey::id() of the key under which cars are named.
 std::string read_key_id(Database& database);
 void put_key_id(Database& database, const std::string& key_id);
+
+/// Rows of the last car that there was each time that a missing key was made anew, rising.
+std::vector<std::int64_t> read_last_of_keys(Database& database);
+void add_last_of_key(Database& database);
 
 /// Counts from 1; one more each time that all numbers were made anew by other rules.
 int read_generation(Database& database);

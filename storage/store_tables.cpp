@@ -211,9 +211,15 @@ CREATE TABLE published_state (
 );
 CREATE TABLE published_until (
     segment INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
-    last_trip INTEGER NOT NULL,
-    pending_from_ms INTEGER
+    last_trip INTEGER NOT NULL
 );
+CREATE TABLE published_pending (
+    segment INTEGER NOT NULL REFERENCES segment(fid),
+    trip INTEGER NOT NULL REFERENCES trip(id),
+    occurrence INTEGER NOT NULL,
+    PRIMARY KEY (segment, trip, occurrence)
+) WITHOUT ROWID;
+CREATE INDEX published_pending_of_trip ON published_pending(trip);
 CREATE TABLE published_figure (
     segment INTEGER NOT NULL REFERENCES segment(fid),
     number INTEGER NOT NULL,

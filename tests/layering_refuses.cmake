@@ -21,3 +21,4 @@ expect_refusal(storage "#include \"render/map.hpp\"" "storage may not use render
 expect_refusal(mapping "#include <fstream>" "mapping computes only")
 expect_refusal(estimator "#include <iostream>" "estimator computes only")
 expect_refusal(render "#include <nlohmann/json.hpp>" "more than one file includes json")
+expect_refusal(storage "auto map = GDALDataset::Open(name);" "only storage/late/gdal_door.cpp opens files by GDAL")

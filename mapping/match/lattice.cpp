@@ -286,7 +286,7 @@ private:
             lattice_.states[transition.from].cost + transition.cost + to.candidate.cost;
         if (cost < to.cost) {
             to.cost = cost;
-            to.arrival = static_cast<std::uint32_t>(lattice_.transitions.size());
+            to.arrival = lattice_.transitions.size();
         }
         lattice_.transitions.push_back(transition);
     }

@@ -80,7 +80,7 @@ struct Transition {
 struct State {
     Candidate candidate;
     double cost;           ///< of the cheapest chain up to here, its own included
-    std::uint32_t arrival; ///< the transition of that chain
+    std::uint64_t arrival; ///< the transition of that chain
 };
 
 /// One range of states and one of transitions into them for each sample.

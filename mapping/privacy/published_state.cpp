@@ -1,11 +1,8 @@
 #include "mapping/privacy/published_state.hpp"
 
-#include "mapping/privacy/release_batches.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <set>
-#include <utility>
 
 namespace macadam {
 namespace {
@@ -32,9 +29,17 @@ std::optional<std::int64_t> month_of(const std::optional<std::int64_t>& utc_ms) 
     return utc_ms ? std::optional{month_begin_ms(*utc_ms)} : std::nullopt;
 }
 
+std::set<std::int64_t> cars_of(std::span<const FusionInput> passes) {
+    std::set<std::int64_t> cars;
+    for (const auto& pass : passes) {
+        cars.insert(pass.vehicle);
+    }
+    return cars;
+}
+
 bool rests_on_many(const RoadChange& change,
                    std::span<const FusionInput> passes,
-                   std::int32_t min_cars) {
+                   const ReleaseRule& rule) {
     std::set<std::int64_t> before;
     std::set<std::int64_t> after;
     for (const auto& pass : passes) {
@@ -42,7 +47,7 @@ bool rests_on_many(const RoadChange& change,
             (*pass.utc_ms < change.utc_ms ? before : after).insert(pass.vehicle);
         }
     }
-    return std::cmp_greater_equal(std::min(before.size(), after.size()), min_cars);
+    return std::min(min_count(before, rule), min_count(after, rule)) >= rule.min_cars;
 }
 
 } // namespace
@@ -63,7 +68,7 @@ std::int32_t told_count(std::int32_t count) {
 }
 
 SegmentState
-published(SegmentState state, std::span<const FusionInput> passes, std::int32_t min_cars) {
+published(SegmentState state, std::span<const FusionInput> passes, const ReleaseRule& rule) {
     state.iri_um = rounded(state.iri_um);
     state.sd_um = rounded_up(state.sd_um);
     state.low_um = -rounded_up(-state.low_um); // outward, so that it tells no more than the sd
@@ -71,14 +76,14 @@ published(SegmentState state, std::span<const FusionInput> passes, std::int32_t 
     state.left_um = rounded(state.left_um);
     state.right_um = rounded(state.right_um);
     state.passes = told_count(state.passes);
-    state.vehicles = told_count(state.vehicles);
+    state.vehicles = told_count(min_count(cars_of(passes), rule));
     state.first_seen_ms = month_of(state.first_seen_ms);
     state.last_seen_ms = month_of(state.last_seen_ms);
     state.trend_um_per_year = rounded(state.trend_um_per_year);
     state.trend_sd_um_per_year = state.trend_sd_um_per_year
                                      ? std::optional{rounded_up(*state.trend_sd_um_per_year)}
                                      : std::nullopt;
-    if (state.change && !rests_on_many(*state.change, passes, min_cars)) {
+    if (state.change && !rests_on_many(*state.change, passes, rule)) {
         state.change.reset();
     }
     if (state.change) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mapping/fusion.hpp"
+#include "mapping/privacy/release_batches.hpp"
 
 #include <cstdint>
 #include <span>
@@ -12,11 +13,11 @@ namespace macadam {
 std::int32_t told_count(std::int32_t count);
 
 /// What a publication tells of a state: dates by month, counts as told_count() has them, IRI to
-/// 0.01 mm/m and its uncertainty, upward, to 0.05. A change of the road is told only where
-/// `min_cars` cars passed before it and as many after it.
+/// 0.01 mm/m and its uncertainty, upward, to 0.05. A change of the road is told only where enough
+/// cars passed before it and as many after it.
 ///
 /// \param passes  from which the state was fused.
 SegmentState
-published(SegmentState state, std::span<const FusionInput> passes, std::int32_t min_cars);
+published(SegmentState state, std::span<const FusionInput> passes, const ReleaseRule& rule);
 
 } // namespace macadam

@@ -1,7 +1,7 @@
 #include "mapping/privacy/release_batches.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -14,26 +14,48 @@ using Months = std::map<std::int64_t, std::vector<std::size_t>>; ///< pending pa
 
 constexpr auto undated = std::numeric_limits<std::int64_t>::min();
 
-std::chrono::year_month month_of(std::int64_t utc_ms) {
-    const std::chrono::sys_time time{std::chrono::milliseconds{utc_ms}};
-    const std::chrono::year_month_day day{std::chrono::floor<std::chrono::days>(time)};
-    return day.year() / day.month();
+constexpr std::int64_t day_ms = 86'400'000;
+constexpr std::int64_t days_of_era = 146'097; // 400 years
+
+constexpr std::int64_t floored(std::int64_t value, std::int64_t by) {
+    return value / by - (value % by < 0 ? 1 : 0);
 }
 
-std::int64_t begin_of(const std::chrono::year_month& month) {
-    const std::chrono::sys_days first = month / std::chrono::day{1};
-    return std::chrono::duration_cast<std::chrono::milliseconds>(first.time_since_epoch()).count();
+/// Counted from March of the year 0, so that a leap day ends its year.
+///
+/// Source: H. Hinnant, "chrono-Compatible Low-Level Date Algorithms" (2013), civil_from_days.
+struct Month {
+    std::int64_t year;
+    std::int64_t number; ///< 0 = March
+};
+
+Month month_of(std::int64_t utc_ms) {
+    const auto day = floored(utc_ms, day_ms) + 719'468; // since 0000-03-01
+    const auto era = floored(day, days_of_era);
+    const auto of_era = day - era * days_of_era;
+    const auto year = (of_era - of_era / 1460 + of_era / 36'524 - of_era / (days_of_era - 1)) / 365;
+    const auto of_year = of_era - (365 * year + year / 4 - year / 100);
+    return {year + 400 * era, (5 * of_year + 2) / 153};
+}
+
+std::int64_t begin_of(const Month& month) {
+    const auto era = floored(month.year, 400);
+    const auto year = month.year - 400 * era;
+    const auto of_year = (153 * month.number + 2) / 5;
+    const auto day = era * days_of_era + 365 * year + year / 4 - year / 100 + of_year - 719'468;
+    return day * day_ms;
 }
 
 template <typename Condition>
-std::int32_t cars_in(std::span<const PendingPass> passes, Condition is_meant) {
+std::int32_t
+cars_in(std::span<const PendingPass> passes, const ReleaseRule& rule, Condition is_meant) {
     std::set<std::int64_t> cars;
     for (const auto& pass : passes) {
         if (is_meant(pass)) {
             cars.insert(pass.vehicle);
         }
     }
-    return static_cast<std::int32_t>(cars.size());
+    return min_count(cars, rule);
 }
 
 ReleaseBatch batch_of(const Months& months) {
@@ -49,18 +71,27 @@ ReleaseBatch batch_of(const Months& months) {
     return batch;
 }
 
-std::optional<std::int64_t> first_of(const Months& months) {
-    return months.empty() ? std::nullopt : std::optional{months.begin()->first};
-}
-
 } // namespace
+
+std::int32_t min_count(const std::set<std::int64_t>& vehicles, const ReleaseRule& rule) {
+    std::ptrdiff_t most = 0;
+    auto first = vehicles.begin();
+    for (const auto last : rule.last_of_key) {
+        const auto past = vehicles.upper_bound(last);
+        most = std::max(most, std::distance(first, past));
+        first = past;
+    }
+    return static_cast<std::int32_t>(std::max(most, std::distance(first, vehicles.end())));
+}
 
 std::int64_t month_begin_ms(std::int64_t utc_ms) {
     return begin_of(month_of(utc_ms));
 }
 
 std::int64_t next_month_ms(std::int64_t utc_ms) {
-    return begin_of(month_of(utc_ms) + std::chrono::months{1});
+    auto [year, number] = month_of(utc_ms);
+    const bool is_february = number == 11;
+    return begin_of({is_february ? year + 1 : year, is_february ? 0 : number + 1});
 }
 
 Release release(std::span<const PendingPass> pending, const ReleaseRule& rule) {
@@ -70,9 +101,10 @@ Release release(std::span<const PendingPass> pending, const ReleaseRule& rule) {
         months[utc_ms ? month_begin_ms(*utc_ms) : undated].push_back(i);
     }
     const bool may_appear =
-        cars_in(pending, [](const PendingPass& pass) { return pass.is_new; }) >=
+        cars_in(pending, rule, [](const PendingPass& pass) { return pass.is_new; }) >=
             rule.min_new_cars ||
-        cars_in(pending, [](const PendingPass& pass) { return pass.has_aged; }) >= rule.min_cars;
+        cars_in(pending, rule, [](const PendingPass& pass) { return pass.has_aged; }) >=
+            rule.min_cars;
     Release result;
     Months together;
     std::set<std::int64_t> cars;
@@ -81,13 +113,13 @@ Release release(std::span<const PendingPass> pending, const ReleaseRule& rule) {
             cars.insert(pending[i].vehicle);
         }
         together.emplace(month, std::move(passes));
-        if (may_appear && std::cmp_greater_equal(cars.size(), rule.min_cars)) {
+        if (may_appear && min_count(cars, rule) >= rule.min_cars) {
             result.batches.push_back(batch_of(together));
             together.clear();
             cars.clear();
         }
     }
-    result.pending_from_ms = first_of(together);
+    result.left = batch_of(together).passes;
     return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -10,10 +11,16 @@ namespace macadam {
 
 /// When a group of passes may be published.
 struct ReleaseRule {
-    std::int32_t min_cars = 5; ///< distinct ones in every figure
-    std::int32_t min_new_cars =
-        2; ///< since the last publication: no single car lets a figure appear
+    std::int32_t min_cars = 5;     ///< distinct ones in every figure
+    std::int32_t min_new_cars = 2; ///< since the last publication: no single car tips the scale
+
+    /// Cars up to each of these numbers, rising, were named under another key than those after it:
+    /// one car may be there under several numbers.
+    std::vector<std::int64_t> last_of_key{};
 };
+
+/// How many cars these are at least: the most that were named under one key.
+std::int32_t min_count(const std::set<std::int64_t>& vehicles, const ReleaseRule& rule);
 
 /// A pass over a segment that no publication tells of yet.
 struct PendingPass {
@@ -35,8 +42,7 @@ struct ReleaseBatch {
 
 struct Release {
     std::vector<ReleaseBatch> batches; ///< in the order of time
-    /// From this month on passes stay pending; nothing: none does.
-    std::optional<std::int64_t> pending_from_ms;
+    std::vector<std::size_t> left;     ///< of the passes: those that stay pending
 };
 
 /// Groups the pending passes of a segment. A batch takes month after month, those without a date

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double still_m = 50;        // of travel or by air: a receiver at rest wanders
 constexpr double anchor_step_s = 10;  // between places that are tried as those of a stop
-constexpr double same_place_m = 30;   // of travel: fixes that tell where an end is
+constexpr double same_place_m = 5;    // of travel: fixes that tell where an end is
+constexpr double fix_error_m = 10;    // of the places of an end and of a fix together
 constexpr std::size_t fixes_away = 3; // in a row: one that jumps is none
 
 /// A place of the trip on its ruler.
@@ -148,7 +149,8 @@ public:
             return by_travel_m;
         }
         const auto from = std::ranges::lower_bound(places_, hidden_m, {}, &Place::travel_m);
-        const auto away_m = travel_away(from, places_.end(), place_at(places_, hidden_m), length_m);
+        const auto away_m =
+            travel_away(from, places_.end(), place_at(places_, hidden_m), length_m + fix_error_m);
         return away_m ? std::max(by_travel_m, *away_m) : whole_m_;
     }
 
@@ -162,7 +164,7 @@ public:
         const auto away_m = travel_away(std::make_reverse_iterator(from),
                                         places_.rend(),
                                         place_at(places_, hidden_m),
-                                        length_m);
+                                        length_m + fix_error_m);
         return away_m ? std::min(by_travel_m, *away_m) : 0;
     }
 

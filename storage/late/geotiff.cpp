@@ -1,6 +1,7 @@
 #include "storage/late/geotiff.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/late/gdal_door.hpp"
 #include "storage/late/gdal_errors.hpp"
 
 #include <cpl_string.h>
@@ -24,14 +25,6 @@ namespace {
 [[noreturn]] void fail() {
     throw InputError{fmt::format("cannot be written: {}; the memory may not suffice",
                                  gdal_said("GDAL does not say why"))};
-}
-
-GDALDriver& driver(const char* name) {
-    auto* const found = GetGDALDriverManager()->GetDriverByName(name);
-    if (found == nullptr) {
-        throw InputError{fmt::format("cannot be written: this GDAL knows no {}", name)};
-    }
-    return *found;
 }
 
 void place(GDALDataset& dataset, const PlacedPicture& picture) {
@@ -95,7 +88,7 @@ public:
         options.SetNameValue("ZLEVEL", "1"); // it is read once, a moment later
         options.SetNameValue("INTERLEAVE", "PIXEL");
         options.SetNameValue("BIGTIFF", "IF_SAFER");
-        dataset_.reset(driver("GTiff").Create(
+        dataset_.reset(driver_in_memory("GTiff").Create(
             name, picture.width_px, picture.height_px, bands, GDT_Byte, options.List()));
         if (!dataset_) {
             fail();
@@ -151,7 +144,6 @@ void copy_to_disk(std::span<const char> bytes, const std::filesystem::path& file
 
 void write(const PlacedPicture& picture, const GiveRows& give, const std::filesystem::path& file) {
     const Quiet quiet;
-    GDALAllRegister();
     const SmallCache cache;
     CPLErrorReset();
     const FileInMemory made{"picture.tif"};
@@ -168,7 +160,7 @@ void write(const PlacedPicture& picture, const GiveRows& give, const std::filesy
         options.SetNameValue("COMPRESS", "DEFLATE");
         options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
         options.SetNameValue("BIGTIFF", "IF_SAFER");
-        const GDALDatasetUniquePtr copy{driver("COG").CreateCopy(
+        const GDALDatasetUniquePtr copy{driver_in_memory("COG").CreateCopy(
             made.name(), source.get(), FALSE, options.List(), nullptr, nullptr)};
         if (!copy) {
             fail();

@@ -1,6 +1,7 @@
 #include "storage/late/line_file.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/late/gdal_door.hpp"
 #include "storage/late/gdal_errors.hpp"
 
 #include <cpl_string.h>
@@ -40,13 +41,9 @@ OGRFieldType type_of(const LineFileColumn& column) {
 }
 
 GDALDatasetUniquePtr create(const LineFile& what) {
-    GDALAllRegister();
-    auto* const driver = GetGDALDriverManager()->GetDriverByName(what.driver);
-    if (driver == nullptr) {
-        throw InputError{fmt::format("cannot be written: this GDAL knows no {}", what.driver)};
-    }
-    GDALDatasetUniquePtr dataset{driver->Create(
-        std::filesystem::absolute(what.file).c_str(), 0, 0, 0, GDT_Unknown, nullptr)};
+    const auto file = std::filesystem::absolute(what.file);
+    auto& driver = driver_to_write(what.driver, file.parent_path());
+    GDALDatasetUniquePtr dataset{driver.Create(file.c_str(), 0, 0, 0, GDT_Unknown, nullptr)};
     if (!dataset) {
         fail();
     }
@@ -108,8 +105,7 @@ void put_line(OGRLayer& layer,
 
 /// GDAL says nothing of a full disk that shows only when the file is closed.
 void expect_lines(const LineFile& what, std::size_t count) {
-    const GDALDatasetUniquePtr dataset{GDALDataset::Open(
-        std::filesystem::absolute(what.file).c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY)};
+    const auto dataset = reopen_lines(what.file, what.driver);
     std::size_t found = 0;
     const auto has_columns = [&](OGRLayer& layer) {
         return layer.GetLayerDefn()->GetFieldCount() >= static_cast<int>(what.columns.size());

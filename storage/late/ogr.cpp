@@ -1,6 +1,8 @@
 #include "storage/late/ogr.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/late/coordinate_system.hpp"
+#include "storage/late/gdal_door.hpp"
 #include "storage/late/gdal_errors.hpp"
 #include "storage/osm_tags.hpp"
 #include "storage/text.hpp"
@@ -24,37 +26,10 @@ namespace macadam {
 
 namespace {
 
-GDALDatasetUniquePtr open(const std::filesystem::path& file) {
-    // Files only, and nothing that leads to other files or to the network.
-    static const char* const drivers[] = {"GPKG",
-                                          "ESRI Shapefile",
-                                          "GeoJSON",
-                                          "GeoJSONSeq",
-                                          "FlatGeobuf",
-                                          "GML",
-                                          "SQLite",
-                                          "OpenFileGDB",
-                                          "MapInfo File",
-                                          "LIBKML",
-                                          "KML",
-                                          nullptr};
-    // GML would fetch the schema that the file names.
-    CPLSetConfigOption("GML_DOWNLOAD_SCHEMA", "NO");
-    GDALAllRegister();
-    GDALDatasetUniquePtr dataset{GDALDataset::Open(std::filesystem::absolute(file).c_str(),
-                                                   GDAL_OF_VECTOR | GDAL_OF_READONLY,
-                                                   drivers,
-                                                   nullptr,
-                                                   nullptr)};
-    if (!dataset) {
-        throw InputError{fmt::format("{}: cannot be read as a line layer: {}",
-                                     file.string(),
-                                     gdal_said("no known format of maps"))};
-    }
-    return dataset;
-}
+/// Kinds of files that say an arc in a few bytes make some points of each.
+constexpr std::uintmax_t most_points_per_byte = 4;
 
-bool may_hold_lines(OGRLayer& layer) {
+bool is_of_lines(OGRLayer& layer) {
     const auto kind = wkbFlatten(layer.GetGeomType());
     return kind == wkbLineString || kind == wkbMultiLineString || kind == wkbUnknown ||
            kind == wkbGeometryCollection;
@@ -63,7 +38,7 @@ bool may_hold_lines(OGRLayer& layer) {
 OGRLayer& layer_of(GDALDataset& dataset, const std::string& name, const std::string& file) {
     std::string names;
     for (auto* const layer : dataset.GetLayers()) {
-        if (name.empty() ? may_hold_lines(*layer) : name == layer->GetName()) {
+        if (name.empty() ? is_of_lines(*layer) : name == layer->GetName()) {
             return *layer;
         }
         names += fmt::format("{}'{}'", names.empty() ? "" : ", ", layer->GetName());
@@ -208,8 +183,12 @@ struct Columns {
 
 class LayerReader {
 public:
-    LayerReader(std::string file, OGRLayer& layer, const LayerColumns& asked)
-        : file_{std::move(file)}, layer_{layer},
+    /// \param most_points  more of them are no map.
+    LayerReader(std::string file,
+                OGRLayer& layer,
+                const LayerColumns& asked,
+                std::uintmax_t most_points)
+        : file_{std::move(file)}, layer_{layer}, points_left_{most_points},
           columns_{
               .id = column(layer, asked.id, {}, file_),
               .name =
@@ -220,6 +199,7 @@ public:
         if (system == nullptr) {
             return; // taken for degrees; whatever is none is found out below
         }
+        expect_grids_of_proj(*system, file_);
         OGRSpatialReference wgs84;
         wgs84.importFromEPSG(4326);
         wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -328,6 +308,7 @@ private:
         if (!ids_.insert(way.id).second) {
             fail(fmt::format("the id {} stands twice, expected each once", way.id));
         }
+        expect_points(static_cast<std::uintmax_t>(line.getNumPoints()));
         for (const auto& point : places_of(line)) {
             const auto node = nodes_.node_at(point);
             if (way.node_ids.empty() || way.node_ids.back() != node.number) {
@@ -336,6 +317,13 @@ private:
             }
         }
         take(std::move(way));
+    }
+
+    void expect_points(std::uintmax_t count) {
+        if (count > points_left_) {
+            fail("has more points than bytes, expected a file that holds what it shows");
+        }
+        points_left_ -= count;
     }
 
     std::vector<GeoPoint> places_of(const OGRLineString& line) const {
@@ -357,6 +345,7 @@ private:
 
     std::string file_;
     OGRLayer& layer_;
+    std::uintmax_t points_left_;
     Columns columns_;
     struct Free {
         void operator()(OGRCoordinateTransformation* transformation) const {
@@ -376,7 +365,8 @@ extern "C" void macadam_ogr_read_lines(const std::filesystem::path& file,
                                        const macadam::LayerColumns& columns,
                                        const std::function<void(macadam::Way)>& take) {
     const macadam::Quiet quiet;
-    const auto dataset = macadam::open(file);
-    auto& layer = macadam::layer_of(*dataset, columns.layer, file.string());
-    macadam::LayerReader{file.string(), layer, columns}.read(take);
+    const auto opened = macadam::open_lines(file);
+    auto& layer = macadam::layer_of(*opened.dataset, columns.layer, file.string());
+    const auto most_points = macadam::most_points_per_byte * opened.bytes;
+    macadam::LayerReader{file.string(), layer, columns, most_points}.read(take);
 }

@@ -1,20 +1,18 @@
 #include "storage/late/raster_file.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/late/coordinate_system.hpp"
+#include "storage/late/gdal_door.hpp"
 #include "storage/late/gdal_errors.hpp"
-#include "storage/late/local_files.hpp"
 #include "storage/late/raster_colours.hpp"
 #include "storage/late/raster_owner.hpp"
 
-#include <cpl_conv.h>
-#include <cpl_string.h>
 #include <fmt/core.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace macadam {
 namespace {
@@ -22,44 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double tolerated = 1.05; // of a level's pixels: nobody sees it
-
-/// What is kept of the files' blocks: several rows of tiles under the widest picture. GDAL would
-/// take a share of the machine's memory.
-constexpr GIntBig cache_bytes = 128 << 20;
-
-std::string kind_of_vectors(const char* path) {
-    const GDALDatasetUniquePtr vectors{GDALDataset::Open(path, GDAL_OF_VECTOR)};
-    if (!vectors) {
-        return {};
-    }
-    const std::string_view driver = vectors->GetDriverName();
-    return driver == "MBTiles" ? "holds vector tiles, expected tiles that are pictures"
-                               : "holds points, lines or areas, expected a raster";
-}
-
-GDALDatasetUniquePtr opened(const fs::path& file) {
-    keep_off_the_network();
-    GDALAllRegister();
-    GDALSetCacheMax64(cache_bytes);
-    const auto path = fs::absolute(file);
-    GDALDatasetUniquePtr raster{
-        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR)};
-    if (raster && raster->GetRasterCount() > 0) {
-        return raster;
-    }
-    if (raster) {
-        throw InputError{fmt::format(
-            "{}: has no raster of its own, only others inside it, expected one that GDAL opens by "
-            "the file's name",
-            file.string())};
-    }
-    const auto said = gdal_said("GDAL does not say why");
-    const auto vectors = kind_of_vectors(path.c_str());
-    throw InputError{
-        vectors.empty()
-            ? fmt::format("{}: is no raster that GDAL can read: {}", file.string(), said)
-            : fmt::format("{}: {}", file.string(), vectors)};
-}
 
 /// As GDAL has it: from pixel and line to x and y, and back.
 struct Transforms {
@@ -86,6 +46,7 @@ OGRSpatialReference system_of(GDALDataset& raster, const std::string& file) {
                         "gdal_translate -a_srs EPSG:... gives it one",
                         file)};
     }
+    expect_grids_of_proj(*system, file);
     OGRSpatialReference own{*system};
     own.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return own;
@@ -148,7 +109,8 @@ struct RasterFile::Impl {
     void colour(std::vector<std::uint8_t>& rgba) const;
 
     std::string name;
-    GDALDatasetUniquePtr raster;
+    std::shared_ptr<GDALDataset> raster;
+    std::vector<fs::path> files;
     Transforms transforms;
     OGRSpatialReference system;
     RasterColours colours;
@@ -250,13 +212,17 @@ std::vector<std::uint8_t> RasterFile::Impl::means(const RasterLevel& level,
 
 RasterFile::RasterFile(const fs::path& file) {
     const Quiet quiet;
-    auto raster = opened(file);
+    auto [raster, files] = open_raster(file);
     const auto name = file.string();
     const auto transforms = transforms_of(*raster, name);
     auto system = system_of(*raster, name);
     auto colours = colours_of(*raster, name);
-    impl_ = std::make_unique<Impl>(
-        Impl{name, std::move(raster), transforms, std::move(system), std::move(colours)});
+    impl_ = std::make_unique<Impl>(Impl{name,
+                                        std::move(raster),
+                                        std::move(files),
+                                        transforms,
+                                        std::move(system),
+                                        std::move(colours)});
 }
 
 RasterFile::~RasterFile() = default;
@@ -291,8 +257,7 @@ std::string RasterFile::attribution() const {
 }
 
 std::vector<fs::path> RasterFile::files() const {
-    const Quiet quiet;
-    return files_of(*impl_->raster);
+    return impl_->files;
 }
 
 RasterLevel RasterFile::level(double wanted_px) const {

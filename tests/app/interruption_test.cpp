@@ -3,7 +3,7 @@
 
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
-#include "store_world.hpp"
+#include "storage/store_world.hpp"
 #include "support/program.hpp"
 #include "support/town.hpp"
 

@@ -4,11 +4,15 @@
 
 #include "mapping/segment.hpp"
 #include "storage/network_reader.hpp"
+#include "support/sealed_image.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace macadam::fuzz {
 namespace {
@@ -41,9 +45,9 @@ void expect_sound(const RoadNetwork& roads) {
     }
 }
 
-void read_as(const std::string& name, std::string_view input) {
+Answer read_as(const std::string& name, std::string_view input) {
     const auto file = input_file(name, input);
-    may_refuse([&] {
+    return may_refuse([&] {
         auto ways = read_network(file);
         expect_sound(ways);
         expect_sound(build_network(std::move(ways)));
@@ -52,16 +56,23 @@ void read_as(const std::string& name, std::string_view input) {
 
 } // namespace
 
-void osm_xml(std::string_view input) {
-    read_as("a.osm", input);
+Answer osm_xml(std::string_view input) {
+    return read_as("a.osm", input);
 }
 
-void osm_pbf(std::string_view input) {
-    read_as("a.osm.pbf", input);
+Answer osm_pbf(std::string_view input) {
+    return read_as("a.osm.pbf", input);
 }
 
-void line_layer(std::string_view input) {
-    read_as("a.geojson", input);
+Answer line_layer(std::string_view input) {
+    return read_as("a.geojson", input);
+}
+
+Answer network_image(std::string_view input) {
+    const auto bytes = std::as_bytes(std::span{input});
+    std::vector<std::byte> image{bytes.begin(), bytes.end()};
+    testing::seal(image);
+    return may_refuse([&] { testing::use(testing::opened(std::move(image))); });
 }
 
 } // namespace macadam::fuzz

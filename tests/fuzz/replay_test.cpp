@@ -1,143 +1,55 @@
-// Every fuzz target over its seeds and over what fuzzing found, in the ordinary tests.
+// Every fuzz target over its seeds, which its reader accepts, and over what fuzzing found.
 
-#include "fuzz/targets.hpp"
+#include "fuzz/target_files.hpp"
+#include "fuzz/target_table.hpp"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
+#include <functional>
+#include <ranges>
 #include <string>
+#include <vector>
 
 namespace macadam::fuzz {
 namespace {
 
-namespace fs = std::filesystem;
-
-using Target = void (*)(std::string_view);
-
-/// \returns how many inputs the folder has.
-int replay(Target target, const fs::path& folder) {
-    int count = 0;
-    for (const auto& entry : fs::directory_iterator{folder}) {
-        std::ifstream in{entry.path(), std::ios::binary};
-        const std::string input{std::istreambuf_iterator<char>{in}, {}};
-        EXPECT_NO_THROW(target(input)) << entry.path();
-        ++count;
+class Fuzz : public ::testing::TestWithParam<Target> {
+protected:
+    /// Refused, too, if it ends otherwise than it may.
+    static Answer answer_of(const TargetFile& file) {
+        auto answer = Answer::refused;
+        EXPECT_NO_THROW(answer = GetParam().run(file.content)) << file.name;
+        return answer;
     }
-    return count;
-}
+};
 
-void survives(Target target, const std::string& name) {
-    const fs::path here = MACADAM_SOURCE_DIR "/tests/fuzz";
-    EXPECT_GT(replay(target, here / "seeds" / name), 0) << "no seeds for " << name;
-    if (const auto findings = here / "findings" / name; fs::exists(findings)) {
-        EXPECT_GT(replay(target, findings), 0) << "an empty folder";
+TEST_P(Fuzz, SeedsAreAccepted) {
+    const auto seeds = seeds_of(GetParam().name);
+    ASSERT_FALSE(seeds.empty()) << "no seeds for " << GetParam().name;
+    for (const auto& seed : seeds) {
+        EXPECT_EQ(answer_of(seed), Answer::accepted) << seed.name;
     }
 }
 
-TEST(Fuzz, TripLogSurvivesEverySeedAndFinding) {
-    survives(trip_log, "trip_log");
+TEST_P(Fuzz, FindingsAreReadOrRefused) {
+    for (const auto& finding : findings_of(GetParam().name)) {
+        answer_of(finding);
+    }
 }
 
-TEST(Fuzz, TripCompressedSurvivesEverySeedAndFinding) {
-    survives(trip_compressed, "trip_compressed");
-}
+INSTANTIATE_TEST_SUITE_P(Targets, Fuzz, ::testing::ValuesIn(targets()), [](const auto& each) {
+    return std::string{each.param.name};
+});
 
-TEST(Fuzz, TripArchiveSurvivesEverySeedAndFinding) {
-    survives(trip_archive, "trip_archive");
-}
-
-TEST(Fuzz, TripTraceSurvivesEverySeedAndFinding) {
-    survives(trip_trace, "trip_trace");
-}
-
-TEST(Fuzz, TripWrittenSurvivesEverySeedAndFinding) {
-    survives(trip_written, "trip_written");
-}
-
-TEST(Fuzz, PhoneExportSurvivesEverySeedAndFinding) {
-    survives(phone_export, "phone_export");
-}
-
-TEST(Fuzz, MappedTripSurvivesEverySeedAndFinding) {
-    survives(mapped_trip, "mapped_trip");
-}
-
-TEST(Fuzz, GpxSurvivesEverySeedAndFinding) {
-    survives(gpx, "gpx");
-}
-
-TEST(Fuzz, RawlogSurvivesEverySeedAndFinding) {
-    survives(rawlog, "rawlog");
-}
-
-TEST(Fuzz, VehicleTomlSurvivesEverySeedAndFinding) {
-    survives(vehicle_toml, "vehicle_toml");
-}
-
-TEST(Fuzz, RecipeTomlSurvivesEverySeedAndFinding) {
-    survives(recipe_toml, "recipe_toml");
-}
-
-TEST(Fuzz, ProfileCsvSurvivesEverySeedAndFinding) {
-    survives(profile_csv, "profile_csv");
-}
-
-TEST(Fuzz, ProfileTxtSurvivesEverySeedAndFinding) {
-    survives(profile_txt, "profile_txt");
-}
-
-TEST(Fuzz, ProfileErdSurvivesEverySeedAndFinding) {
-    survives(profile_erd, "profile_erd");
-}
-
-TEST(Fuzz, ProfileProSurvivesEverySeedAndFinding) {
-    survives(profile_pro, "profile_pro");
-}
-
-TEST(Fuzz, TruthCsvSurvivesEverySeedAndFinding) {
-    survives(truth_csv, "truth_csv");
-}
-
-TEST(Fuzz, SurveyCsvSurvivesEverySeedAndFinding) {
-    survives(survey_csv, "survey_csv");
-}
-
-TEST(Fuzz, OsmXmlSurvivesEverySeedAndFinding) {
-    survives(osm_xml, "osm_xml");
-}
-
-TEST(Fuzz, OsmPbfSurvivesEverySeedAndFinding) {
-    survives(osm_pbf, "osm_pbf");
-}
-
-TEST(Fuzz, LineLayerSurvivesEverySeedAndFinding) {
-    survives(line_layer, "line_layer");
-}
-
-TEST(Fuzz, StoreBytesSurvivesEverySeedAndFinding) {
-    survives(store_bytes, "store_bytes");
-}
-
-TEST(Fuzz, StoreContentSurvivesEverySeedAndFinding) {
-    survives(store_content, "store_content");
-}
-
-TEST(Fuzz, GeometryBlobSurvivesEverySeedAndFinding) {
-    survives(geometry_blob, "geometry_blob");
-}
-
-TEST(Fuzz, SegmentKeySurvivesEverySeedAndFinding) {
-    survives(segment_key, "segment_key");
-}
-
-TEST(Fuzz, UtcTimeSurvivesEverySeedAndFinding) {
-    survives(utc_time, "utc_time");
-}
-
-TEST(Fuzz, CommandLineSurvivesEverySeedAndFinding) {
-    survives(command_line, "command_line");
+TEST(FuzzTargets, AreAllInTheTableAndStateTheirReaders) {
+    std::vector<std::string> tested;
+    for (const auto& target : targets()) {
+        tested.emplace_back(target.name);
+    }
+    std::ranges::sort(tested);
+    EXPECT_EQ(tested, declared_targets());
+    EXPECT_EQ(tested, targets_with_readers());
 }
 
 } // namespace

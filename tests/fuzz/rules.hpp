@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fuzz/targets.hpp"
+
 #include "estimator/common/error.hpp"
 
 #include <stdexcept>
@@ -17,12 +19,24 @@ inline void expect(bool holds, const char* what) {
 
 /// Calls a reader, which may answer with a refusal in words.
 template <typename Refusal = InputError, typename Call>
-void may_refuse(Call call) {
+Answer may_refuse(Call call) {
     try {
         call();
+        return Answer::accepted;
     } catch (const Refusal& refusal) {
         expect(!std::string_view{refusal.what()}.empty(), "a refusal has words");
+        return Answer::refused;
     }
+}
+
+/// Joins the answers of one input read in several ways, all of which must do.
+inline Answer both(Answer one, Answer other) {
+    return one == Answer::accepted ? other : Answer::refused;
+}
+
+/// Joins those of which one must do.
+inline Answer either(Answer one, Answer other) {
+    return one == Answer::accepted ? Answer::accepted : other;
 }
 
 } // namespace macadam::fuzz

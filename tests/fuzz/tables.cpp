@@ -4,8 +4,14 @@
 
 #include "estimator/iri.hpp"
 #include "mapping/survey_match.hpp"
+#include "storage/control_reader.hpp"
+#include "storage/exclusion_file.hpp"
 #include "storage/profile_reader.hpp"
 #include "storage/recipe_file.hpp"
+#include "storage/reference_reader.hpp"
+#include "storage/section_file.hpp"
+#include "storage/store_world.hpp"
+#include "storage/style_file.hpp"
 #include "storage/survey_reader.hpp"
 #include "storage/truth_file.hpp"
 #include "storage/vehicle_file.hpp"
@@ -30,46 +36,53 @@ void expect_sound(const MeasuredProfile& profile) {
     }
 }
 
-void read_profile_file(const std::filesystem::path& file) {
+/// With its own stations, or as elevations alone.
+Answer read_profile_file(const std::filesystem::path& file) {
+    auto answer = Answer::refused;
     for (const auto step_m : {std::optional<double>{}, std::optional{0.25}}) {
-        may_refuse([&] {
+        const auto read = may_refuse([&] {
             const auto profile = read_profile(file, step_m);
             expect_sound(profile);
             if (profile.even_step_m && profile.station_m.size() < 10'000) {
                 iri_mm_per_m(profile.tracks.front().elevation_m, *profile.even_step_m);
             }
         });
+        answer = either(answer, read);
     }
+    return answer;
 }
 
-void read_as(const char* name, std::string_view input) {
-    read_profile_file(input_file(name, input));
+/// By what the first byte looks like.
+const char* name_for(std::string_view input) {
+    return input.starts_with('<') ? "a.gpx" : input.starts_with('{') ? "a.geojson" : "a.csv";
+}
+
+Answer read_as(const char* name, std::string_view input) {
+    return read_profile_file(input_file(name, input));
 }
 
 } // namespace
 
-void profile_csv(std::string_view input) {
-    read_as("a.csv", input);
+Answer profile_csv(std::string_view input) {
+    return read_as("a.csv", input);
 }
 
-void profile_txt(std::string_view input) {
-    read_as("a.txt", input);
+Answer profile_txt(std::string_view input) {
+    return read_as("a.txt", input);
 }
 
-void profile_erd(std::string_view input) {
+Answer profile_erd(std::string_view input) {
     constexpr std::array<std::string_view, 2> names{"a.erd", "a.bin"};
     const auto folder = input_folder(names, input);
-    if (std::filesystem::exists(folder / names[0])) {
-        read_profile_file(folder / names[0]);
-    }
+    return read_profile_file(folder / names[0]);
 }
 
-void profile_pro(std::string_view input) {
-    read_as("a.pro", input);
+Answer profile_pro(std::string_view input) {
+    return read_as("a.pro", input);
 }
 
-void truth_csv(std::string_view input) {
-    may_refuse([&] {
+Answer truth_csv(std::string_view input) {
+    return may_refuse([&] {
         const auto truth = read_truth(input_file("truth.csv", input));
         expect(std::ranges::adjacent_find(truth, std::greater_equal{}, &SegmentTruth::key) ==
                    truth.end(),
@@ -77,8 +90,8 @@ void truth_csv(std::string_view input) {
     });
 }
 
-void survey_csv(std::string_view input) {
-    may_refuse([&] {
+Answer survey_csv(std::string_view input) {
+    return may_refuse([&] {
         const auto survey = read_survey(input_file("survey.csv", input));
         expect(survey.size() >= 2, "a survey has two rows");
         std::vector<TripPlaceAt> trip;
@@ -92,12 +105,68 @@ void survey_csv(std::string_view input) {
     });
 }
 
-void recipe_toml(std::string_view input) {
-    may_refuse([&] { read_recipe(input_file("a.toml", input)); });
+Answer reference_csv(std::string_view input) {
+    return may_refuse([&] {
+        const auto survey = read_reference(input_file("reference.csv", input));
+        expect(!survey.rows.empty(), "a survey has a row");
+        for (const auto& row : survey.rows) {
+            const bool has_place = survey.places == ReferencePlaces::on_ways ? row.way.has_value()
+                                   : survey.places == ReferencePlaces::ends  ? row.begin && row.end
+                                                                             : true;
+            expect(!row.placed || has_place, "a row that is placed has its place");
+        }
+    });
 }
 
-void vehicle_toml(std::string_view input) {
-    may_refuse([&] {
+Answer control_csv(std::string_view input) {
+    static const auto roads = testing::small_country();
+    return may_refuse([&] {
+        const auto sections = read_control_sections(input_file("control.csv", input), roads);
+        expect(!sections.empty(), "a table has a section");
+        for (const auto& section : sections) {
+            expect(section.from_m < section.to_m, "a section has a length");
+            expect(section.sd_mm_per_m >= 0, "a spread is no less than 0");
+        }
+    });
+}
+
+Answer section_file(std::string_view input) {
+    return may_refuse([&] {
+        const auto sections = read_sections(input_file(name_for(input), input));
+        expect(!sections.empty(), "a file of sections has one");
+        for (const auto& section : sections) {
+            expect(section.line.empty() == (!section.route.empty() || section.way_id),
+                   "a section has a road or a line");
+        }
+    });
+}
+
+Answer exclusion_file(std::string_view input) {
+    return may_refuse([&] {
+        for (const auto& exclusion : read_exclusions(input_file(name_for(input), input), 20)) {
+            expect(!exclusion.line.empty(), "an exclusion has a place");
+            expect(exclusion.radius_m >= 0, "a radius is no less than 0");
+        }
+    });
+}
+
+Answer style_toml(std::string_view input) {
+    return may_refuse([&] {
+        const auto look = read_style(input_file("a.toml", input));
+        if (look.own_table) {
+            const auto& classes = look.own_table->table().classes;
+            expect(std::ranges::is_sorted(classes, {}, &IriClass::to_mm_per_m), "borders rise");
+            expect(classes.size() <= most_own_classes, "there are not too many classes");
+        }
+    });
+}
+
+Answer recipe_toml(std::string_view input) {
+    return may_refuse([&] { read_recipe(input_file("a.toml", input)); });
+}
+
+Answer vehicle_toml(std::string_view input) {
+    return may_refuse([&] {
         const auto vehicle = read_vehicle(input_file("a.toml", input));
         expect(!vehicle.name.empty(), "a vehicle has a name");
         expect(vehicle.gain > 0, "a gain is above 0");

@@ -6,6 +6,7 @@
 #include "mapping/trace_network.hpp"
 #include "storage/foreign/trip_mapping.hpp"
 #include "storage/mapping_file.hpp"
+#include "storage/trip_feed.hpp"
 #include "storage/trip_reader.hpp"
 #include "storage/trip_writer.hpp"
 #include "support/walked_trips.hpp"
@@ -54,10 +55,22 @@ void expect_sound(const TripLog& trip) {
                       .fixes = std::vector<std::uint8_t>(trip.fixes.size())});
 }
 
-void read_all(const testing::WalkedTrips& search) {
+/// Accepted if there is a trip, and each of them is.
+Answer read_all(const testing::WalkedTrips& search) {
+    auto answer = search.trips.empty() ? Answer::refused : Answer::accepted;
     for (const auto& source : search.trips) {
-        may_refuse([&] { expect_sound(read_trip(source, needs_of_import())); });
+        answer =
+            both(answer, may_refuse([&] { expect_sound(read_trip(source, needs_of_import())); }));
     }
+    return answer;
+}
+
+/// The search, too, may refuse.
+template <typename Search>
+Answer read_all_of(Search search) {
+    auto answer = Answer::refused;
+    may_refuse([&] { answer = read_all(search()); });
+    return answer;
 }
 
 /// A log has times to the microsecond; of two samples of a sensor in one, the later is lost.
@@ -81,9 +94,9 @@ TripLog read_written(const TripSource& source) {
     }
 }
 
-void read_as(const std::string& name, std::string_view input) {
+Answer read_as(const std::string& name, std::string_view input) {
     const TripSource source{.file = input_file(name, input), .member = {}};
-    may_refuse([&] {
+    return may_refuse([&] {
         const auto trip = read_trip(source, needs_of_import());
         expect_sound(trip);
         expect(trip.sha256 == content_sha256(source), "a trip has the hash of its content");
@@ -92,27 +105,41 @@ void read_as(const std::string& name, std::string_view input) {
 
 } // namespace
 
-void trip_log(std::string_view input) {
-    read_as("a.trip.csv", input);
+Answer trip_log(std::string_view input) {
+    return read_as("a.trip.csv", input);
 }
 
-void trip_compressed(std::string_view input) {
-    read_as("a.trip.csv.gz", input); // what it is, the reader sees in its first bytes
+Answer trip_compressed(std::string_view input) {
+    return read_as("a.trip.csv.gz", input); // what it is, the reader sees in its first bytes
 }
 
-void trip_archive(std::string_view input) {
+Answer trip_archive(std::string_view input) {
     const bool is_zip = input.starts_with("PK");
     const auto file = input_file(is_zip ? "a.zip" : "a.tar.gz", input);
-    may_refuse([&] { read_all(testing::find_trips(file)); });
+    return read_all_of([&] { return testing::find_trips(file); });
 }
 
-void rawlog(std::string_view input) {
-    read_as("a.rawlog", input);
+Answer trip_live(std::string_view input) {
+    const auto file = input_file("a.trip.csv", input);
+    return may_refuse([&] {
+        TripFeed feed{file, needs_of_trace()};
+        std::size_t rows = 0;
+        while (const auto row = feed.next()) {
+            expect(row->rows.size() == 1, "a row comes alone");
+            expect(!feed.spoken_row().empty(), "a row can be quoted");
+            ++rows;
+        }
+        expect(rows == feed.count(), "every row is counted");
+    });
 }
 
-void gpx(std::string_view input) {
+Answer rawlog(std::string_view input) {
+    return read_as("a.rawlog", input);
+}
+
+Answer gpx(std::string_view input) {
     const TripSource source{.file = input_file("a.gpx", input), .member = {}};
-    may_refuse([&] {
+    return may_refuse([&] {
         const auto trip = read_trip(source, needs_of_match());
         expect_sound(trip);
         expect(trip.sha256 == content_sha256(source), "a trip has the hash of its content");
@@ -123,9 +150,9 @@ void gpx(std::string_view input) {
     });
 }
 
-void trip_written(std::string_view input) {
+Answer trip_written(std::string_view input) {
     const TripSource source{.file = input_file("a.trip.csv", input), .member = {}};
-    may_refuse([&] {
+    return may_refuse([&] {
         const auto folder = source.file.parent_path();
         const TripSource first{.file = folder / "first.trip.csv", .member = {}};
         const TripSource second{.file = folder / "second.trip.csv", .member = {}};
@@ -142,7 +169,7 @@ void trip_written(std::string_view input) {
     });
 }
 
-void phone_export(std::string_view input) {
+Answer phone_export(std::string_view input) {
     static constexpr std::array<std::string_view, 12> names{"Accelerometer.csv",
                                                             "Acceleration.csv",
                                                             "Linear Acceleration.csv",
@@ -156,24 +183,27 @@ void phone_export(std::string_view input) {
                                                             "inner/Accelerometer.csv",
                                                             "inner/Location.csv"};
     const auto folder = input_folder(names, input);
-    may_refuse([&] { read_all(testing::find_trips(folder)); });
+    return read_all_of([&] { return testing::find_trips(folder); });
 }
 
-void mapped_trip(std::string_view input) {
+Answer mapped_trip(std::string_view input) {
     static constexpr std::array<std::string_view, 3> names{
         "mapping.toml", "a_acc.csv", "a_gnss.csv"};
     const auto folder = input_folder(names, input);
-    may_refuse([&] {
-        const auto mapping =
-            std::make_shared<const TripMapping>(read_mapping(folder / "mapping.toml"));
-        read_all(testing::find_trips(folder / "a_acc.csv", mapping));
-        read_all(testing::find_trips(folder, mapping));
+    std::shared_ptr<const TripMapping> mapping;
+    const auto answer = may_refuse([&] {
+        mapping = std::make_shared<const TripMapping>(read_mapping(folder / "mapping.toml"));
     });
+    if (answer == Answer::refused) {
+        return answer;
+    }
+    return both(read_all_of([&] { return testing::find_trips(folder / "a_acc.csv", mapping); }),
+                read_all_of([&] { return testing::find_trips(folder, mapping); }));
 }
 
-void trip_trace(std::string_view input) {
+Answer trip_trace(std::string_view input) {
     const TripSource source{.file = input_file("a.trip.csv", input), .member = {}};
-    may_refuse([&] {
+    return may_refuse([&] {
         const auto trip = read_trip(source, needs_of_import());
         const auto trace = trace_of(trip, *built_in_vehicle("generic"), {});
         expect_accounted(trip, trace.use);

@@ -2,6 +2,9 @@
 #include "fuzz/targets.hpp"
 
 #include "app/commands.hpp"
+#include "app/estimation_options.hpp"
+#include "app/period_options.hpp"
+#include "app/query_options.hpp"
 #include "app/segment_options.hpp"
 #include "mapping/segment.hpp"
 #include "storage/geopackage.hpp"
@@ -49,9 +52,25 @@ void ask_for_everything(const Command& command, const Arguments& arguments) {
     }
 }
 
+/// As the command itself would, where that can be asked for alone.
+void parse_as(const Command& command, const Arguments& arguments) {
+    const auto takes = [&](std::string_view name) {
+        return std::ranges::find(command.options, name, &Option::name) != command.options.end();
+    };
+    if (command.name == "query") {
+        parse_query(arguments);
+    }
+    if (takes(rate_option.name)) {
+        pipeline_config_of(arguments);
+    }
+    if (takes(until_option.name)) {
+        parse_period(arguments);
+    }
+}
+
 } // namespace
 
-void geometry_blob(std::string_view input) {
+Answer geometry_blob(std::string_view input) {
     const auto line = line_of_geometry(input);
     const bool has_numbers = std::ranges::none_of(
         line, [](const auto& at) { return std::isnan(at.lat_deg) || std::isnan(at.lon_deg); });
@@ -59,33 +78,38 @@ void geometry_blob(std::string_view input) {
         expect(line_of_geometry(geometry_of(line)) == line,
                "a line is the same after one more trip");
     }
+    return line.empty() ? Answer::refused : Answer::accepted;
 }
 
-void segment_key(std::string_view input) {
-    may_refuse([&] {
+Answer segment_key(std::string_view input) {
+    return may_refuse([&] {
         const auto key = parse_segment_key(input);
         expect(parse_segment_key(name_of(key)) == key, "a key is the same after one more trip");
     });
 }
 
-void utc_time(std::string_view input) {
-    if (const auto utc_s = parse_utc_s(input)) {
+Answer utc_time(std::string_view input) {
+    const auto utc_s = parse_utc_s(input);
+    if (utc_s) {
         constexpr double half_ms = 0.5e-3;
         const auto again = parse_utc_s(utc_text(std::llround(*utc_s * 1000)));
         expect(again && std::abs(*again - *utc_s) <= half_ms + 1e-6,
                "a time is the same to the ms");
     }
+    return utc_s ? Answer::accepted : Answer::refused;
 }
 
-void command_line(std::string_view input) {
+Answer command_line(std::string_view input) {
     auto words = lines_of(input);
     const auto* const command = command_named(words.front());
     if (command == nullptr) {
-        return;
+        return Answer::refused;
     }
     words.erase(words.begin());
-    may_refuse<UsageError>([&] {
-        ask_for_everything(*command, {command->options, command->operands, std::move(words)});
+    return may_refuse<UsageError>([&] {
+        const Arguments arguments{command->options, command->operands, std::move(words)};
+        ask_for_everything(*command, arguments);
+        parse_as(*command, arguments);
     });
 }
 

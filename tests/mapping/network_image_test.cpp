@@ -1,7 +1,7 @@
 #include "mapping/network_image.hpp"
 
 #include "estimator/common/error.hpp"
-#include "support/road_art.hpp"
+#include "support/sealed_image.hpp"
 #include "support/town.hpp"
 
 #include <gmock/gmock.h>
@@ -14,22 +14,10 @@
 namespace macadam {
 namespace {
 
+using testing::bytes_of;
 using ::testing::HasSubstr;
 
 const std::string source(64, 'a');
-
-/// Begins where memory from `new` does, at a multiple of 8.
-using Bytes = std::shared_ptr<const std::vector<std::byte>>;
-
-std::vector<std::byte> bytes_of(const NetworkImage& image) {
-    const auto head = std::as_bytes(std::span{image.head});
-    std::vector<std::byte> bytes{head.begin(), head.end()};
-    for (const auto& section : image.sections) {
-        bytes.insert(bytes.end(), section.begin(), section.end());
-        bytes.resize((bytes.size() + image_alignment - 1) / image_alignment * image_alignment);
-    }
-    return bytes;
-}
 
 ImageContent content_of(std::vector<std::byte> bytes) {
     const auto kept = std::make_shared<const std::vector<std::byte>>(std::move(bytes));

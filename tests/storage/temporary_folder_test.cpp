@@ -59,9 +59,11 @@ TEST(TemporaryFolder, IsOfItsOwnerAloneAndHasANameThatNobodyForesees) {
 TEST(TemporaryFolder, OfANameAsLongAsTheSystemTakesFits) {
     const auto folder = test_folder();
     const std::string longest(255, 'x');
-    AtomicFileSet files{folder / longest};
-    written(files.folder(), longest, "1");
-    files.commit();
+    {
+        AtomicFileSet files{folder / longest};
+        written(files.folder(), longest, "1");
+        files.commit();
+    }
     EXPECT_THAT(names_in(folder), ElementsAre(longest));
 }
 
@@ -159,7 +161,7 @@ TEST(AtomicFile, HasTheRightsOfAnOrdinaryFile) {
 TEST(AtomicFileSet, OfTwoProgramsAtOnceIsWhollyThatOfOne) {
     const auto folder = test_folder();
     const auto write_often = [&](const std::string& whose) {
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < 50; ++i) {
             AtomicFileSet files{folder / "a.shp"};
             for (const auto* name : {"a.dbf", "a.shp", "a.shx"}) {
                 written(files.folder(), name, whose);

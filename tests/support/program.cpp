@@ -49,13 +49,13 @@ std::vector<char*> argv_of(const std::vector<std::string>& words) {
 [[noreturn]] void become_macadam(const std::vector<char*>& argv,
                                  const fs::path& out,
                                  const fs::path& err,
-                                 std::size_t most_file_bytes) {
+                                 const Limit& limit) {
     redirect(out, STDOUT_FILENO);
     redirect(err, STDERR_FILENO);
-    if (most_file_bytes > 0) {
-        std::signal(SIGXFSZ, SIG_IGN); // the write fails instead, as on a full disk
-        const rlimit limit{most_file_bytes, most_file_bytes};
-        setrlimit(RLIMIT_FSIZE, &limit);
+    if (limit.most > 0) {
+        std::signal(SIGXFSZ, SIG_DFL); // what it does then is the program's part
+        const rlimit both{limit.most, limit.most};
+        setrlimit(static_cast<__rlimit_resource_t>(limit.resource), &both);
     }
     execv(MACADAM_PROGRAM, argv.data());
     _exit(127);
@@ -63,13 +63,13 @@ std::vector<char*> argv_of(const std::vector<std::string>& words) {
 
 Run run(const std::vector<std::string>& words,
         const fs::path& out,
-        std::size_t most_file_bytes,
+        const Limit& limit,
         const std::function<void(pid_t child)>& meanwhile = {}) {
     const auto err = own_file("err");
     const auto argv = argv_of(words);
     const pid_t child = fork();
     if (child == 0) {
-        become_macadam(argv, out, err, most_file_bytes);
+        become_macadam(argv, out, err, limit);
     }
     if (child > 0 && meanwhile) {
         meanwhile(child);
@@ -88,7 +88,7 @@ Run signalled(const std::vector<std::string>& words,
               const fs::path& out,
               const std::function<bool()>& is_time,
               int signal) {
-    auto result = run(words, out, 0, [&](pid_t child) {
+    auto result = run(words, out, {}, [&](pid_t child) {
         constexpr auto pause = std::chrono::milliseconds{2};
         siginfo_t ended{};
         while (!is_time() && ended.si_pid != child) {
@@ -105,8 +105,12 @@ Run signalled(const std::vector<std::string>& words,
 } // namespace
 
 Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_bytes) {
+    return run_macadam_limited(words, {RLIMIT_FSIZE, most_file_bytes});
+}
+
+Run run_macadam_limited(const std::vector<std::string>& words, const Limit& limit) {
     const auto out = own_file("out");
-    auto result = run(words, out, most_file_bytes);
+    auto result = run(words, out, limit);
     result.out = read_file(out);
     fs::remove(out);
     return result;
@@ -127,7 +131,7 @@ Run run_macadam_signalled(const std::vector<std::string>& words,
 }
 
 Run run_macadam_into(const fs::path& out, const std::vector<std::string>& words) {
-    return run(words, out, 0);
+    return run(words, out, {});
 }
 
 fs::path fresh_folder() {

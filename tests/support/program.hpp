@@ -19,6 +19,14 @@ struct Run {
 /// any.
 Run run_macadam(const std::vector<std::string>& words, std::size_t most_file_bytes = 0);
 
+/// A limit of the system, as setrlimit() takes it; 0: none.
+struct Limit {
+    int resource = 0;
+    std::size_t most = 0;
+};
+
+Run run_macadam_limited(const std::vector<std::string>& words, const Limit& limit);
+
 /// Standard output goes to this file instead of Run::out.
 Run run_macadam_into(const std::filesystem::path& out, const std::vector<std::string>& words);
 

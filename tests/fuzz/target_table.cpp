@@ -1,0 +1,50 @@
+#include "fuzz/target_table.hpp"
+
+#include <array>
+
+namespace macadam::fuzz {
+namespace {
+
+// An input takes a reader of text about a millisecond with sanitizers, a store a tenth of a second.
+constexpr std::array all{Target{"trip_log", trip_log, 4000, 4},
+                         Target{"trip_compressed", trip_compressed, 4000, 4},
+                         Target{"trip_archive", trip_archive, 4000, 4},
+                         Target{"trip_live", trip_live, 4000, 4},
+                         Target{"trip_trace", trip_trace, 40, 4},
+                         Target{"trip_written", trip_written, 4000, 4},
+                         Target{"phone_export", phone_export, 4000, 4},
+                         Target{"mapped_trip", mapped_trip, 4000, 4},
+                         Target{"rawlog", rawlog, 200, 4},
+                         Target{"gpx", gpx, 4000, 4},
+                         Target{"vehicle_toml", vehicle_toml, 4000, 1},
+                         Target{"recipe_toml", recipe_toml, 4000, 4},
+                         Target{"style_toml", style_toml, 4000, 1},
+                         Target{"profile_csv", profile_csv, 4000, 4},
+                         Target{"profile_txt", profile_txt, 4000, 4},
+                         Target{"profile_erd", profile_erd, 4000, 4},
+                         Target{"profile_pro", profile_pro, 4000, 4},
+                         Target{"truth_csv", truth_csv, 4000, 1},
+                         Target{"survey_csv", survey_csv, 4000, 1},
+                         Target{"reference_csv", reference_csv, 4000, 1},
+                         Target{"control_csv", control_csv, 4000, 1},
+                         Target{"section_file", section_file, 400, 4},
+                         Target{"exclusion_file", exclusion_file, 400, 4},
+                         Target{"osm_xml", osm_xml, 4000, 4},
+                         Target{"osm_pbf", osm_pbf, 400, 4},
+                         Target{"line_layer", line_layer, 400, 4},
+                         Target{"network_image", network_image, 400, 4},
+                         Target{"base_map", base_map, 400, 4},
+                         Target{"store_bytes", store_bytes, 80, 8},
+                         Target{"store_content", store_content, 80, 8},
+                         Target{"geometry_blob", geometry_blob, 4000, 1},
+                         Target{"segment_key", segment_key, 4000, 1},
+                         Target{"utc_time", utc_time, 4000, 1},
+                         Target{"command_line", command_line, 4000, 1}};
+
+} // namespace
+
+std::span<const Target> targets() {
+    return all;
+}
+
+} // namespace macadam::fuzz
