@@ -33,6 +33,7 @@ bool change(const fs::path& file, const std::string& sql) {
     sqlite3_open(file.c_str(), &handle);
     const std::unique_ptr<sqlite3, Close> database{handle};
     sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 0, nullptr);
+    sqlite3_exec(handle, "PRAGMA synchronous = OFF", nullptr, nullptr, nullptr);
     return sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK;
 }
 
@@ -216,7 +217,7 @@ TEST_F(ForeignSchema, OfSqliteItselfAndOfQgisIsLetIn) {
                        "content BLOB); INSERT INTO qgis_projects VALUES ('mine', '', '');"
                        "INSERT INTO layer_styles (styleName) VALUES ('mine')"));
     EXPECT_EQ(RoadStore::open(plain, RoadStore::Access::write).info().trips, 2U);
-    ASSERT_TRUE(change(plain, "ALTER TABLE qgis_projects ADD COLUMN other AS (random())"));
+    ASSERT_TRUE(change(plain, "ALTER TABLE qgis_projects ADD COLUMN other AS (1)"));
     EXPECT_THAT(refusal_of([&] { RoadStore::open(plain, RoadStore::Access::read); }),
                 HasSubstr("a table 'qgis_projects' that is not of this program"));
 }
@@ -235,7 +236,7 @@ TEST(GuardedDatabase, RunsNoViewOrTriggerOfTheFileButItsOwnInTemp) {
     EXPECT_THAT(refusal_of([&] { database.run("ATTACH ':memory:' AS other"); }),
                 HasSubstr("too many attached databases"));
     EXPECT_THAT(refusal_of([&] { database.run("SELECT load_extension('x')"); }),
-                HasSubstr("load_extension"));
+                HasSubstr("not authorized"));
 }
 
 } // namespace
