@@ -145,7 +145,7 @@ void print_rows(const TripLog& trip,
                                      whole_m,
                                      options.length_m)};
     }
-    std::string_view before;
+    std::string_view before{""};
     print(options.json ? "[" : trace_csv_header());
     each_trace_row(trace, options.length_m, TripPlace{trip}, vehicle, [&](const TraceRow& row) {
         print(before);
