@@ -101,7 +101,7 @@ TEST_P(HostileDatabases, AreReadOrRefusedByEveryCommand) {
         fs::remove_all(work);
         fs::create_directories(work);
         fs::copy_file(good, work / "a.gpkg");
-        fs::copy_file(MACADAM_SOURCE_DIR "/tests/fuzz/seeds/trip_trace/auto.csv",
+        fs::copy_file(MACADAM_SOURCE_DIR "/tests/fuzz/seeds/trip_trace/receiver.csv",
                       work / "a.trip.csv");
         const auto done = spoil(work / "a.gpkg", GetParam().spoiling, number);
         for (const auto& words : commands) {
