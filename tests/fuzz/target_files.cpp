@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
+#include <utility>
 
 namespace macadam::fuzz {
 namespace {
@@ -30,14 +30,23 @@ std::vector<TargetFile> files_in(const fs::path& where) {
     return files;
 }
 
-/// What the pattern's first group matches in every line, sorted.
-std::vector<std::string> names_in(const fs::path& file, const char* pattern) {
-    const std::regex line_with_name{pattern};
-    std::vector<std::string> names;
+std::vector<std::string> lines_of(const fs::path& file) {
+    std::vector<std::string> lines;
     std::ifstream in{file};
     for (std::string line; std::getline(in, line);) {
-        if (std::smatch found; std::regex_search(line, found, line_with_name)) {
-            names.push_back(found[1]);
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+/// What stands between `before`, at the beginning of a line, and `after`; sorted.
+std::vector<std::string>
+names_in(const fs::path& file, std::string_view before, std::string_view after) {
+    std::vector<std::string> names;
+    for (const auto& line : lines_of(file)) {
+        const auto end = line.find(after);
+        if (line.starts_with(before) && !line.starts_with('#') && end != std::string::npos) {
+            names.push_back(line.substr(before.size(), end - before.size()));
         }
     }
     std::ranges::sort(names);
@@ -73,18 +82,22 @@ std::vector<TargetFile> findings_of(std::string_view target) {
 }
 
 std::vector<std::string> words_of(std::string_view target) {
-    auto words = names_in(folder / "dictionaries" / (std::string{target} + ".dict"),
-                          R"(^[^#"]*"(.*)\"\s*$)");
-    std::ranges::transform(words, words.begin(), unescaped);
+    std::vector<std::string> words;
+    for (const auto& line : lines_of(folder / "dictionaries" / (std::string{target} + ".dict"))) {
+        const auto begin = line.find('"'), end = line.rfind('"');
+        if (!line.starts_with('#') && begin < end) {
+            words.push_back(unescaped(std::string_view{line}.substr(begin + 1, end - begin - 1)));
+        }
+    }
     return words;
 }
 
 std::vector<std::string> declared_targets() {
-    return names_in(folder / "targets.hpp", R"(^Answer ([a-z_]+)\()");
+    return names_in(folder / "targets.hpp", "Answer ", "(");
 }
 
 std::vector<std::string> targets_with_readers() {
-    return names_in(folder / "readers.txt", R"(^([a-z_]+):)");
+    return names_in(folder / "readers.txt", "", ":");
 }
 
 } // namespace macadam::fuzz
