@@ -70,12 +70,12 @@ TEST(HostileMap, OfBlobsThatUnpackToFarMoreThanAMapDoesIsRefused) {
         "OSMData", zeros, PbfMap::Packing::zlib, static_cast<std::int64_t>(zeros.size()));
     EXPECT_THAT(refusal_of_map("a.osm.pbf", map.file()),
                 EndsWith("it unpacks to more than 20 times its size, as no map does"));
-    const auto bomb = xml_of(std::string(18 << 20, ' '));
+    const auto bomb = xml_of(std::string(24 << 20, ' '));
     EXPECT_THAT(refusal_of_map("a.osm.gz", gzipped(bomb)),
                 EndsWith("it unpacks to more than 100 times its size, as no map does"));
     EXPECT_THAT(
         told_of("b.osm",
-                xml_of(xml_road(7, "<nd ref='1'/><nd ref='2'/>") + std::string(18 << 20, ' ')))
+                xml_of(xml_road(7, "<nd ref='1'/><nd ref='2'/>") + std::string(1 << 20, ' ')))
             .ways,
         SizeIs(1));
 }

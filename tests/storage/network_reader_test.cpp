@@ -298,7 +298,7 @@ TEST(NetworkReader, RefusesNamesThatAreNoFiles) {
 
 TEST(NetworkReader, MeetsLinesOfALayerWhereTheyShareAVertex) {
     const auto ways = read_geojson(geojson_of({{"{}", line("[16,48],[16.1,48],[16.2,48]")},
-                                               {"{}", line("[16.1,49],[16.1,48.00000004]")}}));
+                                               {"{}", line("[16.1,48.1],[16.1,48.00000004]")}}));
     ASSERT_EQ(ways.size(), 2U);
     EXPECT_THAT(ways[0].node_ids, ElementsAre(1, 2, 3));
     EXPECT_THAT(ways[1].node_ids, ElementsAre(4, 2));
