@@ -76,7 +76,7 @@ struct Crowd {
         SegmentFilter filter;
         filter.period = period;
         std::vector<SegmentRecord> records;
-        RoadStore::open(file, RoadStore::Access::read, reader)
+        RoadStore::open(file, RoadStore::Access::read, {}, reader)
             .visit(filter, [&](const SegmentRecord& record) {
                 if (record.state) {
                     records.push_back(record);
