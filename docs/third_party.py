@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PRODUCT = ("app/", "estimator/", "mapping/", "storage/", "render/")
 # Compiler, C and C++ library: their licences let programs have any licence (GCC runtime library
 # exception; LGPL for what is linked).
-TOOLCHAIN = re.compile(r"^(libc6|libc6-dev|libgcc-.*|libgcc-s1|libstdc\+\+.*|linux-libc-dev)$")
+TOOLCHAIN = re.compile(r"^(libc6|libc6-dev|libgcc-.*|libgcc-s1|libstdc\+\+.*|linux-libc-dev|libasan.*|libubsan.*)$")
 # Opened by name at run time, so that no linked file names them.
 OPENED_LATE = ["libOSMesa.so.8"]
 # Packages whose copyright file is prose. The names are of https://spdx.org/licenses.
@@ -79,13 +79,9 @@ def libraries_of(build):
 
 
 def packages_of(files):
-    found = set()
-    for file in files:
-        for name in (file, file.removeprefix("/usr")):  # Debian 12 keeps both spellings
-            owner = subprocess.run(["dpkg", "-S", name], capture_output=True, text=True)
-            if owner.returncode == 0:
-                found.add(owner.stdout.split(":")[0])
-                break
+    names = [name for file in files for name in (file, file.removeprefix("/usr"))]  # either is listed
+    owners = subprocess.run(["dpkg", "-S", *names], capture_output=True, text=True).stdout
+    found = {line.split(":")[0] for line in owners.splitlines()}
     return {name for name in found if not TOOLCHAIN.match(name)}
 
 

@@ -223,7 +223,7 @@ CREATE INDEX published_pending_of_trip ON published_pending(trip);
 CREATE TABLE published_figure (
     segment INTEGER NOT NULL REFERENCES segment(fid),
     number INTEGER NOT NULL,
-    publication INTEGER NOT NULL REFERENCES publication(number),
+    publication INTEGER NOT NULL REFERENCES publication(number) DEFERRABLE INITIALLY DEFERRED,
     from_ms INTEGER,
     until_ms INTEGER,
     iri_um INTEGER NOT NULL,
