@@ -33,6 +33,9 @@ PROSE = {
     "libexpat1-dev": "Expat",
     "libbz2-1.0": "bzip2-1.0.6",
     "libbz2-dev": "bzip2-1.0.6",
+    "libcairo2": "LGPL-2.1 or MPL-1.1",
+    "libcairo2-dev": "LGPL-2.1 or MPL-1.1",
+    "libfontconfig-dev": "MIT",
     "libosmesa6": "Expat",
     "libosmesa6-dev": "Expat",
 }
