@@ -18,8 +18,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::import_trips;
 using ::testing::IsEmpty;
-using testing::new_store;
 using ::testing::MatchesRegex;
+using testing::new_store;
 using ::testing::Not;
 using testing::passes_of;
 using testing::refusal_of;
@@ -122,10 +122,7 @@ TEST(RoadStore, KeepsPassesAndStatesToTheLastDigit) {
     for (const auto& record : records) {
         std::vector<FusionInput> inputs;
         for (const auto& known : store.history(record.segment.key)) {
-            inputs.push_back({known.pass,
-                              known.trip_sha256,
-                              cars.at(known.vehicle),
-                              known.utc_ms});
+            inputs.push_back({known.pass, known.trip_sha256, cars.at(known.vehicle), known.utc_ms});
         }
         EXPECT_EQ(record.state, fuse(inputs, {}));
     }
@@ -290,7 +287,9 @@ TEST(RoadStore, SaysWhatTheTripsOfEachCarGave) {
     }
     const auto uses = store.vehicle_uses();
     ASSERT_THAT(uses, SizeIs(3));
-    EXPECT_TRUE(std::ranges::is_sorted(uses, {}, &VehicleUse::vehicle));
+    const auto cars = store.cars();
+    EXPECT_TRUE(std::ranges::is_sorted(
+        uses, {}, [&](const VehicleUse& use) { return std::ranges::find(cars, use.vehicle); }));
     const auto twice = std::ranges::find(uses, 2U, &VehicleUse::trips);
     ASSERT_NE(twice, uses.end());
     EXPECT_EQ(twice->method, "kf");

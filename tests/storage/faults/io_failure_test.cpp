@@ -3,6 +3,7 @@
 
 #include "faulty_disk.hpp"
 #include "files.hpp"
+#include "storage/privacy_key.hpp"
 #include "storage/road_store.hpp"
 #include "store_import.hpp"
 #include "store_world.hpp"
@@ -74,6 +75,7 @@ Sweep sweep(Fault fault, std::size_t step) {
     for (std::size_t number = 1; number <= most; number += step) {
         SCOPED_TRACE(::testing::Message() << "access " << number);
         fs::copy_file(empty, file, fs::copy_options::overwrite_existing);
+        fs::copy_file(key_file_of(empty), key_file_of(file), fs::copy_options::overwrite_existing);
         const auto failed = import_with({fault, number, number / step % 2 == 0}, file);
         if (!failed.met_the_fault) {
             break; // it has fewer accesses

@@ -3,6 +3,7 @@
 
 #include "faulty_disk.hpp"
 #include "files.hpp"
+#include "storage/privacy_key.hpp"
 #include "storage/road_store.hpp"
 #include "storage/sqlite.hpp"
 #include "store_import.hpp"
@@ -69,6 +70,7 @@ TEST(PowerLoss, LosesNoTripThatWasAcknowledgedAndSpoilsNoStore) {
         const auto left = empty_folder(folder / "left") / "a.gpkg";
         write_after_power_loss(
             recording.log, when, loss, static_cast<std::uint32_t>(image), left.parent_path());
+        fs::copy_file(key_file_of(file), key_file_of(left)); // was on the disk before the store was
 
         const FaultyDisk sound;
         ASSERT_EQ(damage_of(left), "ok");
