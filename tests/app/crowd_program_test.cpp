@@ -30,6 +30,7 @@ protected:
         folder_ = fresh_folder();
         store_ = (folder_ / "crowd.gpkg").string();
         write_file(folder_ / "road.osm", road_osm());
+        fs::create_directories(folder_ / "trips");
         const auto text = text_of(
             drive_over(patched_road([](double) { return false; }, 1), drive_, car()), drive_);
         for (int number = 0; number < cars; ++number) {
