@@ -250,7 +250,7 @@ TEST(StoreOfAnotherVersion, IsRefusedWithWhatToDo) {
         return run.err;
     };
     EXPECT_THAT(refusal_of_version("1"), HasSubstr("is a store of version '1', "));
-    EXPECT_THAT(refusal_of_version("2"), HasSubstr("run 'macadam upgrade "));
+    EXPECT_THAT(refusal_of_version("2"), HasSubstr("that is not of this program")); // but of 3
     EXPECT_THAT(refusal_of_version("1"), HasSubstr("make it anew with 'macadam init'"));
     EXPECT_THAT(refusal_of_version("99"), HasSubstr("made by a newer macadam"));
 }

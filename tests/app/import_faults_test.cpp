@@ -34,6 +34,15 @@ bool tries_all() {
     return std::getenv("MACADAM_TEST_ALL") != nullptr;
 }
 
+/// With its key.
+void copy_store(const fs::path& from, const fs::path& to) {
+    for (const auto* const suffix : {"", ".key"}) {
+        fs::copy_file(from.string() + suffix,
+                      to.string() + suffix,
+                      fs::copy_options::overwrite_existing);
+    }
+}
+
 /// Short trips of one road, an empty store of it, and what they come to undisturbed.
 struct World {
     std::vector<std::string> trips;
@@ -80,7 +89,7 @@ World world(int trips) {
     }
     EXPECT_EQ(run_macadam({"init", made.empty.string(), "--trace", made.trips[0]}).exit_status, 0);
     const auto whole = folder / "whole.gpkg";
-    fs::copy_file(made.empty, whole);
+    copy_store(made.empty, whole);
     const auto begin = Clock::now();
     EXPECT_EQ(run_macadam(import_words(whole, made.trips)).exit_status, 0);
     made.import_time = Clock::now() - begin;
@@ -89,7 +98,7 @@ World world(int trips) {
 }
 
 void start_anew(const World& made) {
-    fs::copy_file(made.empty, made.store, fs::copy_options::overwrite_existing);
+    copy_store(made.empty, made.store);
 }
 
 /// Hashes of the trips that an import reported to be in the store; a line that was cut off is none.
