@@ -10,6 +10,7 @@
 #include "storage/sqlite.hpp"
 #include "storage/store_world.hpp"
 #include "support/vector_tile_reader.hpp"
+#include "support/views.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -238,6 +239,7 @@ TEST(TileExport, WritesWhatTheStoreHoldsIntoBothKinds) {
     EXPECT_EQ(passes, expected);
 
     Database database{folder / "a.mbtiles", Database::Access::read};
+    testing::show_views_of(database);
     EXPECT_EQ(database.number("SELECT count(*) FROM tiles"), std::int64_t(read.tiles.size()));
     auto select = database.prepare("SELECT tile_data FROM tiles WHERE zoom_level = ?"
                                    " AND tile_column = ? AND tile_row = ?");

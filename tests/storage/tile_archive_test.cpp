@@ -5,11 +5,11 @@
 #include "storage/pmtiles_reader.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/tile_contents.hpp"
+#include "support/views.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sqlite3.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -18,11 +18,6 @@
 
 namespace macadam::testing {
 namespace {
-
-/// Our own connections see no view of a file; other programs do.
-void show_views_of(Database& database) {
-    sqlite3_db_config(database.handle(), SQLITE_DBCONFIG_ENABLE_VIEW, 1, nullptr);
-}
 
 using nlohmann::json;
 using ::testing::HasSubstr;
