@@ -41,6 +41,9 @@ constexpr const char* unfinished =
     "holds an import that was cut off, and cannot be written to undo "
     "it: open it once where it can be written";
 
+constexpr const char* moved = "was removed, or another file has taken its place, while this "
+                              "command worked on it; run it again";
+
 /// What only a program that may write can put in order.
 bool is_unfinished(int code) {
     return code == SQLITE_READONLY_ROLLBACK || code == SQLITE_READONLY_RECOVERY;
@@ -51,7 +54,9 @@ std::string cause_of(sqlite3* database, const OpenFile& file, int code) {
     case SQLITE_FULL:
         return "no space left on the disk, nothing was changed";
     case SQLITE_READONLY:
-        return is_unfinished(code) ? unfinished : "cannot be written, it is read-only";
+        return is_unfinished(code)               ? unfinished
+               : code == SQLITE_READONLY_DBMOVED ? moved
+                                                 : "cannot be written, it is read-only";
     case SQLITE_CANTOPEN:
         return "cannot be opened";
     case SQLITE_PERM:
@@ -387,9 +392,7 @@ void Database::expect_in_place() const {
     int has_moved = 0;
     sqlite3_file_control(handle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
     if (has_moved != 0) {
-        throw InputError{fmt::format("{}: was removed, or another file has taken its place, while "
-                                     "this command worked on it; run it again",
-                                     file().string())};
+        throw InputError{fmt::format("{}: {}", file().string(), moved)};
     }
 }
 

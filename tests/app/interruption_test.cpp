@@ -91,10 +91,10 @@ std::vector<CommandCase> commands() {
             {"tiles", {"export", "STORE", "-o", "OUT/a.mbtiles"}},
             {"picture_tiles",
              {"export", "STORE", "-o", "OUT/tiles/", "--tiles", "picture", "--zoom", "12"}},
-            {"render", {"render", "STORE", "-o", "OUT/a.png", "--size", "300x200"}},
+            {"render", {"render", "STORE", "-o", "OUT/a.png", "--size", "400x300"}},
             {"report", {"report", "STORE", "-o", "OUT/a.html"}},
             {"dry_calibrate", {"calibrate", "STORE", "--dry-run"}},
-            {"import", {"import", "STORE"}},
+            {"import", {"import", "STORE", "STORE"}},
             {"calibrate", {"calibrate", "STORE"}},
             {"forget", {"forget", "STORE", "--trip", "trip-1"}},
             {"valid_from", {"valid-from", "STORE", "--from", "2026-01-01", "--way", "1"}}};
@@ -177,15 +177,25 @@ TEST_P(CommandWhoseDatabaseGoes, FailsWithWordsAndLeavesNoOutput) {
         EXPECT_THAT(run.err,
                     AnyOf(HasSubstr("roads.gpkg: was removed, or another file has taken its place, "
                                     "while this command worked on it; run it again"),
+                          HasSubstr("roads.gpkg: no such file"),
                           HasSubstr("roads.gpkg: No such file"),
                           HasSubstr("roads.gpkg: cannot be opened")));
         EXPECT_TRUE(fs::is_empty(place.out));
     }
 }
 
+/// Those that end well where nothing happens to the database.
+std::vector<CommandCase> commands_that_succeed() {
+    auto all = commands();
+    std::erase_if(all, [](const CommandCase& command) {
+        return command.name == "import" || command.name.ends_with("calibrate");
+    });
+    return all;
+}
+
 INSTANTIATE_TEST_SUITE_P(Commands,
                          CommandWhoseDatabaseGoes,
-                         ::testing::ValuesIn(commands()),
+                         ::testing::ValuesIn(commands_that_succeed()),
                          [](const auto& test) { return test.param.name; });
 
 // ------------------------------------------------------------------------- in the middle of work

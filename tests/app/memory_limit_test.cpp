@@ -1,4 +1,5 @@
-// Commands in a small address space: words and exit status 1, never a signal.
+// Commands in a small address space, or with few open files: words and exit status 1, never a
+// signal.
 
 #include "app/resource_limits.hpp"
 
@@ -17,6 +18,20 @@ TEST_P(CommandInASmallAddressSpace, EndsWithWordsOrIsDone) {
         expect_words_or_success({RLIMIT_AS, most_mb * megabyte}, GetParam(), place);
     }
 }
+
+class CommandWithFewFiles : public ::testing::TestWithParam<CommandCase> {};
+
+TEST_P(CommandWithFewFiles, FailsWithWordsAndLeavesNothing) {
+    const auto place = new_place();
+    for (const std::size_t most_files : {6U, 8U}) {
+        expect_words_or_success({RLIMIT_NOFILE, most_files}, GetParam(), place);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands,
+                         CommandWithFewFiles,
+                         ::testing::ValuesIn(commands()),
+                         [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(Commands,
                          CommandInASmallAddressSpace,
