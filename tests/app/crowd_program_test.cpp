@@ -131,7 +131,7 @@ TEST_F(Crowd, ShowsMoreToWhoHoldsTheKey) {
     EXPECT_THAT(run({"calibrate", store_, "--dry-run"}, 1).err,
                 HasSubstr("for its operator alone"));
     EXPECT_THAT(run({"publish", store_}, 1).err, HasSubstr("who holds the key publishes"));
-    EXPECT_THAT(run({"query", store_, "--since", "2026-03-15"}, 1).err,
+    EXPECT_THAT(run({"query", store_, "--worst", "3", "--since", "2026-03-15"}, 1).err,
                 HasSubstr("told by whole months"));
     const auto info = run({"info", store_, "--json"}).out;
     EXPECT_THAT(info, AllOf(HasSubstr("\"published_alone\""), Not(HasSubstr("\"v-"))));

