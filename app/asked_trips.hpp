@@ -28,15 +28,16 @@ public:
                const TripWalkConfig& config,
                const Console& console);
 
-    /// Nothing at the end. A path that is none is a trip whose reading says so.
+    /// Takes the next trip; std::nullopt at the end. A path that does not exist is given as a trip,
+    /// and reading it says so.
     std::optional<TripSource> next();
 
-    /// How many trips there are; nothing as long as an archive may hold more.
+    /// Number of trips; std::nullopt while an archive may hold more.
     std::optional<std::size_t> count() const;
 
     std::size_t at_least() const; ///< so many there are
 
-    /// What there is to say of the archives, now that all were read.
+    /// Reports files in archives that were not read, once all trips were taken.
     void tell_rest(const Console& console) const;
 
 private:

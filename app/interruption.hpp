@@ -13,7 +13,7 @@ namespace macadam {
 /// by who opens that next. A second signal cuts off at once. A signal that was ignored when the
 /// program began, as under `nohup`, stays so.
 ///
-/// Where nobody reads what is printed (SIGPIPE), what it had begun is removed likewise.
+/// SIGPIPE, when the reader of the output has gone, removes what was begun likewise.
 ///
 /// It needs no thread, and processes may be forked beside it. One at a time.
 class Interruption {
@@ -26,7 +26,7 @@ public:
 
     std::stop_token stop() const;
 
-    /// How long a command may take to come to an end of its own: 1.5 s; more under sanitizers.
+    /// Time that a command may take to end by itself: 1.5 s; more under sanitizers.
     static std::chrono::milliseconds patience();
 };
 

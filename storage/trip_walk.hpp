@@ -41,7 +41,7 @@ public:
 
     std::size_t other_files() const { return other_files_; } ///< seen and not read, so far
 
-    /// How many trips there are; nothing as long as an archive may hold more.
+    /// Number of trips; std::nullopt while an archive may hold more.
     std::optional<std::size_t> count() const;
     std::size_t given() const { return given_; } ///< trips so far
 
