@@ -67,8 +67,7 @@ TEST(HostileMetadata, OfTripsIsTextOrRefusedWithWords) {
     fs::create_directory(folder / "trips");
     const auto log = driven({.length_m = 200});
     for (const auto& [what, text] : hostile) {
-        const Drive drive{
-            .length_m = 200, .trip_id = text, .vehicle_id = "car of " + text};
+        const Drive drive{.length_m = 200, .trip_id = text, .vehicle_id = "car of " + text};
         write_file(folder / "trips" / (what + ".trip.csv"), text_of(log, drive));
     }
     const auto first = (folder / "trips/sql.trip.csv").string();

@@ -37,9 +37,8 @@ bool tries_all() {
 /// With its key.
 void copy_store(const fs::path& from, const fs::path& to) {
     for (const auto* const suffix : {"", ".key"}) {
-        fs::copy_file(from.string() + suffix,
-                      to.string() + suffix,
-                      fs::copy_options::overwrite_existing);
+        fs::copy_file(
+            from.string() + suffix, to.string() + suffix, fs::copy_options::overwrite_existing);
     }
 }
 

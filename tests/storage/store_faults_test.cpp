@@ -172,7 +172,8 @@ TEST(OpenStore, IsOneFileAgainWhenItIsClosed) {
         std::ifstream in{file, std::ios::binary};
         return std::string(std::istreambuf_iterator<char>{in}, {});
     };
-    EXPECT_THAT(names_in(file.parent_path()), ::testing::UnorderedElementsAre("a.gpkg", "a.gpkg.key"));
+    EXPECT_THAT(names_in(file.parent_path()),
+                ::testing::UnorderedElementsAre("a.gpkg", "a.gpkg.key"));
     // SQLite's file format, 1.3.3: 1 is a rollback journal, which any reader knows.
     EXPECT_EQ(bytes().substr(18, 2), "\1\1");
     {
@@ -180,7 +181,8 @@ TEST(OpenStore, IsOneFileAgainWhenItIsClosed) {
         writer.add_trip(trip_record(9), passes_of(9));
         EXPECT_EQ(bytes().substr(18, 2), "\2\2");
     }
-    EXPECT_THAT(names_in(file.parent_path()), ::testing::UnorderedElementsAre("a.gpkg", "a.gpkg.key"));
+    EXPECT_THAT(names_in(file.parent_path()),
+                ::testing::UnorderedElementsAre("a.gpkg", "a.gpkg.key"));
     EXPECT_EQ(bytes().substr(18, 2), "\1\1");
 }
 
