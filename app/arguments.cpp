@@ -119,7 +119,7 @@ bool Arguments::flag(std::string_view name) const {
 }
 
 std::vector<std::string> Arguments::values(std::string_view name) const {
-    return words_.find(name)->second;
+    return operands(name);
 }
 
 std::optional<std::string> Arguments::value(std::string_view name) const {
@@ -184,7 +184,11 @@ const std::string& Arguments::operand(std::string_view name) const {
 }
 
 const std::vector<std::string>& Arguments::operands(std::string_view name) const {
-    return words_.find(name)->second;
+    const auto found = words_.find(name);
+    if (found == words_.end()) {
+        throw std::logic_error{fmt::format("the command's table has no {}", name)};
+    }
+    return found->second;
 }
 
 } // namespace macadam

@@ -224,10 +224,10 @@ public:
             const auto& steps = places->knots();
             auto step = std::ranges::upper_bound(steps.t_s, knots_.t_s.back()) - steps.t_s.begin();
             for (; step < std::ssize(steps.t_s) && steps.t_s[step] < reading.t_s; ++step) {
-                travel_m_ = steps.travel_m[step] - from_m;
+                travel_to(steps.travel_m[step] - from_m);
                 store(steps.t_s[step], unknown);
             }
-            travel_m_ = places->travel_m(reading.t_s) - from_m;
+            travel_to(places->travel_m(reading.t_s) - from_m);
         } else {
             travel_m_ += (speed_of(last_) + speed_of(reading)) / 2 *
                          std::min(reading.t_s - begin_s, blind_s);
@@ -240,6 +240,9 @@ public:
 
 private:
     static double speed_of(const Reading& reading) { return std::abs(reading.speed_mps); }
+
+    /// Never back, not even by what a difference is rounded.
+    void travel_to(double travel_m) { travel_m_ = std::max(travel_m_, travel_m); }
 
     void store(double t_s, double speed_mps) {
         knots_.t_s.push_back(t_s);

@@ -145,11 +145,16 @@ const std::map<std::string_view, Setter>& setters() {
     return table;
 }
 
-std::string meta_line(std::string_view key, std::string_view value) {
-    auto line = fmt::format("# {}: {}", key, value);
+/// As it will be read: without what ends a line, then without blanks at its ends.
+std::string on_one_line(std::string text) {
     std::ranges::replace_if(
-        line, [](char c) { return c == '\n' || c == '\r' || c == '\0'; }, ' ');
-    return line + "\n";
+        text, [](char c) { return c == '\n' || c == '\r' || c == '\0'; }, ' ');
+    return std::string{trimmed(text)};
+}
+
+std::string meta_line(std::string_view key, std::string_view value) {
+    return fmt::format(
+        "# {}: {}\n", on_one_line(std::string{key}), on_one_line(std::string{value}));
 }
 
 std::string meta_line(std::string_view key, std::span<const double> numbers) {

@@ -157,7 +157,8 @@ private:
         cells_[first_fix + 2] = fix.speed_mps;
         cells_[first_fix + 3] = fix.course_deg;
         cells_[first_fix + 4] = fix.accuracy_m;
-        cells_[utc_cell] = fixes_look_alike_ ? t0_s_ + fix.t_s : unknown;
+        // as it will be read from the rounded time
+        cells_[utc_cell] = fixes_look_alike_ ? t0_s_ + static_cast<double>(at_) / 1e6 : unknown;
     }
 
     const TripLog& trip_;

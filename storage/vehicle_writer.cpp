@@ -12,7 +12,7 @@ std::string line(std::string_view key, double value) {
 }
 
 /// Text in the quotes of TOML.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     std::string quoted{'"'};
     for (const char letter : text) {
         if (letter == '"' || letter == '\\') {
@@ -48,7 +48,7 @@ std::string imu_text(const ImuMount& imu) {
 } // namespace
 
 std::string vehicle_text(const Vehicle& vehicle) {
-    auto text = fmt::format("name = {}\n", quoted(vehicle.name)) + line("gain", vehicle.gain);
+    auto text = fmt::format("name = {}\n", in_quotes(vehicle.name)) + line("gain", vehicle.gain);
     if (vehicle.one_axle_gain) {
         text += line("one_axle_gain", *vehicle.one_axle_gain);
     }

@@ -46,6 +46,11 @@ TEST(Arguments, NotGivenAreNothing) {
     EXPECT_FALSE(arguments.flag("--json"));
 }
 
+TEST(Arguments, AskedForWhatTheTableDoesNotHaveAreAMistakeOfTheProgram) {
+    EXPECT_THROW(parse({"a.gpkg"}).value("--lenght"), std::logic_error);
+    EXPECT_THROW(parse({"a.gpkg"}).operand("TRIP"), std::logic_error);
+}
+
 TEST(Arguments, TakeNumbersThatBeginWithAMinus) {
     const auto box = parse({"a.gpkg", "--bbox", "-122.5,37.7,-122.4,37.8"}).numbers("--bbox", 4);
     EXPECT_THAT(*box, ElementsAre(-122.5, 37.7, -122.4, 37.8));

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <span>
@@ -73,9 +74,17 @@ Answer read_all_of(Search search) {
     return answer;
 }
 
-/// A log has times to the microsecond; of two samples of a sensor in one, the later is lost.
+/// A log has times to the microsecond; of two samples of a sensor in one, the later is lost. A fix
+/// whose place is printed as 0, 0 is none.
 bool can_be_told_apart(const TripLog& trip) {
     constexpr double least_s = 2e-6;
+    const auto is_at_zero = [](const GnssFix& fix) {
+        constexpr double printed_deg = 1e-8;
+        return std::abs(fix.at.lat_deg) < printed_deg && std::abs(fix.at.lon_deg) < printed_deg;
+    };
+    if (std::ranges::any_of(trip.fixes, is_at_zero)) {
+        return false;
+    }
     const auto too_close = [](double a, double b) { return !(b - a >= least_s); };
     const auto are_apart = [&](const std::vector<double>& t_s) {
         return std::ranges::adjacent_find(t_s, too_close) == t_s.end();

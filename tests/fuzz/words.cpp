@@ -48,7 +48,8 @@ void ask_for_everything(const Command& command, const Arguments& arguments) {
         });
     }
     for (const auto& operand : command.operands) {
-        expect(!arguments.operands(operand.name).empty(), "every operand has a word");
+        expect(operand.optional || !arguments.operands(operand.name).empty(),
+               "every operand that may not be left out has a word");
     }
 }
 

@@ -187,6 +187,14 @@ TEST(TripWriter, ComesBackWithAllThatTheHeadSaid) {
     EXPECT_EQ(found.other.at("operator"), "one two");
 }
 
+TEST(TripWriter, WritesTheSameBytesAgainOfAHeadWithStrayEndsOfLines) {
+    auto trip = small_trip();
+    trip.meta.other = {{"colour", "\rblue\n"}};
+    const auto text = written_text(trip);
+    EXPECT_THAT(text, HasSubstr("# colour: blue\n"));
+    EXPECT_EQ(written_text(read_again(trip)), text);
+}
+
 TEST(TripWriter, LeavesATripUndatedThatIs) {
     auto trip = small_trip();
     trip.meta.t0_utc_s.reset();
