@@ -120,6 +120,13 @@ std::vector<SectionReference> references_in_track(const std::filesystem::path& f
     for (const auto& fix : read_trip(*found.trip, needs_of_match()).fixes) {
         reference.line.push_back(fix.at);
     }
+    if (reference.line.size() < 2) {
+        throw InputError{fmt::format("{}: the track has {} place{} with a time that can be read, "
+                                     "expected at least 2",
+                                     file.string(),
+                                     reference.line.size(),
+                                     reference.line.size() == 1 ? "" : "s")};
+    }
     return {reference};
 }
 

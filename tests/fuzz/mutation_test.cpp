@@ -65,14 +65,20 @@ public:
     KeptInput(const KeptInput&) = delete;
     KeptInput& operator=(const KeptInput&) = delete;
     ~KeptInput() {
-        if (!::testing::Test::HasFailure()) {
+        if (!is_to_stay_) {
             std::filesystem::remove(file_);
         }
     }
-    const std::string& file() const { return file_; }
+
+    /// \returns where it stays.
+    const std::string& keep() {
+        is_to_stay_ = true;
+        return file_;
+    }
 
 private:
     std::string file_;
+    bool is_to_stay_ = false;
 };
 
 class Mutations : public ::testing::TestWithParam<Slice> {};
@@ -90,14 +96,14 @@ TEST_P(Mutations, AreReadOrRefused) {
     int accepted = 0;
     for (int i = 0; i < count; ++i) {
         const auto input = mutation.next();
-        const KeptInput kept{input, slice, i};
+        KeptInput kept{input, slice, i};
         const auto begin = std::chrono::steady_clock::now();
         try {
             accepted += slice.target.run(input) == Answer::accepted ? 1 : 0;
         } catch (const std::exception& error) {
-            ADD_FAILURE() << error.what() << ": " << kept.file();
+            ADD_FAILURE() << error.what() << ": " << kept.keep();
         }
-        EXPECT_LT(std::chrono::steady_clock::now() - begin, longest) << kept.file();
+        EXPECT_LT(std::chrono::steady_clock::now() - begin, longest) << kept.keep();
     }
     EXPECT_LT(peak_mb(), most_mb);
     RecordProperty("accepted", accepted);
