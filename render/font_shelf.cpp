@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -160,10 +162,15 @@ FontShelf::Open& FontShelf::opened(int font) {
     auto& entry = open_.at(static_cast<std::size_t>(font));
     if (entry.face == nullptr) {
         const auto [file, index] = source(font);
+        errno = 0;
         if (FT_New_Face(library_, file.c_str(), index, &entry.face) != 0) {
             entry.face = nullptr;
-            throw InputError{fmt::format(
-                "{}: cannot read the font, expected the package {}", file, file_of(font).package)};
+            throw InputError{
+                errno != 0 && errno != ENOENT
+                    ? fmt::format("{}: cannot read the font: {}", file, std::strerror(errno))
+                    : fmt::format("{}: cannot read the font, expected the package {}",
+                                  file,
+                                  file_of(font).package)};
         }
     }
     return entry;

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
     throw InputError{fmt::format("{}: cannot be written: {}", file.string(), cause)};
 }
 
-void sync(const fs::path& name, int flags, const fs::path& file) {
-    const int descriptor = ::open(name.c_str(), flags | O_CLOEXEC);
+void sync(const fs::path& name, const fs::path& file) {
+    const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
     const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
     const int error = errno;
     if (descriptor >= 0) {
@@ -78,7 +78,7 @@ std::vector<std::string> synced_names(const fs::path& folder, const fs::path& pl
     }
     std::ranges::sort(names);
     for (const auto& name : names) {
-        sync(folder / name, O_RDONLY, place / name);
+        sync(folder / name, place / name);
     }
     return names;
 }
@@ -114,32 +114,44 @@ void move_together(const std::vector<std::string>& names,
     moves.are_final();
 }
 
-/// Held on a folder while files are moved into it.
-class PlaceLock {
+/// The folder that files are moved into. It is open from before the first is moved: what was moved
+/// can be synced whatever the limit of open files.
+class TargetFolder {
 public:
-    PlaceLock(const fs::path& place, const fs::path& file)
-        : descriptor_{::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)} {
+    TargetFolder(const fs::path& folder, fs::path file)
+        : file_{std::move(file)}, descriptor_{
+                                      ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)} {
+        if (descriptor_ < 0) {
+            fail(file_, std::strerror(errno));
+        }
+    }
+    TargetFolder(const TargetFolder&) = delete;
+    TargetFolder& operator=(const TargetFolder&) = delete;
+    ~TargetFolder() { ::close(descriptor_); }
+
+    /// Until the end of this object.
+    void lock() {
         constexpr auto patience = std::chrono::milliseconds{1500};
         constexpr auto pause = std::chrono::milliseconds{5};
-        if (descriptor_ < 0) {
-            fail(file, std::strerror(errno));
-        }
         const auto give_up = std::chrono::steady_clock::now() + patience;
         while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             if (std::chrono::steady_clock::now() > give_up) {
-                ::close(descriptor_);
-                fail(file,
+                fail(file_,
                      "another program has been moving files into this folder for 1.5 s; end it "
                      "and run this again");
             }
             std::this_thread::sleep_for(pause);
         }
     }
-    PlaceLock(const PlaceLock&) = delete;
-    PlaceLock& operator=(const PlaceLock&) = delete;
-    ~PlaceLock() { ::close(descriptor_); }
+
+    void sync() {
+        if (::fsync(descriptor_) != 0) {
+            fail(file_, std::strerror(errno));
+        }
+    }
 
 private:
+    fs::path file_;
     int descriptor_;
 };
 
@@ -159,19 +171,21 @@ AtomicFileSet::AtomicFileSet(fs::path main_file) : main_file_{std::move(main_fil
 void AtomicFileSet::commit(const std::vector<std::string>& stale) {
     const auto place = parent_of(main_file_);
     const auto names = synced_names(folder(), place);
-    const PlaceLock one_at_a_time{place, main_file_};
+    TargetFolder opened{place, main_file_};
+    opened.lock();              // one at a time
     folder_->keep_if_cut_off(); // what was there before is in it for a moment
     if (names.size() == 1 && stale.empty()) {
         replace(folder() / names.front(), place / names.front());
     } else {
         move_together(names, stale, folder(), place);
     }
-    sync(place, O_RDONLY | O_DIRECTORY, main_file_);
+    opened.sync();
 }
 
 void AtomicFileSet::commit_new() {
     const auto place = parent_of(main_file_);
     synced_names(folder(), place);
+    TargetFolder opened{place, main_file_};
     if (::renameat2(
             AT_FDCWD, main_file().c_str(), AT_FDCWD, main_file_.c_str(), RENAME_NOREPLACE) != 0) {
         if (errno == EEXIST) {
@@ -184,7 +198,7 @@ void AtomicFileSet::commit_new() {
         }
         replace(main_file(), main_file_);
     }
-    sync(place, O_RDONLY | O_DIRECTORY, main_file_);
+    opened.sync();
 }
 
 } // namespace macadam

@@ -107,9 +107,12 @@ TemporaryFolder::TemporaryFolder(const fs::path& beside)
     : path_{made_folder(beside)}, lock_{locked(path_)}, removed_{path_} {}
 
 TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    std::error_code error;
+    fs::remove_all(path_, error);
     ::close(lock_);
+    if (error) {
+        fs::remove_all(path_, error); // the last descriptor was the lock's
+    }
 }
 
 fs::path temporary_name(const fs::path& beside) {

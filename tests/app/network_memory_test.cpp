@@ -179,7 +179,7 @@ TEST(NetworkMemory, OfPointsFarApartIsBounded) {
     EXPECT_THAT(expect_bounded("many.geojson", features(ways), of_a_map).err,
                 HasSubstr("too long for their 3200 points"));
     EXPECT_THAT(expect_bounded("long.geojson", features(line_feature(1, nearer)), of_a_map).err,
-                HasSubstr("longer than 4294 km"));
+                HasSubstr("longer than 4295 km"));
 }
 
 TEST(NetworkMemory, OfPackedBombsIsBounded) {

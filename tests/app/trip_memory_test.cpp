@@ -138,19 +138,33 @@ TEST_F(TripMemory, IsAMultipleOfTheLogWhateverItSays) {
     }
 }
 
+struct Bomb {
+    const char* format;
+    const char* name; ///< of what is in the archive
+    bool is_packed_twice;
+};
+
+/// A hundred megabytes of zeros, of which deflate makes a thousandth. They are gone before a
+/// program is started: what its parent holds when it forks counts as its own.
+void write_bomb(const fs::path& file, const Bomb& bomb) {
+    const std::string zeros(100 << 20, '\0');
+    write_file(
+        file,
+        archive_of(bomb.format, {{bomb.name, bomb.is_packed_twice ? gzipped(zeros) : zeros}}));
+}
+
 TEST_F(TripMemory, IsSmallForABomb) {
-    const std::string zeros(100 << 20, '\0'); // deflate makes 1,000:1 of them
-    for (const auto& [format, name, content] :
-         std::vector<std::array<std::string, 3>>{{"zip", "a.trip.csv", zeros},
-                                                 {"tar.gz", "a.trip.csv", zeros},
-                                                 {"tar.gz", "notes.txt", zeros},
-                                                 {"zip", "a.trip.csv.gz", gzipped(zeros)}}) {
-        const auto file = (folder / ("bomb." + format)).string();
-        write_file(file, archive_of(format, {{name, content}}));
-        const auto [peak_mb, exit_status] = run({"import", store, file});
-        std::printf("%s with %s: %.1f MB\n", format.c_str(), name.c_str(), peak_mb);
-        EXPECT_LT(peak_mb, 128) << format << " " << name;
-        EXPECT_EQ(exit_status, 1) << format << " " << name;
+    constexpr std::array bombs{Bomb{"zip", "a.trip.csv", false},
+                               Bomb{"tar.gz", "a.trip.csv", false},
+                               Bomb{"tar.gz", "notes.txt", false},
+                               Bomb{"zip", "a.trip.csv.gz", true}};
+    for (const auto& bomb : bombs) {
+        const auto file = folder / (std::string{"bomb."} + bomb.format);
+        write_bomb(file, bomb);
+        const auto [peak_mb, exit_status] = run({"import", store, file.string()});
+        std::printf("%s with %s: %.1f MB\n", bomb.format, bomb.name, peak_mb);
+        EXPECT_LT(peak_mb, 128) << bomb.format << " " << bomb.name;
+        EXPECT_EQ(exit_status, 1) << bomb.format << " " << bomb.name;
     }
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -41,7 +42,8 @@ void close_once(int& descriptor) {
 } // namespace
 
 PipedProgram::PipedProgram(const std::vector<std::string>& words)
-    : err_file_{(fresh_folder() / "err").string()} {
+    : err_file_{::testing::TempDir() + "macadam_err_XXXXXX"} {
+    close(mkostemp(err_file_.data(), O_CLOEXEC));
     const Ends in = new_pipe();
     const Ends out = new_pipe();
     std::vector<char*> argv{const_cast<char*>(MACADAM_PROGRAM)}; // the child must take no memory
@@ -67,6 +69,7 @@ PipedProgram::PipedProgram(const std::vector<std::string>& words)
 }
 
 PipedProgram::~PipedProgram() {
+    unlink(err_file_.c_str());
     close_once(input_);
     close_once(output_);
     if (child_ > 0) {
