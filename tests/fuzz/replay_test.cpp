@@ -50,6 +50,7 @@ TEST(FuzzTargets, AreAllInTheTableAndStateTheirReaders) {
     std::ranges::sort(tested);
     EXPECT_EQ(tested, declared_targets());
     EXPECT_EQ(tested, targets_with_readers());
+    EXPECT_EQ(readers_that_are_not_there(), std::vector<std::string>{});
 }
 
 } // namespace

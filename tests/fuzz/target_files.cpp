@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <utility>
 
 namespace macadam::fuzz {
@@ -98,6 +99,21 @@ std::vector<std::string> declared_targets() {
 
 std::vector<std::string> targets_with_readers() {
     return names_in(folder / "readers.txt", "", ":");
+}
+
+std::vector<std::string> readers_that_are_not_there() {
+    std::vector<std::string> missing;
+    for (const auto& line : lines_of(folder / "readers.txt")) {
+        std::istringstream words{line.starts_with('#') ? std::string{} : line};
+        std::string word;
+        words >> word; // the target
+        while (words >> word) {
+            if (!std::filesystem::exists(std::filesystem::path{MACADAM_SOURCE_DIR} / word)) {
+                missing.push_back(word);
+            }
+        }
+    }
+    return missing;
 }
 
 } // namespace macadam::fuzz
