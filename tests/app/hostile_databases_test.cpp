@@ -36,7 +36,7 @@ const std::vector<Words> commands{
     {"export", "a.gpkg", "-o", "a.geojson"},
     {"export", "a.gpkg", "-o", "b.gpkg"},
     {"export", "a.gpkg", "-o", "a.pmtiles"},
-    {"render", "a.gpkg", "-o", "a.png", "--size", "200x200"},
+    {"render", "a.gpkg", "-o", "a.png", "--size", "256x256"},
     {"report", "a.gpkg", "-o", "a.html", "--worst", "1"},
     {"import", "a.gpkg", "a.trip.csv"},
     {"calibrate", "a.gpkg"},
