@@ -26,7 +26,7 @@ std::vector<std::string> declared_targets();
 /// Names in readers.txt, sorted.
 std::vector<std::string> targets_with_readers();
 
-/// Of the source files that readers.txt names.
+/// Source files that readers.txt names and that do not exist.
 std::vector<std::string> readers_that_are_not_there();
 
 } // namespace macadam::fuzz
