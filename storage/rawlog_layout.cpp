@@ -240,8 +240,12 @@ void walk_topcon_position(Walk& walk, int version) {
     walk.skip(version >= 8 ? 3 : 2);
 }
 
-/// As MRPT wrote it before 1.4, field by field.
-void walk_old_gps(Walk& walk, int version) {
+bool is_old_gps(const RawlogHead& head) {
+    return head.kind == RawlogClass::gps && head.version >= 3 && head.version <= 9;
+}
+
+/// As MRPT wrote it before 1.4, field by field: what NMEA 0183 says, and where the receiver was.
+void walk_old_nmea(Walk& walk, int version) {
     constexpr std::size_t clock = 2 + sizeof(double);
     walk.skip(time_size);
     if (walk.flag()) { // GGA
@@ -258,6 +262,10 @@ void walk_old_gps(Walk& walk, int version) {
     if (version >= 4) {
         walk.pose_3d();
     }
+}
+
+/// And what receivers of Topcon said beyond that.
+void walk_old_topcon(Walk& walk, int version) {
     if (version >= 5 && walk.flag()) {
         walk_topcon_position(walk, version);
     }
@@ -281,8 +289,9 @@ bool walk_object(Walk& walk, const RawlogHead& head) {
         walk_comment(walk, head);
         return true;
     case RawlogClass::gps:
-        if (head.version >= 3 && head.version <= 9) {
-            walk_old_gps(walk, head.version);
+        if (is_old_gps(head)) {
+            walk_old_nmea(walk, head.version);
+            walk_old_topcon(walk, head.version);
             return true;
         }
         return walk_gps(walk, head);
@@ -309,25 +318,33 @@ bool is_in_names(char c) {
            c == '>' || c == ',';
 }
 
+/// The name of a class at the front of `bytes`, as far as they go; nothing: none begins so.
+std::optional<std::string_view> full_name_in(std::string_view bytes) {
+    constexpr unsigned char new_format = 0x80;
+    const auto first = static_cast<unsigned char>(bytes.front());
+    const std::size_t length = first & ~unsigned{new_format};
+    const auto name = bytes.substr(1, length);
+    const bool is_name = (first & new_format) != 0 && length > 0 && length <= longest_name &&
+                         std::ranges::all_of(name, is_in_names);
+    return is_name ? std::optional{name} : std::nullopt;
+}
+
 } // namespace
 
 std::optional<RawlogHead> rawlog_head(std::string_view bytes) {
     if (bytes.empty()) {
         return std::nullopt;
     }
-    constexpr unsigned char new_format = 0x80;
-    const auto first = static_cast<unsigned char>(bytes.front());
-    const std::size_t length = first & ~unsigned{new_format};
-    const auto full_name = bytes.substr(1, length);
-    if ((first & new_format) == 0 || length == 0 || length > longest_name ||
-        !std::ranges::all_of(full_name, is_in_names)) {
+    const auto full_name = full_name_in(bytes);
+    if (!full_name) {
         throw InputError{
             fmt::format("{}, expected an object of MRPT", in_quotes(bytes.substr(0, 20)))};
     }
+    const std::size_t length = static_cast<unsigned char>(bytes.front()) & 0x7fU;
     if (bytes.size() < length + 2) {
         return std::nullopt;
     }
-    const auto name = full_name.substr(full_name.rfind(':') + 1); // 0 where there is none
+    const auto name = full_name->substr(full_name->rfind(':') + 1); // 0 where there is none
     return RawlogHead{.kind = class_named(name),
                       .name = std::string{name},
                       .version = static_cast<unsigned char>(bytes[length + 1]),
@@ -348,6 +365,20 @@ std::optional<std::size_t> rawlog_size(const RawlogHead& head, std::string_view 
     }
 }
 
+std::optional<std::string> without_topcon(std::string_view object) {
+    const auto head = rawlog_head(object);
+    if (!head || !is_old_gps(*head) || head->version < 5) {
+        return std::nullopt;
+    }
+    Walk walk{object};
+    walk.skip(head->size);
+    walk_old_nmea(walk, head->version);
+    std::string bytes{object.substr(0, walk.at())};
+    bytes.append(head->version >= 7 ? 2 : 1, '\0'); // flags: no place, no satellites
+    bytes += rawlog_end_flag;
+    return bytes;
+}
+
 std::optional<RawlogFrame> rawlog_frame(const RawlogHead& head, std::string_view bytes) {
     if (head.version != 2) {
         refuse(head, "version 2");
@@ -363,16 +394,15 @@ std::optional<RawlogFrame> rawlog_frame(const RawlogHead& head, std::string_view
 }
 
 std::optional<bool> begins_observation(std::string_view bytes) {
-    try {
-        const auto head = rawlog_head(bytes);
-        if (!head) {
-            return std::nullopt;
-        }
-        return head->name.starts_with("CObservation") || head->name == "CSensoryFrame" ||
-               head->name == "CActionCollection";
-    } catch (const InputError&) {
-        return false;
+    if (!bytes.empty() && !full_name_in(bytes)) {
+        return false; // told without an exception: a picture has many places to look at
     }
+    const auto head = rawlog_head(bytes);
+    if (!head) {
+        return std::nullopt;
+    }
+    return head->name.starts_with("CObservation") || head->name == "CSensoryFrame" ||
+           head->name == "CActionCollection";
 }
 
 } // namespace macadam

@@ -42,6 +42,11 @@ std::optional<RawlogHead> rawlog_head(std::string_view bytes);
 /// \throws InputError  if it is not laid out as its class and version want; without a place.
 std::optional<std::size_t> rawlog_size(const RawlogHead& head, std::string_view bytes);
 
+/// A whole object of a GPS as MRPT wrote it before 1.4, but for what receivers of Topcon said,
+/// which nobody looks at: MRPT 2.5 reads that into memory which it has already freed. Nothing: MRPT
+/// may have the object as it is.
+std::optional<std::string> without_topcon(std::string_view object);
+
 /// How many observations a frame holds, which begin `size` bytes after its own begin.
 struct RawlogFrame {
     std::size_t count;

@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "estimator/common/late_library.hpp"
 #include "storage/late/rawlog.hpp"
+#include "storage/rawlog_layout.hpp"
 #include "storage/rawlog_objects.hpp"
 #include "storage/text.hpp"
 #include "storage/trip_meta.hpp"
@@ -88,8 +89,9 @@ Content read_objects(RawlogSource source, const Progress& progress) {
             content.objects.push_back(-1);
             continue;
         }
+        const auto shorter = without_topcon(object->bytes);
         try {
-            decode(object->bytes, take);
+            decode(shorter ? *shorter : object->bytes, take);
         } catch (const InputError& error) {
             throw InputError{fmt::format(
                 "{}: MRPT cannot read this {}: {}", objects.where(), object->name, error.what())};

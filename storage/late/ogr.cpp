@@ -29,6 +29,10 @@ namespace {
 /// Kinds of files that say an arc in a few bytes make some points of each.
 constexpr std::uintmax_t most_points_per_byte = 4;
 
+/// From 0 to a coordinate in whatever unit maps have. GDAL brings an x of spherical Mercator back
+/// to the globe turn by turn: from far enough away for ever.
+constexpr double farthest = 1e10;
+
 bool is_of_lines(OGRLayer& layer) {
     const auto kind = wkbFlatten(layer.GetGeomType());
     return kind == wkbLineString || kind == wkbMultiLineString || kind == wkbUnknown ||
@@ -331,7 +335,8 @@ private:
         for (int i = 0; i < line.getNumPoints(); ++i) {
             double lon_deg = line.getX(i);
             double lat_deg = line.getY(i);
-            if (to_wgs84_ && !to_wgs84_->Transform(1, &lon_deg, &lat_deg)) {
+            const bool is_near = std::abs(lon_deg) <= farthest && std::abs(lat_deg) <= farthest;
+            if (to_wgs84_ && !(is_near && to_wgs84_->Transform(1, &lon_deg, &lat_deg))) {
                 fail(fmt::format(
                     "{}, {} cannot be converted to degrees", line.getX(i), line.getY(i)));
             }

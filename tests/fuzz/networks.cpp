@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -45,19 +46,28 @@ void expect_sound(const RoadNetwork& roads) {
     }
 }
 
-Answer read_as(const std::string& name, std::string_view input) {
-    const auto file = input_file(name, input);
+Answer read(const std::filesystem::path& file, const LayerColumns& columns = {}) {
+    const auto warn = [](const std::string& words) {
+        expect(!words.empty(), "a warning has words");
+    };
     return may_refuse([&] {
-        auto ways = read_network(file);
+        auto ways = read_network(file, columns, {}, warn);
         expect_sound(ways);
         expect_sound(build_network(std::move(ways)));
     });
 }
 
+Answer read_as(const std::string& name, std::string_view input) {
+    return read(input_file(name, input));
+}
+
 } // namespace
 
 Answer osm_xml(std::string_view input) {
-    return read_as("a.osm", input);
+    return read_as(input.starts_with("\x1f\x8b") ? "a.osm.gz"
+                   : input.starts_with("BZh")    ? "a.osm.bz2"
+                                                 : "a.osm",
+                   input);
 }
 
 Answer osm_pbf(std::string_view input) {
@@ -65,7 +75,10 @@ Answer osm_pbf(std::string_view input) {
 }
 
 Answer line_layer(std::string_view input) {
-    return read_as("a.geojson", input);
+    const auto file = input_file("a.geojson", input);
+    read(file, {.layer = "roads", .id = {}, .name = {}, .highway = {}, .oneway = {}});
+    read(file, {.layer = {}, .id = "number", .name = "called", .highway = "kind", .oneway = "way"});
+    return read(file);
 }
 
 Answer network_image(std::string_view input) {

@@ -28,12 +28,43 @@ std::string content_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>{in}, {}};
 }
 
-/// Three roads, three cars, every segment of one road driven.
+/// A survey of the road that the cars drive.
+void add_survey(RoadStore& store) {
+    auto survey = testing::trip_record(1000);
+    survey.trip_id = "survey";
+    survey.vehicle_id = "";
+    survey.vehicle_model = "";
+    survey.method = "reference";
+    survey.reference = ReferenceNote{.relative_sd_ppm = 30'000, .row_mm = 20'000};
+    store.add_trip(survey, testing::passes_of(1000));
+}
+
+/// Three roads, four cars, every segment of one road driven and surveyed, one of them mended, a
+/// stretch of known roughness.
+void fill(RoadStore& store) {
+    constexpr std::int64_t mended_ms = 1'770'000'000'000;
+    const ControlSection known{.name = "known",
+                               .way_id = 1,
+                               .forward = true,
+                               .from_m = 20,
+                               .to_m = 80,
+                               .iri_mm_per_m = 2,
+                               .sd_mm_per_m = 0.1,
+                               .utc_ms = {}};
+    add_survey(store);
+    testing::import_trips(store, 4);
+    store.put_control_sections({&known, 1});
+    const SegmentKey mended{1, true, 4};
+    store.set_valid_from({&mended, 1}, mended_ms, "mended");
+}
+
 std::string good_store() {
     const auto file = input_file("good.gpkg", "");
     fs::remove(file);
-    auto store = testing::new_store(file);
-    testing::import_trips(store, 3);
+    {
+        auto store = testing::new_store(file);
+        fill(store);
+    } // until it is closed, all of this stands in the log beside it
     return content_of(file);
 }
 
@@ -41,6 +72,9 @@ const std::string& store_to_spoil() {
     static const std::string content = good_store();
     return content;
 }
+
+constexpr std::int64_t october_2025_ms = 1'759'276'800'000; // its first moment
+constexpr std::int64_t november_2026_ms = 1'793'491'200'000;
 
 /// Everything that commands read of a store.
 Answer read_store(const fs::path& file) {
@@ -61,11 +95,39 @@ Answer read_store(const fs::path& file) {
         store.visit(everything, [&](const SegmentRecord& record) { csv_row(record, classes); });
     });
     SegmentFilter of_a_month;
-    of_a_month.period = Period{};
-    read([&] { store.visit(of_a_month, [](const SegmentRecord&) {}); });
+    of_a_month.period = Period{october_2025_ms, november_2026_ms};
     const SegmentKey driven{1, true, 3};
+    SegmentFilter crossing; // whose lines begin on one side of the box and end on the other
+    crossing.box = GeoBox{4.85140, 45.7, 4.85141, 45.8};
+    SegmentFilter of_cars;
+    of_cars.key = driven;
+    of_cars.cars_alone = true;
+    SegmentFilter of_a_way;
+    of_a_way.way_id = 1;
+    of_a_way.class_name = "poor";
+    of_a_way.least_passes = 2;
+    SegmentFilter named;
+    named.name_part = "rue";
+    named.highway = "residential";
+    SegmentFilter service = everything;
+    service.highway = "service";
+    SegmentFilter stretch;
+    stretch.ranges = {{1, true, 2, 6}, {1, false, 0, 3}};
+    for (const auto& filter : {of_a_month, crossing, of_cars, of_a_way, named, service, stretch}) {
+        read([&] { store.visit(filter, [](const SegmentRecord&) {}); });
+    }
+    read([&] {
+        store.visit(
+            everything, [](const SegmentRecord&) {}, StateDetail::tiles);
+    });
     read([&] { store.history(driven); });
-    read([&] { store.changes(driven); });
+    read([&] { store.changes({1, true, 4}); });
+    read([&] { store.latest_publication(); });
+    read([&] { store.network_hash(); });
+    read([&] { store.waiting(); });
+    read([&] { store.laid(); });
+    read([&] { store.knows_trip(testing::trip_record(1).sha256); });
+    read([&] { store.has_forgotten(testing::trip_record(1).sha256); });
     read([&] { store.vehicle_uses(); });
     read([&] { store.day_uses(); });
     read([&] { store.seen(); });
@@ -77,6 +139,8 @@ Answer read_store(const fs::path& file) {
     read([&] { store.surveys(); });
     read([&] { store.reference_readings(); });
     read([&] { store.control_sections(); });
+    read([&] { store.expect_in_place(); });
+    expect(store.file() == file && !store.is_operator(), "a store is read under its own name");
     return answer;
 }
 
@@ -113,13 +177,27 @@ int allow(void*, int action, const char*, const char*, const char*, const char*)
     return action == SQLITE_ATTACH ? SQLITE_DENY : SQLITE_OK;
 }
 
-int too_long(void*) {
-    return 1;
+/// Stops when the whole script has had its time.
+int is_over(void* left) {
+    return --*static_cast<int*>(left) < 0 ? 1 : 0;
 }
 
-/// As far as it is SQL, and not for long: the reader's time is what counts here.
-void run_sql(const fs::path& file, const std::string& sql) {
-    constexpr int most_steps = 200'000;
+void no_limit(sqlite3_context* context, int, sqlite3_value**) {
+    sqlite3_result_int(context, 0);
+}
+
+/// The store's triggers call them when a line is changed.
+void add_geometry_functions(sqlite3* handle) {
+    for (const auto* const name : {"ST_IsEmpty", "ST_MinX", "ST_MaxX", "ST_MinY", "ST_MaxY"}) {
+        sqlite3_create_function_v2(
+            handle, name, 1, SQLITE_UTF8, nullptr, no_limit, nullptr, nullptr, nullptr);
+    }
+}
+
+/// Each line of it that is SQL, and not for long: the reader's time is what counts here.
+void run_sql(const fs::path& file, std::string_view sql) {
+    constexpr int steps_between_looks = 10'000;
+    int looks_left = 20;
     constexpr int most_bytes = 1 << 20; // of one value
     sqlite3* handle = nullptr;
     const int code = sqlite3_open(file.c_str(), &handle);
@@ -128,9 +206,15 @@ void run_sql(const fs::path& file, const std::string& sql) {
         throw std::runtime_error{"cannot open the store to spoil"};
     }
     sqlite3_set_authorizer(handle, allow, nullptr);
-    sqlite3_progress_handler(handle, most_steps, too_long, nullptr);
+    sqlite3_progress_handler(handle, steps_between_looks, is_over, &looks_left);
     sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, most_bytes);
-    sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr);
+    add_geometry_functions(handle);
+    while (!sql.empty() && looks_left >= 0) {
+        const auto end = std::min(sql.find('\n'), sql.size());
+        const std::string line{sql.substr(0, end)};
+        sqlite3_exec(handle, line.c_str(), nullptr, nullptr, nullptr);
+        sql.remove_prefix(std::min(end + 1, sql.size()));
+    }
 }
 
 } // namespace
@@ -141,7 +225,7 @@ Answer store_bytes(std::string_view input) {
 
 Answer store_content(std::string_view input) {
     const auto file = input_file("a.gpkg", store_to_spoil());
-    run_sql(file, std::string{input});
+    run_sql(file, input);
     return read_spoilt(file);
 }
 

@@ -16,8 +16,11 @@
 #include "storage/truth_file.hpp"
 #include "storage/vehicle_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -43,6 +46,11 @@ Answer read_profile_file(const std::filesystem::path& file) {
         const auto read = may_refuse([&] {
             const auto profile = read_profile(file, step_m);
             expect_sound(profile);
+            const auto extent = extent_of_profile(file, step_m);
+            expect(extent.points == profile.station_m.size(), "a profile has its extent");
+            expect(extent.first_m == profile.station_m.front() &&
+                       extent.last_m == profile.station_m.back(),
+                   "an extent ends where the profile does");
             if (profile.even_step_m && profile.station_m.size() < 10'000) {
                 iri_mm_per_m(profile.tracks.front().elevation_m, *profile.even_step_m);
             }
@@ -61,14 +69,31 @@ Answer read_as(const char* name, std::string_view input) {
     return read_profile_file(input_file(name, input));
 }
 
+/// The names decide whether there is a header, and what stands between cells: a table may have the
+/// wrong one. It is accepted if it is under its own.
+Answer read_table_as(const char* name, const char* wrong_name, std::string_view input) {
+    read_as(wrong_name, input);
+    return read_as(name, input);
+}
+
+/// Printed to the mm/m and mm, they are what the file may hold: nothing unknown, nothing that ends
+/// where it begins.
+bool can_be_printed(const std::vector<SegmentTruth>& truth) {
+    constexpr double least_m = 0.002;
+    return std::ranges::all_of(truth, [](const SegmentTruth& segment) {
+        return segment.to_m - segment.from_m >= least_m && std::isfinite(segment.iri_left) &&
+               std::isfinite(segment.iri_right) && std::isfinite(segment.hri);
+    });
+}
+
 } // namespace
 
 Answer profile_csv(std::string_view input) {
-    return read_as("a.csv", input);
+    return read_table_as("a.csv", "a.txt", input);
 }
 
 Answer profile_txt(std::string_view input) {
-    return read_as("a.txt", input);
+    return read_table_as("a.txt", "a.csv", input);
 }
 
 Answer profile_erd(std::string_view input) {
@@ -87,6 +112,12 @@ Answer truth_csv(std::string_view input) {
         expect(std::ranges::adjacent_find(truth, std::greater_equal{}, &SegmentTruth::key) ==
                    truth.end(),
                "segments rise");
+        if (can_be_printed(truth)) {
+            const auto rows = truth_rows(truth);
+            const auto again =
+                read_truth(input_file("again.csv", fmt::format("{}\n{}", truth_header, rows)));
+            expect(truth_rows(again) == rows, "what was written once is written so again");
+        }
     });
 }
 

@@ -15,7 +15,7 @@ enum class Answer { accepted, refused };
 
 Answer trip_log(std::string_view input);        ///< the text of a trip log
 Answer trip_compressed(std::string_view input); ///< a trip log in gzip or Zstandard
-Answer trip_archive(std::string_view input);    ///< a .zip or .tar of trip logs
+Answer trip_archive(std::string_view input);    ///< a .zip or .tar of trips, of any kind
 Answer trip_live(std::string_view input);       ///< a trip log as `trace --live` reads it
 Answer trip_trace(std::string_view input);      ///< the text of a trip log, through the estimator
 Answer trip_written(std::string_view input);    ///< the text of a trip log, read, written, read
@@ -36,12 +36,12 @@ Answer reference_csv(std::string_view input); ///< a survey that is to enter a d
 Answer control_csv(std::string_view input);
 Answer section_file(std::string_view input);   ///< a table, a GPX track or GeoJSON
 Answer exclusion_file(std::string_view input); ///< the same
-Answer osm_xml(std::string_view input);
+Answer osm_xml(std::string_view input);        ///< also in gzip or bzip2
 Answer osm_pbf(std::string_view input);
 Answer line_layer(std::string_view input); ///< GeoJSON, by GDAL
 
-/// A raster to lie under the roads, by GDAL: a GeoTIFF, MBTiles, or a.png with a.pgw and a.prj as
-/// parts of one input.
+/// A raster to lie under the roads, by GDAL: a GeoTIFF, MBTiles, a virtual raster, or a.png with
+/// a.pgw and a.prj, or with b.tif where it is a virtual one, as parts of one input.
 Answer base_map(std::string_view input);
 
 /// The file beside a store, with the sums that its bytes have; what is opened is used.

@@ -14,11 +14,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace macadam::fuzz {
@@ -57,20 +59,64 @@ void expect_sound(const TripLog& trip) {
 }
 
 /// Accepted if there is a trip, and each of them is.
-Answer read_all(const testing::WalkedTrips& search) {
+Answer read_all(const testing::WalkedTrips& search, const TripNeeds& needs) {
     auto answer = search.trips.empty() ? Answer::refused : Answer::accepted;
     for (const auto& source : search.trips) {
-        answer =
-            both(answer, may_refuse([&] { expect_sound(read_trip(source, needs_of_import())); }));
+        answer = both(answer, may_refuse([&] { expect_sound(read_trip(source, needs)); }));
     }
     return answer;
 }
 
 /// The search, too, may refuse.
 template <typename Search>
-Answer read_all_of(Search search) {
+Answer read_all_of(Search search, const TripNeeds& needs = needs_of_import()) {
     auto answer = Answer::refused;
-    may_refuse([&] { answer = read_all(search()); });
+    may_refuse([&] { answer = read_all(search(), needs); });
+    return answer;
+}
+
+/// A walk that stops after a few files gives as many trips as it counts.
+void expect_counted(const std::filesystem::path& path) {
+    const TripWalkConfig config{.tracks = true, .most_files = 3};
+    TripWalk walk{path, config};
+    expect(walk.files() == std::vector{path}, "a walk over a file reads that file");
+    std::size_t trips = 0;
+    while (walk.next()) {
+        ++trips;
+    }
+    expect(walk.given() == trips && walk.count() == trips, "a walk counts its trips");
+    expect(first_trip(path, config).count == trips, "every walk finds the same trips");
+}
+
+/// How trips of three tables lie in an archive: two of each trip, and one for all in a folder.
+std::shared_ptr<const TripMapping> three_tables() {
+    const auto table = [](std::string file, std::vector<ChannelMapping> channels) {
+        TableMapping mapping;
+        mapping.file = std::move(file);
+        mapping.time.columns = {{.pattern = "t_s"}};
+        mapping.channels = std::move(channels);
+        return mapping;
+    };
+    const auto channel = [](TripColumn meant, std::string column) {
+        return ChannelMapping{
+            .channel = meant, .column = {.pattern = std::move(column)}, .invalid = {}};
+    };
+    TripMapping mapping;
+    mapping.where = "mapping.toml";
+    mapping.tables = {
+        table("*_acc.csv", {channel(TripColumn::acc_z, "acc_z")}),
+        table("*_gnss.csv", {channel(TripColumn::lat, "lat"), channel(TripColumn::lon, "lon")}),
+        table("speed.csv", {channel(TripColumn::speed, "speed")})};
+    return std::make_shared<const TripMapping>(std::move(mapping));
+}
+
+/// A table is of one of the loggers that are known.
+Answer read_by_built_in_mappings(const std::filesystem::path& table) {
+    auto answer = Answer::refused;
+    for (const auto name : built_in_mapping_names()) {
+        const auto mapping = std::make_shared<const TripMapping>(read_mapping(std::string{name}));
+        answer = either(answer, read_all_of([&] { return testing::find_trips(table, mapping); }));
+    }
     return answer;
 }
 
@@ -103,6 +149,32 @@ TripLog read_written(const TripSource& source) {
     }
 }
 
+/// What `import` may be asked for: the filter, of whole trips, of those of others, of which the
+/// ends are hidden, and from lateral vibration alone; and the smoother, which takes a hundred times
+/// as long.
+std::vector<PipelineConfig> configs_of_import(bool with_smoother) {
+    std::vector<PipelineConfig> configs(with_smoother ? 4 : 3);
+    auto& of_others = configs[1];
+    of_others.trim.min_m = 30;
+    of_others.trim.random_m = 20;
+    of_others.trim.hides_places = true;
+    of_others.trim.draw = [](const std::string&, std::size_t) { return 0.5; };
+    configs[2].estimator.channels = Channels::lateral;
+    if (with_smoother) {
+        configs[3].estimator.method = Method::smoother;
+    }
+    return configs;
+}
+
+void expect_sound(const TripResult& result) {
+    expect(result.rows.read == result.rows.used + result.rows.rejected,
+           "every row is either used or rejected");
+    expect(result.matched_m >= 0 && result.distance_m >= 0, "a way has a length");
+    for (const auto& pass : result.passes) {
+        expect(pass.iri_um >= 0 && pass.sd_um >= 0, "an IRI is no less than 0");
+    }
+}
+
 Answer read_as(const std::string& name, std::string_view input) {
     const TripSource source{.file = input_file(name, input), .member = {}};
     return may_refuse([&] {
@@ -115,6 +187,11 @@ Answer read_as(const std::string& name, std::string_view input) {
 } // namespace
 
 Answer trip_log(std::string_view input) {
+    for (const auto& needs : {needs_of_match(), needs_of_match_with_heading(), needs_of_trace()}) {
+        may_refuse([&] {
+            expect_sound(read_trip({.file = input_file("a.trip.csv", input), .member = {}}, needs));
+        });
+    }
     return read_as("a.trip.csv", input);
 }
 
@@ -125,7 +202,17 @@ Answer trip_compressed(std::string_view input) {
 Answer trip_archive(std::string_view input) {
     const bool is_zip = input.starts_with("PK");
     const auto file = input_file(is_zip ? "a.zip" : "a.tar.gz", input);
-    return read_all_of([&] { return testing::find_trips(file); });
+    expect_counted(file);
+    const auto of_logs = read_all_of([&] { return testing::find_trips(file); });
+    const auto of_phones = read_all_of([&] { return testing::find_trips(file.parent_path()); });
+    const auto of_tables = read_all_of([&] { return testing::find_trips(file, three_tables()); });
+    may_refuse([&] {
+        expect(testing::find_trips(file.parent_path(), three_tables()).other_files == 1,
+               "an archive under a folder holds no tables");
+    });
+    const auto of_tracks =
+        read_all_of([&] { return testing::find_tracks(file); }, needs_of_match());
+    return either(either(of_logs, of_phones), either(of_tables, of_tracks));
 }
 
 Answer trip_live(std::string_view input) {
@@ -164,7 +251,7 @@ Answer trip_written(std::string_view input) {
     return may_refuse([&] {
         const auto folder = source.file.parent_path();
         const TripSource first{.file = folder / "first.trip.csv", .member = {}};
-        const TripSource second{.file = folder / "second.trip.csv", .member = {}};
+        const TripSource second{.file = folder / "second.trip.csv.gz", .member = {}};
         const auto trip = read_trip(source, needs_of_import());
         if (!can_be_told_apart(trip)) {
             return;
@@ -199,6 +286,9 @@ Answer mapped_trip(std::string_view input) {
     static constexpr std::array<std::string_view, 3> names{
         "mapping.toml", "a_acc.csv", "a_gnss.csv"};
     const auto folder = input_folder(names, input);
+    if (!std::filesystem::exists(folder / "mapping.toml")) {
+        return read_by_built_in_mappings(folder / "a_acc.csv");
+    }
     std::shared_ptr<const TripMapping> mapping;
     const auto answer = may_refuse([&] {
         mapping = std::make_shared<const TripMapping>(read_mapping(folder / "mapping.toml"));
@@ -211,11 +301,17 @@ Answer mapped_trip(std::string_view input) {
 }
 
 Answer trip_trace(std::string_view input) {
+    constexpr std::size_t short_log = 4096; // of some seconds
     const TripSource source{.file = input_file("a.trip.csv", input), .member = {}};
     return may_refuse([&] {
         const auto trip = read_trip(source, needs_of_import());
-        const auto trace = trace_of(trip, *built_in_vehicle("generic"), {});
+        const auto& car = *built_in_vehicle("generic");
+        const auto trace = trace_of(trip, car, {});
         expect_accounted(trip, trace.use);
+        const auto roads = build_network(trace_network(std::span{&trip, 1}, TraceConfig{}));
+        for (const auto& config : configs_of_import(input.size() < short_log)) {
+            may_refuse([&] { expect_sound(passes_of(trip, car, roads, config)); });
+        }
     });
 }
 

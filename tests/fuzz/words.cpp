@@ -5,15 +5,18 @@
 #include "app/estimation_options.hpp"
 #include "app/period_options.hpp"
 #include "app/query_options.hpp"
+#include "app/section_options.hpp"
 #include "app/segment_options.hpp"
 #include "mapping/segment.hpp"
 #include "storage/geopackage.hpp"
+#include "storage/store_world.hpp"
 #include "storage/utc.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -60,6 +63,8 @@ void parse_as(const Command& command, const Arguments& arguments) {
     };
     if (command.name == "query") {
         parse_query(arguments);
+    } else if (takes(sections_option.name)) {
+        parse_sections(arguments, false);
     }
     if (takes(rate_option.name)) {
         pipeline_config_of(arguments);
@@ -67,17 +72,67 @@ void parse_as(const Command& command, const Arguments& arguments) {
     if (takes(until_option.name)) {
         parse_period(arguments);
     }
+    if (takes(since_option.name)) {
+        parse_begin(arguments, since_option.name);
+    }
+    if (std::ranges::find(command.operands, store_operand.name, &Operand::name) !=
+        command.operands.end()) {
+        store_file(arguments);
+    }
+}
+
+/// The functions that a database's triggers call say of a geometry what the program says.
+void expect_same_in_sql(std::string_view geometry) {
+    static Database database{"geometry", Database::Access::memory};
+    static const bool has_functions = [] {
+        add_geometry_functions(database);
+        return true;
+    }();
+    expect(has_functions, "SQL has the functions");
+    auto select = database.prepare("SELECT ST_IsEmpty(?1), ST_MinX(?1), ST_MinY(?1), ST_MaxX(?1),"
+                                   " ST_MaxY(?1)");
+    select.bind(Blob{geometry}).step();
+    const auto box = box_of_geometry(geometry);
+    expect(select.is_null(1) == !box && (select.integer(0) != 0) == !box,
+           "what has no box is empty");
+    const auto is_at = [&](int column, double deg) { // SQL has no number for what is none
+        return std::isnan(deg) ? select.is_null(column) : select.real(column) == deg;
+    };
+    expect(!box || (is_at(1, box->west_deg) && is_at(2, box->south_deg) &&
+                    is_at(3, box->east_deg) && is_at(4, box->north_deg)),
+           "a geometry has one box");
+}
+
+/// The segments of an edge lie on it one after the other, and so does the one that is asked for.
+void expect_in_place(const RoadNetwork& roads, EdgeId edge, const SegmentKey& key) {
+    const auto segments = segments_of(roads, edge);
+    const auto found = std::ranges::find(segments, key, &Segment::key);
+    if (found == segments.end()) {
+        return;
+    }
+    expect(found->from_m < found->to_m && found->line.size() >= 2, "a segment has a length");
+    expect(found == segments.begin() || std::prev(found)->line.back() == found->line.front(),
+           "a segment begins where the one before it ends");
+    const auto whole = line_on(roads, edge, 0, length_m(roads, edge));
+    expect(whole.front() == segments.front().line.front() &&
+               whole.back() == segments.back().line.back(),
+           "segments are all of their edge");
 }
 
 } // namespace
 
 Answer geometry_blob(std::string_view input) {
     const auto line = line_of_geometry(input);
+    expect_same_in_sql(input);
     const bool has_numbers = std::ranges::none_of(
         line, [](const auto& at) { return std::isnan(at.lat_deg) || std::isnan(at.lon_deg); });
     if (has_numbers) {
         expect(line_of_geometry(geometry_of(line)) == line,
                "a line is the same after one more trip");
+        const auto box = box_of_geometry(geometry_of(line));
+        expect(box.has_value(), "a geometry has a box");
+        expect(std::ranges::all_of(line, [&](const auto& at) { return contains(*box, at); }),
+               "a box holds its line");
     }
     return line.empty() ? Answer::refused : Answer::accepted;
 }
@@ -86,6 +141,10 @@ Answer segment_key(std::string_view input) {
     return may_refuse([&] {
         const auto key = parse_segment_key(input);
         expect(parse_segment_key(name_of(key)) == key, "a key is the same after one more trip");
+        static const auto roads = testing::small_country();
+        for (const auto edge : drivable_edges(roads)) {
+            expect_in_place(roads, edge, key);
+        }
     });
 }
 

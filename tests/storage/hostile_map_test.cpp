@@ -179,6 +179,20 @@ TEST(HostileMap, WithNodesBeyondTheGlobeHasNoRoadsThere) {
     }
 }
 
+// GDAL would go around the globe once for every 40,000 km.
+TEST(HostileMap, WithACoordinateFarBeyondTheGlobeIsRefused) {
+    for (const char* const east : {"9223372036854775807", "-1e300"}) {
+        EXPECT_THAT(
+            refusal_of_map(
+                "far.geojson",
+                fmt::format(R"({{"type":"Feature","crs":{{"type":"name","properties":{{)"
+                            R"("name":"EPSG:3857"}}}},"properties":{{}},"geometry":{{"type":)"
+                            R"("LineString","coordinates":[[{},6126000],[0,6126010]]}}}})",
+                            east)),
+            EndsWith("cannot be converted to degrees"));
+    }
+}
+
 TEST(HostileMap, OfXmlWithEntitiesOrDeepElementsIsRefused) {
     EXPECT_THAT(refusal_of_map("a.osm", "<!DOCTYPE osm [<!ENTITY a 'aaaa'>]>" + xml_of("")),
                 HasSubstr("declares an entity, expected none"));

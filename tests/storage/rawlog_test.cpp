@@ -413,6 +413,15 @@ TEST(Rawlog, AsksForTheSensorsThatAreNeeded) {
                          "expected also what gives acc_z_mps2 or acc_y_mps2"));
 }
 
+TEST(Rawlog, ReadsFixesBesideWhatReceiversOfTopconSaid) {
+    // MRPT 2.5 would write that into memory it has freed.
+    const std::string file = MACADAM_SOURCE_DIR "/tests/fuzz/findings/rawlog/topcon.rawlog";
+    const auto trip = read_trip({file, ""}, everything);
+    ASSERT_THAT(trip.fixes, SizeIs(5)); // of versions 5 to 9
+    EXPECT_NEAR(trip.fixes.back().at.lat_deg, 48.0009, 1e-9);
+    EXPECT_FLOAT_EQ(trip.fixes.back().speed_mps, 18.52F);
+}
+
 TEST(Rawlog, IsFoundInFoldersAndArchives) {
     const auto folder = test_folder();
     const auto bytes = content_of(rtk_file);

@@ -1,0 +1,1 @@
+UPDATE meta SET value = 'nine' WHERE key = 'class_table';

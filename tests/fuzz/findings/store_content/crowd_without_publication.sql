@@ -1,0 +1,1 @@
+UPDATE meta SET value = 'crowd' WHERE key = 'privacy';

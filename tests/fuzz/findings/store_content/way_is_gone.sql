@@ -1,0 +1,1 @@
+DELETE FROM way WHERE way_id = 2;

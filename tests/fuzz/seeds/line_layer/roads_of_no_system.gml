@@ -1,0 +1,1 @@
+<?xml version="1.0"?><ogr:FeatureCollection xmlns:ogr="http://ogr.maptools.org/" xmlns:gml="http://www.opengis.net/gml"><gml:featureMember><ogr:roads fid="r.1"><ogr:geometryProperty><gml:LineString><gml:coordinates>16.1,48.1 16.1002,48.1001</gml:coordinates></gml:LineString></ogr:geometryProperty><ogr:oneway>F</ogr:oneway></ogr:roads></gml:featureMember></ogr:FeatureCollection>
