@@ -1,6 +1,6 @@
-#include "app/commands.hpp"
-#include "app/memory_limit.hpp"
-#include "app/printable.hpp"
+#include "app/cli/commands.hpp"
+#include "app/cli/memory_limit.hpp"
+#include "app/cli/terminal_escape.hpp"
 
 #include <fmt/format.h>
 
@@ -75,7 +75,8 @@ int main(int argc, char** argv) {
     }
     const auto* const command = macadam::command_named(name);
     if (command == nullptr) {
-        say(fmt::format("macadam: no command '{}'; macadam --help lists them\n", name));
+        say(fmt::format("macadam: unknown command '{}'; macadam --help lists all commands\n",
+                        name));
         return misused;
     }
     if (std::ranges::find(words, "--help") != words.end() ||

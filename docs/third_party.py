@@ -40,7 +40,7 @@ PROSE = {
     "libosmesa6-dev": "Expat",
 }
 SHIPPED = [
-    ("ColorBrewer 2.0, scheme RdYlBu (mapping/colour_ramp.cpp)",
+    ("ColorBrewer 2.0, scheme RdYlBu (mapping/style/colour_ramp.cpp)",
      "Apache-2.0; Copyright (c) 2002 Cynthia Brewer, Mark Harrower and The Pennsylvania State University"),
     ("sample_data/comma2k19", "MIT; Copyright (c) 2018 comma.ai (sample_data/README.md)"),
     ("sample_data/gyor", "MIT; Copyright (c) 2020 David Meszaros (sample_data/README.md)"),
@@ -67,7 +67,7 @@ def headers_of(build):
 
 
 def libraries_of(build):
-    """Shared libraries that the program and its late libraries name."""
+    """Shared libraries that the program and its plug-ins name."""
     folder = build.parent if (build.parent / "macadam").exists() else build
     linked = [folder / "macadam", *sorted((folder / "lib").glob("macadam_*.so"))]
     names, paths = set(OPENED_LATE), {}

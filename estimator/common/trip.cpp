@@ -59,7 +59,7 @@ const char* name_of(RowReason reason) {
     return "";
 }
 
-RowCount account(const TripLog& trip, const TripUse& use) {
+RowCount account(const TripLog& trip, const RowAudit& use) {
     // The order in which a rejected row finds its reason.
     struct Stream {
         std::uint8_t flag;

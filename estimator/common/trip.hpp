@@ -110,7 +110,7 @@ struct TripLog {
 
 /// Which samples of a trip entered an estimate: one flag a sample of each stream, and for those
 /// that did not, why.
-struct TripUse {
+struct RowAudit {
     std::vector<std::uint8_t> acc; ///< 0 = used, otherwise a RowReason
     std::vector<std::uint8_t> gyro;
     std::vector<std::uint8_t> speed;
@@ -127,6 +127,6 @@ struct RowCount {
 
 /// A row is used if at least one of its samples was; otherwise it is rejected once, with the first
 /// reason in the order acc, gyro, speed, fix.
-RowCount account(const TripLog& trip, const TripUse& use);
+RowCount account(const TripLog& trip, const RowAudit& use);
 
 } // namespace macadam

@@ -1,6 +1,6 @@
 #include "estimator/identification/car_modes.hpp"
 
-#include "estimator/quarter_car.hpp"
+#include "estimator/vehicle/quarter_car.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimator/vehicle.hpp"
+#include "estimator/vehicle/vehicle.hpp"
 
 namespace macadam {
 

@@ -1,7 +1,7 @@
 #include "estimator/identification/spectrum_fit.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/identification/minimum.hpp"
+#include "estimator/identification/bfgs.hpp"
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
@@ -14,9 +14,9 @@
 namespace macadam {
 namespace {
 
-constexpr double least_duration_s = 10; // twenty independent values to the smoothing's 0.5 Hz
-constexpr double start_is_kgm2 = 3000;  // paper table III
-constexpr double difference = 1e-4;     // of the logarithm of a parameter
+constexpr double min_duration_s = 10;  // twenty independent values to the smoothing's 0.5 Hz
+constexpr double start_is_kgm2 = 3000; // paper table III
+constexpr double difference = 1e-4;    // of the logarithm of a parameter
 
 /// The golden car's springs, damper and tyre under the known masses (paper section VI-A).
 HalfCar start_car(const HalfCar& known, double height_m) {
@@ -47,7 +47,7 @@ public:
     using Model = std::function<std::vector<double>(const Eigen::VectorXd&)>;
 
     Channel(std::span<const double> measured,
-            const RideOverProfile& ride,
+            const ProfileResponse& ride,
             const SpectrumFitConfig& config,
             Model felt)
         : step_s_{ride.step_s}, band_{config.band}, skipped_{static_cast<std::size_t>(
@@ -128,34 +128,34 @@ HalfCar rolling(HalfCar start, const Eigen::VectorXd& logs) {
 }
 
 Eigen::VectorXd found_in(const Channel& channel, Eigen::Index unknowns) {
-    return minimum_near(Eigen::VectorXd::Zero(unknowns),
-                        [&](const Eigen::VectorXd& logs) { return channel.cost(logs); })
+    return minimise_bfgs(Eigen::VectorXd::Zero(unknowns),
+                         [&](const Eigen::VectorXd& logs) { return channel.cost(logs); })
         .at;
 }
 
-bool tracks_differ(const RideOverProfile& ride) {
+bool tracks_differ(const ProfileResponse& ride) {
     return ride.left_m != ride.right_m;
 }
 
-void check(const RideOverProfile& ride, const SpectrumFitConfig& config) {
+void check(const ProfileResponse& ride, const SpectrumFitConfig& config) {
     if (ride.vertical_mps2.empty()) {
         throw InputError{"has no vertical acceleration, which identification needs"};
     }
     const double duration_s = static_cast<double>(ride.vertical_mps2.size() - 1) * ride.step_s;
-    if (duration_s < config.run_in_s + least_duration_s) {
+    if (duration_s < config.run_in_s + min_duration_s) {
         throw InputError{
-            fmt::format("drives {:.1f} s in one go on the profile (from {:.0f} to {:.0f} m), "
-                        "expected at least {:.0f}",
+            fmt::format("drives {:.1f} s continuously on the profile (from {:.0f} to {:.0f} "
+                        "m), expected at least {:.0f}",
                         duration_s,
                         ride.from_m,
                         ride.to_m,
-                        config.run_in_s + least_duration_s)};
+                        config.run_in_s + min_duration_s)};
     }
 }
 
 } // namespace
 
-SpectrumFit fit_spectra(const RideOverProfile& ride,
+SpectrumFit fit_spectra(const ProfileResponse& ride,
                         const HalfCar& known,
                         double height_above_roll_axis_m,
                         const SpectrumFitConfig& config) {

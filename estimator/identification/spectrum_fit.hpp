@@ -1,7 +1,7 @@
 #pragma once
 
 #include "estimator/identification/amplitude_spectrum.hpp"
-#include "estimator/identification/ride_over_profile.hpp"
+#include "estimator/identification/profile_response.hpp"
 
 #include <map>
 #include <optional>
@@ -51,7 +51,7 @@ struct SpectrumFit {
 /// them.
 ///
 /// Source: the paper, sections V and VI-A, table III.
-SpectrumFit fit_spectra(const RideOverProfile& ride,
+SpectrumFit fit_spectra(const ProfileResponse& ride,
                         const HalfCar& known,
                         double height_above_roll_axis_m,
                         const SpectrumFitConfig& config);

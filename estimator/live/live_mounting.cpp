@@ -8,9 +8,9 @@
 namespace macadam {
 namespace {
 
-constexpr double block_s = 0.25;            // four to each second that the mounting looks at
-constexpr std::size_t most_blocks = 14'400; // an hour
-constexpr double early_s = 60;              // so long it is found again more often
+constexpr double block_s = 0.25;           // four to each second that the mounting looks at
+constexpr std::size_t max_blocks = 14'400; // an hour
+constexpr double early_s = 60;             // so long it is found again more often
 constexpr double early_every_s = 5;
 constexpr double late_every_s = 30;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -72,14 +72,14 @@ void LiveMounting::add(const TripLog& recent, const Odometer& odometer, double n
     if (motion_.t_s.empty() || now_s < next_s_) {
         return;
     }
-    keep_last(felt_.acc.t_s, most_blocks);
-    keep_last(felt_.acc.x, most_blocks);
-    keep_last(felt_.acc.y, most_blocks);
-    keep_last(felt_.acc.z, most_blocks);
-    keep_last(motion_.t_s, most_blocks);
-    keep_last(motion_.travel_m, most_blocks);
-    keep_last(motion_.speed_mps, most_blocks);
-    keep_last(motion_.reversing, most_blocks);
+    keep_last(felt_.acc.t_s, max_blocks);
+    keep_last(felt_.acc.x, max_blocks);
+    keep_last(felt_.acc.y, max_blocks);
+    keep_last(felt_.acc.z, max_blocks);
+    keep_last(motion_.t_s, max_blocks);
+    keep_last(motion_.travel_m, max_blocks);
+    keep_last(motion_.speed_mps, max_blocks);
+    keep_last(motion_.reversing, max_blocks);
     mounting_ = estimate_mounting(felt_, Odometer{motion_});
     first_s_ = std::min(first_s_, now_s);
     next_s_ = now_s + (now_s - first_s_ < early_s ? early_every_s : late_every_s);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimator/stretch.hpp"
+#include "estimator/motion/mounting.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,6 +1,7 @@
 #include "estimator/live/live_roughness.hpp"
 
-#include "estimator/smoothed_iri.hpp"
+#include "estimator/motion/mounting.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +11,13 @@
 namespace macadam {
 namespace {
 
-constexpr double least_length_m = 10;  // of a stretch: its beginning is told as start-up
+constexpr double min_length_m = 10;    // of a stretch: its beginning is told as start-up
 constexpr double ended_after_s = 0.5;  // of silence, or of what makes no stretch
 constexpr double forget_every_m = 100; // so that little is moved about
 
 // A car is tuned by up to a minute of samples (car_in); once that much is there it stays as it is.
 constexpr double tuned_every_s = 30;
-constexpr double most_tuning_s = 60;
+constexpr double max_tuning_s = 60;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -108,7 +109,7 @@ double grid_rate_hz(double own_hz, double fastest_mps, const StretchConfig& conf
             std::max(config.enough_rate_hz, config.samples_a_metre * fastest_mps);
         return own_hz / std::max(1.0, std::floor(own_hz / enough_hz));
     }
-    return std::min(own_hz, config.most_rate_hz);
+    return std::min(own_hz, config.max_rate_hz);
 }
 
 double fastest_mps(const Odometer& odometer, double from_s, double to_s) {
@@ -127,7 +128,7 @@ LiveRoughness::LiveRoughness(Vehicle vehicle,
                              LiveWindow window)
     : vehicle_{std::move(vehicle)}, stretch_{stretch},
       estimator_{estimator}, window_{window}, last_s_{-infinity}, final_s_{-infinity} {
-    stretch_.least_length_m = least_length_m;
+    stretch_.min_length_m = min_length_m;
 }
 
 double LiveRoughness::rear_m() const {
@@ -161,9 +162,9 @@ void LiveRoughness::tune(const TripLog& recent,
                          const Odometer& odometer,
                          const Mounting& mounting) {
     const double length_s = end_s(recent, span) - begin_s(recent, span);
-    const bool enough = length_s >= std::min(tuned_by_s_ + tuned_every_s, most_tuning_s);
+    const bool enough = length_s >= std::min(tuned_by_s_ + tuned_every_s, max_tuning_s);
     if (estimator_.method != Method::smoother ||
-        (car_ && (!enough || tuned_by_s_ >= most_tuning_s))) {
+        (car_ && (!enough || tuned_by_s_ >= max_tuning_s))) {
         return;
     }
     car_ = car_in(make_stretch(recent, span, odometer, mounting, stretch_), vehicle_, estimator_);
@@ -184,7 +185,7 @@ void LiveRoughness::extend(const TripLog& recent,
     }
     const double from_s = std::clamp(odometer.t_s(known_until_m - window_.length_m),
                                      last_s - window_.longest_s,
-                                     last_s - window_.least_s);
+                                     last_s - window_.min_s);
     const auto& t_s = recent.acc.t_s;
     const auto first =
         static_cast<std::size_t>(std::ranges::lower_bound(t_s, from_s) - t_s.begin());

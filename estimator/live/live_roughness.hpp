@@ -1,18 +1,20 @@
 #pragma once
 
-#include "estimator/iri_trace.hpp"
+#include "estimator/motion/stretch.hpp"
+#include "estimator/roughness/roughness_trace.hpp"
 #include "estimator/smoother/car_tuning.hpp"
-#include "estimator/stretch.hpp"
 
 #include <cstddef>
 #include <optional>
 
 namespace macadam {
 
+struct Mounting; // estimator/motion/mounting.hpp
+
 /// How much of the road behind is smoothed again to say something of a few metres.
 struct LiveWindow {
     double length_m = 400;
-    double least_s = 8;
+    double min_s = 8;
     double longest_s = 25; ///< of slow driving, where 400 m are many samples
 };
 

@@ -1,7 +1,8 @@
 #include "estimator/live/live_trace.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/latency.hpp"
+#include "estimator/motion/gnss_latency.hpp"
+#include "estimator/roughness/roughness_mean.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,10 +73,10 @@ std::vector<LiveRow> LiveTrace::add(const TripLog& samples) {
     looked_s_ = now;
     look(false);
     const auto end_s = next_end_s();
-    if (!end_s || now - *end_s < config_.most_later_s) {
+    if (!end_s || now - *end_s < config_.max_later_s) {
         return {};
     }
-    const double final_s = now - config_.least_later_s;
+    const double final_s = now - config_.min_later_s;
     roughness_.go_on(recent_.trip(), *ruler_.odometer, mounting_.mounting(), now, final_s);
     return rows_until(ruler_.odometer->travel_m(final_s) + roughness_.rear_m());
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "estimator/live/live_mounting.hpp"
+#include "estimator/live/live_odometer.hpp"
 #include "estimator/live/live_roughness.hpp"
-#include "estimator/live/live_ruler.hpp"
-#include "estimator/live/recent_samples.hpp"
+#include "estimator/live/sample_buffer.hpp"
 
 #include <deque>
 #include <optional>
@@ -20,8 +20,8 @@ struct LiveConfig {
 
     /// The rear axle leaves a row; so much later, at most, the row is told, and it is told of data
     /// that go at least so far on.
-    double most_later_s = 1.8;
-    double least_later_s = 1.1;
+    double max_later_s = 1.8;
+    double min_later_s = 1.1;
 };
 
 /// What is said of one piece of the travel. Nothing: not known.
@@ -35,7 +35,7 @@ struct LiveRow {
     double left_s; ///< when the rear axle left it
 };
 
-/// IRI along a trip while it is driven: fixed-lag smoothing, u[k | k + N], with N of most_later_s.
+/// IRI along a trip while it is driven: fixed-lag smoothing, u[k | k + N], with N of max_later_s.
 ///
 /// Every part looks at what has come so far: the odometer (live_ruler.hpp), the mounting
 /// (live_mounting.hpp) and the roughness (live_roughness.hpp). Memory is bounded by the sampling
@@ -57,7 +57,7 @@ public:
 
     // What is known of the trip so far, for those who warn.
     const TripLog& recent() const { return recent_.trip(); }
-    const LiveRuler& ruler() const { return ruler_; }
+    const LiveOdometer& ruler() const { return ruler_; }
     const Mounting& mounting() const { return mounting_.mounting(); }
 
     /// The receiver's latency, where the log does not state it and its two speeds have told.
@@ -81,8 +81,8 @@ private:
     Middle middle_at(double travel_m) const;
 
     LiveConfig config_;
-    RecentSamples recent_;
-    LiveRuler ruler_;
+    SampleBuffer recent_;
+    LiveOdometer ruler_;
     LiveMounting mounting_;
     LiveRoughness roughness_;
     std::optional<double> found_latency_s_;

@@ -13,10 +13,10 @@ namespace {
 
 // Friction is smooth: f * v / sqrt(v^2 + slip^2). A slip that is too small for the wheel's mass
 // would shake in steps of 2 ms.
-constexpr double least_slip_mps = 0.005;
-constexpr double most_friction_rate_hz = 600; // f / (slip * mass)
-constexpr double most_damping_rate_hz = 300;
-constexpr double most_wheel_rate_radps = 400;
+constexpr double min_slip_mps = 0.005;
+constexpr double max_friction_rate_hz = 600; // f / (slip * mass)
+constexpr double max_damping_rate_hz = 300;
+constexpr double max_wheel_rate_radps = 400;
 
 void refuse(const char* what, double value, double low, double high) {
     if (!(value >= low && value <= high)) {
@@ -54,9 +54,8 @@ void check(const CarRecipe& car) {
     refuse("wheel's own frequency in rad/s",
            std::sqrt(stiffness_n_per_m / half.mu_kg),
            0,
-           most_wheel_rate_radps);
-    refuse(
-        "damping over wheel mass in 1/s", half.cs_ns_per_m / half.mu_kg, 0, most_damping_rate_hz);
+           max_wheel_rate_radps);
+    refuse("damping over wheel mass in 1/s", half.cs_ns_per_m / half.mu_kg, 0, max_damping_rate_hz);
 }
 
 CarState moved(const CarState& state, double dt_s, const CarState& slope) {
@@ -102,8 +101,7 @@ CarModel car_model(const CarRecipe& recipe) {
     car.wheel_kg = half.mu_kg;
     car.kt_n_per_m = half.kt_n_per_m;
     car.friction_n = recipe.friction_n;
-    car.slip_mps =
-        std::max(least_slip_mps, recipe.friction_n / (half.mu_kg * most_friction_rate_hz));
+    car.slip_mps = std::max(min_slip_mps, recipe.friction_n / (half.mu_kg * max_friction_rate_hz));
     car.stop_gap_m = recipe.bump_stop_gap_m;
     car.stop_n_per_m = recipe.bump_stop_n_per_m;
     car.antiroll_n_per_m = recipe.antiroll_n_per_m;

@@ -1,7 +1,7 @@
 #include "estimator/simulation/imu.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/simulation/exact_math.hpp"
+#include "estimator/simulation/portable_math.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-constexpr double least_interval = 0.1; // of the usual one, between two stamps
+constexpr double min_interval = 0.1; // of the usual one, between two stamps
 
 void refuse(const char* what, double value, double low, double high) {
     if (!(value >= low && value <= high)) {
@@ -142,7 +142,7 @@ void Imu::read(double t_s, ImuReadings& into) {
     if (recipe_.jitter_s > 0) {
         stamp_s += recipe_.jitter_s * random_.normal();
         const double earliest_s =
-            into.t_s.empty() ? 0 : into.t_s.back() + least_interval / recipe_.rate_hz;
+            into.t_s.empty() ? 0 : into.t_s.back() + min_interval / recipe_.rate_hz;
         stamp_s = std::max(stamp_s, earliest_s);
     }
     into.t_s.push_back(stamp_s);

@@ -1,6 +1,6 @@
 #include "estimator/simulation/random.hpp"
 
-#include "estimator/simulation/exact_math.hpp"
+#include "estimator/simulation/portable_math.hpp"
 
 #include <bit>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "estimator/simulation/road_features.hpp"
 
-#include "estimator/simulation/exact_math.hpp"
+#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/random.hpp"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ void add_patches(RoadSurface& surface, const RoadRecipe& recipe, Random& random)
     const double room_m = surface.length_m() - 2 * clear_of_ends_m;
     const int count = draw_count(recipe.patches_per_km, surface.length_m(), random);
     for (int i = 0; i < count; ++i) {
-        const double length_m = random.uniform(least_patch_m, most_patch_m);
+        const double length_m = random.uniform(min_patch_m, max_patch_m);
         const double at_room = random.uniform();
         const double height_m = patch_height_m * random.normal();
         const bool both = random.uniform() < patch_in_both_tracks;
@@ -91,9 +91,9 @@ void add_potholes(RoadSurface& surface, const RoadRecipe& recipe, Random& random
     const double room_m = surface.length_m() - 2 * clear_of_ends_m;
     const int count = draw_count(recipe.potholes_per_km, surface.length_m(), random);
     for (int i = 0; i < count; ++i) {
-        const double length_m = random.uniform(least_pothole_m, most_pothole_m);
+        const double length_m = random.uniform(min_pothole_m, max_pothole_m);
         const double at_room = random.uniform();
-        const double depth_m = random.uniform(least_pothole_depth_m, most_pothole_depth_m);
+        const double depth_m = random.uniform(min_pothole_depth_m, max_pothole_depth_m);
         const double middle_m = (random.uniform() < 0.5 ? -wheel_path_m : wheel_path_m) +
                                 random.uniform(-pothole_off_path_m, pothole_off_path_m);
         if (length_m > room_m) {

@@ -21,10 +21,10 @@ double patch(double at_m, double length_m);
 double pothole(double at_m, double length_m);
 
 inline constexpr double patch_height_m = 0.005; ///< standard deviation; some lie deeper
-inline constexpr double least_patch_m = 1, most_patch_m = 15;
+inline constexpr double min_patch_m = 1, max_patch_m = 15;
 inline constexpr double patch_in_both_tracks = 0.5; ///< probability
-inline constexpr double least_pothole_m = 0.3, most_pothole_m = 1;
-inline constexpr double least_pothole_depth_m = 0.01, most_pothole_depth_m = 0.06;
+inline constexpr double min_pothole_m = 0.3, max_pothole_m = 1;
+inline constexpr double min_pothole_depth_m = 0.01, max_pothole_depth_m = 0.06;
 inline constexpr double pothole_half_width_m = 0.3;
 inline constexpr double pothole_off_path_m = 0.2; ///< at most, its middle from the wheel path
 

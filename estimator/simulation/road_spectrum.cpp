@@ -1,7 +1,7 @@
 #include "estimator/simulation/road_spectrum.hpp"
 
-#include "estimator/iri.hpp"
-#include "estimator/simulation/exact_math.hpp"
+#include "estimator/iri/iri.hpp"
+#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/road_features.hpp"
 
 #include <algorithm>
@@ -114,16 +114,16 @@ Events events_of(const RoadRecipe& recipe) {
     events.patches_per_m = recipe.patches_per_km / 1000 * (0.5 + 0.5 * patch_in_both_tracks);
     events.potholes_per_m = recipe.potholes_per_km / 1000 / 2;
     if (recipe.patches_per_km > 0) {
-        const double length_m = (least_patch_m + most_patch_m) / 2;
+        const double length_m = (min_patch_m + max_patch_m) / 2;
         events.patch_stroke = trial(length_m, [=](double at_m) { return patch(at_m, length_m); });
     }
     if (recipe.potholes_per_km > 0) {
-        const double length_m = (least_pothole_m + most_pothole_m) / 2;
+        const double length_m = (min_pothole_m + max_pothole_m) / 2;
         events.pothole_stroke =
             trial(length_m, [=](double at_m) { return pothole(at_m, length_m); });
         const double half_off_path_m = pothole_off_path_m / 2;
         events.pothole_depth_m =
-            (least_pothole_depth_m + most_pothole_depth_m) / 2 *
+            (min_pothole_depth_m + max_pothole_depth_m) / 2 *
             pothole(pothole_half_width_m - half_off_path_m, 2 * pothole_half_width_m);
     }
     return events;

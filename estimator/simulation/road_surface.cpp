@@ -1,7 +1,7 @@
 #include "estimator/simulation/road_surface.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/simulation/exact_math.hpp"
+#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/random.hpp"
 #include "estimator/simulation/road_features.hpp"
 #include "estimator/simulation/road_spectrum.hpp"
@@ -20,8 +20,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double usual_step_m = 0.05;
-constexpr double least_length_m = 0.1;
-constexpr double most_length_m = 200'000;
+constexpr double min_length_m = 0.1;
+constexpr double max_length_m = 200'000;
 constexpr double across_m = 0.25;      // between lines
 constexpr int lines_a_side = 5;        // wheels run up to 1.25 m from the middle
 constexpr double alike_across_m = 0.4; // of what is not common: exp(-(d / 0.4)^2 / 2)
@@ -44,7 +44,7 @@ void check(const RoadRecipe& recipe, double length_m) {
                 fmt::format("road: {} is {}, expected {} to {}", what, value, low, high)};
         }
     };
-    refuse("length in metres", length_m, least_length_m, most_length_m);
+    refuse("length in metres", length_m, min_length_m, max_length_m);
     refuse("iri", recipe.iri_mm_per_m, 0.01, 50);
     refuse("waviness", recipe.waviness, 1.2, 3.2);
     refuse("level_sd", recipe.level_sd, 0, 1.5);

@@ -44,8 +44,8 @@ double even_steps_hz(const ImuRecipe& imu) {
     if (!(imu.rate_hz >= 1 && imu.rate_hz <= 10'000)) {
         throw InputError{fmt::format("imu: rate_hz is {}, expected 1 to 10000", imu.rate_hz)};
     }
-    const double least_hz = std::max(slowest_steps_hz, steps_a_corner * imu.lowpass_hz);
-    return std::ceil(least_hz / imu.rate_hz) * imu.rate_hz;
+    const double min_hz = std::max(slowest_steps_hz, steps_a_corner * imu.lowpass_hz);
+    return std::ceil(min_hz / imu.rate_hz) * imu.rate_hz;
 }
 
 /// The motion at any time: travel by a cubic that has the speeds given, the others by lines. Before
@@ -78,8 +78,10 @@ MotionNow motion_at(const Motion& motion, double t_s) {
             (motion.yaw_rate_radps[i + 1] - motion.yaw_rate_radps[i]) / motion.step_s};
 }
 
-CarInput
-input_at(const CarModel& car, const FeltRoad& road, const Runout& runout, const MotionNow& motion) {
+CarInput input_at(const CarModel& car,
+                  const EnvelopedRoad& road,
+                  const TyreNonUniformity& runout,
+                  const MotionNow& motion) {
     CarInput input{{}, motion.acc_mps2, motion.speed_mps * motion.yaw_rate_radps};
     for (std::size_t axle = 0; axle < 4; axle += 2) {
         const double station_m = motion.travel_m + car.ahead_m[axle];
@@ -117,9 +119,9 @@ ImuReadings simulate_imu(const CarRecipe& car,
                          std::uint64_t seed) {
     check(motion);
     const CarModel model = car_model(car);
-    const FeltRoad felt_road{road, car.tyre_contact_m};
+    const EnvelopedRoad felt_road{road, car.tyre_contact_m};
     Random random{seed_of({seed, 1})};
-    const Runout runout{car, random};
+    const TyreNonUniformity runout{car, random};
     const double steps_hz = even_steps_hz(imu);
     const double dt_s = 1 / steps_hz;
     const auto steps_a_sample = std::lround(steps_hz / imu.rate_hz);

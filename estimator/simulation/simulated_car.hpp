@@ -1,7 +1,7 @@
 #pragma once
 
 #include "estimator/simulation/road_surface.hpp"
-#include "estimator/vehicle.hpp"
+#include "estimator/vehicle/vehicle.hpp"
 
 #include <array>
 #include <cstdint>

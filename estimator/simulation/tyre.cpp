@@ -1,7 +1,7 @@
 #include "estimator/simulation/tyre.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/simulation/exact_math.hpp"
+#include "estimator/simulation/portable_math.hpp"
 
 #include <fmt/format.h>
 
@@ -63,7 +63,7 @@ smoothed(const std::vector<float>& elevation_m, double step_m, double contact_m)
 
 } // namespace
 
-FeltRoad::FeltRoad(const RoadUnderWheels& road, double contact_m)
+EnvelopedRoad::EnvelopedRoad(const RoadUnderWheels& road, double contact_m)
     : per_m_{1 / road.step_m}, last_{static_cast<double>(road.left_m.size()) - 1} {
     check(road, contact_m);
     const auto left_m = smoothed(road.left_m, road.step_m, contact_m);
@@ -76,7 +76,7 @@ FeltRoad::FeltRoad(const RoadUnderWheels& road, double contact_m)
     station_.resize(left_m.size() + 3, station_.back());
 }
 
-FeltRoad::Heights FeltRoad::at(double station_m) const {
+EnvelopedRoad::Heights EnvelopedRoad::at(double station_m) const {
     const double place = std::min(std::max(station_m * per_m_, 0.0), last_);
     const auto base = static_cast<std::size_t>(place);
     const double t = place - static_cast<double>(base);
@@ -93,7 +93,7 @@ FeltRoad::Heights FeltRoad::at(double station_m) const {
     return heights;
 }
 
-Runout::Runout(const CarRecipe& car, Random& random) {
+TyreNonUniformity::TyreNonUniformity(const CarRecipe& car, Random& random) {
     if (!(car.tyre_radius_m >= 0.1 && car.tyre_radius_m <= 1)) {
         throw InputError{
             fmt::format("car: tyre_radius_m is {}, expected 0.1 to 1", car.tyre_radius_m)};
@@ -115,7 +115,7 @@ Runout::Runout(const CarRecipe& car, Random& random) {
     }
 }
 
-double Runout::at(std::size_t wheel, double travel_m) const {
+double TyreNonUniformity::at(std::size_t wheel, double travel_m) const {
     const double turns = turns_ahead + travel_m * turns_per_m_[wheel];
     const double turn = turns - static_cast<double>(static_cast<std::int64_t>(turns));
     const double place = turn * static_cast<double>(part_count);

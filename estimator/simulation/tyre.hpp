@@ -10,9 +10,9 @@ namespace macadam {
 
 /// The road as tyres feel it, smoothed over their contact, with a cubic between stations. Beyond
 /// its ends it is level.
-class FeltRoad {
+class EnvelopedRoad {
 public:
-    FeltRoad(const RoadUnderWheels& road, double contact_m);
+    EnvelopedRoad(const RoadUnderWheels& road, double contact_m);
 
     struct Heights {
         double left_m, right_m;
@@ -32,9 +32,9 @@ private:
 /// How far the wheels are from round: a height over the turn of each, that would press the tyre
 /// with the recipe's forces at one and two cycles a turn. Each wheel has its phases, and turns a
 /// little faster or slower than the others, as worn tyres do.
-class Runout {
+class TyreNonUniformity {
 public:
-    Runout(const CarRecipe& car, Random& random);
+    TyreNonUniformity(const CarRecipe& car, Random& random);
 
     /// Of one wheel whose axle has rolled travel_m, from -1000 m on.
     double at(std::size_t wheel, double travel_m) const;

@@ -13,18 +13,18 @@ namespace {
 
 constexpr double relative_step = 0.03; // of a finite difference
 constexpr double usual_mass_kg = 1400;
-constexpr double friction_step_n = 20;  // of the search, for a car of usual_mass_kg
-constexpr double most_friction_n = 120; // beyond, a suspension is stuck
-constexpr double least_friction_sd_n = 5;
+constexpr double friction_step_n = 20; // of the search, for a car of usual_mass_kg
+constexpr double max_friction_n = 120; // beyond, a suspension is stuck
+constexpr double min_friction_sd_n = 5;
 constexpr double furthest = 1.5; // from what is stated, in prior standard deviations
 constexpr double trust = 0.25;   // in the likelihood: what no linear car explains has its say
 constexpr int steps = 2;
 
-// Of the road's colour: waviness 1.6 to 2.6 asks for -0.3 to 0.6 (docs/smoother.md).
+// Of the road's colour: waviness 1.6 to 2.6 asks for -0.3 to 0.6 (docs/method/smoother.md).
 constexpr double colour_sd = 0.4;
 constexpr double colour_step = 0.1;
-constexpr double least_colour = -0.3;
-constexpr double most_colour = 0.8;
+constexpr double min_colour = -0.3;
+constexpr double max_colour = 0.8;
 constexpr int first_rounds = 8; // from an even road
 constexpr int more_rounds = 3;  // from the level that was found
 
@@ -49,7 +49,7 @@ void times_exp(Point& point, double by) {
 }
 
 void colour_by(Point& point, double by) {
-    point.colour = std::clamp(point.colour + by, least_colour, most_colour);
+    point.colour = std::clamp(point.colour + by, min_colour, max_colour);
 }
 
 /// Car parameters that the vehicle calls uncertain.
@@ -77,7 +77,7 @@ Point moved(Point point, const Unknowns& unknowns, const Eigen::VectorXd& by) {
     return point;
 }
 
-RoadEstimate run(const Passage& passage,
+RoadEstimate run(const DriveRecord& passage,
                  const Point& point,
                  const SmootherConfig& config,
                  int rounds,
@@ -140,13 +140,13 @@ struct Friction {
     double iri_per_n; ///< relative
 };
 
-Friction friction_of(const Passage& passage, Point point, const SmootherConfig& config) {
+Friction friction_of(const DriveRecord& passage, Point point, const SmootherConfig& config) {
     const double size = point.vehicle.half_car.ms_kg / usual_mass_kg;
     const double step_n = friction_step_n * size;
     std::vector<RoadEstimate> at; // each from an even road, so that none is favoured
     const auto likelihood = [&](std::size_t i) { return at[i].log_likelihood; };
     while (at.size() < 3 || (likelihood(at.size() - 1) > likelihood(at.size() - 2) &&
-                             static_cast<double>(at.size()) * step_n < most_friction_n * size)) {
+                             static_cast<double>(at.size()) * step_n < max_friction_n * size)) {
         point.friction_n = static_cast<double>(at.size()) * step_n;
         at.push_back(run(passage, point, config, first_rounds, nullptr));
     }
@@ -156,13 +156,13 @@ Friction friction_of(const Passage& passage, Point point, const SmootherConfig& 
     const double peak = bend > 0 ? std::clamp(rise / (2 * bend), -1.5, 1.5) : rise > 0 ? 1.0 : -1.0;
     const double found_n = (static_cast<double>(last - 1) + peak) * step_n;
     return {.force_n = std::max(0.0, found_n),
-            .sd_n = std::hypot(least_friction_sd_n * size,
-                               bend > 0 ? step_n / std::sqrt(bend) : step_n),
+            .sd_n =
+                std::hypot(min_friction_sd_n * size, bend > 0 ? step_n / std::sqrt(bend) : step_n),
             .iri_per_n = (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n)};
 }
 
 /// The likelihood about a point: the same road with one unknown after the other moved.
-Slope slope_about(const Passage& passage,
+Slope slope_about(const DriveRecord& passage,
                   const Point& at,
                   const Unknowns& unknowns,
                   const SmootherConfig& config,
@@ -184,7 +184,7 @@ struct Peak {
     double iri_sd; ///< relative, of what stays unknown
 };
 
-Peak peak_about(const Passage& passage,
+Peak peak_about(const DriveRecord& passage,
                 const Point& start,
                 const Unknowns& unknowns,
                 const SmootherConfig& config) {
@@ -209,7 +209,8 @@ Peak peak_about(const Passage& passage,
 
 } // namespace
 
-TunedCar tuned_car(const Passage& passage, const Vehicle& vehicle, const SmootherConfig& config) {
+TunedCar
+tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config) {
     Point point{.vehicle = vehicle, .friction_n = vehicle.half_car.friction_n.value_or(0)};
     TunedCar tuned{.vehicle = vehicle};
     const Unknowns road{{colour_by, colour_sd, colour_step}};

@@ -22,6 +22,7 @@ struct TunedCar {
 /// uncertainty lets them (Gauss-Newton on the likelihood and that prior).
 ///
 /// \param passage  some 1,000 to 5,000 samples; its `cars` are not used
-TunedCar tuned_car(const Passage& passage, const Vehicle& vehicle, const SmootherConfig& config);
+TunedCar
+tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config);
 
 } // namespace macadam

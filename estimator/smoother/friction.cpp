@@ -11,7 +11,7 @@ constexpr double harder = 1.06;    // from one car to the next: the nearest is w
 constexpr std::size_t cars = 24;   // up to 3.8 times the damping
 constexpr double slip_mps = 0.005; // below it friction only begins
 constexpr double reach_m = 25;
-constexpr double least_rate2 = 1e-6; // (1 mm/s)^2: below, nothing moves that friction could hold
+constexpr double min_rate2 = 1e-6; // (1 mm/s)^2: below, nothing moves that friction could hold
 
 /// How fast the four suspensions are pressed together.
 std::array<double, 4> stroke_rates(const CarState& x, const LinearCar& car, double l_m) {
@@ -34,7 +34,7 @@ std::vector<CarSteps> cars_with_friction(const Vehicle& vehicle, double step_s) 
     return all;
 }
 
-std::vector<std::uint8_t> damping_with_friction(const Passage& passage,
+std::vector<std::uint8_t> damping_with_friction(const DriveRecord& passage,
                                                 const Vehicle& vehicle,
                                                 const RoadGrid& grid,
                                                 std::span<const std::vector<Pair>> roads_m,
@@ -44,7 +44,7 @@ std::vector<std::uint8_t> damping_with_friction(const Passage& passage,
     std::vector<double> work(n + 1);  // sums of rate * direction, ...
     std::vector<double> power(n + 1); // ... and of rate^2
     for (const auto& road_m : roads_m) {
-        const auto states = ride_over(passage, grid, road_m);
+        const auto states = simulate_response(passage, grid, road_m);
         for (std::size_t k = 0; k < n; ++k) {
             for (const double rate : stroke_rates(states[k], car, vehicle.half_car.l_m)) {
                 work[k + 1] += rate * rate / std::hypot(rate, slip_mps);
@@ -68,8 +68,7 @@ std::vector<std::uint8_t> damping_with_friction(const Passage& passage,
             ++to;
         }
         const double seen = power[to + 1] - power[from];
-        const double least =
-            least_rate2 * 4 * static_cast<double>((to + 1 - from) * roads_m.size());
+        const double least = min_rate2 * 4 * static_cast<double>((to + 1 - from) * roads_m.size());
         const double added = friction_n * (work[to + 1] - work[from]) / std::max(seen, least);
         const double car_number = std::round(std::log1p(added / own) / std::log(harder));
         which[k] = static_cast<std::uint8_t>(std::min(car_number, static_cast<double>(cars - 1)));

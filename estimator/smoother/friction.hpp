@@ -1,7 +1,7 @@
 #pragma once
 
-#include "estimator/smoother/road_filter.hpp"
-#include "estimator/vehicle.hpp"
+#include "estimator/smoother/filter/road_smoother.hpp"
+#include "estimator/vehicle/vehicle.hpp"
 
 namespace macadam {
 
@@ -19,7 +19,7 @@ std::vector<CarSteps> cars_with_friction(const Vehicle& vehicle, double step_s);
 ///
 /// Source: J. B. Roberts, P. D. Spanos, "Random Vibration and Statistical Linearization" (1990),
 /// section 5.2.
-std::vector<std::uint8_t> damping_with_friction(const Passage& passage,
+std::vector<std::uint8_t> damping_with_friction(const DriveRecord& passage,
                                                 const Vehicle& vehicle,
                                                 const RoadGrid& grid,
                                                 std::span<const std::vector<Pair>> roads_m,

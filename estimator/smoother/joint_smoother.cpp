@@ -1,6 +1,6 @@
 #include "estimator/smoother/joint_smoother.hpp"
 
-#include "estimator/iri.hpp"
+#include "estimator/iri/iri.hpp"
 #include "estimator/smoother/friction.hpp"
 
 #include <algorithm>
@@ -111,8 +111,9 @@ void add_roads(RoadEstimate& estimate, const std::vector<std::vector<Pair>>& roa
 }
 
 /// Before the first round; as an earlier estimate left it, if there is one.
-RoadEstimate
-begun(std::span<const Passage> passages, const SmootherConfig& config, const RoadEstimate* begin) {
+RoadEstimate begun(std::span<const DriveRecord> passages,
+                   const SmootherConfig& config,
+                   const RoadEstimate* begin) {
     RoadEstimate estimate;
     estimate.grid = grid_under(passages, config.cell_m);
     estimate.felt = felt_by(passages);
@@ -134,7 +135,7 @@ begun(std::span<const Passage> passages, const SmootherConfig& config, const Roa
 RoadEstimate smooth_passages(std::vector<CarPassage> cars,
                              const SmootherConfig& config,
                              const RoadEstimate* begin) {
-    std::vector<Passage> passages;
+    std::vector<DriveRecord> passages;
     std::vector<Variances> stated;
     for (auto& car : cars) {
         stated.push_back(car.passage.variance);

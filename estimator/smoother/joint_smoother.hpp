@@ -1,8 +1,8 @@
 #pragma once
 
 #include "estimator/smoother/noise_level.hpp"
-#include "estimator/smoother/road_level.hpp"
-#include "estimator/vehicle.hpp"
+#include "estimator/smoother/road_prior_scale.hpp"
+#include "estimator/vehicle/vehicle.hpp"
 
 namespace macadam {
 
@@ -16,7 +16,7 @@ struct SmootherConfig {
 
 /// A passage and whose it is.
 struct CarPassage {
-    Passage passage; ///< its `cars` by cars_with_friction, or one
+    DriveRecord passage; ///< its `cars` by cars_with_friction, or one
     Vehicle vehicle;
     double friction_n = 0; ///< of each suspension
 };
@@ -26,7 +26,7 @@ struct CarPassage {
 /// cells.
 struct RoadEstimate {
     RoadGrid grid;
-    Felt felt;
+    ObservedModes felt;
     std::vector<Pair> profile_m;                                       ///< the mean of those roads
     std::vector<float> left_mm_per_m, right_mm_per_m, centre_mm_per_m; ///< means over them
     /// Per road: what it adds to the mean of left and right (`tracks`), and to the centre, over

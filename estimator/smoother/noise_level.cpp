@@ -1,6 +1,6 @@
 #include "estimator/smoother/noise_level.hpp"
 
-#include "estimator/smoother/windowed.hpp"
+#include "estimator/smoother/box_smoothing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 constexpr double window_s = 10;
 constexpr double damping = 0.7;       // of a round, in the logarithm
 constexpr double stated_weight = 0.3; // of what was stated, in readings of which all is known
-constexpr double least_factor = 0.8;
-constexpr double most_factor = 400;
+constexpr double min_factor = 0.8;
+constexpr double max_factor = 400;
 
 } // namespace
 
@@ -27,7 +27,7 @@ adapted(NoiseFactors factors, const std::array<Residual, channel_count>& residua
         for (std::size_t k = 0; k < factor.size(); ++k) {
             const double share = std::clamp(1 - unknown[k], 0.0, 1.0);
             const double now = (left[k] + stated_weight / factor[k]) / (share + stated_weight);
-            factor[k] = std::clamp(factor[k] * std::pow(now, damping), least_factor, most_factor);
+            factor[k] = std::clamp(factor[k] * std::pow(now, damping), min_factor, max_factor);
         }
     }
     return factors;

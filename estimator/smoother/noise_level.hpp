@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimator/smoother/road_filter.hpp"
+#include "estimator/smoother/filter/road_smoother.hpp"
 
 namespace macadam {
 

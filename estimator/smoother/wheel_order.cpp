@@ -1,6 +1,6 @@
 #include "estimator/smoother/wheel_order.hpp"
 
-#include "estimator/smoother/road_level.hpp"
+#include "estimator/smoother/road_prior_scale.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double least_turn_m = 1.6; // radius 0.25 m, a small car's
-constexpr double most_turn_m = 2.5;  // radius 0.40 m, a van's
-constexpr double piece_m = 200;      // wheels of 0.3 % other radius drift by a third of a turn
-constexpr std::size_t least_pieces = 4;
-constexpr std::size_t most_pieces = 24; // enough to tell; the rest of a long trip is not looked at
-constexpr double memory_m = 60;         // of the line's amplitude and phase, to either side
-constexpr int neighbours = 12; // frequencies on each side that tell what the road has there
+constexpr double min_turn_m = 1.6; // radius 0.25 m, a small car's
+constexpr double max_turn_m = 2.5; // radius 0.40 m, a van's
+constexpr double piece_m = 200;    // wheels of 0.3 % other radius drift by a third of a turn
+constexpr std::size_t min_pieces = 4;
+constexpr std::size_t max_pieces = 24; // enough to tell; the rest of a long trip is not looked at
+constexpr double memory_m = 60;        // of the line's amplitude and phase, to either side
+constexpr int neighbours = 12;         // frequencies on each side that tell what the road has there
 
 /// What a channel has at a frequency in distance, from one sample to another.
-Complex line_at(const Passage& passage,
+Complex line_at(const DriveRecord& passage,
                 const std::vector<double>& felt,
                 std::size_t from,
                 std::size_t to,
@@ -36,7 +36,7 @@ Complex line_at(const Passage& passage,
 }
 
 /// Samples at which pieces of piece_m begin and end.
-std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const Passage& passage) {
+std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const DriveRecord& passage) {
     std::vector<std::pair<std::size_t, std::size_t>> pieces;
     std::size_t from = 0;
     for (std::size_t k = 1; k < passage.travel_m.size(); ++k) {
@@ -45,10 +45,10 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const Passage& passag
             from = k;
         }
     }
-    if (pieces.size() > most_pieces) { // evenly spread
+    if (pieces.size() > max_pieces) { // evenly spread
         std::vector<std::pair<std::size_t, std::size_t>> some;
-        for (std::size_t i = 0; i < most_pieces; ++i) {
-            some.push_back(pieces[i * pieces.size() / most_pieces]);
+        for (std::size_t i = 0; i < max_pieces; ++i) {
+            some.push_back(pieces[i * pieces.size() / max_pieces]);
         }
         return some;
     }
@@ -63,7 +63,7 @@ double median(std::vector<double> values) {
 
 /// What all channels have at `count` frequencies from lowest * step on, over what is usual. Each
 /// piece counts alike, however rough.
-std::vector<double> power_at(const Passage& passage,
+std::vector<double> power_at(const DriveRecord& passage,
                              const std::vector<std::pair<std::size_t, std::size_t>>& pieces,
                              std::size_t lowest,
                              std::size_t count,
@@ -91,7 +91,7 @@ std::vector<double> power_at(const Passage& passage,
 /// The slowly changing part of `felt` that turns with the frequency: amplitude and phase over
 /// memory_m to either side.
 std::vector<double>
-line_of(const Passage& passage, const std::vector<double>& felt, double turns_per_m) {
+line_of(const DriveRecord& passage, const std::vector<double>& felt, double turns_per_m) {
     const std::size_t n = felt.size();
     std::vector<Complex> turned(n);
     std::vector<double> run_m(n);
@@ -137,14 +137,14 @@ double surely_a_line(double looks) {
 
 } // namespace
 
-std::optional<double> wheel_turn_m(const Passage& passage) {
+std::optional<double> wheel_circumference_m(const DriveRecord& passage) {
     const auto pieces = pieces_of(passage);
-    if (pieces.size() < least_pieces) {
+    if (pieces.size() < min_pieces) {
         return std::nullopt;
     }
     const double step = 0.5 / piece_m; // two a resolution
-    const auto first = static_cast<std::size_t>(1 / most_turn_m / step);
-    const auto last = static_cast<std::size_t>(1 / least_turn_m / step);
+    const auto first = static_cast<std::size_t>(1 / max_turn_m / step);
+    const auto last = static_cast<std::size_t>(1 / min_turn_m / step);
     const std::size_t lowest = first - neighbours;
     const auto power = power_at(passage, pieces, lowest, last + neighbours + 1 - lowest, step);
     double best = 0;
@@ -170,7 +170,7 @@ std::optional<double> wheel_turn_m(const Passage& passage) {
     return 1 / (static_cast<double>(lowest + at) * step);
 }
 
-Passage without_wheel_order(Passage passage, double turn_m) {
+DriveRecord without_wheel_order(DriveRecord passage, double turn_m) {
     for (auto& felt : passage.felt) {
         for (int harmonic = 1; harmonic <= 2 && !felt.empty(); ++harmonic) {
             const auto line = line_of(passage, felt, harmonic / turn_m);

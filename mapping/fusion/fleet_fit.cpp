@@ -6,8 +6,8 @@
 namespace macadam {
 namespace {
 
-constexpr double dof = 4;          // of Student's t, as in TailModel
-constexpr double least_gain = 0.1; // of car and trip together: far below any car
+constexpr double dof = 4;        // of Student's t, as in TailModel
+constexpr double min_gain = 0.1; // of car and trip together: far below any car
 constexpr double trips_of_prior = 5;
 constexpr double trip_counts_from = 20; // readings, so that its mean says something of the trip
 
@@ -68,7 +68,7 @@ double FleetFit::variance_of(std::size_t reading) const {
 /// Of a reading over the level, but for the offset.
 double FleetFit::expected(std::size_t reading) const {
     const auto& [place, car, trip, read_um] = (*readings_)[reading];
-    return std::max(least_gain, cars[car].gain + trips_[trip].error);
+    return std::max(min_gain, cars[car].gain + trips_[trip].error);
 }
 
 void FleetFit::fit_levels() {
@@ -95,7 +95,7 @@ void FleetFit::fit_levels() {
 /// Moves all levels, and with them the gains, to where the known cars have them: in turns with the
 /// rest it would take as many rounds as there are places without one.
 void FleetFit::hold_against_known() {
-    double whole = 0, sum = 0, square_sum = 0, least_variance = 0;
+    double whole = 0, sum = 0, square_sum = 0, min_variance = 0;
     for (std::size_t i = 0; i < readings_->size(); ++i) {
         const auto& reading = (*readings_)[i];
         const auto& sd = (*known_)[reading.car];
@@ -108,7 +108,7 @@ void FleetFit::hold_against_known() {
             whole += weight;
             sum += weight * off;
             square_sum += weight * weight * square(off);
-            least_variance = std::max(least_variance, square(*sd));
+            min_variance = std::max(min_variance, square(*sd));
         }
     }
     if (whole <= 0) {
@@ -124,7 +124,7 @@ void FleetFit::hold_against_known() {
         level_um *= 1 + off;
     }
     // A survey is off by the same share all along: its own sd does not average out.
-    known_sd = std::sqrt(least_variance + square_sum / square(whole));
+    known_sd = std::sqrt(min_variance + square_sum / square(whole));
 }
 
 void FleetFit::sum_trips() {

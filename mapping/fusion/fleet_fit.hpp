@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mapping/fleet_calibration.hpp"
+#include "mapping/fusion/fleet_calibration.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mapping/road_network.hpp"
-#include "mapping/segment.hpp"
+#include "mapping/network/road_network.hpp"
+#include "mapping/network/segment.hpp"
 
 #include <cstdint>
 

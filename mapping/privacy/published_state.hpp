@@ -1,6 +1,7 @@
 #pragma once
 
-#include "mapping/fusion.hpp"
+#include "mapping/fusion/fusion.hpp"
+#include "mapping/fusion/segment_state.hpp"
 #include "mapping/privacy/release_batches.hpp"
 
 #include <cstdint>

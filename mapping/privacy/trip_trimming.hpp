@@ -1,8 +1,8 @@
 #pragma once
 
 #include "estimator/common/trip.hpp"
-#include "estimator/odometer.hpp"
-#include "estimator/stretch.hpp"
+#include "estimator/common/trip_spans.hpp"
+#include "estimator/motion/odometer.hpp"
 
 #include <cstddef>
 #include <functional>

@@ -2,9 +2,10 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/simulation/random.hpp"
-#include "mapping/simulation/path.hpp"
-#include "mapping/simulation/receiver.hpp"
-#include "mapping/simulation/speed_plan.hpp"
+#include "mapping/simulation/driven_path.hpp"
+#include "mapping/simulation/gnss_receiver.hpp"
+#include "mapping/simulation/road_under_path.hpp"
+#include "mapping/simulation/speed_profile.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ enum Draw : std::uint64_t {
 };
 
 /// A one-axle method sees the mean of both ends of a car, whose RMS the wheelbase combs to about
-/// this (docs/method.md).
+/// this (docs/method/identification.md).
 constexpr double one_axle_gain = 0.72;
 
 std::array<double, 3> three(Random& random, double sd) {
@@ -70,7 +71,7 @@ Vehicle written_vehicle(const CarRecipe& car, const ImuRecipe& imu, double sd, s
     return vehicle;
 }
 
-FleetCar made_car(const FleetRecipe& recipe, std::size_t number, std::uint64_t seed) {
+FleetCar made_car(const FleetScenario& recipe, std::size_t number, std::uint64_t seed) {
     const auto& plan = recipe.cars[number];
     Random random{seed_of({seed, draw_faults, number})};
     FleetCar car{
@@ -153,7 +154,7 @@ TripMeta meta_of(const Fleet& fleet, const FleetCar& car, std::size_t number) {
 
 } // namespace
 
-Fleet make_fleet(FleetRecipe recipe, const RoadNetwork& roads, std::uint64_t seed) {
+Fleet make_fleet(FleetScenario recipe, const RoadNetwork& roads, std::uint64_t seed) {
     if (recipe.cars.empty()) {
         throw InputError{"the recipe has no car, expected at least one"};
     }

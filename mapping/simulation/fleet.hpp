@@ -1,7 +1,7 @@
 #pragma once
 
 #include "estimator/common/trip.hpp"
-#include "mapping/simulation/fleet_recipe.hpp"
+#include "mapping/simulation/fleet_scenario.hpp"
 #include "mapping/simulation/lane.hpp"
 #include "mapping/simulation/route.hpp"
 
@@ -26,14 +26,14 @@ struct FleetCar {
 
 /// All that trips are made from. It is only read, so trips may be made in parallel.
 struct Fleet {
-    FleetRecipe recipe;
+    FleetScenario recipe;
     std::uint64_t seed;
     std::vector<FleetCar> cars;
     RouteMap map;
 };
 
 /// \throws InputError  if the recipe has no car, or the network no round trips.
-Fleet make_fleet(FleetRecipe recipe, const RoadNetwork& roads, std::uint64_t seed);
+Fleet make_fleet(FleetScenario recipe, const RoadNetwork& roads, std::uint64_t seed);
 
 /// Trip `number` (from 0) as its car would log it: the same whatever was made before it.
 ///

@@ -1,6 +1,6 @@
 #include "mapping/simulation/lane.hpp"
 
-#include "estimator/iri.hpp"
+#include "estimator/iri/iri.hpp"
 #include "estimator/simulation/random.hpp"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ double lane_length_m(const RoadNetwork& roads, const Lane& lane) {
 }
 
 RoadRecipe
-road_recipe(const FleetRecipe& recipe, const WayView& way, bool forward, std::uint64_t seed) {
+road_recipe(const FleetScenario& recipe, const WayView& way, bool forward, std::uint64_t seed) {
     const double level = Random{seed_of({seed, draw_level, bits_of(way.id), forward})}.uniform();
     RoadRecipe road;
     for (std::size_t i = 0; i < recipe.roads.size(); ++i) {
@@ -104,7 +104,7 @@ road_recipe(const FleetRecipe& recipe, const WayView& way, bool forward, std::ui
     return road;
 }
 
-RoadSurface lane_surface(const FleetRecipe& recipe,
+RoadSurface lane_surface(const FleetScenario& recipe,
                          const RoadNetwork& roads,
                          const Lane& lane,
                          std::uint64_t seed) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mapping/road_network.hpp"
-#include "mapping/segment_truth.hpp"
-#include "mapping/simulation/fleet_recipe.hpp"
+#include "mapping/network/road_network.hpp"
+#include "mapping/simulation/fleet_scenario.hpp"
+#include "mapping/surveys/segment_truth.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -31,16 +31,16 @@ double lane_length_m(const RoadNetwork& roads, const Lane& lane);
 
 /// What the rules say of a lane, in their order.
 RoadRecipe
-road_recipe(const FleetRecipe& recipe, const WayView& way, bool forward, std::uint64_t seed);
+road_recipe(const FleetScenario& recipe, const WayView& way, bool forward, std::uint64_t seed);
 
 /// The lane's road: fixed by way, direction and seed, so that all cars feel the same.
-RoadSurface lane_surface(const FleetRecipe& recipe,
+RoadSurface lane_surface(const FleetScenario& recipe,
                          const RoadNetwork& roads,
                          const Lane& lane,
                          std::uint64_t seed);
 
-/// The golden car (estimator/iri.hpp) on both wheel paths of the whole lane without a restart; a
-/// segment is the mean over its cells. In the order of the keys.
+/// The golden car (estimator/iri/iri.hpp) on both wheel paths of the whole lane without a restart;
+/// a segment is the mean over its cells. In the order of the keys.
 std::vector<SegmentTruth>
 lane_truth(const RoadNetwork& roads, const Lane& lane, const RoadSurface& surface);
 

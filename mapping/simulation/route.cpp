@@ -176,19 +176,22 @@ std::vector<EdgeId> quickest(const RoadNetwork& roads,
     return {};
 }
 
-struct Tour {
+struct DriveItinerary {
     std::vector<NodeId> stations; ///< begin, places on the way, end
     std::vector<EdgeId> edges;
     double length_m = 0;
 };
 
-Tour begun_at(NodeId place) {
+DriveItinerary begun_at(NodeId place) {
     return {.stations = {place}, .edges = {}};
 }
 
 /// The tour with the way to one more place; as it was if there is no way.
-Tour led_on(
-    Tour tour, const RoadNetwork& roads, const RouteMap& map, NodeId goal, std::uint64_t taste) {
+DriveItinerary led_on(DriveItinerary tour,
+                      const RoadNetwork& roads,
+                      const RouteMap& map,
+                      NodeId goal,
+                      std::uint64_t taste) {
     const auto came_by =
         tour.edges.empty() ? std::optional<EdgeId>{} : std::optional{tour.edges.back()};
     const auto leg = quickest(roads, map, tour.stations.back(), came_by, goal, taste);
@@ -204,7 +207,7 @@ Tour led_on(
 }
 
 /// Cut where it is long enough, at the end of an edge.
-Tour cut_to(Tour tour, const RoadNetwork& roads, double longest_m) {
+DriveItinerary cut_to(DriveItinerary tour, const RoadNetwork& roads, double longest_m) {
     std::size_t kept = 0;
     double length_so_far_m = 0;
     while (kept < tour.edges.size() && length_so_far_m < longest_m) {
@@ -216,17 +219,17 @@ Tour cut_to(Tour tour, const RoadNetwork& roads, double longest_m) {
     return tour;
 }
 
-Tour outward(const RoadNetwork& roads,
-             const RouteMap& map,
-             const DrivingRecipe& driving,
-             std::uint64_t seed,
-             std::size_t trip) {
-    constexpr int most_idle_legs = 60; // one after the other
+DriveItinerary outward(const RoadNetwork& roads,
+                       const RouteMap& map,
+                       const DrivingRecipe& driving,
+                       std::uint64_t seed,
+                       std::size_t trip) {
+    constexpr int max_idle_legs = 60; // one after the other
     Random random{seed_of({seed, draw_way, trip})};
     const auto taste = seed_of({seed, draw_taste, trip});
     const double length_m = 1000 * random.uniform(driving.length_km.low, driving.length_km.high);
     auto tour = begun_at(map.places[random.below(map.places.size())]);
-    for (int idle = 0; idle < most_idle_legs && tour.length_m < length_m; ++idle) {
+    for (int idle = 0; idle < max_idle_legs && tour.length_m < length_m; ++idle) {
         const auto goal = map.places[random.below(map.places.size())];
         if (goal != tour.stations.back()) {
             const double before_m = tour.length_m;
@@ -238,11 +241,11 @@ Tour outward(const RoadNetwork& roads,
 }
 
 /// From the end of a tour to its beginning, past the same places.
-Tour homeward(const Tour& out,
-              const RoadNetwork& roads,
-              const RouteMap& map,
-              std::uint64_t seed,
-              std::size_t trip) {
+DriveItinerary homeward(const DriveItinerary& out,
+                        const RoadNetwork& roads,
+                        const RouteMap& map,
+                        std::uint64_t seed,
+                        std::size_t trip) {
     const auto taste = seed_of({seed, draw_taste, trip});
     auto tour = begun_at(to_node(roads, out.edges.back()));
     // The last place was not reached where the tour was cut.
@@ -310,7 +313,7 @@ std::vector<EdgeId> route_of_trip(const RoadNetwork& roads,
         tour = homeward(tour, roads, map, seed, trip);
     }
     if (tour.edges.empty()) {
-        throw InputError{fmt::format("trip {} finds no way between the places of the network, "
+        throw InputError{fmt::format("trip {} found no route between points of the network, "
                                      "expected roads that lead back",
                                      trip + 1)};
     }

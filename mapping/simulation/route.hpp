@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mapping/road_network.hpp"
-#include "mapping/simulation/fleet_recipe.hpp"
+#include "mapping/network/road_network.hpp"
+#include "mapping/simulation/fleet_scenario.hpp"
 
 #include <cstddef>
 #include <cstdint>

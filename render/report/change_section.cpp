@@ -1,4 +1,4 @@
-#include "render/report/parts.hpp"
+#include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
 
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ Table stretches_table(const Report& report,
     for (const auto& [changed, heading, map] : stretches) {
         const auto rank = table.rows.size() + 1;
         table.rows.push_back(
-            {Rich{{{fmt::format("{}", rank), SpanLook::plain, false, id_of(side, rank)}}},
+            {RichText{{{fmt::format("{}", rank), SpanLook::plain, false, id_of(side, rank)}}},
              road_name(report, changed.stretch),
              say.or_else("heading." + heading, heading),
              say.whole(changed.stretch.length_m),
@@ -122,7 +122,7 @@ void add_stretches(DocumentSection& section,
     if (stretches.empty()) {
         section.blocks.emplace_back(
             Paragraph{say("change." + side + ".none",
-                          {{"least", say.whole(report.change->change.config.least_length_m)}})});
+                          {{"least", say.whole(report.change->change.config.min_length_m)}})});
         return;
     }
     section.blocks.emplace_back(stretches_table(report, stretches, side));

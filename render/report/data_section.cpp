@@ -1,5 +1,5 @@
-#include "mapping/pass.hpp"
-#include "render/report/parts.hpp"
+#include "mapping/passes/pass.hpp"
+#include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ using namespace document;
 
 namespace {
 
-constexpr std::size_t most_vehicles = 30; // a page of them; the rest stands in one row
+constexpr std::size_t max_vehicles = 30; // a page of them; the rest stands in one row
 
 /// \param model  what is said of the model that it was read with
-std::vector<Cell> row_of(const Wording& say,
+std::vector<Cell> row_of(const Localisation& say,
                          const ReportVehicle& vehicle,
                          const std::string& name,
                          const std::string& model) {
@@ -30,7 +30,7 @@ std::vector<Cell> row_of(const Wording& say,
         say.count(vehicle.passes)};
 }
 
-std::string model_text(const Wording& say, const ReportVehicle& vehicle) {
+std::string model_text(const Localisation& say, const ReportVehicle& vehicle) {
     return vehicle.model.empty() ? say("model.own")
                                  : say("model.built_in", {{"model", vehicle.model}});
 }
@@ -50,7 +50,7 @@ Table vehicle_table(const Report& report) {
                  {say("column.passes"), true}},
                 {}};
     table.stacks = true;
-    const auto shown = std::min(vehicles.size(), most_vehicles);
+    const auto shown = std::min(vehicles.size(), max_vehicles);
     for (std::size_t i = 0; i < shown; ++i) {
         const auto& name = vehicles[i].name;
         table.rows.push_back(row_of(say,

@@ -1,6 +1,6 @@
-#include "render/report/html.hpp"
+#include "render/report/document/html.hpp"
+#include "render/report/document/stylesheet.hpp"
 #include "render/report/report.hpp"
-#include "render/report/style.hpp"
 
 #include "estimator/common/utf8.hpp"
 
@@ -66,7 +66,7 @@ std::string html_of(const Span& span) {
     return html;
 }
 
-std::string html_of(const Rich& rich) {
+std::string html_of(const RichText& rich) {
     std::string html;
     for (const auto& span : rich.spans) {
         html += html_of(span);
@@ -74,7 +74,7 @@ std::string html_of(const Rich& rich) {
     return html;
 }
 
-std::string words_of(const Rich& rich) {
+std::string words_of(const RichText& rich) {
     std::string words;
     for (const auto& span : rich.spans) {
         words += span.text;

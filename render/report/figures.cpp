@@ -1,7 +1,7 @@
 #include "render/report/figures.hpp"
 
-#include "render/nice_step.hpp"
-#include "render/report/parts.hpp"
+#include "render/report/common_parts.hpp"
+#include "render/scene/nice_step.hpp"
 
 #include <fmt/format.h>
 
@@ -30,33 +30,33 @@ double sum_of(const std::vector<double>& values) {
 
 /// Where values stand in the figure.
 struct Axes {
-    double most_iri; ///< mm/m
-    double most_km;
+    double max_iri; ///< mm/m
+    double max_km;
     double step_km;
 
-    double x(double iri) const { return left + (right - left) * std::min(iri / most_iri, 1.0); }
-    double y(double km) const { return bottom - (bottom - top) * km / most_km; }
+    double x(double iri) const { return left + (right - left) * std::min(iri / max_iri, 1.0); }
+    double y(double km) const { return bottom - (bottom - top) * km / max_km; }
 };
 
 Axes axes_of(const IriHistogram& histogram) {
-    double most_km = 0;
+    double max_km = 0;
     for (const auto& bin : histogram.length_m) {
-        most_km = std::max(most_km, sum_of(bin) / 1000);
+        max_km = std::max(max_km, sum_of(bin) / 1000);
     }
-    const double step_km = nice_step(std::max(most_km, 0.001), 4);
+    const double step_km = nice_step(std::max(max_km, 0.001), 4);
     return {histogram.step_mm_per_m * static_cast<double>(histogram.length_m.size()),
-            step_km * std::ceil(most_km / step_km - 1e-9),
+            step_km * std::ceil(max_km / step_km - 1e-9),
             step_km};
 }
 
 /// Between two numbers under the axis, in the report's unit.
 double iri_step(const Axes& axes, IriUnit unit) {
-    return unit == IriUnit::mm_per_m ? (axes.most_iri > 8 ? 2 : 1)
-                                     : nice_step(in_unit(axes.most_iri, unit), 6);
+    return unit == IriUnit::mm_per_m ? (axes.max_iri > 8 ? 2 : 1)
+                                     : nice_step(in_unit(axes.max_iri, unit), 6);
 }
 
-void add_grid(Drawing& drawing, const Axes& axes, const Wording& say) {
-    const int lines = static_cast<int>(std::lround(axes.most_km / axes.step_km));
+void add_grid(Drawing& drawing, const Axes& axes, const Localisation& say) {
+    const int lines = static_cast<int>(std::lround(axes.max_km / axes.step_km));
     for (int i = 0; i <= lines; ++i) {
         const double y = axes.y(i * axes.step_km);
         drawing.shapes.emplace_back(Stroke{StrokeLook::grid, {{left, y}, {right, y}}});
@@ -65,7 +65,7 @@ void add_grid(Drawing& drawing, const Axes& axes, const Wording& say) {
     }
     const double per_mm_per_m = in_unit(1, say.unit);
     const double step = iri_step(axes, say.unit);
-    const double most = axes.most_iri * per_mm_per_m;
+    const double most = axes.max_iri * per_mm_per_m;
     for (double iri = 0; iri < most - 0.7 * step; iri += step) {
         drawing.shapes.emplace_back(
             Label{axes.x(iri / per_mm_per_m), bottom + 16, Anchor::middle, say.shortest(iri)});
@@ -102,7 +102,7 @@ void add_bars(Drawing& drawing, const Axes& axes, const Report& report) {
     }
 }
 
-void add_mean(Drawing& drawing, const Axes& axes, double iri, const Wording& say) {
+void add_mean(Drawing& drawing, const Axes& axes, double iri, const Localisation& say) {
     const double x = axes.x(iri);
     const bool at_right = x > (left + right) / 2;
     drawing.shapes.emplace_back(Stroke{StrokeLook::mean, {{x, top - 12}, {x, bottom}}});

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/report/document.hpp"
+#include "render/report/document/document.hpp"
 #include "render/report/report.hpp"
 
 namespace macadam {

@@ -1,6 +1,6 @@
 #include "render/report/reference_figures.hpp"
 
-#include "render/nice_step.hpp"
+#include "render/scene/nice_step.hpp"
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ struct Square {
 };
 
 /// As large as the pieces need, up to a round number of the unit.
-Square square_of(std::span<const SurveyPair> pairs, const Wording& say) {
+Square square_of(std::span<const SurveyPair> pairs, const Localisation& say) {
     double most = 1;
     for (const auto& pair : pairs) {
         most = std::max({most, pair.survey, pair.trip});
@@ -48,7 +48,7 @@ Square square_of(std::span<const SurveyPair> pairs, const Wording& say) {
     return {step * std::ceil(most * a_unit / step) / a_unit};
 }
 
-void add_axes(Drawing& drawing, const Square& square, const Wording& say) {
+void add_axes(Drawing& drawing, const Square& square, const Localisation& say) {
     const double a_unit = in_unit(1, say.unit);
     const double step = nice_step(square.most * a_unit, 6);
     for (int i = 0; i * step <= square.most * a_unit + 1e-9; ++i) {
@@ -89,7 +89,7 @@ constexpr double plot_left = 8;
 constexpr double plot_right = 182;
 constexpr int bins = 30;
 constexpr double reach_sds = 3.5;
-constexpr double least_reach_mm_per_m = 0.1;
+constexpr double min_reach_mm_per_m = 0.1;
 
 /// The differences of a band between -reach and reach, and the curve of their mean and sd.
 struct Panel {
@@ -106,10 +106,12 @@ struct Panel {
     }
 };
 
-Panel panel_of(std::span<const SurveyPair> pairs, const SurveyScore& score, const Wording& say) {
+Panel panel_of(std::span<const SurveyPair> pairs,
+               const SurveyScore& score,
+               const Localisation& say) {
     const double a_unit = in_unit(1, say.unit);
     const double sd = std::isnan(score.sd) ? 0 : score.sd;
-    const double far = std::max(least_reach_mm_per_m, std::abs(score.bias) + reach_sds * sd);
+    const double far = std::max(min_reach_mm_per_m, std::abs(score.bias) + reach_sds * sd);
     const double step = nice_step(far * a_unit, 4) / a_unit;
     Panel panel{score, step * std::ceil(far / step), std::vector<double>(bins, 0.0)};
     for (const auto& pair : pairs) {
@@ -169,7 +171,7 @@ void add_bars(Drawing& drawing, const Panel& panel, const Corner& corner, double
 void add_panel_axes(Drawing& drawing,
                     const Panel& panel,
                     const Corner& corner,
-                    const Wording& say) {
+                    const Localisation& say) {
     const auto at = [&](double x, double y) { return std::pair{corner.x + x, corner.y + y}; };
     drawing.shapes.emplace_back(
         Stroke{StrokeLook::mean, {at(panel.x(0), plot_top - 4), at(panel.x(0), plot_bottom)}});
@@ -194,7 +196,10 @@ void add_panel_axes(Drawing& drawing,
                                                   say.count(panel.score.pieces))});
 }
 
-void add_panel(Drawing& drawing, const Panel& panel, const Corner& corner, const Wording& say) {
+void add_panel(Drawing& drawing,
+               const Panel& panel,
+               const Corner& corner,
+               const Localisation& say) {
     double most = *std::ranges::max_element(panel.share);
     if (panel.score.sd > 0) {
         most = std::max(most, curve(panel, panel.score.bias));
@@ -206,7 +211,7 @@ void add_panel(Drawing& drawing, const Panel& panel, const Corner& corner, const
 
 } // namespace
 
-std::string level_text(const Wording& say, const SurveyScore& score) {
+std::string level_text(const Localisation& say, const SurveyScore& score) {
     const auto border = [&](double mm_per_m) {
         return say.unit == IriUnit::mm_per_m ? say.shortest(mm_per_m) : say.iri(mm_per_m);
     };
@@ -216,7 +221,7 @@ std::string level_text(const Wording& say, const SurveyScore& score) {
                      {{"from", border(score.from_mm_per_m)}, {"to", border(score.to_mm_per_m)}});
 }
 
-Drawing scatter_drawing(std::span<const SurveyPair> pairs, const Wording& say) {
+Drawing scatter_drawing(std::span<const SurveyPair> pairs, const Localisation& say) {
     const auto square = square_of(pairs, say);
     const std::string unit{say.iri_unit()};
     const auto most = say.number(in_unit(square.most, say.unit), 0);
@@ -238,7 +243,7 @@ Drawing scatter_drawing(std::span<const SurveyPair> pairs, const Wording& say) {
     return drawing;
 }
 
-Drawing differences_drawing(std::span<const SurveyPair> pairs, const Wording& say) {
+Drawing differences_drawing(std::span<const SurveyPair> pairs, const Localisation& say) {
     const auto scores = scores_by_band(pairs);
     const auto rows = static_cast<double>((scores.size() + 1) / 2);
     Drawing drawing{2 * panel_width, panel_height * rows, say("reference.differences.words"), {}};

@@ -16,19 +16,20 @@ namespace {
 constexpr const char* no_value = "–";
 constexpr double z_of_90_percent = 1.645;
 
-std::string iri_text(const Wording& say, double mm_per_m) {
+std::string iri_text(const Localisation& say, double mm_per_m) {
     return std::isnan(mm_per_m) ? no_value : say.iri(mm_per_m);
 }
 
-std::string change_text(const Wording& say, double mm_per_m) {
+std::string change_text(const Localisation& say, double mm_per_m) {
     return std::isnan(mm_per_m) ? no_value : say.iri_change(mm_per_m);
 }
 
-Values in_its_unit(const Wording& say) {
+Values in_its_unit(const Localisation& say) {
     return {{"unit", std::string{say.iri_unit()}}};
 }
 
-std::vector<Cell> cells_of(const Wording& say, const std::string& name, const SurveyScore& score) {
+std::vector<Cell>
+cells_of(const Localisation& say, const std::string& name, const SurveyScore& score) {
     return {name,
             say.count(score.pieces),
             iri_text(say, score.mean_survey),
@@ -39,7 +40,9 @@ std::vector<Cell> cells_of(const Wording& say, const std::string& name, const Su
             std::isnan(score.coverage) ? no_value : say.percent(score.coverage, 1)};
 }
 
-Table scores_table(const Wording& say, const std::string& caption, const ReferenceScores& scores) {
+Table scores_table(const Localisation& say,
+                   const std::string& caption,
+                   const ReferenceScores& scores) {
     Table table{caption,
                 {{say("reference.column.level", in_its_unit(say))},
                  {say("reference.column.pieces"), true},
@@ -59,7 +62,7 @@ Table scores_table(const Wording& say, const std::string& caption, const Referen
 }
 
 /// "12 days after", in the words of the language.
-std::string spoken_days(const Wording& say, double days) {
+std::string days_text(const Localisation& say, double days) {
     constexpr double days_a_month = 30.44, days_a_year = 365.25;
     const double far = std::abs(days);
     const auto counted = [&](const char* key, double count) {
@@ -114,7 +117,7 @@ DocumentSection surveys_section(const ReferenceReport& report) {
     return section;
 }
 
-void add_tracks(DocumentSection& section, const Wording& say, const ComparedPieces& pieces) {
+void add_tracks(DocumentSection& section, const Localisation& say, const ComparedPieces& pieces) {
     if (pieces.left.all.pieces > 0) {
         section.blocks.emplace_back(scores_table(say, say("reference.pieces.left"), pieces.left));
     }
@@ -152,15 +155,15 @@ DocumentSection pieces_section(const ReferenceReport& report) {
     return section;
 }
 
-Rich drift_text(const Wording& say, const ComparedControl& control) {
+RichText drift_text(const Localisation& say, const ComparedControl& control) {
     if (!control.drift) {
         return control.cars.length_m > 0
                    ? say("reference.drift.too_few", {{"count", say.count(control.months)}})
                    : no_value;
     }
-    Rich text = say("reference.drift.a_year",
-                    {{"drift", say.iri_change(control.drift->per_year)},
-                     {"interval", say.iri(z_of_90_percent * control.drift->sd_per_year)}});
+    RichText text = say("reference.drift.a_year",
+                        {{"drift", say.iri_change(control.drift->per_year)},
+                         {"interval", say.iri(z_of_90_percent * control.drift->sd_per_year)}});
     if (control.drift->significant) {
         text.spans.push_back({", "});
         text.spans.push_back({say("reference.drift.drifts"), SpanLook::strong});
@@ -168,7 +171,7 @@ Rich drift_text(const Wording& say, const ComparedControl& control) {
     return text;
 }
 
-std::vector<Cell> row_of(const Wording& say, const ComparedControl& control) {
+std::vector<Cell> row_of(const Localisation& say, const ComparedControl& control) {
     const bool driven = control.cars.length_m > 0;
     return {(control.name),
             say.iri(control.known),
@@ -209,15 +212,15 @@ std::string subtitle_of(const ReferenceReport& report) {
 
 } // namespace
 
-std::string days_after_text(const ReferenceReport& report, const Wording& say) {
+std::string days_after_text(const ReferenceReport& report, const Localisation& say) {
     if (!report.days_after) {
         return {};
     }
     const auto& [least, middle, most] = *report.days_after;
     return say("reference.gap",
-               {{"middle", spoken_days(say, middle)},
-                {"least", spoken_days(say, least)},
-                {"most", spoken_days(say, most)}});
+               {{"middle", days_text(say, middle)},
+                {"least", days_text(say, least)},
+                {"most", days_text(say, most)}});
 }
 
 Document reference_document(const ReferenceReport& report) {

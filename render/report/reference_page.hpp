@@ -1,10 +1,10 @@
 #pragma once
 
-#include "mapping/control_section.hpp"
-#include "mapping/reference_comparison.hpp"
-#include "mapping/road_mean.hpp"
-#include "render/report/document.hpp"
-#include "render/report/wording.hpp"
+#include "mapping/analysis/length_weighted_mean.hpp"
+#include "mapping/surveys/control_section.hpp"
+#include "mapping/surveys/reference_comparison.hpp"
+#include "render/report/document/document.hpp"
+#include "render/report/words/localised_text.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -59,7 +59,7 @@ struct DaysAfter {
 
 /// What the cars alone say beside what references say, as plain values.
 struct ReferenceReport {
-    Wording wording{};
+    Localisation wording{};
     std::string title;
     double segment_length_m = 20;
     std::vector<ComparedSurvey> surveys;
@@ -79,6 +79,6 @@ Document reference_document(const ReferenceReport& report);
 std::string reference_html(const ReferenceReport& report);
 
 /// How far the cars' values are from the references in time, a sentence; "" = not known.
-std::string days_after_text(const ReferenceReport& report, const Wording& say);
+std::string days_after_text(const ReferenceReport& report, const Localisation& say);
 
 } // namespace macadam

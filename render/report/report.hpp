@@ -1,14 +1,14 @@
 #pragma once
 
-#include "mapping/change_since.hpp"
-#include "mapping/data_quality.hpp"
-#include "mapping/iri_class.hpp"
-#include "mapping/map_look.hpp"
-#include "mapping/measured_road.hpp"
-#include "mapping/network_summary.hpp"
-#include "mapping/worst_stretches.hpp"
-#include "render/report/document.hpp"
-#include "render/report/wording.hpp"
+#include "mapping/analysis/change_since.hpp"
+#include "mapping/analysis/correlated_mean.hpp"
+#include "mapping/analysis/data_quality.hpp"
+#include "mapping/analysis/network_summary.hpp"
+#include "mapping/analysis/worst_sections.hpp"
+#include "mapping/style/iri_class.hpp"
+#include "mapping/style/map_style_values.hpp"
+#include "render/report/document/document.hpp"
+#include "render/report/words/localised_text.hpp"
 
 #include <array>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct ReportDays {
 };
 
 struct ReportStretch {
-    RoadStretch stretch;
+    WorstSection stretch;
     std::string heading; ///< "NE"
     ReportDays seen;
     ReportPicture map;
@@ -39,7 +39,7 @@ struct ReportSection {
     double to_m;
     double excluded_m;
     double open_share; ///< measured length by what is not excluded
-    MeasuredRoad measured;
+    CorrelatedMean measured;
 };
 
 /// What the trips of one car gave.
@@ -76,7 +76,7 @@ struct ReportChange {
 
 /// Roads that the maps draw in grey, because fewer passes of cars are known than were asked for.
 struct ReportFewPasses {
-    int least_passes;
+    int min_passes;
     std::uint32_t rgb;
     std::uint32_t dark_rgb; ///< on dark pages
 };
@@ -93,7 +93,7 @@ struct ReportPublication {
 
 /// All that a report says, as plain values. Texts are as they came.
 struct Report {
-    Wording wording{};
+    Localisation wording{};
     std::string title;
     ReportDays period;
     std::string network_source; ///< what the roads were read from; "" = traced from the trips
@@ -110,7 +110,7 @@ struct Report {
     ReportPicture map;
     double map_width_m = 0; ///< of the ground, from side to side of the map
     double poor_above_mm_per_m = 0;
-    double least_stretch_m = 0;
+    double min_stretch_m = 0;
     std::size_t stretches = 0;           ///< poor ones in all
     double stretches_m = 0;              ///< and their length
     std::vector<ReportStretch> worst;    ///< the worst of them, worst first

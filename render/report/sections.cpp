@@ -1,7 +1,7 @@
 #include "render/report/sections.hpp"
 
+#include "render/report/common_parts.hpp"
 #include "render/report/figures.hpp"
-#include "render/report/parts.hpp"
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ bool says_both_units(const Report& report) {
     return report.wording.unit == IriUnit::mm_per_m;
 }
 
-Wording in_inches(Wording wording) {
+Localisation in_inches(Localisation wording) {
     wording.unit = IriUnit::in_per_mi;
     return wording;
 }
@@ -86,7 +86,7 @@ KeyNumber stretches_key(const Report& report) {
     return {say("key.stretches"),
             say.count(report.stretches),
             say("key.stretches.more",
-                {{"least", say.whole(report.least_stretch_m)},
+                {{"least", say.whole(report.min_stretch_m)},
                  {"km", say.km(report.stretches_m, report.summary.all.covered_m)}})};
 }
 
@@ -120,7 +120,7 @@ Table classes_table(const Report& report) {
         {{"km", true}, {say("column.share"), true}, {say("column.range_of_km"), true}});
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         const auto& range = all.classes[c];
-        Cell name{Rich{{{class_name(report, c), SpanLook::plain, true}}}};
+        Cell name{RichText{{{class_name(report, c), SpanLook::plain, true}}}};
         name.swatch = report.colours[c];
         std::vector<Cell> row{name, class_range(report, say, c)};
         if (says_both_units(report)) {
@@ -180,12 +180,12 @@ Table kind_classes_table(const Report& report) {
     const auto add = [&](const RoadSummary& roads, const std::string& name) {
         std::vector<Cell> row{name};
         for (const auto& range : roads.classes) {
-            row.emplace_back(Rich{{{say.km(range.length_m, all.covered_m) + " "},
-                                   {fmt::format("({} – {})",
-                                                say.km(range.low_m, all.covered_m),
-                                                say.km(range.high_m, all.covered_m)),
-                                    SpanLook::quiet,
-                                    true}}});
+            row.emplace_back(RichText{{{say.km(range.length_m, all.covered_m) + " "},
+                                       {fmt::format("({} – {})",
+                                                    say.km(range.low_m, all.covered_m),
+                                                    say.km(range.high_m, all.covered_m)),
+                                        SpanLook::quiet,
+                                        true}}});
         }
         table.rows.push_back(std::move(row));
     };
@@ -202,7 +202,7 @@ Table kind_classes_table(const Report& report) {
 
 } // namespace
 
-Rich subtitle_of(const Report& report) {
+RichText subtitle_of(const Report& report) {
     const auto& say = report.wording;
     const auto period = say.period(report.period.first, report.period.last);
     const auto about = say("head.about") + " ";

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/report/document.hpp"
+#include "render/report/document/document.hpp"
 #include "render/report/report.hpp"
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace macadam {
 
 // Parts of the report. Those of condition and worst stretches need something measured.
-document::Rich subtitle_of(const Report& report);
+document::RichText subtitle_of(const Report& report);
 document::KeyNumbers key_numbers(const Report& report);
 document::DocumentSection condition_section(const Report& report);
 document::DocumentSection map_section(const Report& report);

@@ -1,4 +1,4 @@
-#include "render/report/parts.hpp"
+#include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
 
 #include <fmt/format.h>
@@ -29,14 +29,14 @@ Table table_of(const Report& report) {
     for (const auto& [stretch, heading, seen, map] : report.worst) {
         const auto rank = table.rows.size() + 1;
         table.rows.push_back(
-            {Rich{{{fmt::format("{}", rank), SpanLook::plain, false, id_of(rank)}}},
+            {RichText{{{fmt::format("{}", rank), SpanLook::plain, false, id_of(rank)}}},
              road_name(report, stretch),
              say.or_else("heading." + heading, heading),
              say.whole(stretch.length_m),
              say.iri(stretch.mean.iri),
              say.interval(stretch.mean),
              say.iri(stretch.worst_iri),
-             passes_text(say, stretch.least_passes, stretch.median_passes),
+             passes_text(say, stretch.min_passes, stretch.median_passes),
              fmt::format("{}", stretch.vehicles)});
     }
     return table;
@@ -47,7 +47,7 @@ Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
     const auto& stretch = of.stretch;
     const auto name = road_name(report, stretch);
     const auto period = say.period(of.seen.first, of.seen.last);
-    const auto passes = passes_text(say, stretch.least_passes, stretch.median_passes);
+    const auto passes = passes_text(say, stretch.min_passes, stretch.median_passes);
     return {id_of(rank),
             of.map,
             say("stretch.words", {{"rank", fmt::format("{}", rank)}, {"road", name}}),
@@ -80,7 +80,7 @@ Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
 DocumentSection worst_section(const Report& report) {
     const auto& say = report.wording;
     DocumentSection section{say("worst"), {}};
-    const Values values{{"least", say.whole(report.least_stretch_m)},
+    const Values values{{"least", say.whole(report.min_stretch_m)},
                         {"border", say.iri_with_unit(report.poor_above_mm_per_m)}};
     if (report.worst.empty()) {
         section.blocks.emplace_back(Paragraph{say("worst.none", values)});

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mapping/road_network.hpp"
-#include "mapping/segment.hpp"
-#include "storage/road_store.hpp"
+#include "mapping/network/road_network.hpp"
+#include "mapping/network/segment.hpp"
+#include "storage/store/road_store.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -5,7 +5,7 @@ usage: error_along_road.py SEGMENTS.csv TRUTH.csv
 
 SEGMENTS.csv is of 'macadam export', TRUTH.csv of 'macadam simulate'. Prints the correlation of
 (state - truth) / sd over distances along ways, and how often the 90 % interval of the mean over
-sections holds the truth, for shares and lengths of the model in mapping/measured_road.hpp.
+sections holds the truth, for shares and lengths of the model in mapping/analysis/correlated_mean.hpp.
 """
 
 import collections

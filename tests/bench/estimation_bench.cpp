@@ -1,11 +1,11 @@
 // What estimation costs: the product's Kalman filter beside the same equations written down as they
 // stand in the paper, on one trip of doubling length; and the smoother, on simulated drives.
 
-#include "estimator/iri_trace.hpp"
-#include "estimator/kalman_profile.hpp"
-#include "estimator/quarter_car.hpp"
-#include "estimator/smoothed_iri.hpp"
+#include "estimator/roughness/roughness_trace.hpp"
+#include "estimator/roughness/unknown_input_filter.hpp"
 #include "estimator/smoother/driven_road.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
+#include "estimator/vehicle/quarter_car.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -69,7 +69,8 @@ std::vector<double> as_in_the_paper(const Stretch& stretch, const Vehicle& vehic
 }
 
 std::vector<double> settled(const Stretch& stretch, const Vehicle& vehicle) {
-    InputFilter<4, 1, 1> filter{discretise(quarter_car(vehicle.half_car), stretch.step_s), 1e9};
+    UnknownInputFilter<4, 1, 1> filter{discretise(quarter_car(vehicle.half_car), stretch.step_s),
+                                       1e9};
     std::vector<double> road;
     road.reserve(stretch.vertical_mps2.size());
     for (const double y : stretch.vertical_mps2) {

@@ -10,10 +10,11 @@
 #include "clock.hpp"
 #include "driven_town.hpp"
 #include "estimator/common/error.hpp"
-#include "storage/geopackage.hpp"
-#include "storage/road_store.hpp"
-#include "storage/sqlite.hpp"
-#include "support/town.hpp"
+#include "storage/geopackage/geopackage.hpp"
+#include "storage/geopackage/geopackage_geometry.hpp"
+#include "storage/sqlite/sqlite.hpp"
+#include "storage/store/road_store.hpp"
+#include "support/roads/town.hpp"
 
 #include <fmt/format.h>
 
@@ -123,7 +124,7 @@ void ask_all(const fs::path& file, const RoadNetwork& roads) {
     };
     const auto glance_at = [&](const SegmentFilter& filter) {
         std::size_t count = 0;
-        store.glance(filter, [&](const SegmentGlance&) { ++count; });
+        store.visit_summaries(filter, [&](const SegmentSummary&) { ++count; });
         return count;
     };
     const auto box = [](const Segment& at) { return around(at, 0.0034, 0.0068); };

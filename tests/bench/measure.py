@@ -265,7 +265,7 @@ PARTS = {
                   "and the whole way from vibration to IRI, on 15 minutes to 2 hours at 100 Hz.",
     "store": "Stores made, beside the same rows inserted under the triggers that keep a GeoPackage's R-tree; about 1,400 segments "
              "out of stores of growing size; trips of 500 passes added and fused one by one, and many at once: `<true>` lays each "
-             "pass on the others (docs/method.md), `<false>` has no traces to. `add_batch` is 1,000 trips at once, `<true>` with "
+             "pass on the others (docs/method/fusion.md), `<false>` has no traces to. `add_batch` is 1,000 trips at once, `<true>` with "
              "traces and states, `<false>` the rows of passes alone, beside SQLite's own insertion of such rows into a bare table.",
     "render": "The streets of towns of growing size at 2048 x 2048, beside Cairo with casing and round joins. "
               "Ours begins by waking the software renderer, which costs the small towns most.",

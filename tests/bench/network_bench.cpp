@@ -1,7 +1,9 @@
 // What a road network costs: reading its map, building it, its file, and opening that.
 
-#include "storage/network_file.hpp"
-#include "storage/network_reader.hpp"
+#include "mapping/matching/arcs.hpp"
+#include "mapping/network/build_network.hpp"
+#include "storage/networks/network_file.hpp"
+#include "storage/networks/network_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +38,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-double most_memory_gb() {
+double max_memory_gb() {
     rusage use{};
     getrusage(RUSAGE_SELF, &use);
     constexpr double gb_per_kib = 1024 / 1e9;
@@ -68,7 +70,7 @@ void print_size(const RoadNetwork& roads, std::uintmax_t bytes) {
         "{} directed edges from junction to junction: {:.1f} B each\n", edges, per(edges));
     std::cout << fmt::format(
         "{} directed arcs from point to point: {:.1f} B each\n", arcs, per(arcs));
-    std::cout << fmt::format("{} forbidden turns\n", roads.barred_turns.size());
+    std::cout << fmt::format("{} forbidden turns\n", roads.turn_restrictions.size());
 }
 
 /// Microseconds of looking for roads within 50 m of a place on a road.
@@ -95,7 +97,7 @@ void measure(const std::filesystem::path& map, const std::filesystem::path& file
         std::cout << fmt::format("built in {:.1f} s\n", clock.lap_s());
         write_network_file(roads, std::string(64, '0'), file);
         std::cout << fmt::format("written in {:.1f} s\n", clock.lap_s());
-        std::cout << fmt::format("at most {:.2f} GB of memory\n", most_memory_gb());
+        std::cout << fmt::format("at most {:.2f} GB of memory\n", max_memory_gb());
     }
     clock.lap_s();
     const auto opened = open_network_file(file);

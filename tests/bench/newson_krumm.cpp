@@ -1,4 +1,4 @@
-#include "bench/newson_krumm.hpp"
+#include "newson_krumm.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "estimator/common/trip.hpp"
-#include "mapping/road_network.hpp"
+#include "mapping/network/road_network.hpp"
 
 #include <vector>
 

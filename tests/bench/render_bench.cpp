@@ -1,8 +1,8 @@
 // What a picture costs: the product's map beside the same lines drawn by Cairo, with towns of
 // doubling size.
 
-#include "render/map.hpp"
-#include "support/town.hpp"
+#include "render/scene/scene.hpp"
+#include "support/roads/town.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,14 +1,15 @@
 // What the store costs: adding and fusing passes with and without their traces, one trip at a time
-// and many at once, laying ever more traces of a strip on each other, and asking for about a
+// and many at once, laying ever more traces of a chunk on each other, and asking for about a
 // thousand segments by place in stores of doubling size; and how long readers take beside a writer.
 
 #include "clock.hpp"
 #include "driven_town.hpp"
-#include "mapping/alignment.hpp"
-#include "storage/geopackage.hpp"
-#include "storage/road_store.hpp"
-#include "support/texture.hpp"
-#include "support/town.hpp"
+#include "mapping/alignment/alignment.hpp"
+#include "storage/geopackage/geopackage.hpp"
+#include "storage/geopackage/geopackage_geometry.hpp"
+#include "storage/store/road_store.hpp"
+#include "support/roads/texture.hpp"
+#include "support/roads/town.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -37,7 +38,7 @@ std::vector<Pass> passes_over(const std::vector<SegmentKey>& keys) {
 }
 
 /// What trip `number` reads of a road of that length, some metres off its place.
-StripTrace trace_of_trip(int number, double length_m) {
+RoughnessTrace trace_of_trip(int number, double length_m) {
     static const auto texture = testing::texture(1000, 1);
     const double lag_m = (number * 37) % 60 / 10.0 - 3;
     return testing::read_texture(texture,
@@ -47,17 +48,17 @@ StripTrace trace_of_trip(int number, double length_m) {
                                   .seed = static_cast<std::uint64_t>(number)});
 }
 
-/// The traces of all strips of those segments; passes of about 20 m.
-std::vector<StripTrace> traces_over(const std::vector<SegmentKey>& keys, int number) {
-    std::vector<StripTrace> traces;
+/// The traces of all chunks of those segments; passes of about 20 m.
+std::vector<RoughnessTrace> traces_over(const std::vector<SegmentKey>& keys, int number) {
+    std::vector<RoughnessTrace> traces;
     for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
-        const auto strip = strip_of(keys[first], 20);
-        while (last < keys.size() && strip_of(keys[last], 20) == strip) {
+        const auto chunk = chunk_of(keys[first], 20);
+        while (last < keys.size() && chunk_of(keys[last], 20) == chunk) {
             ++last;
         }
         auto trace = trace_of_trip(number, 20.0 * static_cast<double>(last - first));
-        trace.strip = strip;
-        // Two trips' worth of one strip in one trip are two drives.
+        trace.chunk = chunk;
+        // Two trips' worth of one chunk in one trip are two drives.
         trace.drive = static_cast<std::uint32_t>(traces.size());
         traces.push_back(std::move(trace));
     }
@@ -111,7 +112,7 @@ constexpr std::size_t passes_a_trip = 500;
 /// What trip `number` gives, where trips go on from each other through the town.
 struct TownDrive {
     std::vector<Pass> passes;
-    std::vector<StripTrace> traces;
+    std::vector<RoughnessTrace> traces;
 };
 
 TownDrive town_drive(const std::vector<SegmentKey>& keys, int number, bool with_traces) {
@@ -125,7 +126,7 @@ TownDrive town_drive(const std::vector<SegmentKey>& keys, int number, bool with_
         drive.traces = traces_over(driven, number);
         for (std::size_t i = 0, trace = 0; i < drive.passes.size(); ++i) {
             auto& pass = drive.passes[i];
-            trace += strip_of(pass.segment, 20) != drive.traces[trace].strip ? 1U : 0U;
+            trace += chunk_of(pass.segment, 20) != drive.traces[trace].chunk ? 1U : 0U;
             pass.drive = drive.traces[trace].drive;
         }
     }
@@ -369,8 +370,8 @@ void read_beside_a_writer(benchmark::State& state) {
 }
 
 /// Twice as many traces of 500 m should cost twice as much.
-void lay_traces(benchmark::State& state) {
-    std::vector<StripTrace> traces;
+void align_traces(benchmark::State& state) {
+    std::vector<RoughnessTrace> traces;
     for (int number = 0; number < state.range(0); ++number) {
         traces.push_back(trace_of_trip(number, 500));
     }
@@ -382,7 +383,7 @@ void lay_traces(benchmark::State& state) {
                                                     benchmark::Counter::kIsRate);
 }
 
-BENCHMARK(lay_traces)->RangeMultiplier(4)->Range(2, 512)->Unit(benchmark::kMillisecond);
+BENCHMARK(align_traces)->RangeMultiplier(4)->Range(2, 512)->Unit(benchmark::kMillisecond);
 BENCHMARK(make_store)->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(insert_under_triggers)->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(ask_by_place)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);

@@ -5,17 +5,17 @@
 //     segments tile_bench pictures STORE.gpkg tile_bench vectors STORE.gpkg tile_bench map
 //     STORE.gpkg           one large picture
 
-#include "app/map_scene.hpp"
-#include "app/tile_lines.hpp"
+#include "app/export/tile_line_merging.hpp"
+#include "app/render/map_scene.hpp"
 #include "clock.hpp"
 #include "driven_town.hpp"
 #include "estimator/common/error.hpp"
-#include "render/line_widths.hpp"
-#include "render/tile_painter.hpp"
-#include "render/tile_png.hpp"
-#include "render/vector_tile.hpp"
-#include "storage/gzip.hpp"
-#include "support/town.hpp"
+#include "render/roads/line_widths.hpp"
+#include "render/tiles/mvt_tile.hpp"
+#include "render/tiles/tile_painter.hpp"
+#include "render/tiles/tile_png.hpp"
+#include "storage/files/gzip.hpp"
+#include "support/roads/town.hpp"
 #include "tile_bench_peers.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/map.hpp"
+#include "render/scene/scene.hpp"
 
 #include <memory>
 #include <string>

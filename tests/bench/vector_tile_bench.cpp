@@ -2,14 +2,14 @@
 // same from memory, and all tiles of zooms 14 and 15 of a town beside GDAL's driver for them, from
 // its export of the same segments.
 
-#include "app/tile_pyramid.hpp"
+#include "app/export/tile_pyramid.hpp"
 #include "driven_town.hpp"
-#include "render/vector_tile.hpp"
-#include "storage/export.hpp"
-#include "storage/gzip.hpp"
-#include "storage/road_store.hpp"
-#include "storage/tile_archive.hpp"
-#include "support/town.hpp"
+#include "render/tiles/mvt_tile.hpp"
+#include "storage/exports/export.hpp"
+#include "storage/files/gzip.hpp"
+#include "storage/store/road_store.hpp"
+#include "storage/tiles/tile_archive.hpp"
+#include "support/roads/town.hpp"
 
 #include <benchmark/benchmark.h>
 #include <gdal_utils.h>
@@ -115,8 +115,8 @@ BENCHMARK(make_tile_from_memory)->Unit(benchmark::kMillisecond);
 
 void export_tiles_in_macadam(benchmark::State& state) {
     const auto file = scratch() / "ours.mbtiles";
-    const TilePlan plan{.least_zoom = static_cast<int>(state.range(0)),
-                        .most_zoom = static_cast<int>(state.range(0))};
+    const TilePlan plan{.min_zoom = static_cast<int>(state.range(0)),
+                        .max_zoom = static_cast<int>(state.range(0))};
     std::size_t segments = 0;
     driven_town();
     for (auto _ : state) {
@@ -128,8 +128,8 @@ void export_tiles_in_macadam(benchmark::State& state) {
                              .attribution = "",
                              .format = TileSetNote::Format::mvt,
                              .bounds = source.box,
-                             .least_zoom = plan.least_zoom,
-                             .most_zoom = plan.most_zoom,
+                             .min_zoom = plan.min_zoom,
+                             .max_zoom = plan.max_zoom,
                              .layers = {}}};
         make_vector_tiles(
             source,

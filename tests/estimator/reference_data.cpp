@@ -1,4 +1,4 @@
-#include "estimator/reference_data.hpp"
+#include "reference_data.hpp"
 
 #include <cmath>
 #include <cstdlib>

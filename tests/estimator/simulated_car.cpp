@@ -1,6 +1,6 @@
-#include "estimator/simulated_car.hpp"
+#include "simulated_car.hpp"
 
-#include "estimator/iri.hpp"
+#include "estimator/iri/iri.hpp"
 
 #include <array>
 #include <cmath>

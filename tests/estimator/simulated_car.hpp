@@ -1,7 +1,7 @@
 #pragma once
 
-#include "estimator/stretch.hpp"
-#include "estimator/vehicle.hpp"
+#include "estimator/motion/stretch.hpp"
+#include "estimator/vehicle/vehicle.hpp"
 
 #include <functional>
 #include <vector>

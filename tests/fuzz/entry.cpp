@@ -1,6 +1,6 @@
 // libFuzzer's door to one target, which the build names.
 
-#include "fuzz/targets.hpp"
+#include "targets.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "fuzz/input_file.hpp"
+#include "input_file.hpp"
 
 #include <algorithm>
 #include <fstream>

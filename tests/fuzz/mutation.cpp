@@ -1,4 +1,4 @@
-#include "fuzz/mutation.hpp"
+#include "mutation.hpp"
 
 #include <algorithm>
 #include <array>

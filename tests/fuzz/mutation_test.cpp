@@ -1,9 +1,9 @@
 // 4,000 spoilt inputs for every reader, made of seeds that it accepts: each is read or refused in
 // words, within 25 s and 2 GB. The ordinary tests try fewer where an input takes long.
 
-#include "fuzz/mutation.hpp"
-#include "fuzz/target_files.hpp"
-#include "fuzz/target_table.hpp"
+#include "mutation.hpp"
+#include "target_files.hpp"
+#include "target_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ class Mutations : public ::testing::TestWithParam<Slice> {};
 
 TEST_P(Mutations, AreReadOrRefused) {
     constexpr std::chrono::seconds longest{25};
-    constexpr double most_mb = 2048;
+    constexpr double max_mb = 2048;
     const auto& slice = GetParam();
     const bool try_all = std::getenv("MACADAM_TEST_ALL") != nullptr;
     const int count =
@@ -105,7 +105,7 @@ TEST_P(Mutations, AreReadOrRefused) {
         }
         EXPECT_LT(std::chrono::steady_clock::now() - begin, longest) << kept.keep();
     }
-    EXPECT_LT(peak_mb(), most_mb);
+    EXPECT_LT(peak_mb(), max_mb);
     RecordProperty("accepted", accepted);
 }
 

@@ -1,10 +1,11 @@
-#include "fuzz/input_file.hpp"
-#include "fuzz/rules.hpp"
-#include "fuzz/targets.hpp"
+#include "input_file.hpp"
+#include "mapping/network/build_network.hpp"
+#include "rules.hpp"
+#include "targets.hpp"
 
-#include "mapping/segment.hpp"
-#include "storage/network_reader.hpp"
-#include "support/sealed_image.hpp"
+#include "mapping/network/segment.hpp"
+#include "storage/networks/network_reader.hpp"
+#include "support/files/sealed_image.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "fuzz/input_file.hpp"
-#include "fuzz/rules.hpp"
-#include "fuzz/targets.hpp"
+#include "input_file.hpp"
+#include "rules.hpp"
+#include "targets.hpp"
 
-#include "storage/base_map_file.hpp"
+#include "storage/rasters/base_map_file.hpp"
 
 #include <algorithm>
 #include <array>

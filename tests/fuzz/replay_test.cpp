@@ -1,7 +1,7 @@
 // Every fuzz target over its seeds, which its reader accepts, and over what fuzzing found.
 
-#include "fuzz/target_files.hpp"
-#include "fuzz/target_table.hpp"
+#include "target_files.hpp"
+#include "target_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include "fuzz/rules.hpp"
 #include "fuzz/targets.hpp"
 
-#include "storage/export.hpp"
-#include "storage/road_store.hpp"
-#include "storage/store_world.hpp"
+#include "storage/exports/export.hpp"
+#include "storage/store/road_store.hpp"
+#include "support/roads/store_world.hpp"
 
 #include <sqlite3.h>
 
@@ -90,7 +90,7 @@ Answer read_store(const fs::path& file) {
     read([&] { store.visit(worst_here, [](const SegmentRecord&) {}); });
     SegmentFilter everything;
     everything.with_state_only = false;
-    read([&] { store.glance(everything, [](const SegmentGlance&) {}); });
+    read([&] { store.visit_summaries(everything, [](const SegmentSummary&) {}); });
     read([&] {
         store.visit(everything, [&](const SegmentRecord& record) { csv_row(record, classes); });
     });
@@ -105,7 +105,7 @@ Answer read_store(const fs::path& file) {
     SegmentFilter of_a_way;
     of_a_way.way_id = 1;
     of_a_way.class_name = "poor";
-    of_a_way.least_passes = 2;
+    of_a_way.min_passes = 2;
     SegmentFilter named;
     named.name_part = "rue";
     named.highway = "residential";
@@ -126,7 +126,7 @@ Answer read_store(const fs::path& file) {
     read([&] { store.network_hash(); });
     read([&] { store.waiting(); });
     read([&] { store.laid(); });
-    read([&] { store.knows_trip(testing::trip_record(1).sha256); });
+    read([&] { store.contains_trip(testing::trip_record(1).sha256); });
     read([&] { store.has_forgotten(testing::trip_record(1).sha256); });
     read([&] { store.vehicle_uses(); });
     read([&] { store.day_uses(); });
@@ -198,7 +198,7 @@ void add_geometry_functions(sqlite3* handle) {
 void run_sql(const fs::path& file, std::string_view sql) {
     constexpr int steps_between_looks = 10'000;
     int looks_left = 20;
-    constexpr int most_bytes = 1 << 20; // of one value
+    constexpr int max_bytes = 1 << 20; // of one value
     sqlite3* handle = nullptr;
     const int code = sqlite3_open(file.c_str(), &handle);
     const std::unique_ptr<sqlite3, Close> database{handle};
@@ -207,7 +207,7 @@ void run_sql(const fs::path& file, std::string_view sql) {
     }
     sqlite3_set_authorizer(handle, allow, nullptr);
     sqlite3_progress_handler(handle, steps_between_looks, is_over, &looks_left);
-    sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, most_bytes);
+    sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, max_bytes);
     add_geometry_functions(handle);
     while (!sql.empty() && looks_left >= 0) {
         const auto end = std::min(sql.find('\n'), sql.size());

@@ -1,20 +1,20 @@
-#include "fuzz/input_file.hpp"
-#include "fuzz/rules.hpp"
-#include "fuzz/targets.hpp"
+#include "input_file.hpp"
+#include "rules.hpp"
+#include "targets.hpp"
 
-#include "estimator/iri.hpp"
-#include "mapping/survey_match.hpp"
-#include "storage/control_reader.hpp"
-#include "storage/exclusion_file.hpp"
-#include "storage/profile_reader.hpp"
-#include "storage/recipe_file.hpp"
-#include "storage/reference_reader.hpp"
-#include "storage/section_file.hpp"
-#include "storage/store_world.hpp"
-#include "storage/style_file.hpp"
-#include "storage/survey_reader.hpp"
-#include "storage/truth_file.hpp"
-#include "storage/vehicle_file.hpp"
+#include "estimator/iri/iri.hpp"
+#include "mapping/surveys/survey_match.hpp"
+#include "storage/profiles/profile_reader.hpp"
+#include "storage/settings/scenario_file.hpp"
+#include "storage/settings/style_file.hpp"
+#include "storage/settings/vehicle_file.hpp"
+#include "storage/surveys/control_reader.hpp"
+#include "storage/surveys/exclusion_file.hpp"
+#include "storage/surveys/reference_reader.hpp"
+#include "storage/surveys/section_file.hpp"
+#include "storage/surveys/survey_reader.hpp"
+#include "storage/surveys/truth_file.hpp"
+#include "support/roads/store_world.hpp"
 
 #include <fmt/format.h>
 
@@ -79,9 +79,9 @@ Answer read_table_as(const char* name, const char* wrong_name, std::string_view 
 /// Printed to the mm/m and mm, they are what the file may hold: nothing unknown, nothing that ends
 /// where it begins.
 bool can_be_printed(const std::vector<SegmentTruth>& truth) {
-    constexpr double least_m = 0.002;
+    constexpr double min_m = 0.002;
     return std::ranges::all_of(truth, [](const SegmentTruth& segment) {
-        return segment.to_m - segment.from_m >= least_m && std::isfinite(segment.iri_left) &&
+        return segment.to_m - segment.from_m >= min_m && std::isfinite(segment.iri_left) &&
                std::isfinite(segment.iri_right) && std::isfinite(segment.hri);
     });
 }
@@ -187,7 +187,7 @@ Answer style_toml(std::string_view input) {
         if (look.own_table) {
             const auto& classes = look.own_table->table().classes;
             expect(std::ranges::is_sorted(classes, {}, &IriClass::to_mm_per_m), "borders rise");
-            expect(classes.size() <= most_own_classes, "there are not too many classes");
+            expect(classes.size() <= max_own_classes, "there are not too many classes");
         }
     });
 }

@@ -1,4 +1,4 @@
-#include "fuzz/target_files.hpp"
+#include "target_files.hpp"
 
 #include <algorithm>
 #include <charconv>

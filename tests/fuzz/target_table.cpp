@@ -1,4 +1,4 @@
-#include "fuzz/target_table.hpp"
+#include "target_table.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fuzz/targets.hpp"
+#include "targets.hpp"
 
 #include <ostream>
 #include <span>

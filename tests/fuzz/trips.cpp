@@ -1,15 +1,16 @@
-#include "fuzz/input_file.hpp"
-#include "fuzz/rules.hpp"
-#include "fuzz/targets.hpp"
+#include "input_file.hpp"
+#include "mapping/network/build_network.hpp"
+#include "rules.hpp"
+#include "targets.hpp"
 
-#include "app/pipeline.hpp"
-#include "mapping/trace_network.hpp"
-#include "storage/foreign/trip_mapping.hpp"
-#include "storage/mapping_file.hpp"
-#include "storage/trip_feed.hpp"
-#include "storage/trip_reader.hpp"
-#include "storage/trip_writer.hpp"
-#include "support/walked_trips.hpp"
+#include "app/pipeline/pipeline.hpp"
+#include "mapping/inference/network_inference.hpp"
+#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/log/trip_writer.hpp"
+#include "storage/trips/trip_follower.hpp"
+#include "storage/trips/trip_reader.hpp"
+#include "support/roads/walked_trips.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +38,7 @@ void expect_whole(const TriaxialSamples& samples) {
     expect_rising(samples.t_s);
 }
 
-void expect_accounted(const TripLog& trip, const TripUse& use) {
+void expect_accounted(const TripLog& trip, const RowAudit& use) {
     const auto rows = account(trip, use);
     expect(rows.read == trip.rows.size(), "every row is counted");
     expect(rows.read == rows.used + rows.rejected, "every row is either used or rejected");
@@ -77,7 +78,7 @@ Answer read_all_of(Search search, const TripNeeds& needs = needs_of_import()) {
 
 /// A walk that stops after a few files gives as many trips as it counts.
 void expect_counted(const std::filesystem::path& path) {
-    const TripWalkConfig config{.tracks = true, .most_files = 3};
+    const TripWalkConfig config{.tracks = true, .max_files = 3};
     TripWalk walk{path, config};
     expect(walk.files() == std::vector{path}, "a walk over a file reads that file");
     std::size_t trips = 0;
@@ -123,7 +124,7 @@ Answer read_by_built_in_mappings(const std::filesystem::path& table) {
 /// A log has times to the microsecond; of two samples of a sensor in one, the later is lost. A fix
 /// whose place is printed as 0, 0 is none.
 bool can_be_told_apart(const TripLog& trip) {
-    constexpr double least_s = 2e-6;
+    constexpr double min_s = 2e-6;
     const auto is_at_zero = [](const GnssFix& fix) {
         constexpr double printed_deg = 1e-8;
         return std::abs(fix.at.lat_deg) < printed_deg && std::abs(fix.at.lon_deg) < printed_deg;
@@ -131,7 +132,7 @@ bool can_be_told_apart(const TripLog& trip) {
     if (std::ranges::any_of(trip.fixes, is_at_zero)) {
         return false;
     }
-    const auto too_close = [](double a, double b) { return !(b - a >= least_s); };
+    const auto too_close = [](double a, double b) { return !(b - a >= min_s); };
     const auto are_apart = [&](const std::vector<double>& t_s) {
         return std::ranges::adjacent_find(t_s, too_close) == t_s.end();
     };
@@ -218,11 +219,11 @@ Answer trip_archive(std::string_view input) {
 Answer trip_live(std::string_view input) {
     const auto file = input_file("a.trip.csv", input);
     return may_refuse([&] {
-        TripFeed feed{file, needs_of_trace()};
+        TripFollower feed{file, needs_of_trace()};
         std::size_t rows = 0;
         while (const auto row = feed.next()) {
             expect(row->rows.size() == 1, "a row comes alone");
-            expect(!feed.spoken_row().empty(), "a row can be quoted");
+            expect(!feed.row_text().empty(), "a row can be quoted");
             ++rows;
         }
         expect(rows == feed.count(), "every row is counted");

@@ -1,16 +1,17 @@
 #include "fuzz/rules.hpp"
 #include "fuzz/targets.hpp"
 
-#include "app/commands.hpp"
-#include "app/estimation_options.hpp"
-#include "app/period_options.hpp"
-#include "app/query_options.hpp"
-#include "app/section_options.hpp"
-#include "app/segment_options.hpp"
-#include "mapping/segment.hpp"
-#include "storage/geopackage.hpp"
-#include "storage/store_world.hpp"
-#include "storage/utc.hpp"
+#include "app/cli/commands.hpp"
+#include "app/database/period_options.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/pipeline/estimation_options.hpp"
+#include "app/query/query_options.hpp"
+#include "app/query/section_options.hpp"
+#include "mapping/network/segment.hpp"
+#include "storage/geopackage/geopackage.hpp"
+#include "storage/geopackage/geopackage_geometry.hpp"
+#include "storage/text/utc.hpp"
+#include "support/roads/store_world.hpp"
 
 #include <algorithm>
 #include <array>

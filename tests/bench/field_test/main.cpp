@@ -1,7 +1,7 @@
 // The field test of the paper, with simulated roads and a simulated car: 230.8 km with its shares
 // of smooth and rough road, every method over the same drive.
 
-#include "field_test/tables.hpp"
+#include "tables.hpp"
 
 #include <atomic>
 #include <cstdio>

@@ -1,13 +1,14 @@
-#include "field_test/methods.hpp"
+#include "methods.hpp"
+#include "estimator/roughness/roughness_mean.hpp"
 
-#include "estimator/smoothed_iri.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 
 #include <algorithm>
 
 namespace macadam::field_test {
 namespace {
 
-constexpr double hri_over_mri = 0.91; // docs/method.md
+constexpr double hri_over_mri = 0.91; // docs/method/estimation.md
 
 struct Said {
     double iri, sd;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "field_test/survey.hpp"
+#include "survey.hpp"
 
 #include <array>
 

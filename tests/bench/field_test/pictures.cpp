@@ -1,6 +1,6 @@
-#include "field_test/tables.hpp"
+#include "tables.hpp"
 
-#include "render/line_chart.hpp"
+#include "render/report/document/line_chart.hpp"
 
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ constexpr double plot = 300; // of one scatter, in the figure's units
 constexpr double pitch = 350;
 constexpr double left = 56;
 constexpr double top = 40;
-constexpr double most_mm_per_m = 12;
+constexpr double max_mm_per_m = 12;
 
 std::string scatter_frame(double at_x, const char* title) {
     std::string svg =
@@ -64,7 +64,7 @@ std::string scatter_frame(double at_x, const char* title) {
                     at_x + plot / 2,
                     top + plot + 42);
     for (int tick = 0; tick <= 12; tick += 2) {
-        const double along = plot * tick / most_mm_per_m;
+        const double along = plot * tick / max_mm_per_m;
         svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n"
                            "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n",
                            at_x + along,
@@ -106,7 +106,7 @@ std::string histograms_svg(const Fitted& test) {
 }
 
 std::string scatter_svg(const Fitted& test) {
-    constexpr std::size_t most_dots = 1500; // a picture must stay small
+    constexpr std::size_t max_dots = 1500; // a picture must stay small
     std::string svg =
         fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" "
                     "font-family=\"sans-serif\" "
@@ -117,7 +117,7 @@ std::string scatter_svg(const Fitted& test) {
                     top + plot + 56,
                     top + plot / 2,
                     top + plot / 2);
-    const std::size_t every = std::max<std::size_t>(1, test.readings.size() / most_dots);
+    const std::size_t every = std::max<std::size_t>(1, test.readings.size() / max_dots);
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const double at_x = left + pitch * static_cast<double>(i);
         svg += scatter_frame(at_x, methods[shown[i].row].name);
@@ -125,10 +125,10 @@ std::string scatter_svg(const Fitted& test) {
         for (std::size_t n = 0; n < test.readings.size(); n += every) {
             const auto& reading = test.readings[n];
             const double y = reading.estimate[shown[i].row];
-            if (std::max(y, reading.reference) < most_mm_per_m) {
+            if (std::max(y, reading.reference) < max_mm_per_m) {
                 svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.6\"/>\n",
-                                   at_x + plot * reading.reference / most_mm_per_m,
-                                   top + plot - plot * y / most_mm_per_m);
+                                   at_x + plot * reading.reference / max_mm_per_m,
+                                   top + plot - plot * y / max_mm_per_m);
             }
         }
         svg += "</g>\n";

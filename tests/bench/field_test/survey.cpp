@@ -1,4 +1,4 @@
-#include "field_test/survey.hpp"
+#include "survey.hpp"
 
 #include <algorithm>
 #include <cmath>

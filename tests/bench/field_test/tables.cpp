@@ -1,4 +1,4 @@
-#include "field_test/tables.hpp"
+#include "tables.hpp"
 
 #include <fmt/format.h>
 

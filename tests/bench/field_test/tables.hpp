@@ -1,6 +1,6 @@
 #pragma once
 
-#include "field_test/methods.hpp"
+#include "methods.hpp"
 
 #include <string>
 

@@ -1,4 +1,6 @@
-#include "bench/match/deleted_edges.hpp"
+#include "deleted_edges.hpp"
+#include "estimator/motion/make_odometer.hpp"
+#include "mapping/network/build_network.hpp"
 
 #include <algorithm>
 #include <random>
@@ -32,7 +34,8 @@ std::set<NodePair> either_way(std::span<const NodePair> arcs) {
 
 /// The arcs of an edge in its direction of travel.
 std::vector<NodePair> arcs_of_edge(const RoadNetwork& roads, EdgeId edge) {
-    const MatchedTrace whole{{PieceKind::road, edge, 0, 1, 0, length_m(roads, edge), 0, 1, 1, ""}};
+    const MatchedTrace whole{
+        {IntervalKind::road, edge, 0, 1, 0, length_m(roads, edge), 0, 1, 1, ""}};
     std::vector<NodePair> arcs;
     for (const auto& arc : found_arcs(whole, roads)) {
         arcs.push_back(arc.nodes);
@@ -122,7 +125,7 @@ std::set<NodePair> drawn_arcs(const Track& track,
     }
     std::set<LinkId> seen;
     for (const auto& piece : trace) {
-        if (piece.kind == PieceKind::road &&
+        if (piece.kind == IntervalKind::road &&
             is_driven(arcs_of_edge(track.roads, piece.edge), driven)) {
             seen.insert(link_of(piece.edge));
         }
@@ -159,19 +162,19 @@ Deletion match_without_edges(const Track& track, double share, std::uint64_t see
     const auto roads = build_network(without(track.ways, drawn));
     const auto cut = match(track.trip, roads);
 
-    const auto on_road = [&](const MatchedPiece& piece) {
-        return piece.kind == PieceKind::road &&
+    const auto on_road = [&](const MatchedInterval& piece) {
+        return piece.kind == IntervalKind::road &&
                is_driven(arcs_of_edge(track.roads, piece.edge), driven);
     };
     const auto road = intervals_of(whole, on_road);
-    const auto deleted = intervals_of(whole, [&](const MatchedPiece& piece) {
+    const auto deleted = intervals_of(whole, [&](const MatchedInterval& piece) {
         return on_road(piece) && is_driven(arcs_of_edge(track.roads, piece.edge), drawn);
     });
     const auto off = intervals_of(
-        cut, [](const MatchedPiece& piece) { return piece.kind == PieceKind::off_network; });
-    const auto elsewhere = intervals_of(cut, [&](const MatchedPiece& piece) {
-        const auto arcs = piece.kind == PieceKind::road ? arcs_of_edge(roads, piece.edge)
-                                                        : std::vector<NodePair>{};
+        cut, [](const MatchedInterval& piece) { return piece.kind == IntervalKind::off_network; });
+    const auto elsewhere = intervals_of(cut, [&](const MatchedInterval& piece) {
+        const auto arcs = piece.kind == IntervalKind::road ? arcs_of_edge(roads, piece.edge)
+                                                           : std::vector<NodePair>{};
         return std::any_of(
             arcs.begin(), arcs.end(), [&](const auto& arc) { return !driven.contains(arc); });
     });

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/match/scoring.hpp"
+#include "scoring.hpp"
 
 #include <cstdint>
 

@@ -1,6 +1,8 @@
-#include "bench/match/drive_score.hpp"
+#include "drive_score.hpp"
 
-#include "estimator/latency.hpp"
+#include "estimator/motion/gnss_latency.hpp"
+#include "estimator/motion/make_odometer.hpp"
+#include "estimator/motion/mounting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +76,7 @@ private:
 };
 
 /// The piece that holds a travel, going on from the one that held the travel before.
-const MatchedPiece* piece_at(const MatchedTrace& trace, std::size_t& last, double travel_m) {
+const MatchedInterval* piece_at(const MatchedTrace& trace, std::size_t& last, double travel_m) {
     while (last + 1 < trace.size() && trace[last].to_travel_m < travel_m) {
         ++last;
     }
@@ -83,7 +85,7 @@ const MatchedPiece* piece_at(const MatchedTrace& trace, std::size_t& last, doubl
     return inside ? &trace[last] : nullptr;
 }
 
-double offset_m_at(const MatchedPiece& piece, double travel_m) {
+double offset_m_at(const MatchedInterval& piece, double travel_m) {
     const double whole_m = piece.to_travel_m - piece.from_travel_m;
     const double share = whole_m > 0 ? (travel_m - piece.from_travel_m) / whole_m : 0;
     return std::lerp(piece.from_offset_m, piece.to_offset_m, share);
@@ -141,9 +143,11 @@ DriveScore score_of(const Drive& drive,
     DriveScore score;
     score.drives = 1;
     score.positions = recording.trip.fixes.size();
-    const auto is_road = [](const MatchedPiece& piece) { return piece.kind == PieceKind::road; };
-    const auto is_gap = [](const MatchedPiece& piece) {
-        return piece.kind == PieceKind::gap && piece.to_travel_m - piece.from_travel_m >= step_m;
+    const auto is_road = [](const MatchedInterval& piece) {
+        return piece.kind == IntervalKind::road;
+    };
+    const auto is_gap = [](const MatchedInterval& piece) {
+        return piece.kind == IntervalKind::gap && piece.to_travel_m - piece.from_travel_m >= step_m;
     };
     score.empty = std::ranges::none_of(matched.trace, is_road) ? 1 : 0;
     score.gaps = static_cast<std::size_t>(std::ranges::count_if(matched.trace, is_gap));
@@ -169,8 +173,8 @@ DriveScore score_of(const Drive& drive,
         score.length_m += step_m;
         score.outage_m += outage ? step_m : 0;
         const auto* const piece = piece_at(matched.trace, piece_index, travel_m);
-        if (piece == nullptr || piece->kind != PieceKind::road) {
-            const bool off = piece != nullptr && piece->kind == PieceKind::off_network;
+        if (piece == nullptr || piece->kind != IntervalKind::road) {
+            const bool off = piece != nullptr && piece->kind == IntervalKind::off_network;
             (off ? score.off_network_m : score.gap_m) += step_m;
             add_fault(score, route_m, off ? "off the network" : "gap");
             continue;
@@ -224,7 +228,7 @@ RouteScore route_score_of(const Drive& drive,
 std::vector<DrivenEdge> driven_edges(const MatchedTrace& trace) {
     std::vector<DrivenEdge> edges;
     for (const auto& piece : trace) {
-        if (piece.kind == PieceKind::road) {
+        if (piece.kind == IntervalKind::road) {
             edges.push_back({piece.edge, piece.from_offset_m, piece.to_offset_m});
         }
     }

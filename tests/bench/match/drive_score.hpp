@@ -1,8 +1,8 @@
 #pragma once
 
-#include "bench/match/simulated_drive.hpp"
 #include "bench/newson_krumm.hpp"
-#include "mapping/map_match.hpp"
+#include "mapping/matching/map_match.hpp"
+#include "simulated_drive.hpp"
 
 #include <array>
 #include <cstddef>

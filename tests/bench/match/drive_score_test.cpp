@@ -1,6 +1,6 @@
-#include "bench/match/drive_score.hpp"
-#include "bench/match/off_network.hpp"
-#include "bench/match/simulated_world.hpp"
+#include "drive_score.hpp"
+#include "off_network.hpp"
+#include "simulated_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,8 +54,8 @@ Matched told(double ahead_m, double confidence = 1) {
         for (double i = 0; i < pieces; ++i) {
             const double a_m = (to_m - from_m) * i / pieces;
             const double b_m = (to_m - from_m) * (i + 1) / pieces;
-            MatchedPiece piece{};
-            piece.kind = PieceKind::road;
+            MatchedInterval piece{};
+            piece.kind = IntervalKind::road;
             piece.edge = drive().route[k];
             piece.from_travel_m = travel_at(from_m + a_m);
             piece.to_travel_m = travel_at(from_m + b_m);

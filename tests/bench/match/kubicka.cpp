@@ -1,11 +1,13 @@
 // Scores matching on recorded trips whose driven arcs are known: the set of Kubicka et al., beside
 // the plain method of Newson and Krumm.
 
-#include "bench/match/deleted_edges.hpp"
-#include "bench/match/scoring.hpp"
-#include "bench/match/tracks.hpp"
 #include "bench/newson_krumm.hpp"
+#include "deleted_edges.hpp"
 #include "estimator/common/error.hpp"
+#include "estimator/motion/make_odometer.hpp"
+#include "mapping/matching/arcs.hpp"
+#include "scoring.hpp"
+#include "tracks.hpp"
 
 #include <fmt/format.h>
 
@@ -58,7 +60,7 @@ MatchedTrace match(const TripLog& trip, const RoadNetwork& roads) {
 MatchedTrace match_plainly(const TripLog& trip, const RoadNetwork& roads) {
     MatchedTrace trace;
     for (const auto& [edge, from_m, to_m] : newson_krumm(trip, roads)) {
-        trace.push_back({PieceKind::road, edge, 0, 0, from_m, to_m, 0, 0, 1, ""});
+        trace.push_back({IntervalKind::road, edge, 0, 0, from_m, to_m, 0, 0, 1, ""});
     }
     return trace;
 }

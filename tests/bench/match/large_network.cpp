@@ -1,12 +1,13 @@
 // What matching costs on a network of millions of edges: the same trips on one copy of some roads
 // and on many copies side by side, long trips, and the plain method of Newson and Krumm.
 
-#include "bench/match/goal.hpp"
-#include "bench/match/simulated_world.hpp"
 #include "bench/newson_krumm.hpp"
 #include "estimator/common/error.hpp"
-#include "storage/network_file.hpp"
-#include "storage/network_reader.hpp"
+#include "goal.hpp"
+#include "mapping/network/build_network.hpp"
+#include "simulated_world.hpp"
+#include "storage/networks/network_file.hpp"
+#include "storage/networks/network_reader.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,6 @@
-#include "bench/match/off_network.hpp"
+#include "off_network.hpp"
+#include "mapping/matching/arcs.hpp"
+#include "mapping/network/build_network.hpp"
 
 #include "estimator/simulation/random.hpp"
 
@@ -25,8 +27,8 @@ WayPiece piece_of(std::int64_t way, std::int64_t a, std::int64_t b) {
 }
 
 void add_pieces(std::set<WayPiece>& pieces, const RoadNetwork& roads, EdgeId edge) {
-    MatchedPiece whole{};
-    whole.kind = PieceKind::road;
+    MatchedInterval whole{};
+    whole.kind = IntervalKind::road;
     whole.edge = edge;
     whole.to_travel_m = length_m(roads, edge);
     whole.to_offset_m = length_m(roads, edge);
@@ -136,11 +138,11 @@ class Kinds {
 public:
     explicit Kinds(const MatchedTrace& trace) : trace_{trace} {}
 
-    PieceKind at(double travel_m) {
+    IntervalKind at(double travel_m) {
         while (last_ + 1 < trace_.size() && trace_[last_].to_travel_m < travel_m) {
             ++last_;
         }
-        return last_ < trace_.size() ? trace_[last_].kind : PieceKind::gap;
+        return last_ < trace_.size() ? trace_[last_].kind : IntervalKind::gap;
     }
 
 private:
@@ -174,7 +176,7 @@ OffNetworkScore score_of_drive(const DrivenNetwork& network,
             continue;
         }
         const auto kind = kinds.at(found.odometer.travel_m(t_s));
-        const bool off = kind == PieceKind::off_network;
+        const bool off = kind == IntervalKind::off_network;
         score.length_m += step_m;
         score.told_m += off ? step_m : 0;
         if (!lacks[i]) {
@@ -186,7 +188,7 @@ OffNetworkScore score_of_drive(const DrivenNetwork& network,
         const auto ahead = drive.path.plane.to_geo(place_at_time(drive, t_s + 1).at);
         const bool beside = has_neighbour(roads, place, course_deg(place, ahead));
         score.beside_m += beside ? step_m : 0;
-        if (kind == PieceKind::road) {
+        if (kind == IntervalKind::road) {
             score.false_road_m += step_m;
             score.beside_false_m += beside ? step_m : 0;
         }

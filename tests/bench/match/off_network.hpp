@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/match/simulated_world.hpp"
+#include "simulated_world.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,4 +1,5 @@
-#include "bench/match/scoring.hpp"
+#include "scoring.hpp"
+#include "mapping/matching/arcs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/match/tracks.hpp"
-#include "mapping/map_match.hpp"
+#include "mapping/matching/map_match.hpp"
+#include "tracks.hpp"
 
 #include <array>
 #include <map>

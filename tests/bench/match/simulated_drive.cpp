@@ -1,10 +1,10 @@
-#include "bench/match/simulated_drive.hpp"
+#include "simulated_drive.hpp"
 
 #include "estimator/simulation/random.hpp"
+#include "mapping/simulation/gnss_receiver.hpp"
 #include "mapping/simulation/lane.hpp"
-#include "mapping/simulation/receiver.hpp"
 #include "mapping/simulation/smoothing.hpp"
-#include "mapping/simulation/speed_plan.hpp"
+#include "mapping/simulation/speed_profile.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "estimator/common/trip.hpp"
-#include "mapping/road_network.hpp"
-#include "mapping/simulation/fleet_recipe.hpp"
-#include "mapping/simulation/path.hpp"
+#include "mapping/network/road_network.hpp"
+#include "mapping/simulation/driven_path.hpp"
+#include "mapping/simulation/fleet_scenario.hpp"
 #include "mapping/simulation/route.hpp"
 
 #include <cstddef>

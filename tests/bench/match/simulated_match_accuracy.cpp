@@ -1,8 +1,8 @@
 // How near matching comes to the truth on simulated drives over real networks: a short form of
 // `./run bench match`. It prints what it measured.
 
-#include "bench/match/off_network.hpp"
-#include "bench/match/simulated_world.hpp"
+#include "off_network.hpp"
+#include "simulated_world.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // How near matching comes to the truth on simulated drives over real networks: by sensors, by
 // receivers, in outages.
 
-#include "bench/match/goal.hpp"
-#include "bench/match/off_network.hpp"
-#include "bench/match/simulated_world.hpp"
+#include "goal.hpp"
+#include "off_network.hpp"
+#include "simulated_world.hpp"
 
 #include "estimator/common/error.hpp"
 

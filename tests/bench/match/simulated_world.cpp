@@ -1,8 +1,9 @@
-#include "bench/match/simulated_world.hpp"
+#include "simulated_world.hpp"
+#include "mapping/network/build_network.hpp"
 
 #include "estimator/common/error.hpp"
 #include "estimator/simulation/random.hpp"
-#include "storage/network_reader.hpp"
+#include "storage/networks/network_reader.hpp"
 
 #include <fmt/format.h>
 

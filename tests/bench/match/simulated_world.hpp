@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/match/drive_score.hpp"
-#include "bench/match/simulated_drive.hpp"
+#include "drive_score.hpp"
+#include "simulated_drive.hpp"
 
 #include <filesystem>
 #include <span>

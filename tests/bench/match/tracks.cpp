@@ -1,8 +1,9 @@
-#include "bench/match/tracks.hpp"
+#include "tracks.hpp"
+#include "mapping/network/build_network.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/network_reader.hpp"
-#include "storage/trip_reader.hpp"
+#include "storage/networks/network_reader.hpp"
+#include "storage/trips/trip_reader.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // What the paper's identification, which knows one axle, makes of a car that has two.
 
-#include "estimator/identification/rides.hpp"
 #include "estimator/identification/spectrum_fit.hpp"
 #include "estimator/simulation/linear_ride.hpp"
 #include "estimator/simulation/random.hpp"
+#include "rides.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::vector<double> gains_of(CarRecipe car, const Motion& motion) {
                 make_surface({.iri_mm_per_m = 4}, motion.travel_m.back() + 20, seed);
             auto stretch = two_axle_ride(car, surface, motion, 50);
             stretch.lateral_mps2.clear();
-            const auto ride = ride_over(stretch, profile_of(surface), 0);
+            const auto ride = simulate_response(stretch, profile_of(surface), 0);
             gains.push_back(fit_spectra(*ride, car.vehicle.half_car, 0, {}).gain);
         }
     }
@@ -86,7 +86,7 @@ TEST(SpectrumFitOfOneAxle, ReturnsAGainOfOne) {
     for (float& y : stretch.vertical_mps2) {
         y += static_cast<float>(0.05 * random.normal());
     }
-    const auto fit = fit_spectra(*ride_over(stretch, profile, 0), car.half_car, 0, {});
+    const auto fit = fit_spectra(*simulate_response(stretch, profile, 0), car.half_car, 0, {});
     print("one axle, 50 km/h", {fit.gain});
     EXPECT_NEAR(fit.gain, 1, 0.03);
     EXPECT_NEAR(fit.found.ks_n_per_m, 30000, 0.05 * 30000);

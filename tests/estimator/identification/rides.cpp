@@ -1,4 +1,4 @@
-#include "estimator/identification/rides.hpp"
+#include "rides.hpp"
 
 #include "estimator/common/gravity.hpp"
 #include "estimator/simulation/linear_ride.hpp"

@@ -1,8 +1,8 @@
 #include "estimator/identification/spectrum_fit.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/identification/rides.hpp"
 #include "estimator/simulation/linear_ride.hpp"
+#include "rides.hpp"
 
 #include <gmock/gmock.h>
 
@@ -30,7 +30,7 @@ HalfCar unknown_car(const HalfCar& car) {
 /// The car of the paper's table III, by Runge-Kutta over its forces, gain 0.72 and all.
 TEST(SpectrumFit, ReturnsTheTrueParametersOfAOneAxleCarWithoutNoise) {
     const auto profile = rough_profile(500, 0, 31);
-    const auto ride = ride_over(one_axle_ride(audi(), profile, 15, 100), profile, 0);
+    const auto ride = simulate_response(one_axle_ride(audi(), profile, 15, 100), profile, 0);
     ASSERT_TRUE(ride);
     const auto fit = fit_spectra(*ride, unknown_car(audi().half_car), 0, {});
     const auto& truth = audi().half_car;
@@ -50,7 +50,7 @@ TEST(SpectrumFit, ReturnsTheTrueRollInertiaWhereTheHeightIsKnown) {
     car.half_car.is_kgm2 = 800;
     car.imu.height_above_roll_axis_m = 0.4;
     const auto profile = rough_profile(500, 0, 41);
-    const auto ride = ride_over(one_axle_ride(car, profile, 15, 100), profile, 0);
+    const auto ride = simulate_response(one_axle_ride(car, profile, 15, 100), profile, 0);
     ASSERT_TRUE(ride);
     const auto fit = fit_spectra(*ride, unknown_car(car.half_car), 0.4, {});
     EXPECT_NEAR(fit.found.is_kgm2, 800, 0.01 * 800);
@@ -60,8 +60,8 @@ TEST(SpectrumFit, ReturnsTheTrueRollInertiaWhereTheHeightIsKnown) {
 TEST(SpectrumFit, BearsThreeMetresOfErrorInThePlace) {
     const auto profile = rough_profile(500, 0, 31);
     const auto stretch = one_axle_ride(audi(), profile, 15, 50);
-    const auto right = fit_spectra(*ride_over(stretch, profile, 0), audi().half_car, 0, {});
-    const auto off = fit_spectra(*ride_over(stretch, profile, 3), audi().half_car, 0, {});
+    const auto right = fit_spectra(*simulate_response(stretch, profile, 0), audi().half_car, 0, {});
+    const auto off = fit_spectra(*simulate_response(stretch, profile, 3), audi().half_car, 0, {});
     EXPECT_NEAR(off.found.ks_n_per_m, right.found.ks_n_per_m, 0.03 * right.found.ks_n_per_m);
     EXPECT_NEAR(off.gain, right.gain, 0.03);
 }
@@ -69,7 +69,7 @@ TEST(SpectrumFit, BearsThreeMetresOfErrorInThePlace) {
 TEST(SpectrumFit, LeavesTheRollInertiaAsKnownOnOneTrack) {
     auto profile = rough_profile(400, 0, 31);
     profile.right_m = profile.left_m;
-    const auto ride = ride_over(one_axle_ride(audi(), profile, 15, 100), profile, 0);
+    const auto ride = simulate_response(one_axle_ride(audi(), profile, 15, 100), profile, 0);
     const auto fit = fit_spectra(*ride, audi().half_car, 0, {});
     EXPECT_FALSE(fit.lateral);
     EXPECT_EQ(fit.found.is_kgm2, audi().half_car.is_kgm2);
@@ -78,18 +78,19 @@ TEST(SpectrumFit, LeavesTheRollInertiaAsKnownOnOneTrack) {
 
 TEST(SpectrumFit, RefusesARideOfAFewSeconds) {
     const auto profile = rough_profile(150, 0, 31);
-    const auto ride = ride_over(one_axle_ride(audi(), profile, 15, 100), profile, 0);
+    const auto ride = simulate_response(one_axle_ride(audi(), profile, 15, 100), profile, 0);
     EXPECT_THAT([&] { fit_spectra(*ride, audi().half_car, 0, {}); },
-                ThrowsMessage<InputError>(HasSubstr("drives 9.9 s in one go on the profile (from "
-                                                    "0 to 149 m), expected at least 13")));
+                ThrowsMessage<InputError>(HasSubstr("drives 9.9 s continuously on the profile "
+                                                    "(from 0 to 149 m), expected at least 13")));
 }
 
 TEST(SpectrumFit, RefusesARideWithoutVerticalAcceleration) {
     const auto profile = rough_profile(400, 0, 31);
     auto stretch = one_axle_ride(audi(), profile, 15, 100);
     stretch.vertical_mps2.clear();
-    EXPECT_THAT([&] { fit_spectra(*ride_over(stretch, profile, 0), audi().half_car, 0, {}); },
-                ThrowsMessage<InputError>(HasSubstr("has no vertical acceleration")));
+    EXPECT_THAT(
+        [&] { fit_spectra(*simulate_response(stretch, profile, 0), audi().half_car, 0, {}); },
+        ThrowsMessage<InputError>(HasSubstr("has no vertical acceleration")));
 }
 
 SpectrumFit fit_of_gain(double gain) {

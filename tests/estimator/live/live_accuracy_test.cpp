@@ -1,7 +1,8 @@
 // How much is lost by telling at once: live against offline, both against the true road.
 
-#include "estimator/live/live_drive.hpp"
+#include "estimator/roughness/roughness_mean.hpp"
 #include "estimator/smoother/worlds.hpp"
+#include "live_drive.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,9 @@
-#include "estimator/live/live_drive.hpp"
+#include "live_drive.hpp"
+#include "estimator/motion/make_odometer.hpp"
 
 #include "estimator/common/gravity.hpp"
-#include "estimator/smoothed_iri.hpp"
+#include "estimator/motion/mounting.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 
 #include <algorithm>
 #include <cmath>

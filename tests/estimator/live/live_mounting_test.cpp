@@ -1,6 +1,8 @@
 #include "estimator/live/live_mounting.hpp"
 
 #include "estimator/common/gravity.hpp"
+#include "estimator/motion/make_odometer.hpp"
+#include "estimator/motion/mounting.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

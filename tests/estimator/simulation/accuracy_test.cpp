@@ -1,7 +1,8 @@
-#include "estimator/iri.hpp"
-#include "estimator/iri_trace.hpp"
-#include "estimator/simulation/linear_ride.hpp"
+#include "estimator/iri/iri.hpp"
+#include "estimator/roughness/roughness_mean.hpp"
+#include "estimator/roughness/roughness_trace.hpp"
 #include "estimator/simulation/simulated_car.hpp"
+#include "linear_ride.hpp"
 
 #include <gtest/gtest.h>
 
@@ -111,8 +112,8 @@ TEST(SimulatedCarAccuracy, OfThePublishedFilterOnANearlyLinearCarIsTheCombsMean)
     }
 }
 
-/// docs/method.md has these from another simulation (half a road on each axle, another car), whose
-/// share of short waves was a little larger.
+/// docs/method/accuracy.md has these from another simulation (half a road on each axle, another
+/// car), whose share of short waves was a little larger.
 TEST(SimulatedCarAccuracy, OfThePublishedSettingsOnANearlyLinearCarIsWhatTheMethodsPageSays) {
     const struct { double kmh, bias; } known[] = {{50, 0.021}, {80, -0.095}, {105, -0.225}};
     for (const auto& [kmh, bias] : known) {

@@ -1,4 +1,4 @@
-#include "estimator/simulation/linear_ride.hpp"
+#include "linear_ride.hpp"
 
 #include <Eigen/Dense>
 

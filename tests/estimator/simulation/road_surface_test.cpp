@@ -1,7 +1,7 @@
 #include "estimator/simulation/road_surface.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/iri.hpp"
+#include "estimator/iri/iri.hpp"
 #include "estimator/simulation/road_features.hpp"
 #include "estimator/simulation/road_spectrum.hpp"
 

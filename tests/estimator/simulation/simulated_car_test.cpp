@@ -2,8 +2,8 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/simulation/car_model.hpp"
-#include "estimator/simulation/linear_ride.hpp"
 #include "estimator/simulation/random.hpp"
+#include "linear_ride.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // What the sensor makes of a ride: noise, bias, tilt, quanta, stamps and its own filter.
 
-#include "estimator/simulation/linear_ride.hpp"
 #include "estimator/simulation/simulated_car.hpp"
+#include "linear_ride.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "estimator/smoother/bounds.hpp"
+#include "bounds.hpp"
 
 #include <gtest/gtest.h>
 

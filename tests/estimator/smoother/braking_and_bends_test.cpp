@@ -1,7 +1,7 @@
 // What leans on a car is not the road: beside the same car on the same road that nothing leans on.
 
-#include "estimator/smoother/bounds.hpp"
-#include "estimator/smoother/worlds.hpp"
+#include "bounds.hpp"
+#include "worlds.hpp"
 
 #include <gtest/gtest.h>
 

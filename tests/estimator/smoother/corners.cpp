@@ -1,4 +1,4 @@
-#include "estimator/smoother/corners.hpp"
+#include "corners.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimator/smoother/linear_car.hpp"
+#include "estimator/smoother/car/linear_car.hpp"
 
 #include <array>
 #include <functional>

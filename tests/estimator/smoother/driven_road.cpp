@@ -1,7 +1,8 @@
-#include "estimator/smoother/driven_road.hpp"
+#include "driven_road.hpp"
 
 #include "estimator/common/gravity.hpp"
-#include "estimator/iri.hpp"
+#include "estimator/iri/iri.hpp"
+#include "estimator/roughness/roughness_mean.hpp"
 #include "estimator/smoother/friction.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ constexpr double begin_m = 5; // the lane's ends are level
 constexpr double keep_off_begin_m = 200;
 constexpr double keep_off_end_m = 100;
 constexpr double z_of_90_percent = 1.645;
-constexpr double hri_over_mri = 0.91; // docs/method.md
+constexpr double hri_over_mri = 0.91; // docs/method/estimation.md
 
 Motion motion_of(const DriveRecipe& recipe) {
     constexpr double swing_radps = 0.2;
@@ -213,7 +214,7 @@ Stretch with_sensors(Stretch stretch, const Sensors& sensors) {
 }
 
 CarPassage exact_passage(const Stretch& stretch, const Vehicle& vehicle) {
-    Passage passage;
+    DriveRecord passage;
     passage.cars = {car_steps(linear_car(vehicle), stretch.step_s)};
     passage.travel_m = stretch.travel_m;
     passage.drift = {1e-4, 1e-4, 1e-6, 1e-6};

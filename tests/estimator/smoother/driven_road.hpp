@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimator/iri_trace.hpp"
+#include "estimator/roughness/roughness_trace.hpp"
 #include "estimator/simulation/road_surface.hpp"
 #include "estimator/simulation/simulated_car.hpp"
 #include "estimator/smoother/joint_smoother.hpp"

@@ -1,9 +1,9 @@
 // The elevations that the smoother leaves, held beside the road that was driven.
 
-#include "estimator/filter.hpp"
-#include "estimator/iri.hpp"
-#include "estimator/smoothed_iri.hpp"
-#include "estimator/smoother/driven_road.hpp"
+#include "driven_road.hpp"
+#include "estimator/iri/iri.hpp"
+#include "estimator/motion/butterworth.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 
 #include <gmock/gmock.h>
 

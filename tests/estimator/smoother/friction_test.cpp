@@ -1,6 +1,6 @@
 #include "estimator/smoother/friction.hpp"
 
-#include "estimator/smoother/corners.hpp"
+#include "corners.hpp"
 
 #include <gmock/gmock.h>
 
@@ -26,8 +26,8 @@ Vehicle even_car() {
     return vehicle;
 }
 
-Passage passage_over(const Vehicle& vehicle, double length_m) {
-    Passage passage;
+DriveRecord passage_over(const Vehicle& vehicle, double length_m) {
+    DriveRecord passage;
     passage.cars = cars_with_friction(vehicle, step_s);
     for (double at_m = 5; at_m < length_m - 5; at_m += run_m) {
         passage.travel_m.push_back(at_m);
@@ -60,9 +60,9 @@ std::vector<Pair> chance(double rise_m, double length_m) {
 
 /// Speeds of the four strokes over a road, from the wheels' and the body's corners.
 std::vector<double>
-stroke_rates(const Vehicle& vehicle, const Passage& passage, const std::vector<Pair>& road_m) {
+stroke_rates(const Vehicle& vehicle, const DriveRecord& passage, const std::vector<Pair>& road_m) {
     std::vector<double> rates;
-    for (const auto& x : ride_over(passage, grid_of(road_m), road_m)) {
+    for (const auto& x : simulate_response(passage, grid_of(road_m), road_m)) {
         const auto corners = corners_of(x);
         const auto& rate = corners.rate;
         for (std::size_t wheel = 0; wheel < 4; ++wheel) {

@@ -1,7 +1,7 @@
 // A car that is far from linear, read as if it were.
 
-#include "estimator/smoother/bounds.hpp"
-#include "estimator/smoother/worlds.hpp"
+#include "bounds.hpp"
+#include "worlds.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // A car that is known, on roads that are not the estimator's: what it reads against E1926 over the
 // true tracks, on 40 m.
 
-#include "estimator/smoother/bounds.hpp"
-#include "estimator/smoother/worlds.hpp"
+#include "bounds.hpp"
+#include "worlds.hpp"
 
 #include <gtest/gtest.h>
 

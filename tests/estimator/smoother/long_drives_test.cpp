@@ -1,9 +1,10 @@
 // What shows on some kilometres: pieces of a long stretch, braking, and the car that is tuned.
 
-#include "estimator/smoothed_iri.hpp"
-#include "estimator/smoother/driven_road.hpp"
+#include "driven_road.hpp"
+#include "estimator/roughness/roughness_mean.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 #include "estimator/smoother/wheel_order.hpp"
-#include "estimator/smoother/worlds.hpp"
+#include "worlds.hpp"
 
 #include <gmock/gmock.h>
 
@@ -126,7 +127,7 @@ TEST(WheelOrder, IsNotFoundOnAHundredRoadsWithRoundWheels) {
         recipe.seed = seed;
         recipe.imu_seed = seed;
         const auto stretch = driven_road(recipe).stretch;
-        found += wheel_turn_m(exact_passage(stretch, car()).passage) ? 1 : 0;
+        found += wheel_circumference_m(exact_passage(stretch, car()).passage) ? 1 : 0;
     }
     std::printf("lines on 100 roads without one: %d\n", found);
     EXPECT_LE(found, 1);
@@ -136,7 +137,7 @@ TEST(WheelOrder, IsFoundOfACarWithUnevenTyres) {
     auto recipe = drive_of(3000);
     recipe.car.tyre_nonuniformity_n = 40;
     const auto stretch = driven_road(recipe).stretch;
-    const auto found = wheel_turn_m(exact_passage(stretch, car()).passage);
+    const auto found = wheel_circumference_m(exact_passage(stretch, car()).passage);
     ASSERT_TRUE(found);
     EXPECT_NEAR(*found, 2 * 3.14159265 * recipe.car.tyre_radius_m, 0.01);
 }

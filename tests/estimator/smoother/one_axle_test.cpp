@@ -1,8 +1,8 @@
 // A car of one axle, which nothing hides from its sensors: Runge-Kutta over its forces.
 
+#include "bounds.hpp"
 #include "estimator/simulated_car.hpp"
-#include "estimator/smoother/bounds.hpp"
-#include "estimator/smoother/worlds.hpp"
+#include "worlds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,8 +52,8 @@ std::vector<Held> one_axle_drive(const World& world, double speed_kmh) {
 }
 
 TEST(OneAxleCar, IsReadAlikeAtEverySpeed) {
-    double least_bias = 1;
-    double most_bias = -1;
+    double min_bias = 1;
+    double max_bias = -1;
     for (const double speed_kmh : {50.0, 80.0, 110.0}) {
         std::vector<Held> mri;
         for (const auto& world : worlds()) {
@@ -65,10 +65,10 @@ TEST(OneAxleCar, IsReadAlikeAtEverySpeed) {
         const auto errors = errors_of(mri);
         expect_at_most("RMSE of MRI", errors.rmse, mri_rmse);
         expect_at_most("bias of MRI", std::abs(errors.bias), mri_bias);
-        least_bias = std::min(least_bias, errors.bias);
-        most_bias = std::max(most_bias, errors.bias);
+        min_bias = std::min(min_bias, errors.bias);
+        max_bias = std::max(max_bias, errors.bias);
     }
-    expect_at_most("bias from speed to speed", most_bias - least_bias, spread_of_bias);
+    expect_at_most("bias from speed to speed", max_bias - min_bias, spread_of_bias);
 }
 
 } // namespace

@@ -1,8 +1,9 @@
 // What braking and bends do to the body is not read as road.
 
-#include "estimator/smoothed_iri.hpp"
-#include "estimator/smoother/car_steps.hpp"
-#include "estimator/smoother/driven_road.hpp"
+#include "driven_road.hpp"
+#include "estimator/roughness/roughness_mean.hpp"
+#include "estimator/smoother/car/discrete_car.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 
 #include <gmock/gmock.h>
 
@@ -35,7 +36,7 @@ double pull_mps2(double t_s) {
 }
 
 /// What leans the body under the pull at every sample, added to what was felt.
-Stretch leant(Stretch stretch, Pull kind, double arm_m) {
+Stretch leant(Stretch stretch, LateralInput kind, double arm_m) {
     const auto steps = car_steps(linear_car(car()), stretch.step_s);
     const auto column = static_cast<int>(kind);
     CarState x = CarState::Zero();
@@ -54,7 +55,7 @@ Stretch leant(Stretch stretch, Pull kind, double arm_m) {
 
 /// The same drive on which the brakes bite and let go; the speed tells of it, if it is to.
 Stretch braked(bool told) {
-    auto stretch = leant(even_drive().stretch, Pull::braking, pitch_arm_m);
+    auto stretch = leant(even_drive().stretch, LateralInput::braking, pitch_arm_m);
     double lost_mps = 0;
     for (std::size_t k = 1; k < stretch.speed_mps.size() && told; ++k) {
         lost_mps += stretch.step_s * pull_mps2((static_cast<double>(k) - 0.5) * stretch.step_s);
@@ -65,7 +66,7 @@ Stretch braked(bool told) {
 
 /// The same drive from bend into bend; the yaw rate tells of it, if it is to.
 Stretch bent(bool told) {
-    auto stretch = leant(even_drive().stretch, Pull::cornering, roll_arm_m);
+    auto stretch = leant(even_drive().stretch, LateralInput::cornering, roll_arm_m);
     stretch.yaw_radps.assign(stretch.speed_mps.size(), 0);
     for (std::size_t k = 1; k < stretch.speed_mps.size() && told; ++k) {
         stretch.yaw_radps[k] =

@@ -1,7 +1,7 @@
 // What is left where a car has not every sensor.
 
-#include "estimator/smoother/bounds.hpp"
-#include "estimator/smoother/worlds.hpp"
+#include "bounds.hpp"
+#include "worlds.hpp"
 
 #include <gtest/gtest.h>
 

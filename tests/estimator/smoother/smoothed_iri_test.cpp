@@ -1,7 +1,8 @@
-#include "estimator/smoothed_iri.hpp"
+#include "estimator/roughness/roughness_mean.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 
-#include "estimator/smoother/driven_road.hpp"
-#include "estimator/smoother/worlds.hpp"
+#include "driven_road.hpp"
+#include "worlds.hpp"
 
 #include <gmock/gmock.h>
 

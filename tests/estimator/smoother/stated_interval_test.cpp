@@ -1,7 +1,7 @@
 // Whether the stated interval holds what it says, of cars that are not quite what is said of them.
 
-#include "estimator/smoother/bounds.hpp"
-#include "estimator/smoother/worlds.hpp"
+#include "bounds.hpp"
+#include "worlds.hpp"
 
 #include <gtest/gtest.h>
 

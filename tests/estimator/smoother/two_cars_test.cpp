@@ -1,7 +1,7 @@
 // Two cars of different wheelbase over one road, smoothed together: what falls into the nulls of
 // the one is felt by the other.
 
-#include "estimator/smoother/worlds.hpp"
+#include "worlds.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "estimator/smoother/wheel_order.hpp"
 
-#include "estimator/smoother/corners.hpp"
-#include "estimator/smoother/road_filter.hpp"
+#include "corners.hpp"
+#include "estimator/smoother/filter/road_smoother.hpp"
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ constexpr double cell_m = 0.25;
 constexpr double step_s = 0.02;
 
 /// What a car's vertical accelerometer feels on a road of chance, at some 20 m/s.
-Passage felt_on_chance(double length_m, unsigned seed) {
+DriveRecord felt_on_chance(double length_m, unsigned seed) {
     static const CarSteps steps = car_steps(linear_car(lopsided_car()), step_s);
     std::mt19937 random{seed};
     std::normal_distribution<double> normal;
@@ -24,20 +24,20 @@ Passage felt_on_chance(double length_m, unsigned seed) {
     while (static_cast<double>(road_m.size()) * cell_m < length_m + 20) {
         road_m.push_back({road_m.back().mean + 0.0012 * normal(random), 0});
     }
-    Passage passage;
+    DriveRecord passage;
     passage.cars = {steps};
     double at_m = 5;
     for (int k = 0; at_m < length_m + 5; ++k) {
         passage.travel_m.push_back(at_m);
         at_m += 0.4 + 0.04 * std::sin(0.01 * k);
     }
-    for (const auto& x : ride_over(passage, {cell_m, 0, road_m.size()}, road_m)) {
+    for (const auto& x : simulate_response(passage, {cell_m, 0, road_m.size()}, road_m)) {
         passage.felt[0].push_back((steps.car.felt[0] * x).value() + 0.05 * normal(random));
     }
     return passage;
 }
 
-Passage with_line(Passage passage, double turn_m, double amplitude) {
+DriveRecord with_line(DriveRecord passage, double turn_m, double amplitude) {
     for (std::size_t k = 0; k < passage.travel_m.size(); ++k) {
         const double turns = passage.travel_m[k] / turn_m;
         passage.felt[0][k] += amplitude * std::cos(2 * std::numbers::pi * turns + 0.7) +
@@ -67,7 +67,8 @@ std::vector<double> apart(std::vector<double> a, const std::vector<double>& b) {
 TEST(WheelOrder, IsFoundWithinItsResolution) {
     for (const double turn_m : {1.7, 1.93, 2.2, 2.45}) {
         const auto passage = felt_on_chance(2000, 1);
-        const auto found = wheel_turn_m(with_line(passage, turn_m, 0.5 * rms(passage.felt[0])));
+        const auto found =
+            wheel_circumference_m(with_line(passage, turn_m, 0.5 * rms(passage.felt[0])));
         ASSERT_TRUE(found) << turn_m;
         EXPECT_NEAR(1 / *found, 1 / turn_m, 0.5 / 200) << turn_m;
     }
@@ -75,15 +76,15 @@ TEST(WheelOrder, IsFoundWithinItsResolution) {
 
 TEST(WheelOrder, IsNotLookedForOnAShortWay) {
     const auto passage = felt_on_chance(700, 1);
-    EXPECT_FALSE(wheel_turn_m(with_line(passage, 1.93, 10)));
+    EXPECT_FALSE(wheel_circumference_m(with_line(passage, 1.93, 10)));
 }
 
 TEST(WheelOrder, IsNotFoundWhereNothingIsFelt) {
     auto passage = felt_on_chance(1200, 1);
     passage.felt[0].assign(passage.felt[0].size(), 0);
-    EXPECT_FALSE(wheel_turn_m(passage));
+    EXPECT_FALSE(wheel_circumference_m(passage));
     passage.felt[0].clear();
-    EXPECT_FALSE(wheel_turn_m(passage));
+    EXPECT_FALSE(wheel_circumference_m(passage));
 }
 
 TEST(WheelOrder, IsTakenOutAndTheRestLeft) {
@@ -110,7 +111,7 @@ TEST(WheelOrder, OfARoadWithoutOneTakesNextToNothing) {
 TEST(WheelOrder, IsNotFoundOnRoadsWithoutOne) {
     int found = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
-        found += wheel_turn_m(felt_on_chance(1000, seed)) ? 1 : 0;
+        found += wheel_circumference_m(felt_on_chance(1000, seed)) ? 1 : 0;
     }
     EXPECT_EQ(found, 0);
 }

@@ -1,6 +1,6 @@
-#include "estimator/smoother/worlds.hpp"
+#include "worlds.hpp"
 
-#include "estimator/smoothed_iri.hpp"
+#include "estimator/smoother/smoothed_iri.hpp"
 
 #include <array>
 #include <cstdio>

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "estimator/smoother/driven_road.hpp"
+#include "driven_road.hpp"
 
 #include <span>
 
 namespace macadam::testing {
 
-/// A road and a car that drives it; docs/method.md lists them.
+/// A road and a car that drives it; docs/method/accuracy.md lists them.
 struct World {
     const char* name;
     RoadRecipe road;

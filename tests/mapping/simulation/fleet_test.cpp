@@ -1,7 +1,7 @@
 #include "mapping/simulation/fleet.hpp"
 
 #include "estimator/common/error.hpp"
-#include "support/road_art.hpp"
+#include "support/roads/road_art.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ RoadArt town() {
                     {"ABC", "DEF", "AD", "BE", "CF"});
 }
 
-FleetRecipe recipe_of(std::size_t cars) {
-    FleetRecipe recipe;
+FleetScenario recipe_of(std::size_t cars) {
+    FleetScenario recipe;
     for (std::size_t i = 0; i < cars; ++i) {
         FleetCarRecipe car;
         car.car.vehicle = *built_in_vehicle("generic");

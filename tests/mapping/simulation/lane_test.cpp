@@ -1,7 +1,7 @@
 #include "mapping/simulation/lane.hpp"
 
-#include "estimator/iri.hpp"
-#include "support/road_art.hpp"
+#include "estimator/iri/iri.hpp"
+#include "support/roads/road_art.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ RoadArt street() {
     return road_art("A------B------C", 100, {"ABC"}); // 1400 m
 }
 
-FleetRecipe recipe_of(std::vector<RoadRule> rules) {
-    FleetRecipe recipe;
+FleetScenario recipe_of(std::vector<RoadRule> rules) {
+    FleetScenario recipe;
     recipe.roads = std::move(rules);
     return recipe;
 }
@@ -37,7 +37,7 @@ WayView way_of(std::int64_t id, const char* highway) {
     return way;
 }
 
-double iri_of(const FleetRecipe& recipe, const WayView& way) {
+double iri_of(const FleetScenario& recipe, const WayView& way) {
     return road_recipe(recipe, way, true, 1).iri_mm_per_m;
 }
 

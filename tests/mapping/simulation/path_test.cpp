@@ -1,6 +1,7 @@
-#include "mapping/simulation/path.hpp"
+#include "mapping/simulation/driven_path.hpp"
 
-#include "support/road_art.hpp"
+#include "mapping/simulation/road_under_path.hpp"
+#include "support/roads/road_art.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
+#include "mapping/network/build_network.hpp"
 #include "mapping/simulation/route.hpp"
 
 #include "estimator/common/error.hpp"
-#include "support/road_art.hpp"
+#include "support/roads/road_art.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,11 +2,11 @@
 // test --all` tries the first 500 accesses of each kind, the ordinary tests one in some.
 
 #include "faulty_disk.hpp"
-#include "files.hpp"
-#include "storage/privacy_key.hpp"
-#include "storage/road_store.hpp"
+#include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/road_store.hpp"
 #include "store_import.hpp"
-#include "store_world.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/store_world.hpp"
 
 #include <gmock/gmock.h>
 
@@ -91,7 +91,7 @@ Sweep sweep(Fault fault, std::size_t step) {
         {
             const auto store = RoadStore::open(file, RoadStore::Access::read);
             for (const int trip : failed.acknowledged) {
-                EXPECT_TRUE(store.knows_trip(testing::trip_record(trip).sha256)) << trip;
+                EXPECT_TRUE(store.contains_trip(testing::trip_record(trip).sha256)) << trip;
             }
         }
         import_into(file, trips);

@@ -2,12 +2,12 @@
 // kept in part, or torn. `./run test --all` looks at a thousand such disks.
 
 #include "faulty_disk.hpp"
-#include "files.hpp"
-#include "storage/privacy_key.hpp"
-#include "storage/road_store.hpp"
-#include "storage/sqlite.hpp"
+#include "storage/sqlite/sqlite.hpp"
+#include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/road_store.hpp"
 #include "store_import.hpp"
-#include "store_world.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/store_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ TEST(PowerLoss, LosesNoTripThatWasAcknowledgedAndSpoilsNoStore) {
             const auto store = RoadStore::open(left, RoadStore::Access::read);
             for (int trip = 0; trip < trips; ++trip) {
                 const auto at = recording.acknowledged[static_cast<std::size_t>(trip)];
-                ASSERT_TRUE(at > when || store.knows_trip(testing::trip_record(trip).sha256));
+                ASSERT_TRUE(at > when || store.contains_trip(testing::trip_record(trip).sha256));
             }
         }
         import_into(left, trips);
@@ -89,7 +89,7 @@ TEST(PowerLoss, LosesNoTripThatWasAcknowledgedAndSpoilsNoStore) {
 // ------------------------------------------------------------------ the same for any SQLite file
 
 /// Rows that are lost at the worst, of `rows` that were committed one by one.
-int most_lost(const fs::path& file, const std::string& settings, std::size_t images) {
+int max_lost(const fs::path& file, const std::string& settings, std::size_t images) {
     constexpr int rows = 20;
     Database{file, Database::Access::create}.run("CREATE TABLE a(b)");
     std::vector<std::size_t> committed;
@@ -124,23 +124,23 @@ int most_lost(const fs::path& file, const std::string& settings, std::size_t ima
 }
 
 TEST(PowerLoss, TakesNoCommitBackWithoutALogEither) {
-    EXPECT_EQ(most_lost(test_folder() / "a.db", "", tries(60, 1000)), 0);
+    EXPECT_EQ(max_lost(test_folder() / "a.db", "", tries(60, 1000)), 0);
 }
 
 TEST(PowerLoss, TakesNoCommitBackWithALog) {
-    EXPECT_EQ(most_lost(test_folder() / "a.db", "PRAGMA journal_mode = WAL", tries(60, 1000)), 0);
+    EXPECT_EQ(max_lost(test_folder() / "a.db", "PRAGMA journal_mode = WAL", tries(60, 1000)), 0);
 }
 
 // The disk of these tests loses what was not synced: fewer syncs than ours are not enough.
 TEST(PowerLoss, TakesCommitsBackThatWereNotSynced) {
-    EXPECT_GT(most_lost(test_folder() / "a.db",
-                        "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL",
-                        60),
+    EXPECT_GT(max_lost(test_folder() / "a.db",
+                       "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL",
+                       60),
               0);
 }
 
 TEST(PowerLoss, TakesACommitBackWhoseFolderWasNotSynced) {
-    EXPECT_EQ(most_lost(test_folder() / "a.db", "PRAGMA synchronous = FULL", 60), 1);
+    EXPECT_EQ(max_lost(test_folder() / "a.db", "PRAGMA synchronous = FULL", 60), 1);
 }
 
 } // namespace

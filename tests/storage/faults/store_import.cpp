@@ -1,7 +1,7 @@
 #include "store_import.hpp"
 
-#include "storage/sqlite.hpp"
-#include "store_world.hpp"
+#include "storage/sqlite/sqlite.hpp"
+#include "support/roads/store_world.hpp"
 
 #include <cstdlib>
 

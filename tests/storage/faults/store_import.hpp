@@ -1,6 +1,6 @@
 #pragma once
 
-#include "storage/road_store.hpp"
+#include "storage/store/road_store.hpp"
 
 #include <cstddef>
 #include <filesystem>

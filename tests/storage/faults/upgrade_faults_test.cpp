@@ -2,11 +2,11 @@
 // loses power: it is the old one or the new one.
 
 #include "faulty_disk.hpp"
-#include "files.hpp"
-#include "storage/privacy_key.hpp"
-#include "storage/store_upgrade.hpp"
+#include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/upgrade/store_upgrade.hpp"
 #include "store_import.hpp"
-#include "support/old_store.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/old_store.hpp"
 
 #include <gmock/gmock.h>
 

@@ -3,12 +3,13 @@
 // tries every access, the ordinary tests one in some.
 
 #include "faulty_disk.hpp"
-#include "files.hpp"
-#include "fleet_passes.hpp"
-#include "mapping/network_change.hpp"
-#include "storage/road_store.hpp"
+#include "mapping/conflation/network_conflation.hpp"
+#include "mapping/network/build_network.hpp"
+#include "storage/store/fleet_passes.hpp"
+#include "storage/store/road_store.hpp"
 #include "store_import.hpp"
-#include "support/edited_network.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/edited_network.hpp"
 
 #include <gmock/gmock.h>
 
@@ -37,12 +38,12 @@ struct UpkeepCase {
     std::size_t commits = 1;
 };
 
-void PrintTo(const UpkeepCase& upkeep, std::ostream* out) {
-    *out << upkeep.name;
+void PrintTo(const UpkeepCase& maintenance, std::ostream* out) {
+    *out << maintenance.name;
 }
 
 void forget(RoadStore& store) {
-    if (store.knows_trip(trip_record(4).sha256)) {
+    if (store.contains_trip(trip_record(4).sha256)) {
         store.forget({.trips = {"trip-4"}, .vehicles = {}});
     }
 }
@@ -51,7 +52,7 @@ void reprocess(RoadStore& store) {
     for (const int trip : {2, 5}) {
         store.stage_trip(trip_record(trip), passes_of_fleet(trip + 1), {});
     }
-    store.take_staged("anew");
+    store.commit_staged("anew");
 }
 
 void set_valid_from(RoadStore& store) {
@@ -79,7 +80,7 @@ void update_network(RoadStore& store) {
     }
 }
 
-std::vector<UpkeepCase> upkeeps() {
+std::vector<UpkeepCase> maintenances() {
     return {{"calibrate", [](RoadStore& store) { store.calibrate(true); }},
             {"forget", forget},
             {"reprocess", reprocess},
@@ -95,13 +96,13 @@ struct World {
     std::string after;
 };
 
-World world_of(const fs::path& folder, const UpkeepCase& upkeep) {
+World world_of(const fs::path& folder, const UpkeepCase& maintenance) {
     World made{folder / "base.gpkg", "", ""};
     made.before = testing::fleet_store(made.base, 9).digest();
     const auto whole = folder / "whole.gpkg";
     fs::copy_file(made.base, whole);
     auto store = RoadStore::open(whole, RoadStore::Access::write);
-    upkeep.work(store);
+    maintenance.work(store);
     made.after = store.digest();
     return made;
 }
@@ -111,19 +112,19 @@ std::string digest_of(const fs::path& file) {
 }
 
 /// \returns whether it is as it is to be.
-bool is_before_or_after(const fs::path& file, const World& world, const UpkeepCase& upkeep) {
+bool is_before_or_after(const fs::path& file, const World& world, const UpkeepCase& maintenance) {
     EXPECT_EQ(testing::damage_of(file), "ok");
     const auto digest = digest_of(file);
-    if (upkeep.commits == 1) {
+    if (maintenance.commits == 1) {
         EXPECT_TRUE(digest == world.before || digest == world.after);
     }
     return digest == world.after;
 }
 
-void expect_completed(const fs::path& file, const World& world, const UpkeepCase& upkeep) {
+void expect_completed(const fs::path& file, const World& world, const UpkeepCase& maintenance) {
     {
         auto store = RoadStore::open(file, RoadStore::Access::write);
-        upkeep.work(store);
+        maintenance.work(store);
     }
     EXPECT_EQ(digest_of(file), world.after);
 }
@@ -136,13 +137,13 @@ struct Failed {
     std::string refusal;
 };
 
-Failed work_with(const FaultPlan& plan, const UpkeepCase& upkeep, const fs::path& file) {
+Failed work_with(const FaultPlan& plan, const UpkeepCase& maintenance, const fs::path& file) {
     Failed failed{};
     FaultyDisk disk;
     disk.plan(plan);
     failed.refusal = refusal_of([&] {
         auto store = RoadStore::open(file, RoadStore::Access::write);
-        upkeep.work(store);
+        maintenance.work(store);
         failed.ended_before = !disk.has_failed();
     });
     failed.met_the_fault = disk.has_failed();
@@ -163,28 +164,29 @@ void PrintTo(const FaultCase& fault, std::ostream* out) {
 class UpkeepFault : public ::testing::TestWithParam<std::tuple<UpkeepCase, FaultCase>> {};
 
 TEST_P(UpkeepFault, IsNamedAndLeavesTheStoreAsItWasOrAsItIsToBe) {
-    const auto& [upkeep, fault] = GetParam();
+    const auto& [maintenance, fault] = GetParam();
     const auto folder = test_folder();
-    const auto world = world_of(folder, upkeep);
+    const auto world = world_of(folder, maintenance);
     const auto file = folder / "a.gpkg";
     const auto step = tries(fault.step, 1);
     std::size_t refused = 0;
     for (std::size_t number = 1; number <= 500; number += step) {
         SCOPED_TRACE(::testing::Message() << fault.name << " at access " << number);
         fs::copy_file(world.base, file, fs::copy_options::overwrite_existing);
-        const auto failed = work_with({fault.fault, number, number / step % 2 == 0}, upkeep, file);
+        const auto failed =
+            work_with({fault.fault, number, number / step % 2 == 0}, maintenance, file);
         if (!failed.met_the_fault) {
             break; // it has fewer accesses
         }
         const FaultyDisk sound;
-        const bool is_done = is_before_or_after(file, world, upkeep);
+        const bool is_done = is_before_or_after(file, world, maintenance);
         if (failed.refusal.empty()) { // it was got over, or came while the store was closed
             EXPECT_TRUE(is_done);
         } else {
             ++refused;
             EXPECT_THAT(failed.refusal, ::testing::ContainsRegex("a\\.gpkg: .*" + fault.cause));
         }
-        expect_completed(file, world, upkeep);
+        expect_completed(file, world, maintenance);
         fs::remove(file);
     }
     std::cout << refused << " refused\n";
@@ -192,10 +194,10 @@ TEST_P(UpkeepFault, IsNamedAndLeavesTheStoreAsItWasOrAsItIsToBe) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Upkeep,
+    Maintenance,
     UpkeepFault,
     ::testing::Combine(
-        ::testing::ValuesIn(upkeeps()),
+        ::testing::ValuesIn(maintenances()),
         ::testing::Values(
             FaultCase{"full",
                       Fault::full,
@@ -247,9 +249,9 @@ TEST_P(UpkeepPowerLoss, LeavesTheStoreAsItWasOrAsItIsToBe) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Upkeep,
+INSTANTIATE_TEST_SUITE_P(Maintenance,
                          UpkeepPowerLoss,
-                         ::testing::ValuesIn(upkeeps()),
+                         ::testing::ValuesIn(maintenances()),
                          [](const auto& test) { return test.param.name; });
 
 } // namespace

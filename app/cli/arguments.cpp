@@ -1,0 +1,194 @@
+#include "app/cli/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace macadam {
+namespace {
+
+/// "--output" of "-o,--output".
+std::string long_name(std::string_view name) {
+    return std::string{name.substr(name.rfind(',') + 1)};
+}
+
+double number_in(std::string_view name, std::string_view word) {
+    double number = 0;
+    const auto from = word.starts_with('+') ? word.substr(1) : word;
+    const auto [stop, error] = std::from_chars(from.data(), from.data() + from.size(), number);
+    if (error != std::errc{} || stop != from.data() + from.size()) {
+        throw UsageError{fmt::format("{} is '{}', expected a number", name, word)};
+    }
+    return number;
+}
+
+void add_options(CLI::App& parser,
+                 std::span<const Option> options,
+                 std::map<std::string, std::vector<std::string>, std::less<>>& words) {
+    for (const auto& option : options) {
+        auto& values = words[long_name(option.name)];
+        if (option.value.empty()) {
+            parser
+                .add_flag_function(std::string{option.name},
+                                   [&values](std::int64_t) { values = {"yes"}; })
+                ->disable_flag_override();
+        } else if (option.many) {
+            parser.add_option(std::string{option.name}, values)->expected(1, -1);
+        } else if (option.value.starts_with('[')) {
+            parser.add_option(std::string{option.name}, values)->expected(0, 1)->take_last();
+        } else {
+            parser.add_option(std::string{option.name}, values)
+                ->expected(1)
+                ->allow_extra_args(false)
+                ->take_last();
+        }
+    }
+}
+
+/// Gives each operand its word, and the last one all that are left if it takes many.
+void distribute(std::span<const Operand> operands,
+                const std::vector<std::string>& given,
+                std::map<std::string, std::vector<std::string>, std::less<>>& words) {
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+        if (i >= given.size() && !operands[i].fallback.empty()) {
+            words[std::string{operands[i].name}] = {std::string{operands[i].fallback}};
+            continue;
+        }
+        if (i >= given.size() && operands[i].optional) {
+            words[std::string{operands[i].name}] = {};
+            continue;
+        }
+        if (i >= given.size()) {
+            throw UsageError{fmt::format("{} is missing", operands[i].name)};
+        }
+        words[std::string{operands[i].name}] = {given[i]};
+    }
+    if (given.size() > operands.size()) {
+        if (!operands.back().many) {
+            throw UsageError{fmt::format("'{}' is one word too many", given[operands.size()])};
+        }
+        words[std::string{operands.back().name}].assign(
+            given.begin() + static_cast<std::ptrdiff_t>(operands.size()) - 1, given.end());
+    }
+}
+
+/// CLI11 would name the flag without its dashes.
+void expect_flags_alone(std::span<const Option> options, const std::vector<std::string>& words) {
+    for (const auto& word : words) {
+        const auto name = word.substr(0, word.find('='));
+        const bool is_flag = std::ranges::any_of(options, [&](const Option& option) {
+            return option.value.empty() && long_name(option.name) == name;
+        });
+        if (is_flag && name.size() < word.size()) {
+            throw UsageError{fmt::format("{} takes no value, but '{}' is given", name, word)};
+        }
+    }
+}
+
+} // namespace
+
+Arguments::Arguments(std::span<const Option> options,
+                     std::span<const Operand> operands,
+                     std::vector<std::string> words) {
+    expect_flags_alone(options, words);
+    CLI::App parser;
+    parser.set_help_flag();
+    add_options(parser, options, words_);
+    // One list for all operands: CLI11 would let the first of several take every word.
+    std::vector<std::string> given;
+    if (!operands.empty()) {
+        parser.add_option("operands", given)->required()->expected(1, -1);
+    }
+    try {
+        std::ranges::reverse(words); // CLI11 takes them from the back
+        parser.parse(std::move(words));
+    } catch (const CLI::RequiredError&) {
+        given.clear(); // distribute() says which is missing
+    } catch (const CLI::ExtrasError& error) {
+        throw UsageError{fmt::format("not understood: {}", error.what())};
+    } catch (const CLI::ParseError& error) {
+        throw UsageError{error.what()};
+    }
+    distribute(operands, given, words_);
+}
+
+bool Arguments::flag(std::string_view name) const {
+    return !values(name).empty();
+}
+
+std::vector<std::string> Arguments::values(std::string_view name) const {
+    return operands(name);
+}
+
+std::optional<std::string> Arguments::value(std::string_view name) const {
+    const auto found = values(name);
+    return found.empty() ? std::nullopt : std::optional{found.back()};
+}
+
+std::optional<double> Arguments::number(std::string_view name) const {
+    const auto word = value(name);
+    return word ? std::optional{number_in(name, *word)} : std::nullopt;
+}
+
+double Arguments::number(std::string_view name, double fallback) const {
+    return number(name).value_or(fallback);
+}
+
+std::optional<std::int64_t> Arguments::integer(std::string_view name) const {
+    const auto word = value(name);
+    if (!word) {
+        return std::nullopt;
+    }
+    std::int64_t number = 0;
+    const auto* const end = word->data() + word->size();
+    if (const auto [stop, error] = std::from_chars(word->data(), end, number);
+        error != std::errc{} || stop != end) {
+        throw UsageError{fmt::format("{} is '{}', expected a whole number", name, *word)};
+    }
+    return number;
+}
+
+std::optional<std::vector<double>> Arguments::numbers(std::string_view name,
+                                                      std::size_t count) const {
+    const auto word = value(name);
+    if (!word) {
+        return std::nullopt;
+    }
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= word->size();) {
+        const auto end = std::min(word->find(',', begin), word->size());
+        numbers.push_back(number_in(name, std::string_view{*word}.substr(begin, end - begin)));
+        begin = end + 1;
+    }
+    if (numbers.size() != count) {
+        throw UsageError{
+            fmt::format("{} is '{}', expected {} numbers separated by commas", name, *word, count)};
+    }
+    return numbers;
+}
+
+std::string Arguments::choice(std::string_view name,
+                              std::span<const std::string_view> words) const {
+    auto word = value(name).value_or(std::string{words.front()});
+    if (std::ranges::find(words, word) == words.end()) {
+        throw UsageError{
+            fmt::format("{} is '{}', expected {}", name, word, fmt::join(words, " or "))};
+    }
+    return word;
+}
+
+const std::string& Arguments::operand(std::string_view name) const {
+    return operands(name).front();
+}
+
+const std::vector<std::string>& Arguments::operands(std::string_view name) const {
+    const auto found = words_.find(name);
+    if (found == words_.end()) {
+        throw std::logic_error{fmt::format("the command's table has no {}", name)};
+    }
+    return found->second;
+}
+
+} // namespace macadam

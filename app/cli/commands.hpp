@@ -1,0 +1,62 @@
+#pragma once
+
+#include "app/cli/arguments.hpp"
+#include "app/cli/console.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+/// A command of the program. One table of them feeds the parser, the help and the tests.
+struct Command {
+    std::string_view name;
+    std::string_view summary; ///< one line, for the list of commands
+    std::string_view about;   ///< what it does and what comes out
+    std::string_view example; ///< command lines that work, and what they are good for
+    std::span<const Operand> operands;
+    std::span<const Option> options;
+    void (*run)(const Arguments&, const Console&);
+};
+
+/// Every command, in the order of the work.
+std::span<const Command> commands();
+
+/// Null if there is none of that name.
+const Command* command_named(std::string_view name);
+
+/// "macadam iri PROFILE [OPTION...]"
+std::string usage_of(const Command& command);
+
+/// What `macadam COMMAND --help` prints.
+std::string help_of(const Command& command);
+
+/// What `macadam --help` prints.
+std::string help_of_all();
+
+/// Splits the words by the command's table (and --quiet, which every command takes) and runs it.
+void run(const Command& command, std::vector<std::string> words);
+
+extern const Command init_command;       // app/store/command_init.cpp
+extern const Command identify_command;   // app/profile/command_identify.cpp
+extern const Command import_command;     // app/import/command_import.cpp
+extern const Command calibrate_command;  // app/store/command_calibrate.cpp
+extern const Command reprocess_command;  // app/import/command_reprocess.cpp
+extern const Command valid_from_command; // app/store/command_valid_from.cpp
+extern const Command forget_command;     // app/store/command_forget.cpp
+extern const Command privacy_command;    // app/store/command_privacy.cpp
+extern const Command publish_command;    // app/store/command_publish.cpp
+extern const Command upgrade_command;    // app/store/command_upgrade.cpp
+extern const Command query_command;      // app/query/command_query.cpp
+extern const Command export_command;     // app/export/command_export.cpp
+extern const Command render_command;     // app/render/command_render.cpp
+extern const Command report_command;     // app/report/command_report.cpp
+extern const Command info_command;       // app/store/command_info.cpp
+extern const Command iri_command;        // app/profile/command_iri.cpp
+extern const Command trace_command;      // app/trace/command_trace.cpp
+extern const Command match_command;      // app/trace/command_match.cpp
+extern const Command convert_command;    // app/trace/command_convert.cpp
+extern const Command simulate_command;   // app/simulate/command_simulate.cpp
+
+} // namespace macadam

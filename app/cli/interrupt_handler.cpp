@@ -1,0 +1,130 @@
+#include "app/cli/interrupt_handler.hpp"
+
+#include "storage/atomic/unfinished_files.hpp"
+#include "storage/sqlite/sqlite.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <optional>
+#include <string>
+
+#include <sys/time.h>
+#include <unistd.h>
+
+namespace macadam {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int slowness = 10; // of a program under sanitizers
+#else
+constexpr int slowness = 1;
+#endif
+
+// Within which a command comes to an end of its own. All of it, with what is removed then, is to
+// stay below 2 s. Who only reads has little to bring to an end.
+constexpr int wait_policy_ms = 1500 * slowness;
+constexpr int reader_wait_ms = 300 * slowness;
+
+constexpr std::array interrupting{SIGINT, SIGTERM, SIGHUP};
+
+/// What the handlers of signals use. They may run at any moment, in any thread.
+struct Wish {
+    /// A request takes no lock as long as nobody registers a std::stop_callback.
+    std::optional<std::stop_source> stop;
+    std::string last_words;
+    pid_t process = 0; ///< a forked one answers for itself
+    std::atomic<bool> is_known = false;
+};
+Wish wish;
+
+std::array<struct sigaction, interrupting.size()> before;
+struct sigaction before_of_pipe;
+
+void wake_after(int time_ms) {
+    itimerval timer{};
+    timer.it_value = {.tv_sec = time_ms / 1000, .tv_usec = time_ms % 1000 * 1000};
+    ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+/// Ends the process as if nobody had waited for the signal.
+void cut_off(int signal) {
+    remove_unfinished();
+    std::signal(signal, SIG_DFL);
+    ::raise(signal); // comes when the handler returns
+}
+
+void interrupted(int signal) {
+    const int error = errno;
+    if (wish.process != ::getpid() || wish.is_known.exchange(true)) {
+        cut_off(signal);
+    } else {
+        wish.stop->request_stop();
+        wake_after(databases_open_for_writing() > 0 ? wait_policy_ms : reader_wait_ms);
+    }
+    errno = error;
+}
+
+void end_of_wait(int /*signal*/) {
+    remove_unfinished();
+    [[maybe_unused]] const auto told =
+        ::write(STDERR_FILENO, wish.last_words.data(), wish.last_words.size());
+    ::_exit(1);
+}
+
+/// While one is handled, the others wait.
+void handle(int signal, void (*handler)(int), struct sigaction* replaced) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    for (const int other : interrupting) {
+        sigaddset(&action.sa_mask, other);
+    }
+    sigaddset(&action.sa_mask, SIGALRM);
+    ::sigaction(signal, &action, replaced);
+}
+
+} // namespace
+
+Interruption::Interruption(std::string_view command) {
+    wish.stop.emplace();
+    wish.last_words = fmt::format("{}macadam {}: interrupted; unfinished work was discarded\n",
+                                  ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", // of a bar
+                                  command);
+    wish.process = ::getpid();
+    wish.is_known = false;
+    handle(SIGALRM, end_of_wait, nullptr);
+    handle(SIGPIPE, cut_off, &before_of_pipe);
+    if (before_of_pipe.sa_handler == SIG_IGN) {
+        std::signal(SIGPIPE, SIG_IGN);
+    }
+    for (std::size_t i = 0; i < interrupting.size(); ++i) {
+        handle(interrupting[i], interrupted, &before[i]);
+        if (before[i].sa_handler == SIG_IGN) {
+            std::signal(interrupting[i], SIG_IGN);
+        }
+    }
+}
+
+Interruption::~Interruption() {
+    for (std::size_t i = 0; i < interrupting.size(); ++i) {
+        ::sigaction(interrupting[i], &before[i], nullptr);
+    }
+    wake_after(0);
+    std::signal(SIGALRM, SIG_DFL);
+    ::sigaction(SIGPIPE, &before_of_pipe, nullptr);
+}
+
+std::chrono::milliseconds Interruption::wait_policy() {
+    return std::chrono::milliseconds{wait_policy_ms};
+}
+
+// Of all that are alive, but there is one at a time.
+std::stop_token Interruption::stop() const { // NOLINT(*-convert-member-functions-to-static)
+    return wish.stop->get_token();
+}
+
+} // namespace macadam

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "app/cli/arguments.hpp"
+#include "storage/store/road_store.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace macadam {
+
+inline constexpr Option since_option{
+    "--since",
+    "TIME",
+    "Use only passes from this time on: 2026-03-01, 2026-03 or 2026-03-01T06:00:00Z."};
+inline constexpr Option until_option{
+    "--until", "TIME", "Use only passes up to this time; a day or month is included to its end."};
+
+/// Of --since and --until; nothing if neither is there.
+/// \throws UsageError  for what is no time, and for an end that is not after the beginning.
+std::optional<Period> parse_period(const Arguments& arguments);
+
+/// The beginning of the day, month or time that an option names, ms since 1970 UTC; nothing if it
+/// is not there. \throws UsageError  for what is no time.
+std::optional<std::int64_t> parse_begin(const Arguments& arguments, std::string_view name);
+
+} // namespace macadam

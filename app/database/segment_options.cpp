@@ -1,0 +1,97 @@
+#include "app/database/segment_options.hpp"
+
+#include "app/database/period_options.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+namespace macadam {
+namespace {
+
+std::int32_t parse_least_passes(const Arguments& arguments) {
+    const auto passes = arguments.integer("--min-passes").value_or(0);
+    if (passes < 0 || passes > std::numeric_limits<std::int32_t>::max()) {
+        throw UsageError{fmt::format("--min-passes is {}, expected 0 or more", passes)};
+    }
+    return static_cast<std::int32_t>(passes);
+}
+
+} // namespace
+
+std::filesystem::path store_file(const Arguments& arguments) {
+    const auto& store = arguments.operand("STORE");
+    if (store.find("://") != std::string::npos) {
+        throw UsageError{fmt::format("STORE is '{}', expected a .gpkg file", store)};
+    }
+    return store;
+}
+
+GeoBox box_of(const std::vector<double>& degrees) {
+    const GeoBox box{degrees[0], degrees[1], degrees[2], degrees[3]};
+    const bool on_globe =
+        box.west_deg >= -180 && box.east_deg <= 180 && box.south_deg >= -90 && box.north_deg <= 90;
+    if (!on_globe || !(box.west_deg < box.east_deg && box.south_deg < box.north_deg)) {
+        throw UsageError{
+            fmt::format("--bbox is {},{},{},{}, expected west < east and south < north in degrees",
+                        degrees[0],
+                        degrees[1],
+                        degrees[2],
+                        degrees[3])};
+    }
+    return box;
+}
+
+SegmentFilter parse_filter(const Arguments& arguments) {
+    SegmentFilter filter;
+    if (const auto degrees = arguments.numbers("--bbox", 4)) {
+        filter.box = box_of(*degrees);
+    }
+    filter.way_id = arguments.integer("--way");
+    filter.name_part = arguments.value("--name").value_or("");
+    filter.with_state_only = !arguments.flag("--all");
+    filter.highway = arguments.value("--highway").value_or("");
+    filter.class_name = arguments.value("--class").value_or("");
+    filter.min_passes = parse_least_passes(arguments);
+    filter.period = parse_period(arguments);
+    return filter;
+}
+
+std::optional<SegmentKey> parse_key(const Arguments& arguments) {
+    const auto key = arguments.value("--segment");
+    try {
+        return key ? std::optional{parse_segment_key(*key)} : std::nullopt;
+    } catch (const InputError& error) {
+        throw UsageError{fmt::format("--segment: {}", error.what())};
+    }
+}
+
+void expect_known_class(const SegmentFilter& filter, const RoadStore& store) {
+    const auto& classes = class_table(store.settings().class_table)->classes;
+    if (!filter.class_name.empty() &&
+        std::ranges::find(classes, filter.class_name, &IriClass::name) == classes.end()) {
+        std::vector<std::string_view> names;
+        std::ranges::transform(classes, std::back_inserter(names), &IriClass::name);
+        throw UsageError{fmt::format(
+            "--class is '{}', expected {}", filter.class_name, fmt::join(names, " or "))};
+    }
+}
+
+void warn_of_waiting(const RoadStore& store,
+                     const std::filesystem::path& file,
+                     const Console& console) {
+    if (const auto waiting = store.waiting(); waiting > 0) {
+        console.warn(
+            fmt::format("{}: {} segments have passes that are not fused yet because an import was "
+                        "interrupted; run 'macadam import' again",
+                        file.string(),
+                        waiting));
+    }
+}
+
+} // namespace macadam

@@ -1,0 +1,190 @@
+#include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/period_options.hpp"
+#include "app/database/publication_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/export/raster_tile_export.hpp"
+#include "app/export/tile_export.hpp"
+#include "app/query/section_output.hpp"
+#include "app/render/style_options.hpp"
+
+#include "storage/atomic/atomic_file.hpp"
+#include "storage/exports/export.hpp"
+#include "storage/tiles/tile_archive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+struct ExportOptions {
+    std::filesystem::path store;
+    std::filesystem::path output;
+    SegmentFilter filter;
+    std::optional<SectionOptions> sections;
+    std::optional<TilePlan> tiles;
+    std::optional<PicturePlan> pictures;
+};
+
+/// Sections are reported whole, whatever lies in them, and as text.
+void expect_sections_alone(const ExportOptions& options) {
+    const auto& filter = options.filter;
+    if (filter.box || filter.way_id || !filter.name_part.empty() || !filter.highway.empty() ||
+        !filter.class_name.empty() || !filter.with_state_only) {
+        throw UsageError{"--sections can be combined with --since, --until and --min-passes "
+                         "only, not with options that select segments"};
+    }
+    if (const auto suffix = options.output.extension(); suffix != ".csv" && suffix != ".geojson") {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv or .geojson "
+                                     "with --sections",
+                                     options.output.string())};
+    }
+}
+
+ExportOptions parse_export(const Arguments& arguments) {
+    const auto output = arguments.value("--output");
+    if (!output) {
+        throw UsageError{"-o FILE is missing"};
+    }
+    std::vector<std::string_view> suffixes{export_suffixes().begin(), export_suffixes().end()};
+    std::ranges::copy(tile_archive_suffixes(), std::back_inserter(suffixes));
+    if (std::ranges::none_of(suffixes, [&](auto suffix) { return output->ends_with(suffix); }) &&
+        !is_tile_folder(*output)) {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in {}, or in / for a "
+                                     "folder of tiles",
+                                     *output,
+                                     fmt::join(suffixes, ", "))};
+    }
+    ExportOptions options{.store = store_file(arguments),
+                          .output = *output,
+                          .filter = parse_filter(arguments),
+                          .sections = parse_sections(arguments, false),
+                          .tiles = {},
+                          .pictures = {}};
+    if (options.sections) {
+        expect_sections_alone(options);
+    }
+    if (is_tile_archive(options.output)) {
+        options.tiles = parse_tile_plan(arguments);
+        options.pictures = parse_picture_plan(arguments, *options.tiles, options.filter);
+    } else {
+        expect_no_tile_options(arguments);
+        expect_no_picture_options(arguments);
+    }
+    return options;
+}
+
+/// Files that the command reads.
+std::vector<std::filesystem::path> inputs_of(const ExportOptions& options) {
+    std::vector<std::filesystem::path> inputs{options.store};
+    if (options.sections) {
+        inputs.push_back(*options.sections->sections);
+        if (options.sections->exclude) {
+            inputs.push_back(*options.sections->exclude);
+        }
+    }
+    return inputs;
+}
+
+void export_sections(const RoadStore& store, const ExportOptions& options, const Console& console) {
+    AtomicFile file{options.output};
+    SectionWriter writer{options.output.extension() == ".csv" ? "csv" : "geojson",
+                         *class_table(store.settings().class_table),
+                         [&](std::string_view text) { file.write(text); }};
+    const auto total =
+        each_section(store, *options.sections, options.filter, [&](const NamedSection& section) {
+            writer.add(section);
+        });
+    writer.finish();
+    store.expect_in_place();
+    file.commit();
+    console.say(fmt::format(
+        "{}: {}, {}", options.output.string(), counted(writer.count(), "section"), spoken(total)));
+}
+
+void run_export(const Arguments& arguments, const Console& console) {
+    const auto options = parse_export(arguments);
+    refuse_to_replace(options.output, inputs_of(options));
+    if (options.pictures) {
+        export_picture_tiles(
+            options.store, options.filter.box, options.output, *options.pictures, console);
+        return;
+    }
+    const auto store = opened_store(options.store, RoadStore::Access::read, console);
+    expect_known_class(options.filter, store);
+    warn_of_waiting(store, options.store, console);
+    tell_publication(store, console);
+    if (options.sections) {
+        export_sections(store, options, console);
+        return;
+    }
+    if (options.tiles) {
+        export_tiles(store, options.filter, options.output, *options.tiles, console);
+        return;
+    }
+    const auto written =
+        export_segments(store, options.filter, options.output, console.progress("writing"));
+    console.say(fmt::format("{}: {}", options.output.string(), counted(written, "segment")));
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{
+    Option{"-o,--output",
+           "FILE",
+           "The suffix selects the format: .geojson, .geojsonl, .csv, .gpkg, .fgb, .shp, .kml, "
+           ".mbtiles, .pmtiles; DIR/: tiles."},
+    zoom_option,
+    tile_jobs_option,
+    tiles_option,
+    tile_size_option,
+    tile_theme_option,
+    style_option,
+    tile_left_hand_option,
+    tile_no_labels_option,
+    bbox_option,
+    way_option,
+    name_option,
+    highway_option,
+    class_option,
+    min_passes_option,
+    since_option,
+    until_option,
+    sections_option,
+    section_length_option,
+    homogeneous_option,
+    exclude_option,
+    exclude_radius_option,
+    all_option};
+
+} // namespace
+
+const Command export_command{
+    .name = "export",
+    .summary = "Export road segments: GeoJSON, CSV, GeoPackage, Shapefile, tiles and more",
+    .about =
+        "One feature for each segment and direction: a line in driving direction with IRI, its "
+        "90 % interval,\n"
+        "class, passes and linear reference (docs/outputs.md describes every column). Trips "
+        "and cars are not\n"
+        "exported. With --sections: one mean for each of your own sections instead "
+        "(docs/sections.md). The file\n"
+        "appears only when it is complete.",
+    .example =
+        "  macadam export roads.gpkg -o roads.geojson\n"
+        "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02\n"
+        "  macadam export roads.gpkg -o sections.csv --sections routes.csv\n"
+        "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2\n"
+        "  macadam export roads.gpkg -o pictures.mbtiles --tiles picture --tile-size 512\n"
+        "  macadam export roads.gpkg -o tiles/                   z/x/y.pbf and metadata.json",
+    .operands = operands,
+    .options = options,
+    .run = run_export};
+
+} // namespace macadam

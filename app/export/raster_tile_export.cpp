@@ -1,0 +1,148 @@
+#include "app/export/raster_tile_export.hpp"
+
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/publication_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/export/tile_export.hpp"
+#include "app/render/style_options.hpp"
+#include "estimator/common/error.hpp"
+#include "storage/tiles/tile_archive.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include <sys/stat.h>
+
+namespace macadam {
+namespace {
+
+constexpr std::array<std::string_view, 2> tile_kinds{"vector", "picture"};
+constexpr std::array<std::string_view, 2> tile_sizes{"256", "512"};
+constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
+
+void expect_whole_network(const SegmentFilter& filter) {
+    if (filter.way_id || !filter.name_part.empty() || !filter.highway.empty() ||
+        !filter.class_name.empty() || filter.period || !filter.with_state_only) {
+        throw UsageError{"--tiles picture shows all roads of a box: combine it with --bbox and "
+                         "--min-passes only, not with options that select segments"};
+    }
+}
+
+void expect_no_picture_looks(const Arguments& arguments) {
+    if (arguments.value("--tile-size") || arguments.value("--theme") ||
+        arguments.value("--style") || arguments.flag("--left-hand") ||
+        arguments.flag("--no-labels")) {
+        throw UsageError{"--tile-size, --theme, --style, --left-hand and --no-labels require "
+                         "--tiles picture"};
+    }
+}
+
+MapStyle style_of(const Arguments& arguments, const SegmentFilter& filter) {
+    auto style = parse_style_file(arguments);
+    if (arguments.value("--theme")) {
+        const auto theme = arguments.choice("--theme", themes);
+        style.theme = theme == "dark"    ? MapStyle::Theme::dark
+                      : theme == "print" ? MapStyle::Theme::print
+                                         : MapStyle::Theme::light;
+    }
+    style.left_hand_traffic = arguments.flag("--left-hand");
+    style.labels = !arguments.flag("--no-labels");
+    if (filter.min_passes > 0) {
+        style.min_passes = filter.min_passes;
+    }
+    return style;
+}
+
+TileSetNote note_of(const StoreInfo& info, const std::string& name, const PicturePlan& plan) {
+    return {.name = name,
+            .description = "Roughness of roads (IRI) by class",
+            .attribution = info.settings.attribution,
+            .format = TileSetNote::Format::png,
+            .bounds = plan.box,
+            .min_zoom = plan.min_zoom,
+            .max_zoom = plan.max_zoom,
+            .layers = {},
+            .tile_px = plan.tile_px};
+}
+
+/// Device and inode of the file of a name.
+std::pair<dev_t, ino_t> identity_of(const std::filesystem::path& file) {
+    struct stat status {};
+    return ::stat(file.c_str(), &status) == 0 ? std::pair{status.st_dev, status.st_ino}
+                                              : std::pair{dev_t{}, ino_t{}};
+}
+
+/// Reads what concerns the whole store; it is closed again before processes are made.
+StoreInfo info_of(const std::filesystem::path& file, const Console& console) {
+    const auto store = opened_store(file, RoadStore::Access::read, console);
+    warn_of_waiting(store, file, console);
+    tell_publication(store, console);
+    return store.info();
+}
+
+} // namespace
+
+std::optional<PicturePlan>
+parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const SegmentFilter& filter) {
+    if (arguments.choice("--tiles", tile_kinds) != "picture") {
+        expect_no_picture_looks(arguments);
+        return std::nullopt;
+    }
+    expect_whole_network(filter);
+    return PicturePlan{.min_zoom = tiles.min_zoom,
+                       .max_zoom = tiles.max_zoom,
+                       .tile_px = arguments.choice("--tile-size", tile_sizes) == "512" ? 512 : 256,
+                       .jobs = tiles.jobs,
+                       .box = {},
+                       .style = style_of(arguments, filter)};
+}
+
+void expect_no_picture_options(const Arguments& arguments) {
+    if (arguments.value("--tiles")) {
+        throw UsageError{
+            fmt::format("--tiles is for tile output, expected -o to end in {}", tile_endings())};
+    }
+    expect_no_picture_looks(arguments);
+}
+
+void export_picture_tiles(const std::filesystem::path& store,
+                          const std::optional<GeoBox>& box,
+                          const std::filesystem::path& file,
+                          PicturePlan plan,
+                          const Console& console) {
+    const auto identity = identity_of(store);
+    const auto info = info_of(store, console);
+    if (info.segments == 0) {
+        throw InputError{
+            fmt::format("{}: no measured segment to draw, expected at least one", store.string())};
+    }
+    if (plan.style.classes == nullptr) {
+        plan.style.classes = class_table(info.settings.class_table);
+    }
+    warn_of_look(plan.style, console);
+    plan.box = box.value_or(info.box);
+    PicturePainters painters{store, plan, wait_policy_for(store, console)};
+    TileArchive archive{file, note_of(info, store.stem().string(), plan)};
+    const auto count = painters.collect(
+        [&](const TileId& tile, std::string_view bytes) { archive.add(tile, bytes); },
+        console.progress("drawing tiles"));
+    if (identity_of(store) != identity) {
+        throw InputError{fmt::format("{}: was removed or replaced while this command was using "
+                                     "it; run the command again",
+                                     store.string())};
+    }
+    const auto size = archive.commit(console.progress("writing tiles"));
+    console.say(fmt::format("{}: {} of {} x {} px, {} distinct, zooms {} to {}, largest {:.1f} kB",
+                            file.string(),
+                            counted(count.tiles, "tile"),
+                            plan.tile_px,
+                            plan.tile_px,
+                            size.contents,
+                            plan.min_zoom,
+                            plan.max_zoom,
+                            static_cast<double>(count.largest_bytes) / 1e3));
+}
+
+} // namespace macadam

@@ -1,0 +1,396 @@
+#include "app/export/raster_tiles.hpp"
+
+#include "app/export/tile_line_merging.hpp"
+#include "estimator/common/error.hpp"
+#include "render/labels/label_placement.hpp"
+#include "render/tiles/tile_painter.hpp"
+#include "render/tiles/tile_png.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <exception>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace macadam {
+namespace {
+
+// A square holds whole cells of labels, and what is drawn around it is a small part of it.
+constexpr int square_px = 2048;
+
+/// Tiles that are drawn as one: those of a square that the plan asks for.
+struct Square {
+    TileId first; ///< in the north-west, wanted or not
+    TileRange wanted;
+};
+
+/// A town that lies far from all others would cost all tiles between.
+void expect_area(const PicturePlan& plan) {
+    constexpr std::uint64_t max_tiles = 50'000'000;
+    std::uint64_t tiles = 0;
+    for (int zoom = plan.min_zoom; zoom <= plan.max_zoom; ++zoom) {
+        const auto range = tiles_of(plan.box, zoom);
+        tiles +=
+            std::uint64_t{range.last_x - range.first_x + 1} * (range.last_y - range.first_y + 1);
+    }
+    if (tiles > max_tiles) {
+        throw InputError{fmt::format("the area needs {} tiles, expected at most {}: choose a "
+                                     "lower --zoom or a smaller area with --bbox",
+                                     tiles,
+                                     max_tiles)};
+    }
+}
+
+std::vector<Square> squares_of(const PicturePlan& plan) {
+    expect_area(plan);
+    const auto across = static_cast<std::uint32_t>(square_px / plan.tile_px);
+    std::vector<Square> squares;
+    for (int zoom = plan.min_zoom; zoom <= plan.max_zoom; ++zoom) {
+        const auto range = tiles_of(plan.box, zoom);
+        for (auto y = range.first_y / across * across; y <= range.last_y; y += across) {
+            for (auto x = range.first_x / across * across; x <= range.last_x; x += across) {
+                squares.push_back({{static_cast<std::uint8_t>(zoom), x, y},
+                                   {std::max(x, range.first_x),
+                                    std::max(y, range.first_y),
+                                    std::min(x + across - 1, range.last_x),
+                                    std::min(y + across - 1, range.last_y)}});
+            }
+        }
+    }
+    return squares;
+}
+
+std::size_t count_of(const std::vector<Square>& squares) {
+    std::size_t count = 0;
+    for (const auto& [first, wanted] : squares) {
+        count +=
+            std::size_t{wanted.last_x - wanted.first_x + 1} * (wanted.last_y - wanted.first_y + 1);
+    }
+    return count;
+}
+
+/// Draws squares, one after the other.
+class Drawer {
+public:
+    Drawer(const std::filesystem::path& store, const PicturePlan& plan, LockWaitPolicy wait_policy)
+        : store_{RoadStore::open(store, RoadStore::Access::read, std::move(wait_policy))},
+          plan_{plan}, painter_{{plan.style, plan.tile_px, square_px / plan.tile_px}},
+          png_{plan.style}, empty_{png_.empty(plan.tile_px)} {}
+
+    template <typename Put>
+    void draw(const Square& square, const Put& put) {
+        const auto lines = lines_of(square);
+        std::optional<Image> image;
+        if (!lines.empty()) {
+            image = painter_.draw(square.first, lines);
+        }
+        const auto& [first, wanted] = square;
+        for (auto y = wanted.first_y; y <= wanted.last_y; ++y) {
+            for (auto x = wanted.first_x; x <= wanted.last_x; ++x) {
+                const PictureCut cut{static_cast<int>(x - first.x) * plan_.tile_px,
+                                     static_cast<int>(y - first.y) * plan_.tile_px,
+                                     plan_.tile_px};
+                put(TileId{first.zoom, x, y}, image ? png_.encode(*image, cut) : empty_);
+            }
+        }
+    }
+
+private:
+    /// All of the cells of labels in which wanted tiles lie. The others are drawn, but not taken.
+    std::vector<MapLine> lines_of(const Square& square) const {
+        const WorldScale scale{square.first.zoom, plan_.tile_px};
+        const auto cell = static_cast<std::uint32_t>(label_cell_px / plan_.tile_px);
+        const auto last = (std::uint32_t{1} << unsigned(scale.zoom)) - 1;
+        const auto& wanted = square.wanted;
+        const auto north_west = tile_box(
+            {square.first.zoom, wanted.first_x / cell * cell, wanted.first_y / cell * cell});
+        const auto south_east = tile_box({square.first.zoom,
+                                          std::min(wanted.last_x / cell * cell + cell - 1, last),
+                                          std::min(wanted.last_y / cell * cell + cell - 1, last)});
+        return tile_lines(store_,
+                          {.west_deg = north_west.west_deg,
+                           .south_deg = south_east.south_deg,
+                           .east_deg = south_east.east_deg,
+                           .north_deg = north_west.north_deg},
+                          tile_line_rules(scale,
+                                          store_.settings().segment_length_m,
+                                          painter_.reach_px(scale.zoom)),
+                          *plan_.style.classes,
+                          plan_.style.min_passes);
+    }
+
+    RoadStore store_;
+    const PicturePlan& plan_;
+    TilePainter painter_;
+    TilePng png_;
+    std::vector<std::uint8_t> empty_;
+};
+
+// ------------------------------------------------------------------------ what processes tell
+
+/// Before each thing that a process that draws tells: a tile's bytes, or why it cannot go on.
+struct Head {
+    enum class Kind : std::uint32_t { tile, failure } kind;
+    TileId tile;
+    std::uint32_t bytes;
+};
+
+void write_all(int pipe, const void* data, std::size_t size) {
+    const auto* at = static_cast<const char*>(data);
+    while (size > 0) {
+        const auto written = ::write(pipe, at, size);
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written <= 0) {
+            _exit(1); // nobody listens any more
+        }
+        at += written;
+        size -= static_cast<std::size_t>(written);
+    }
+}
+
+void tell(int pipe, const Head& head, const void* bytes) {
+    write_all(pipe, &head, sizeof head);
+    write_all(pipe, bytes, head.bytes);
+}
+
+/// Ctrl-C goes to all processes of a terminal. A drawing process leaves it to its parent, which
+/// ends it, and ends when the parent does.
+void leave_signals_to_parent() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        std::signal(signal, SIG_IGN);
+    }
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+using TakeTile = std::function<void(const TileId& tile, std::string_view bytes)>;
+
+/// The part of a process that draws every `step`-th square; it never returns.
+[[noreturn]] void draw_part(const std::filesystem::path& store,
+                            const PicturePlan& plan,
+                            const LockWaitPolicy& wait_policy,
+                            std::size_t first,
+                            int pipe) {
+    try {
+        Drawer drawer{store, plan, wait_policy};
+        const auto squares = squares_of(plan);
+        for (auto i = first; i < squares.size(); i += plan.jobs) {
+            drawer.draw(squares[i], [&](const TileId& tile, const std::vector<std::uint8_t>& png) {
+                tell(pipe,
+                     {Head::Kind::tile, tile, static_cast<std::uint32_t>(png.size())},
+                     png.data());
+            });
+        }
+    } catch (const std::exception& error) {
+        const std::string_view why{error.what()};
+        tell(pipe, {Head::Kind::failure, {}, static_cast<std::uint32_t>(why.size())}, why.data());
+        _exit(1);
+    }
+    _exit(0);
+}
+
+/// A process that draws, and what it has told so far.
+class Worker {
+public:
+    Worker(const std::filesystem::path& store,
+           const PicturePlan& plan,
+           const LockWaitPolicy& wait_policy,
+           std::size_t number) {
+        std::array<int, 2> ends{};
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+            throw InputError{fmt::format("cannot start drawing: {}", std::strerror(errno))};
+        }
+        process_ = ::fork();
+        if (process_ == 0) {
+            ::close(ends[0]);
+            leave_signals_to_parent();
+            draw_part(store, plan, wait_policy, number, ends[1]);
+        }
+        ::close(ends[1]);
+        pipe_ = ends[0];
+        if (process_ < 0) {
+            ::close(pipe_);
+            throw InputError{fmt::format("cannot start drawing: {}", std::strerror(errno))};
+        }
+    }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    /// One that is not done is ended: its tiles are no longer wanted.
+    ~Worker() {
+        ::close(pipe_);
+        if (!done_) {
+            ::kill(process_, SIGKILL);
+            ::waitpid(process_, nullptr, 0);
+        }
+    }
+
+    int pipe() const { return pipe_; }
+    bool is_done() const { return done_; }
+
+    /// Takes what is there and hands on what is whole.
+    void listen(const TakeTile& take) {
+        constexpr std::size_t at_once = 1 << 16;
+        const auto before = told_.size();
+        told_.resize(before + at_once);
+        const auto got = ::read(pipe_, told_.data() + before, at_once);
+        told_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+        active_at_ = Clock::now();
+        if (got == 0) {
+            expect_good_end();
+            return;
+        }
+        std::size_t begin = 0;
+        for (Head head{}; told_.size() - begin >= sizeof head;) {
+            std::memcpy(&head, told_.data() + begin, sizeof head);
+            const auto end = begin + sizeof head + head.bytes;
+            if (end > told_.size()) {
+                break;
+            }
+            const std::string_view bytes{told_.data() + begin + sizeof head, head.bytes};
+            if (head.kind == Head::Kind::failure) {
+                throw InputError{std::string{bytes}};
+            }
+            take(head.tile, bytes);
+            begin = end;
+        }
+        told_.erase(told_.begin(), told_.begin() + static_cast<std::ptrdiff_t>(begin));
+    }
+
+    /// \throws InputError  if the process was stopped, or has neither told nor computed anything
+    /// for longer than any wait for a disk takes.
+    void expect_working() {
+        const auto now = Clock::now();
+        if (const auto used = cpu_time(); used != cpu_time_) {
+            cpu_time_ = used;
+            active_at_ = now;
+        } else if (now - active_at_ > stall_limit) {
+            throw InputError{fmt::format("a drawing process (PID {}) has made no progress for "
+                                         "{} s; it was stopped or its disk does not respond",
+                                         process_,
+                                         stall_limit.count())};
+        }
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::seconds stall_limit{8};
+
+    void expect_good_end() {
+        int status = 0;
+        ::waitpid(process_, &status, 0);
+        done_ = true;
+        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+            throw InputError{WIFSIGNALED(status)
+                                 ? fmt::format("a drawing process was ended by signal {} ({})",
+                                               WTERMSIG(status),
+                                               ::strsignal(WTERMSIG(status)))
+                                 : std::string{"a drawing process has failed"}};
+        }
+    }
+
+    /// CPU time that the process has used, ns; what was known before if it cannot be had.
+    std::int64_t cpu_time() const {
+        clockid_t clock{};
+        timespec used{};
+        if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) {
+            return cpu_time_;
+        }
+        return std::int64_t{used.tv_sec} * 1'000'000'000 + used.tv_nsec;
+    }
+
+    pid_t process_ = -1;
+    int pipe_ = -1;
+    bool done_ = false;
+    std::vector<char> told_;
+    std::int64_t cpu_time_ = 0;
+    Clock::time_point active_at_ = Clock::now();
+};
+
+void expect_not_stopped(const Progress& progress) {
+    if (progress.stop.stop_requested()) {
+        throw InputError{"stopped before the file was complete"};
+    }
+}
+
+/// A forked child has this thread alone: a lock that another one held, as that of the allocator,
+/// would stay locked in it for ever.
+void expect_one_thread() {
+    const std::filesystem::directory_iterator tasks{"/proc/self/task"};
+    if (std::distance(begin(tasks), end(tasks)) != 1) {
+        throw std::logic_error{"drawing processes must be started before any thread"};
+    }
+}
+
+} // namespace
+
+struct PicturePainters::Impl {
+    std::size_t tile_count = 0;
+    std::vector<std::unique_ptr<Worker>> workers;
+};
+
+PicturePainters::PicturePainters(const std::filesystem::path& store,
+                                 const PicturePlan& plan,
+                                 LockWaitPolicy wait_policy)
+    : impl_{std::make_unique<Impl>()} {
+    expect_one_thread();
+    const auto squares = squares_of(plan);
+    impl_->tile_count = count_of(squares);
+    for (std::size_t i = 0; i < std::min(plan.jobs, squares.size()); ++i) {
+        impl_->workers.push_back(std::make_unique<Worker>(store, plan, wait_policy, i));
+    }
+}
+
+PicturePainters::~PicturePainters() = default;
+
+PictureCount PicturePainters::collect(const PutTile& put, const Progress& progress) {
+    auto& workers = impl_->workers;
+    PictureCount count;
+    const TakeTile take = [&](const TileId& tile, std::string_view bytes) {
+        put(tile, bytes);
+        count.largest_bytes = std::max(count.largest_bytes, std::uint64_t{bytes.size()});
+        constexpr std::size_t report_every = 100;
+        if (++count.tiles % report_every == 0) {
+            progress(count.tiles, impl_->tile_count);
+        }
+    };
+    while (!workers.empty()) {
+        std::vector<pollfd> pipes;
+        for (const auto& worker : workers) {
+            pipes.push_back({worker->pipe(), POLLIN, 0});
+        }
+        constexpr int wait_policy_ms = 200; // with which a wish to stop is noticed
+        ::poll(pipes.data(), pipes.size(), wait_policy_ms);
+        expect_not_stopped(progress);
+        for (std::size_t i = 0; i < workers.size(); ++i) {
+            if (pipes[i].revents != 0) {
+                workers[i]->listen(take);
+            } else {
+                workers[i]->expect_working();
+            }
+        }
+        std::erase_if(workers, [](const auto& worker) { return worker->is_done(); });
+    }
+    progress(impl_->tile_count, impl_->tile_count);
+    return count;
+}
+
+} // namespace macadam

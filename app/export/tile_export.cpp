@@ -1,0 +1,159 @@
+#include "app/export/tile_export.hpp"
+
+#include "estimator/common/error.hpp"
+#include "render/tiles/mvt_tile.hpp"
+#include "storage/atomic/atomic_folder.hpp"
+#include "storage/exports/export.hpp"
+#include "storage/tiles/tile_archive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace macadam {
+namespace {
+
+constexpr int farthest_zoom = 18; // a unit of a tile is then 4 cm at the equator
+constexpr std::int64_t max_jobs = 256;
+
+/// "6-16", or "14" alone.
+std::optional<std::pair<int, int>> zooms_in(const std::string& text) {
+    const auto* const end = text.data() + text.size();
+    int least = 0;
+    const auto first = std::from_chars(text.data(), end, least);
+    if (first.ec != std::errc{}) {
+        return std::nullopt;
+    }
+    int most = least;
+    auto stop = first.ptr;
+    if (stop != end && *stop == '-') {
+        const auto second = std::from_chars(stop + 1, end, most);
+        if (second.ec != std::errc{}) {
+            return std::nullopt;
+        }
+        stop = second.ptr;
+    }
+    const bool fits = stop == end && 0 <= least && least <= most && most <= farthest_zoom;
+    return fits ? std::optional{std::pair{least, most}} : std::nullopt;
+}
+
+TileLayer layer_of(const TilePlan& plan, const ClassTable& classes) {
+    TileLayer layer{.id = std::string{roughness_layer},
+                    .description = "About 20 m of road in one direction from zoom 14 on, longer "
+                                   "pieces below it; IRI in mm/m",
+                    .min_zoom = plan.min_zoom,
+                    .max_zoom = plan.max_zoom,
+                    .fields = {}};
+    for (const auto& field : vector_fields(classes)) {
+        layer.fields.push_back({field.name, field.is_number ? "Number" : "String"});
+    }
+    return layer;
+}
+
+TileSetNote note_of(const RoadStore& store, const GeoBox& box, const TilePlan& plan) {
+    return {.name = store.file().stem().string(),
+            .description = "Roughness of roads (IRI, mm/m) with what it is known to",
+            .attribution = store.settings().attribution,
+            .format = TileSetNote::Format::mvt,
+            .bounds = box,
+            .min_zoom = plan.min_zoom,
+            .max_zoom = plan.max_zoom,
+            .layers = {layer_of(plan, *class_table(store.settings().class_table))}};
+}
+
+std::string size_text(std::uint64_t bytes) {
+    constexpr double kilobyte = 1e3, megabyte = 1e6;
+    const auto size = static_cast<double>(bytes);
+    return size < megabyte ? fmt::format("{:.1f} kB", size / kilobyte)
+                           : fmt::format("{:.1f} MB", size / megabyte);
+}
+
+} // namespace
+
+bool is_tile_archive(const std::filesystem::path& place) {
+    const auto archives = tile_archive_suffixes();
+    const auto ends_in = [&](std::string_view suffix) { return place.native().ends_with(suffix); };
+    if (std::ranges::any_of(export_suffixes(), ends_in)) {
+        return false; // also where a folder of that name is in the way
+    }
+    return is_tile_folder(place) || std::ranges::any_of(archives, ends_in);
+}
+
+std::string tile_endings() {
+    return fmt::format("{} or /", fmt::join(tile_archive_suffixes(), ", "));
+}
+
+TilePlan parse_tile_plan(const Arguments& arguments) {
+    TilePlan plan;
+    if (const auto text = arguments.value("--zoom")) {
+        const auto zooms = zooms_in(*text);
+        if (!zooms) {
+            throw UsageError{
+                fmt::format("--zoom is '{}', expected one or two of 0 to {}, as in 6-16",
+                            *text,
+                            farthest_zoom)};
+        }
+        std::tie(plan.min_zoom, plan.max_zoom) = *zooms;
+    }
+    const auto jobs = arguments.integer("--jobs").value_or(1);
+    if (jobs < 1 || jobs > max_jobs) {
+        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, max_jobs)};
+    }
+    plan.jobs = static_cast<std::size_t>(jobs);
+    return plan;
+}
+
+void expect_no_tile_options(const Arguments& arguments) {
+    if (arguments.value("--zoom") || arguments.value("--jobs")) {
+        throw UsageError{fmt::format("--zoom and --jobs are for tile output, expected -o to "
+                                     "end in {}",
+                                     tile_endings())};
+    }
+}
+
+void export_tiles(const RoadStore& store,
+                  const SegmentFilter& filter,
+                  const std::filesystem::path& file,
+                  const TilePlan& plan,
+                  const Console& console) {
+    if (!filter.with_state_only) {
+        throw UsageError{"--all is for segment files: tiles show measured segments only"};
+    }
+    if (is_tile_folder(file)) {
+        expect_new_or_empty(file.has_filename() ? file : file.parent_path()); // before long work
+    }
+    TileSource source{beside_tiles(file)};
+    read_tile_source(store, filter, source, console.progress("reading segments"));
+    if (source.count == 0) {
+        throw InputError{fmt::format("{}: the selection contains no measured segment, expected "
+                                     "at least one",
+                                     store.file().string())};
+    }
+    TileArchive archive{file, note_of(store, source.box, plan)};
+    const auto count = make_vector_tiles(
+        source,
+        *class_table(store.settings().class_table),
+        plan,
+        [&](const TileId& tile, std::string_view bytes) { archive.add(tile, bytes); },
+        console.progress("drawing tiles"));
+    store.expect_in_place();
+    archive.commit(console.progress("writing tiles"));
+    console.say(fmt::format("{}: {} of {}, zooms {} to {}, largest {} gzipped",
+                            file.string(),
+                            counted(count.tiles, "tile"),
+                            counted(source.count, "segment"),
+                            plan.min_zoom,
+                            plan.max_zoom,
+                            size_text(count.largest_bytes)));
+    if (count.coarsened > 0) {
+        console.say(
+            fmt::format("{} would have been over {} and therefore show less detail of the same "
+                        "roads (at most {} of coarsening)",
+                        counted(count.coarsened, "tile"),
+                        size_text(plan.max_bytes),
+                        counted(static_cast<std::size_t>(count.max_steps), "step")));
+    }
+}
+
+} // namespace macadam

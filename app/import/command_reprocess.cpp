@@ -1,0 +1,104 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/import/import_trips.hpp"
+#include "app/import/trip_inputs.hpp"
+#include "app/import/trip_outcome_output.hpp"
+#include "app/pipeline/column_mapping_option.hpp"
+#include "app/pipeline/estimation_options.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace macadam {
+namespace {
+
+constexpr std::int64_t max_jobs = 256;
+
+std::size_t parse_jobs(const Arguments& arguments) {
+    const auto jobs = arguments.integer("--jobs").value_or(1);
+    if (jobs < 1 || jobs > max_jobs) {
+        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, max_jobs)};
+    }
+    return static_cast<std::size_t>(jobs);
+}
+
+void run_reprocess(const Arguments& arguments, const Console& console) {
+    const auto jobs = parse_jobs(arguments);
+    auto config = pipeline_config_of(arguments);
+    config.estimator.tracks = false; // as an import
+    const auto& words = arguments.operands("PATH");
+    VehicleChoice vehicles{arguments};
+    const auto file = store_file(arguments);
+    auto store = opened_store(file, RoadStore::Access::write, console);
+    AskedTrips trips{{words.begin(), words.end()},
+                     {.mapping = mapping_of(arguments), .max_files = max_members_of(arguments)},
+                     console};
+    const bool json = arguments.flag("--json");
+    const auto tell = [&](const TripOutcome& outcome) { print_outcome(outcome, json); };
+
+    const auto working = console.progress("reprocessing");
+    const auto totals = reprocess_trips(store, trips, vehicles, config, jobs, working, tell);
+    working(1, 1); // takes the bar off the line
+    if (totals.interrupted) {
+        throw InputError{"interrupted: the database is unchanged"};
+    }
+    if (totals.imported == 0) {
+        throw InputError{fmt::format("no trip of {} was reprocessed: the database is unchanged",
+                                     counted(totals.looked_at(), "trip"))};
+    }
+    trips.tell_rest(console);
+    const auto fusing = console.progress("fusing");
+    const auto method = config.estimator.method == Method::kf ? "kf" : "smoother";
+    const auto done = store.commit_staged(fmt::format("method {}", method), fusing);
+    console.say(fmt::format("generation {}: {} reprocessed, {} unchanged{}",
+                            done.generation,
+                            counted(done.trips, "trip"),
+                            done.others,
+                            done.calibrated ? "; the cars were recalibrated" : ""));
+    if (totals.rejected > 0) {
+        throw InputError{fmt::format("{} rejected: these remain unchanged if they are in the "
+                                     "store",
+                                     counted(totals.rejected, "trip"))};
+    }
+}
+
+constexpr std::array operands{
+    store_operand,
+    Operand{"PATH", "Logs of trips that are already in the database, in any folders.", true}};
+
+constexpr std::array options{
+    vehicle_option,
+    vehicles_option,
+    mapping_option,
+    Option{"--jobs", "N", "Number of trips processed in parallel.", "1"},
+    max_members_option,
+    method_option,
+    channels_option,
+    no_filters_option,
+    rate_option,
+    Option{"--json", "", "One JSON object per trip on standard output, one per line."}};
+
+} // namespace
+
+const Command reprocess_command{
+    .name = "reprocess",
+    .summary = "Reprocess imported trips: with other cars, another method or a newer version",
+    .about = "Reads the logs again and replaces the passes of their trips: a new generation, "
+             "written in one transaction\n"
+             "at the end. Until then, and after an interruption, the database is unchanged; "
+             "readers see either the old\n"
+             "generation or the new one. Trips whose logs are not among the paths stay as they "
+             "are; logs of trips that\n"
+             "are not in the database are skipped ('unknown').",
+    .example = "  macadam reprocess roads.gpkg trips/ --vehicles better-cars/\n"
+               "  macadam reprocess roads.gpkg trips/ --method kf --jobs 2",
+    .operands = operands,
+    .options = options,
+    .run = run_reprocess};
+
+} // namespace macadam

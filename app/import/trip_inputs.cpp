@@ -1,0 +1,102 @@
+#include "app/import/trip_inputs.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/trips/source/trip_contents.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+namespace macadam {
+
+std::size_t max_members_of(const Arguments& arguments) {
+    constexpr std::int64_t most = 100'000'000;
+    const auto count = arguments.integer("--max-members").value_or(std::int64_t{max_archive_files});
+    if (count < 1 || count > most) {
+        throw UsageError{fmt::format("--max-members is {}, expected 1 to {}", count, most)};
+    }
+    return static_cast<std::size_t>(count);
+}
+
+AskedTrips::AskedTrips(const std::vector<std::filesystem::path>& paths,
+                       const TripWalkConfig& config,
+                       const Console& console) {
+    for (const auto& path : paths) {
+        Path asked{.path = path, .walk = {}, .refusal = {}};
+        try {
+            asked.walk.emplace(path, config);
+            if (asked.walk->count()) {
+                tell(asked, console);
+                asked.told = true;
+            }
+        } catch (const InputError& error) {
+            asked.refusal = error.what();
+        }
+        paths_.push_back(std::move(asked));
+    }
+}
+
+std::optional<TripSource> AskedTrips::next() {
+    const std::scoped_lock lock{asking_};
+    for (; at_ < paths_.size(); ++at_) {
+        auto& [path, walk, refusal, told] = paths_[at_];
+        if (!walk) {
+            ++at_;
+            return TripSource{.file = path,
+                              .member = {},
+                              .contents = std::make_shared<const TripContents>(
+                                  TripContents{{{"", "", refusal}}})};
+        }
+        if (auto trip = walk->next()) {
+            return trip;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> AskedTrips::count() const {
+    const std::scoped_lock lock{asking_};
+    std::size_t sum = 0;
+    for (const auto& path : paths_) {
+        const auto count = path.walk ? path.walk->count() : std::optional<std::size_t>{1};
+        if (!count) {
+            return std::nullopt;
+        }
+        sum += *count;
+    }
+    return sum;
+}
+
+std::size_t AskedTrips::at_least() const {
+    const std::scoped_lock lock{asking_};
+    std::size_t sum = 0;
+    for (const auto& path : paths_) {
+        sum += path.walk ? path.walk->count().value_or(path.walk->given() + 1) : 1;
+    }
+    return sum;
+}
+
+void AskedTrips::tell(const Path& path, const Console& console) {
+    const auto& walk = *path.walk;
+    if (walk.count() == std::size_t{0}) {
+        console.warn(fmt::format(
+            "{}: contains no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst, *.rawlog) "
+            "and no export of phyphox or Sensor Logger",
+            path.path.string()));
+    }
+    if (walk.other_files() > 0) {
+        console.say(fmt::format(
+            "{}: {} other files were not read", path.path.string(), walk.other_files()));
+    }
+}
+
+void AskedTrips::tell_rest(const Console& console) const {
+    for (const auto& path : paths_) {
+        if (path.walk && !path.told) {
+            tell(path, console);
+        }
+    }
+}
+
+} // namespace macadam

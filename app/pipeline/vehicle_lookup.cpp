@@ -1,0 +1,118 @@
+#include "app/pipeline/vehicle_lookup.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/settings/vehicle_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string built_in_names() {
+    std::vector<std::string> names;
+    for (const auto& vehicle : built_in_vehicles()) {
+        names.push_back(vehicle.name);
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+ChosenVehicle named_or_read(const std::string& name) {
+    if (const auto* const built_in = built_in_vehicle(name)) {
+        return {*built_in, true, ""};
+    }
+    if (!fs::exists(name) && !name.ends_with(".toml")) {
+        throw UsageError{fmt::format(
+            "--vehicle is '{}', expected a TOML file or one of {}", name, built_in_names())};
+    }
+    return {read_vehicle(name), false, ""};
+}
+
+std::vector<fs::path> toml_files(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator{folder}) {
+        if (entry.is_regular_file() && entry.path().extension() == ".toml") {
+            files.push_back(entry.path());
+        }
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+/// vehicles/ beside the trip's folder, in it, or up to two folders higher: fleets keep a folder for
+/// each car or each day below the folder of trips.
+std::vector<fs::path> vehicle_folders(const fs::path& trip_folder) {
+    const auto parent = trip_folder.parent_path();
+    return {parent / "vehicles",
+            trip_folder / "vehicles",
+            parent.parent_path() / "vehicles",
+            parent.parent_path().parent_path() / "vehicles"};
+}
+
+} // namespace
+
+VehicleChoice::VehicleChoice(const Arguments& arguments) {
+    const auto name = arguments.value("--vehicle");
+    const auto folder = arguments.value("--vehicles");
+    if (name && folder) {
+        throw UsageError{"--vehicle and --vehicles cannot be combined"};
+    }
+    if (name) {
+        for_all_ = named_or_read(*name);
+    }
+    if (folder) {
+        if (!fs::is_directory(*folder)) {
+            throw InputError{
+                fmt::format("{}: is not a folder, expected a folder of vehicle files", *folder)};
+        }
+        folder_ = *folder;
+        in_folder(*folder_);
+    }
+}
+
+const VehicleChoice::ByName& VehicleChoice::in_folder(const fs::path& folder) {
+    const std::scoped_lock lock{reading_};
+    if (const auto known = read_.find(folder); known != read_.end()) {
+        return known->second;
+    }
+    ByName found;
+    if (fs::is_directory(folder)) {
+        for (const auto& file : toml_files(folder)) {
+            auto vehicle = read_vehicle(file);
+            if (found.contains(vehicle.name)) {
+                throw InputError{
+                    fmt::format("{}: the name '{}' is also in another file of this folder",
+                                file.string(),
+                                vehicle.name)};
+            }
+            found.emplace(vehicle.name, std::move(vehicle));
+        }
+    }
+    return read_.emplace(folder, std::move(found)).first->second;
+}
+
+ChosenVehicle VehicleChoice::operator()(const fs::path& trip_file, const std::string& vehicle_id) {
+    if (for_all_) {
+        return *for_all_;
+    }
+    const auto trip_folder = fs::absolute(trip_file).lexically_normal().parent_path();
+    const auto folders = folder_ ? std::vector{*folder_} : vehicle_folders(trip_folder);
+    for (const auto& folder : folders) {
+        const auto& known = in_folder(folder);
+        if (const auto found = known.find(vehicle_id); found != known.end()) {
+            return {found->second, false, ""};
+        }
+    }
+    if (const auto* const built_in = built_in_vehicle(vehicle_id)) {
+        return {*built_in, true, ""};
+    }
+    const auto who = vehicle_id.empty()
+                         ? std::string{"car unknown (no vehicle_id)"}
+                         : fmt::format("car '{}' unknown (no vehicle file)", vehicle_id);
+    return {*built_in_vehicle("generic"), true, who + "; average car used; see --vehicle"};
+}
+
+} // namespace macadam

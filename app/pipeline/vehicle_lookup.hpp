@@ -1,0 +1,52 @@
+#pragma once
+
+#include "app/cli/arguments.hpp"
+#include "app/cli/console.hpp"
+#include "estimator/vehicle/vehicle.hpp"
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// The options that say which car drove, for the tables of the commands that need one.
+inline constexpr Option vehicle_option{
+    "--vehicle", "NAME|FILE", "The car of all trips given: a built-in name or a TOML file."};
+inline constexpr Option vehicles_option{
+    "--vehicles",
+    "DIR",
+    "A folder of TOML files; each trip takes the one whose name equals its vehicle_id."};
+
+struct ChosenVehicle {
+    Vehicle vehicle;
+    bool built_in;       ///< not from a file, which may use the same name
+    std::string warning; ///< "" or that the car is not known
+};
+
+/// Finds the car of each trip: --vehicle; else by the trip's vehicle_id in --vehicles, or in
+/// vehicles/ beside the trip's folder or in it, or among the built-in ones; else `generic` with a
+/// warning. Folders are read once. May be asked from several threads.
+class VehicleChoice {
+public:
+    /// Reads --vehicle and --vehicles at once.
+    /// \throws UsageError  if both are given. \throws InputError for a file that is no vehicle.
+    explicit VehicleChoice(const Arguments& arguments);
+
+    /// \throws InputError  if a vehicle file beside the trip cannot be read as one.
+    ChosenVehicle operator()(const std::filesystem::path& trip_file, const std::string& vehicle_id);
+
+private:
+    using ByName = std::map<std::string, Vehicle>;
+    const ByName& in_folder(const std::filesystem::path& folder);
+
+    std::optional<ChosenVehicle> for_all_;
+    std::optional<std::filesystem::path> folder_;
+    std::map<std::filesystem::path, ByName> read_;
+    std::mutex reading_;
+};
+
+} // namespace macadam

@@ -1,0 +1,146 @@
+#include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/profile/iri_output.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/iri/localised_roughness.hpp"
+#include "storage/profiles/erd_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace macadam {
+namespace {
+
+struct IriOptions {
+    IriQuestion question;
+    std::optional<double> length_m; ///< nothing: one value for the whole
+    std::optional<double> base_m;   ///< of a moving mean instead
+    std::optional<double> threshold;
+    std::optional<std::filesystem::path> output;
+    IriWords words;
+};
+
+std::optional<double> length_in(const Arguments& arguments, std::string_view name) {
+    const auto length_m = arguments.number(name);
+    if (length_m && !(*length_m > 0)) {
+        throw UsageError{fmt::format("{} is {}, expected a length over 0 m", name, *length_m)};
+    }
+    return length_m;
+}
+
+/// --continuous stands alone or with the base.
+std::optional<double> base_in(const Arguments& arguments) {
+    const auto word = arguments.value("--continuous");
+    return word && word->empty() ? std::optional{localised_base_m}
+                                 : length_in(arguments, "--continuous");
+}
+
+IriOptions parse_iri(const Arguments& arguments) {
+    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
+    IriOptions options{.question = {.profile = arguments.operand("PROFILE"),
+                                    .step_m = length_in(arguments, "--step"),
+                                    .from_m = arguments.number("--from"),
+                                    .to_m = arguments.number("--to"),
+                                    .envelope = !arguments.flag("--no-envelope")},
+                       .length_m = length_in(arguments, "--length"),
+                       .base_m = base_in(arguments),
+                       .threshold = arguments.number("--threshold"),
+                       .output = arguments.value("--output"),
+                       .words = {.in_per_mi = arguments.choice("--unit", units) == "in/mi",
+                                 .json = arguments.flag("--json")}};
+    if (options.threshold && !options.base_m) {
+        throw UsageError{"--threshold applies to a moving mean and requires --continuous"};
+    }
+    if (options.length_m && options.base_m) {
+        throw UsageError{"--length and --continuous cannot be combined"};
+    }
+    if (options.output && options.output->extension() != ".erd") {
+        throw UsageError{
+            fmt::format("-o is '{}', expected a file in .erd", options.output->string())};
+    }
+    return options;
+}
+
+void write_as_erd(const IriQuestion& question, const std::filesystem::path& output) {
+    refuse_to_replace(output, {question.profile});
+    auto profile = read_profile(question.profile, question.step_m);
+    if (!profile.even_step_m) {
+        throw InputError{fmt::format("{}: has uneven stations, an ERD file has even ones",
+                                     question.profile.string())};
+    }
+    ErdProfile erd{.title = question.profile.stem().string(),
+                   .start_m = profile.station_m.front(),
+                   .step_m = *profile.even_step_m,
+                   .channels = {}};
+    for (auto& track : profile.tracks) {
+        erd.channels.push_back({track.name, std::move(track.elevation_m)});
+    }
+    write_erd(output, erd);
+}
+
+void run_iri(const Arguments& arguments, const Console&) {
+    const auto options = parse_iri(arguments);
+    if (options.output) {
+        write_as_erd(options.question, *options.output);
+    }
+    if (options.base_m) {
+        print_moving_iri(options.question, *options.base_m, options.threshold, options.words);
+    } else {
+        print(text_of(iri_of_pieces(options.question, options.length_m), options.words));
+    }
+}
+
+constexpr std::array operands{
+    Operand{"PROFILE",
+            "Elevations of wheel tracks: .csv with a header, .txt without one, .erd "
+            "(UMTRI ERD 2.00) or .pro (TxDOT)."}};
+
+constexpr std::array options{
+    Option{"--step",
+           "METRES",
+           "Distance between points. A .csv or .txt file then has no stations: all columns are "
+           "tracks."},
+    Option{"--from", "METRES", "Station at which the report begins.", "the first"},
+    Option{"--to", "METRES", "Station at which the report ends.", "the last"},
+    Option{"--length", "METRES", "Report segments of this length.", "one segment"},
+    Option{"--continuous",
+           "[METRES]",
+           "Report the moving mean over a base of this length.",
+           "7.62 (25 ft)"},
+    Option{"--threshold",
+           "IRI",
+           "With --continuous: list the locations where the moving mean exceeds this."},
+    Option{"--unit", "UNIT", "mm/m (equal to m/km) or in/mi.", "mm/m"},
+    Option{"--no-envelope",
+           "",
+           "Skip the 250 mm moving average: the profile is already "
+           "smoothed."},
+    Option{"-o,--output", "FILE.erd", "Also write the whole profile as ERD 2.00."},
+    Option{"--json", "", "One JSON object instead of CSV."}};
+
+} // namespace
+
+const Command iri_command{
+    .name = "iri",
+    .summary = "Compute the reference IRI of a measured profile (ASTM E1926)",
+    .about = "Simulates the golden car once over the whole profile and cuts its response into "
+             "segments afterwards, so\n"
+             "segment borders do not disturb it. Evenly spaced stations are never resampled; "
+             "uneven ones are solved\n"
+             "exactly. Tracks named left and right also give MRI (mean of the two IRI) and HRI "
+             "(IRI of the mean\n"
+             "profile). lead_in marks segments that begin within 60 m of the start of the "
+             "profile, where the initial\n"
+             "state of the car may still matter. With --from, the profile before it serves as "
+             "lead-in; if that is\n"
+             "shorter than 11 m, the simulation starts at --from.",
+    .example = "  macadam iri profile.csv --length 100          station_m,left_m,right_m\n"
+               "  macadam iri run1.erd --length 160.9344 --unit in/mi --json\n"
+               "  macadam iri run1.pro --continuous --threshold 160 --unit in/mi",
+    .operands = operands,
+    .options = options,
+    .run = run_iri};
+
+} // namespace macadam

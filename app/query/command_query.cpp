@@ -1,0 +1,223 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/period_options.hpp"
+#include "app/database/publication_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/query/audit_output.hpp"
+#include "app/query/monthly_history.hpp"
+#include "app/query/nearest_segments.hpp"
+#include "app/query/query_options.hpp"
+#include "app/query/section_output.hpp"
+#include "app/query/segment_output.hpp"
+#include "app/query/worst_sections_output.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/networks/network_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace macadam {
+namespace {
+
+/// Asked for by name, a segment is shown even if nobody drove it.
+SegmentFilter filter_of(const QueryOptions& options) {
+    auto filter = options.filter;
+    filter.with_state_only = filter.with_state_only && !filter.key;
+    return filter;
+}
+
+void expect_segment(const RoadStore& store, const QueryOptions& options) {
+    SegmentFilter filter;
+    filter.key = options.filter.key;
+    filter.with_state_only = false;
+    bool known = !filter.key;
+    if (filter.key) {
+        store.visit(filter, [&](const SegmentRecord&) { known = true; });
+    }
+    if (!known) {
+        throw InputError{
+            fmt::format("{}: has no segment '{}'", options.store.string(), name_of(*filter.key))};
+    }
+}
+
+std::vector<SegmentRecord> found_in(const RoadStore& store,
+                                    const SegmentFilter& filter,
+                                    const std::optional<NearOptions>& near) {
+    if (near) {
+        return segments_near(store, filter, *near);
+    }
+    std::vector<SegmentRecord> records;
+    store.visit(filter, [&](const SegmentRecord& record) { records.push_back(record); });
+    return records;
+}
+
+void print_worst_sections(const RoadStore& store,
+                          const std::vector<SegmentRecord>& records,
+                          const QueryOptions& options,
+                          const Console& console) {
+    const auto& classes = *class_table(store.settings().class_table);
+    WorstSectionConfig config;
+    config.above_mm_per_m = options.worst.above_mm_per_m.value_or(poor_above(classes));
+    config.min_length_m = options.worst.min_length_m;
+    auto stretches = worst_sections(
+        load_or_build_network(store, [&](const std::string& words) { console.say(words); }),
+        records,
+        config);
+    stretches.resize(std::min(stretches.size(), options.worst.count));
+    if (stretches.empty()) {
+        console.say(fmt::format(
+            "no section of {:g} m or more has a mean IRI above {:.2f} mm/m; lower --min-length "
+            "or --above, or list single segments with --segments",
+            config.min_length_m,
+            config.above_mm_per_m));
+    }
+    if (!stretches.empty() || options.format != "table") {
+        print_in(options.format, stretches_text(stretches, options.format));
+    }
+}
+
+void print_history(const RoadStore& store, const QueryOptions& options, const Console& console) {
+    auto filter = options.filter;
+    filter.with_state_only = true;
+    const auto found = [&](const Period& period) {
+        const bool whole = !period.from_ms && !period.until_ms;
+        filter.period = whole ? std::nullopt : std::optional{period};
+        return found_in(store, filter, options.near);
+    };
+    const auto months = history_by_month(found, options.filter.period.value_or(Period{}));
+    if (months.empty()) {
+        console.say("no segment that meets these conditions has a dated pass");
+    }
+    if (!months.empty() || options.format != "table") {
+        print_in(options.format, months_text(months, options.format));
+    }
+}
+
+void print_segments(const RoadStore& store, const QueryOptions& options, const Console& console) {
+    SegmentPrinter printer{options.format, *class_table(store.settings().class_table)};
+    if (options.near) {
+        for (const auto& record : segments_near(store, filter_of(options), *options.near)) {
+            printer.add(record);
+        }
+    } else {
+        store.visit(filter_of(options), [&](const SegmentRecord& record) { printer.add(record); });
+    }
+    printer.finish();
+    if (printer.count() == 0) {
+        console.say("no segment with a pass meets these conditions; --all also shows segments "
+                    "without a pass");
+    }
+}
+
+void print_sections(const RoadStore& store, const QueryOptions& options, const Console& console) {
+    SectionWriter writer{options.format,
+                         *class_table(store.settings().class_table),
+                         [&](std::string_view text) { print_in(options.format, text); }};
+    const auto total =
+        each_section(store, *options.sections, options.filter, [&](const NamedSection& section) {
+            writer.add(section);
+        });
+    writer.finish();
+    console.say(spoken(total));
+}
+
+void run_query(const Arguments& arguments, const Console& console) {
+    const auto options = parse_query(arguments);
+    const auto store = open_for_operator(options.store, console);
+    expect_known_class(options.filter, store);
+    warn_of_waiting(store, options.store, console);
+    expect_segment(store, options);
+
+    if (options.sections) {
+        print_sections(store, options, console);
+    } else if (options.passes) {
+        expect_operator(store, "single passes");
+        print_in(options.format, passes_text(store.history(*options.filter.key), options.format));
+    } else if (options.changes) {
+        expect_operator(store, "changes of values");
+        print_in(options.format, changes_text(store.changes(*options.filter.key), options.format));
+    } else if (options.history) {
+        print_history(store, options, console);
+    } else if (options.worst.count > 0 && !options.worst.single_segments) {
+        print_worst_sections(
+            store, found_in(store, options.filter, options.near), options, console);
+    } else {
+        print_segments(store, options, console);
+    }
+    store.expect_in_place();
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{
+    Option{"--near", "LAT,LON", "Segments near a point, nearest first."},
+    Option{"--radius", "METRES", "Search radius around --near.", "50"},
+    Option{"--heading",
+           "DEG",
+           "With --near: only segments with this driving direction, within 45 degrees; "
+           "clockwise from north."},
+    bbox_option,
+    way_option,
+    Option{"--segment", "KEY", "One segment, such as 123456+0007."},
+    name_option,
+    highway_option,
+    class_option,
+    min_passes_option,
+    since_option,
+    until_option,
+    Option{"--worst", "N", "The N roughest sections among the selected segments, roughest first."},
+    Option{"--min-length", "METRES", "With --worst: minimum length of a section.", "100"},
+    Option{"--above",
+           "IRI",
+           "With --worst: roughness threshold in mm/m.",
+           "lower limit of class "
+           "poor"},
+    Option{"--segments", "", "With --worst: single segments instead of sections."},
+    Option{"--route",
+           "LAT,LON LAT,LON",
+           "Sections along the fastest route by car between two points.",
+           "",
+           true},
+    Option{"--shortest", "", "With --route: the shortest route instead."},
+    Option{"--along", "FILE", "Sections along a GPX track or a layer of lines."},
+    sections_option,
+    section_length_option,
+    homogeneous_option,
+    exclude_option,
+    exclude_radius_option,
+    all_option,
+    Option{"--history", "", "Monthly values of everything that is selected."},
+    Option{"--passes", "", "With --segment: list every pass over it."},
+    Option{"--changes", "", "With --segment: when and why its value changed."},
+    Option{"--format", "NAME", "table, json, csv or geojson.", "table"},
+    Option{"--json", "", "The same as --format json."}};
+
+} // namespace
+
+const Command query_command{
+    .name = "query",
+    .summary = "Query the database: near a point, in a box, along a way, worst sections",
+    .about = "Conditions are combined (AND). IRI is in mm/m, with its 90 % interval; from-to "
+             "is metres along the way\n"
+             "from its first node, whatever the driving direction (+ in the key: forward, -: "
+             "backward). --worst joins\n"
+             "consecutive poor segments of a road into sections. --since and --until exclude "
+             "passes at other times\n"
+             "and undated ones from all values. --route, --along and --sections give means "
+             "over road sections\n"
+             "(docs/sections.md).",
+    .example =
+        "  macadam query roads.gpkg --worst 10\n"
+        "  macadam query roads.gpkg --near 37.7258,-122.4720 --radius 100\n"
+        "  macadam query roads.gpkg --way 123456 --format csv\n"
+        "  macadam query roads.gpkg --name haupt --history         is it getting worse?\n"
+        "  macadam query roads.gpkg --route 47.6863,17.6799 47.6901,17.7012\n"
+        "  macadam query roads.gpkg --sections routes.csv --section-length 0.1mi --format csv\n"
+        "  macadam query roads.gpkg --segment 123456+0007 --passes",
+    .operands = operands,
+    .options = options,
+    .run = run_query};
+
+} // namespace macadam

@@ -1,0 +1,147 @@
+#include "app/query/query_options.hpp"
+
+#include "app/database/segment_options.hpp"
+
+#include "estimator/common/error.hpp"
+#include "mapping/analysis/worst_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr double near_m = 50; // about the width of a road with its verges, and a fix's error
+
+WorstOptions parse_worst(const Arguments& arguments) {
+    const auto count = arguments.integer("--worst");
+    if (count && *count < 1) {
+        throw UsageError{fmt::format("--worst is {}, expected at least 1", *count)};
+    }
+    for (const auto* name : {"--segments", "--above", "--min-length"}) {
+        if (!count && arguments.flag(name)) {
+            throw UsageError{fmt::format("{} requires --worst N", name)};
+        }
+    }
+    const WorstOptions options{
+        .count = static_cast<std::size_t>(count.value_or(0)),
+        .single_segments = arguments.flag("--segments"),
+        .above_mm_per_m = arguments.number("--above"),
+        .min_length_m = arguments.number("--min-length", WorstSectionConfig{}.min_length_m)};
+    if (const auto above = options.above_mm_per_m; above && !(*above >= 0 && *above <= 100)) {
+        throw UsageError{fmt::format("--above is {}, expected an IRI of 0 to 100 mm/m", *above)};
+    }
+    if (!(options.min_length_m >= 0)) {
+        throw UsageError{
+            fmt::format("--min-length is {}, expected 0 m or more", options.min_length_m)};
+    }
+    return options;
+}
+
+std::optional<NearOptions> parse_near(const Arguments& arguments) {
+    const auto at = arguments.numbers("--near", 2);
+    if (!at) {
+        if (arguments.flag("--heading")) {
+            throw UsageError{"--heading requires --near LAT,LON"};
+        }
+        return std::nullopt;
+    }
+    const NearOptions near{.at = parse_place("--near", *at),
+                           .radius_m = arguments.number("--radius", near_m),
+                           .heading_deg = arguments.number("--heading")};
+    if (!(near.radius_m > 0 && near.radius_m <= 100000)) {
+        throw UsageError{fmt::format("--radius is {}, expected 0 to 100000 m", near.radius_m)};
+    }
+    if (near.heading_deg && !(*near.heading_deg >= 0 && *near.heading_deg <= 360)) {
+        throw UsageError{fmt::format("--heading is {}, expected 0 to 360 degrees clockwise from "
+                                     "north",
+                                     *near.heading_deg)};
+    }
+    return near;
+}
+
+bool asks_for_segments(const QueryOptions& options) {
+    const auto& filter = options.filter;
+    return options.near || filter.box || filter.way_id || filter.key || !filter.name_part.empty() ||
+           !filter.highway.empty() || !filter.class_name.empty() || options.worst.count > 0;
+}
+
+/// Sections are reported whole, whatever lies in them.
+void expect_sections_alone(const QueryOptions& options) {
+    if (asks_for_segments(options) || !options.filter.with_state_only || options.history ||
+        options.passes || options.changes) {
+        throw UsageError{"--route, --along and --sections can be combined with --since, "
+                         "--until and --min-passes only, not with options that select segments"};
+    }
+}
+
+/// What does not go together.
+void expect_sense(const QueryOptions& options) {
+    if (options.sections) {
+        expect_sections_alone(options);
+        return;
+    }
+    if (!asks_for_segments(options)) {
+        throw UsageError{"expected a selection: --near, --bbox, --way, --segment, --name, "
+                         "--highway, --class, --worst, --route, --along or --sections"};
+    }
+    if (options.passes && !options.filter.key) {
+        throw UsageError{"--passes requires --segment KEY"};
+    }
+    if (options.passes && options.filter.period) {
+        throw UsageError{"--passes lists all passes and cannot be combined with --since or "
+                         "--until"};
+    }
+    if (options.changes && (!options.filter.key || options.passes || options.history ||
+                            options.filter.period || options.format == "geojson")) {
+        throw UsageError{"--changes requires --segment KEY and no other selection, as table, "
+                         "json or csv"};
+    }
+    if (options.history && (options.passes || options.worst.count > 0)) {
+        throw UsageError{fmt::format("--history cannot be combined with {}",
+                                     options.passes ? "--passes" : "--worst")};
+    }
+    if ((options.passes || options.history) && options.format == "geojson") {
+        throw UsageError{fmt::format("{} has no --format geojson, expected table, json or csv",
+                                     options.passes ? "--passes" : "--history")};
+    }
+}
+
+} // namespace
+
+GeoPoint parse_place(std::string_view name, const std::vector<double>& degrees) {
+    const GeoPoint place{degrees[0], degrees[1]};
+    if (!(std::abs(place.lat_deg) <= 90 && std::abs(place.lon_deg) <= 180)) {
+        throw UsageError{fmt::format("{} is {},{}, expected latitude,longitude in degrees",
+                                     name,
+                                     place.lat_deg,
+                                     place.lon_deg)};
+    }
+    return place;
+}
+
+QueryOptions parse_query(const Arguments& arguments) {
+    constexpr std::array<std::string_view, 4> formats{"table", "json", "csv", "geojson"};
+    QueryOptions options{.store = store_file(arguments),
+                         .filter = parse_filter(arguments),
+                         .near = parse_near(arguments),
+                         .sections = parse_sections(arguments, true),
+                         .format = arguments.choice("--format", formats),
+                         .history = arguments.flag("--history"),
+                         .passes = arguments.flag("--passes"),
+                         .changes = arguments.flag("--changes"),
+                         .worst = parse_worst(arguments)};
+    if (arguments.flag("--json")) {
+        options.format = "json";
+    }
+    options.filter.key = parse_key(arguments);
+    expect_sense(options);
+    if (options.worst.single_segments) {
+        options.filter.worst = options.worst.count;
+    }
+    return options;
+}
+
+} // namespace macadam

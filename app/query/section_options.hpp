@@ -1,0 +1,49 @@
+#pragma once
+
+#include "app/cli/arguments.hpp"
+#include "mapping/routes/shortest_path.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+namespace macadam {
+
+/// Which roads are to be reported in sections, and how they are cut.
+struct SectionOptions {
+    std::optional<std::pair<GeoPoint, GeoPoint>> route;
+    RouteConfig::Best best;
+    std::optional<std::filesystem::path> along;    ///< lines to follow
+    std::optional<std::filesystem::path> sections; ///< an agency's own
+    std::optional<double> length_m;                ///< nothing: as they are
+    bool homogeneous;
+    std::optional<std::filesystem::path> exclude;
+    double exclude_radius_m;
+};
+
+inline constexpr Option sections_option{
+    "--sections",
+    "FILE",
+    "Your own sections: a table (route or way_id, from_m and to_m, or _km, or _mi) or a layer "
+    "of lines."};
+inline constexpr Option section_length_option{
+    "--section-length",
+    "LENGTH",
+    "Cut into sections of this length: 100, 0.5km, 0.1mi.",
+    "--sections: as given; otherwise 100"};
+inline constexpr Option homogeneous_option{
+    "--homogeneous", "", "Cut where the roughness changes, into sections of at least 200 m."};
+inline constexpr Option exclude_option{
+    "--exclude",
+    "FILE",
+    "Places to exclude, such as bridges: a table (lat_deg, lon_deg, optional radius_m) or "
+    "lines."};
+inline constexpr Option exclude_radius_option{
+    "--exclude-radius", "METRES", "Radius around places without radius_m.", "20"};
+
+/// Of --sections and what shapes sections, and, where the command has them, of --route and --along.
+/// Nothing if no section is asked for.
+/// \throws UsageError  for words that do not fit, or not together.
+std::optional<SectionOptions> parse_sections(const Arguments& arguments, bool has_routes);
+
+} // namespace macadam

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "app/cli/arguments.hpp"
+#include "storage/store/road_store.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace macadam {
+
+/// The box of a map: `--bbox W,S,E,N`. Where W > E it goes over the antimeridian, and its east lies
+/// beyond 180 degrees. Nothing without the option.
+///
+/// \throws UsageError  for a box that is empty or not on the globe.
+std::optional<GeoBox> map_box(const Arguments& arguments);
+
+/// RoadStore::visit for a box whose east may lie beyond 180 degrees: each segment once, and its
+/// line in longitudes that fit the box.
+void visit_box(const RoadStore& store,
+               SegmentFilter filter,
+               const GeoBox& box,
+               const std::function<void(const SegmentRecord&)>& visitor);
+
+} // namespace macadam

@@ -1,0 +1,186 @@
+#include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/publication_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/render/base_map_option.hpp"
+#include "app/render/bbox_option.hpp"
+#include "app/render/map_scene.hpp"
+#include "app/render/picture_output.hpp"
+#include "app/render/style_options.hpp"
+
+#include "estimator/common/error.hpp"
+#include "render/scene/colour.hpp"
+#include "storage/text/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+struct RenderOptions {
+    std::filesystem::path store;
+    PictureOutput output;
+    std::optional<GeoBox> box;
+    std::string title;
+    MapStyle style;
+    std::optional<BaseMapChoice> base;
+};
+
+std::vector<std::string_view> ramp_names() {
+    std::vector<std::string_view> names;
+    for (const auto& ramp : colour_ramps()) {
+        names.push_back(ramp.name);
+    }
+    return names;
+}
+
+MapStyle style_of(const Arguments& arguments) {
+    constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
+    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
+
+    auto style = parse_style_file(arguments);
+    if (arguments.value("--theme")) {
+        const auto theme = arguments.choice("--theme", themes);
+        style.theme = theme == "dark"    ? MapStyle::Theme::dark
+                      : theme == "print" ? MapStyle::Theme::print
+                                         : MapStyle::Theme::light;
+    }
+    if (arguments.value("--ramp")) {
+        style.ramp = arguments.choice("--ramp", ramp_names());
+        style.own_ramp.clear();
+    }
+    if (arguments.value("--unit")) {
+        style.in_per_mi = arguments.choice("--unit", units) == "in/mi";
+    }
+    style.left_hand_traffic = arguments.flag("--left-hand");
+    style.labels = !arguments.flag("--no-labels");
+    style.min_passes = grey_below(arguments).value_or(style.min_passes);
+    if (const auto name = arguments.value("--classes")) {
+        style.classes = class_table_option(*name);
+    }
+    return style;
+}
+
+RenderOptions parse_render(const Arguments& arguments) {
+    return {.store = store_file(arguments),
+            .output = parse_picture_output(arguments),
+            .box = map_box(arguments),
+            .title = arguments.value("--title").value_or("Road roughness"),
+            .style = style_of(arguments),
+            .base = parse_base_map(arguments)};
+}
+
+/// What is read is neither written to nor taken for something else.
+void expect_files_apart(const RenderOptions& options) {
+    std::vector<std::filesystem::path> inputs{options.store};
+    if (options.base) {
+        std::error_code none;
+        if (std::filesystem::equivalent(options.base->file, options.store, none)) {
+            throw InputError{fmt::format("{}: is the road database itself, expected a raster "
+                                         "after --base",
+                                         options.base->file.string())};
+        }
+        inputs.push_back(options.base->file);
+    }
+    refuse_to_replace(options.output.file, inputs);
+}
+
+void run_render(const Arguments& arguments, const Console& console) {
+    auto options = parse_render(arguments);
+    expect_files_apart(options);
+    const auto store = opened_store(options.store, RoadStore::Access::read, console);
+    warn_of_waiting(store, options.store, console);
+    tell_publication(store, console);
+    if (options.style.classes == nullptr) {
+        options.style.classes = class_table(store.settings().class_table);
+    }
+    warn_of_look(options.style, console);
+    WatchedBaseMap base;
+    if (options.base) {
+        base = opened_base_map(options.base->file);
+        for (const auto& file : files_of(options.output)) {
+            refuse_to_replace(file, {base.map->files.begin(), base.map->files.end()});
+        }
+        options.style.base_opacity = options.base->opacity.value_or(options.style.base_opacity);
+    }
+    auto scene = map_scene(store,
+                           {.box = options.box,
+                            .title = options.title,
+                            .style = options.style,
+                            .projection = projection_of(options.output),
+                            .base = base.map,
+                            .width_px = options.output.width_px,
+                            .height_px = options.output.height_px});
+    const auto progress = console.progress("drawing");
+    const auto last_seen_ms = store.seen().last_ms;
+    const auto words =
+        write_picture(std::move(scene),
+                      options.style,
+                      options.output,
+                      last_seen_ms ? utc_day(*last_seen_ms) + "T00:00:00Z" : std::string{},
+                      progress,
+                      [&] { store.expect_in_place(); });
+    if (base.map && !*base.is_seen) {
+        console.warn(fmt::format("{}: does not overlap the map, which is drawn without it",
+                                 options.base->file.string()));
+    }
+    console.say(fmt::format("{}: {}", options.output.file.string(), words));
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{
+    picture_output_option,
+    Option{"--bbox",
+           "W,S,E,N",
+           "Area to show, in degrees; W > E crosses the antimeridian.",
+           "all roads driven"},
+    picture_size_option,
+    crs_option,
+    world_file_option,
+    bare_option,
+    paper_option,
+    landscape_option,
+    Option{"--title", "TEXT", "Title above the map.", "Road roughness"},
+    Option{"--classes", "NAME", "fhwa (good, fair, poor) or five.", "as in the database"},
+    Option{"--ramp",
+           "NAME",
+           "Colour ramp: rdylbu, cividis or viridis; all are suitable for colour-blind readers.",
+           "rdylbu"},
+    Option{"--theme", "NAME", "light, dark or print.", "light"},
+    Option{"--unit", "UNIT", "Unit in the legend: mm/m or in/mi.", "mm/m"},
+    style_option,
+    base_option,
+    base_opacity_option,
+    grey_below_option,
+    Option{"--no-labels", "", "Omit road names."},
+    Option{"--left-hand", "", "Traffic keeps left: draw each direction on the left side."}};
+
+} // namespace
+
+const Command render_command{.name = "render",
+                             .summary = "Draw the roughness map as a picture or PDF page",
+                             .about =
+                                 "Draws each direction on its own side of the road where there "
+                                 "is room, and roads without a pass in grey,\nwith legend, "
+                                 "scale bar, period and source. Needs no display.",
+                             .example = "  macadam render roads.gpkg -o map.png\n"
+                                        "  macadam render roads.gpkg -o centre.png --bbox "
+                                        "11.55,49.93,11.60,49.96 --size 4096x4096\n"
+                                        "  macadam render roads.gpkg -o map.tif --bare --crs "
+                                        "EPSG:3006\n"
+                                        "  macadam render roads.gpkg -o map.pdf --paper A3 "
+                                        "--landscape\n"
+                                        "  macadam render roads.gpkg -o map.png --base "
+                                        "aerial.mbtiles\n"
+                                        "  macadam render roads.gpkg -o map.png --classes five "
+                                        "--theme dark --title \"Winter 2026\"",
+                             .operands = operands,
+                             .options = options,
+                             .run = run_render};
+
+} // namespace macadam

@@ -1,0 +1,218 @@
+#include "app/render/map_scene.hpp"
+
+#include "app/cli/console.hpp"
+#include "app/render/base_map_option.hpp"
+#include "app/render/bbox_option.hpp"
+#include "estimator/common/error.hpp"
+#include "mapping/geometry/antimeridian.hpp"
+#include "storage/text/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double margin_share = 0.05; // of the driven extent, so that nothing touches the frame
+constexpr double min_margin_m = 50;
+constexpr double edge_share = 0.02; // of a picture's diagonal
+constexpr double certain_sd = 0.5; // of the value; beyond it the line is drawn with a narrower core
+
+GeoBox box_with_margin(const GeoBox& box) {
+    const double diagonal_m =
+        distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
+    return grown(box, std::max(min_margin_m, margin_share * diagonal_m));
+}
+
+/// More than the box by far: for planes on which nobody knows what else comes into sight.
+GeoBox shown_around(const GeoBox& box) {
+    return grown_over(
+        box, 1.5 * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
+}
+
+std::string period_of(const ObservedPeriod& seen) {
+    if (!seen.first_ms || !seen.last_ms) {
+        return "dates not known";
+    }
+    const auto first = utc_day(*seen.first_ms);
+    const auto last = utc_day(*seen.last_ms);
+    return first == last ? first : first + " to " + last;
+}
+
+std::string subtitle_of(const StoreInfo& info) {
+    return fmt::format("{}  ·  {:.1f} km  ·  {}  ·  {}",
+                       period_of({info.first_seen_ms, info.last_seen_ms}),
+                       info.km,
+                       counted(info.trips, "trip"),
+                       counted(info.vehicles.size(), "car"));
+}
+
+/// Of all the store's segments with enough passes.
+std::vector<double> class_km_of(const RoadStore& store, const ClassTable& classes, int min_passes) {
+    std::vector<double> km(classes.classes.size());
+    store.visit({}, [&](const SegmentRecord& record) {
+        if (record.state && !has_few_passes(record.state->passes, min_passes)) {
+            const auto& segment = record.segment;
+            km[class_index(classes, record.state->iri_um / 1000.0)] +=
+                (segment.to_m - segment.from_m) / 1000;
+        }
+    });
+    return km;
+}
+
+const ClassTable& classes_of(const MapRequest& request) {
+    return *request.style.classes;
+}
+
+/// The words of a scene without its lines.
+MapScene scene_around(const RoadStore& store, const MapRequest& request) {
+    MapScene scene;
+    scene.title = request.title;
+    scene.attribution = store.settings().attribution;
+    if (request.base) {
+        scene.base = request.base;
+        scene.attribution = attribution_with(scene.attribution, *request.base);
+    }
+    if (request.box) {
+        scene.box = *request.box;
+        scene.subtitle = period_of(store.seen());
+        return scene;
+    }
+    const auto info = store.info();
+    const auto& classes = classes_of(request);
+    scene.box = box_with_margin(info.box);
+    scene.subtitle = subtitle_of(info);
+    if (request.style.min_passes <= 1 && &classes == class_table(info.settings.class_table)) {
+        for (const auto& [name, km] : info.classes) {
+            scene.class_km.push_back(km);
+        }
+    } else {
+        scene.class_km = class_km_of(store, classes, request.style.min_passes);
+    }
+    return scene;
+}
+
+/// With what reaches over the picture's edges, thick lines and the ends of names.
+GeoBox ground_of(const MapScene& scene, const MapRequest& request) {
+    const auto box = ground_shown(scene, request.style, request.width_px, request.height_px);
+    return grown_over(
+        box, edge_share * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
+}
+
+bool holds(const GeoBox& outer, const GeoBox& inner) {
+    return outer.west_deg <= inner.west_deg && outer.south_deg <= inner.south_deg &&
+           inner.east_deg <= outer.east_deg && inner.north_deg <= outer.north_deg;
+}
+
+void expect_roads(const MapScene& scene) {
+    const auto& box = scene.box;
+    const auto touches = [&](const MapLine& line) {
+        return std::ranges::any_of(line.line, [&](auto& point) { return contains(box, point); });
+    };
+    if (std::ranges::none_of(scene.lines, touches)) {
+        throw InputError{fmt::format(
+            "nothing to draw: the database has no road between {:.5f},{:.5f} and {:.5f},{:.5f}",
+            box.south_deg,
+            box.west_deg,
+            box.north_deg,
+            box.east_deg)};
+    }
+}
+
+struct Place {
+    std::int64_t way_id;
+    std::uint32_t index;
+    std::size_t line;
+};
+
+/// Each direction is a segment of its own; what was driven one way only is still a road of two
+/// sides where the map lets cars go both ways.
+void pair_directions(std::vector<MapLine>& lines, std::vector<Place> places) {
+    const auto key = [](const Place& place) { return std::pair{place.way_id, place.index}; };
+    std::ranges::sort(places, {}, key);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        if (key(places[i]) == key(places[i - 1])) {
+            lines[places[i].line].both_ways = true;
+            lines[places[i - 1].line].both_ways = true;
+        }
+    }
+}
+
+} // namespace
+
+int rank_of(std::string_view highway) {
+    struct Rank {
+        std::string_view prefix;
+        int rank;
+    };
+    constexpr std::array ranks{Rank{"motorway", 0},
+                               Rank{"trunk", 0},
+                               Rank{"primary", 1},
+                               Rank{"secondary", 2},
+                               Rank{"tertiary", 3},
+                               Rank{"service", 5},
+                               Rank{"track", 5}};
+    const auto found =
+        std::ranges::find_if(ranks, [&](const Rank& r) { return highway.starts_with(r.prefix); });
+    return found != ranks.end() ? found->rank : highway.empty() ? 2 : 4;
+}
+
+bool has_few_passes(std::int32_t passes, int min_passes) {
+    return 0 < passes && passes < min_passes;
+}
+
+bool is_certain(IriUm iri_um, IriUm sd_um) {
+    return sd_um <= certain_sd * iri_um;
+}
+
+std::vector<MapLine>
+map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, int min_passes) {
+    SegmentFilter filter;
+    filter.with_state_only = false;
+    std::vector<MapLine> lines;
+    std::vector<Place> places;
+    visit_box(store, filter, box, [&](const SegmentRecord& record) {
+        const auto& key = record.segment.key;
+        MapLine line;
+        line.line = record.segment.line;
+        line.forward = key.forward;
+        line.rank = rank_of(record.highway);
+        line.name = record.name;
+        if (record.state) {
+            line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
+            line.few_passes = has_few_passes(record.state->passes, min_passes);
+            line.certain = is_certain(record.state->iri_um, record.state->sd_um);
+        }
+        places.push_back({key.way_id, key.index, lines.size()});
+        lines.push_back(std::move(line));
+    });
+    pair_directions(lines, std::move(places));
+    return lines;
+}
+
+MapScene map_scene(const RoadStore& store, const MapRequest& request) {
+    auto scene = scene_around(store, request);
+    scene.projection = request.projection;
+    const auto lines_in = [&](const GeoBox& box) {
+        return map_lines(store, box, classes_of(request), request.style.min_passes);
+    };
+    if (scene.projection) {
+        scene.lines = lines_in(shown_around(scene.box));
+    } else {
+        // Where the legend finds no corner without roads, the map makes room for it and shows more
+        // ground.
+        auto shown = ground_of(scene, request);
+        scene.lines = lines_in(shown);
+        if (const auto with_roads = ground_of(scene, request); !holds(shown, with_roads)) {
+            scene.lines = lines_in(with_roads);
+        }
+    }
+    expect_roads(scene);
+    return scene;
+}
+
+} // namespace macadam

@@ -1,0 +1,275 @@
+#include "app/render/picture_output.hpp"
+
+#include "estimator/common/error.hpp"
+#include "render/canvas/png.hpp"
+#include "render/map/pdf_map.hpp"
+#include "render/projection/projection.hpp"
+#include "storage/atomic/atomic_file.hpp"
+#include "storage/rasters/georeferenced_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+using Kind = PictureOutput::Kind;
+
+constexpr double px_per_inch = 150; // letters of a map of 1240 px, on A4, can be read
+constexpr double mm_per_inch = 25.4;
+constexpr std::string_view web_mercator = "EPSG:3857";
+
+// ISO 216 and ANSI/ASME Y14.1.
+struct Paper {
+    std::string_view name;
+    double width_mm, height_mm;
+};
+constexpr std::array papers{Paper{"A0", 841, 1189},
+                            Paper{"A1", 594, 841},
+                            Paper{"A2", 420, 594},
+                            Paper{"A3", 297, 420},
+                            Paper{"A4", 210, 297},
+                            Paper{"A5", 148, 210},
+                            Paper{"letter", 215.9, 279.4},
+                            Paper{"legal", 215.9, 355.6},
+                            Paper{"tabloid", 279.4, 431.8}};
+
+std::string in_lower_case(std::string text) {
+    std::ranges::transform(
+        text, text.begin(), [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return text;
+}
+
+std::pair<int, int> size_of(const std::string& text) {
+    int width = 0;
+    int height = 0;
+    const auto* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, width);
+    const bool crossed = first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x';
+    const auto second = crossed ? std::from_chars(first.ptr + 1, end, height) : first;
+    const auto fits = [&](int px) { return px >= min_image_px && px <= max_image_px; };
+    if (!crossed || second.ec != std::errc{} || second.ptr != end || !fits(width) ||
+        !fits(height)) {
+        throw UsageError{fmt::format("--size is '{}', expected WxH with both from {} to {} pixels",
+                                     text,
+                                     min_image_px,
+                                     max_image_px)};
+    }
+    return {width, height};
+}
+
+std::pair<int, int> paper_size(const std::string& name, bool landscape) {
+    const auto* const paper = std::ranges::find_if(papers, [&](const Paper& each) {
+        return in_lower_case(std::string{each.name}) == in_lower_case(name);
+    });
+    if (paper == papers.end()) {
+        throw UsageError{
+            fmt::format("--paper is '{}', expected A0 to A5, letter, legal or tabloid", name)};
+    }
+    const auto px = [](double mm) { return int(std::lround(mm / mm_per_inch * px_per_inch)); };
+    const std::pair size{px(paper->width_mm), px(paper->height_mm)};
+    return landscape ? std::pair{size.second, size.first} : size;
+}
+
+Kind kind_of(const std::string& file) {
+    if (file.ends_with(".png")) {
+        return Kind::png;
+    }
+    if (file.ends_with(".tif") || file.ends_with(".tiff")) {
+        return Kind::geotiff;
+    }
+    if (file.ends_with(".pdf")) {
+        return Kind::pdf;
+    }
+    throw UsageError{
+        fmt::format("-o is '{}', expected a name that ends in .png, .tif or .pdf", file)};
+}
+
+void expect_fitting(const Arguments& arguments, Kind kind) {
+    if (kind == Kind::pdf && arguments.value("--size")) {
+        throw UsageError{"--size is for pictures, expected --paper with a .pdf"};
+    }
+    if (kind != Kind::pdf && (arguments.value("--paper") || arguments.flag("--landscape"))) {
+        throw UsageError{"--paper and --landscape are for a .pdf, expected --size with a "
+                         "picture"};
+    }
+    if (const auto crs = arguments.value("--crs"); crs && crs->empty()) {
+        throw UsageError{"--crs is '', expected a projection such as EPSG:3006"};
+    }
+    if (kind != Kind::png && arguments.flag("--world-file")) {
+        throw UsageError{"--world-file is for a .png; a .tif is georeferenced itself"};
+    }
+}
+
+/// The box's own shape, within the size that was asked for.
+std::pair<int, int> bare_size(const MapScene& scene, const PictureOutput& output) {
+    const auto plane = plane_extent(scene.box, scene.projection.get());
+    const double scale = std::min(output.width_px / std::max(1e-12, plane.width_rad),
+                                  output.height_px / std::max(1e-12, plane.height_rad));
+    const auto side = [&](double rad, int most) {
+        return std::clamp(int(std::lround(rad * scale)), min_image_px, most);
+    };
+    return {side(plane.width_rad, output.width_px), side(plane.height_rad, output.height_px)};
+}
+
+void make_bare(MapScene& scene, MapStyle& style) {
+    scene.title.clear();
+    scene.subtitle.clear();
+    scene.attribution.clear();
+    scene.scale_bar = false;
+    scene.to_the_edge = true;
+    style.legend = false;
+}
+
+PlacedPicture placed(const MapScene& scene, const MapStyle& style, const PictureSize& size) {
+    const auto place = place_of(scene, style, size.width_px, size.height_px);
+    const auto wkt =
+        scene.projection ? scene.projection->wkt : plane_projection(std::string{web_mercator})->wkt;
+    return {.width_px = size.width_px,
+            .height_px = size.height_px,
+            .left = place.left,
+            .top = place.top,
+            .per_px = place.per_px,
+            .wkt = wkt,
+            .copyright = {}};
+}
+
+void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
+    AtomicFile file{path};
+    file.write(bytes);
+    file.commit();
+}
+
+void expect_not_stopped(const Progress& progress) {
+    if (progress.stop.stop_requested()) {
+        throw InputError{"stopped before the picture was complete"};
+    }
+}
+
+/// A map that is drawn as pixels, how large, and what is looked at when all of it is drawn.
+struct PixelMap {
+    const MapScene& scene;
+    const MapStyle& style;
+    PictureSize size;
+    const std::function<void()>& expect_valid;
+};
+
+void give_png(const PixelMap& map, const PngWriter::PutBytes& put, const Progress& progress) {
+    PngWriter png{map.size.width_px, map.size.height_px, put};
+    draw_map(
+        map.scene, map.style, map.size, [&](auto rows) { png.add(rows); }, progress);
+    png.finish();
+    map.expect_valid();
+}
+
+void write_png(const PixelMap& map, const PictureOutput& output, const Progress& progress) {
+    if (output.world_file) {
+        write_png_with_world_file([&](const auto& take) { give_png(map, take, progress); },
+                                  placed(map.scene, map.style, map.size),
+                                  output.file);
+        return;
+    }
+    AtomicFile file{output.file};
+    give_png(
+        map, [&](std::string_view bytes) { file.write(bytes); }, progress);
+    file.commit();
+}
+
+void write_tif(const PixelMap& map,
+               const std::string& copyright,
+               const std::filesystem::path& file,
+               const Progress& progress) {
+    auto picture = placed(map.scene, map.style, map.size);
+    picture.copyright = copyright;
+    write_geotiff(
+        picture,
+        [&](const auto& take) {
+            draw_map(map.scene, map.style, map.size, take, progress);
+            map.expect_valid();
+        },
+        file);
+}
+
+} // namespace
+
+PictureOutput parse_picture_output(const Arguments& arguments) {
+    const auto file = arguments.value("--output");
+    if (!file) {
+        throw UsageError{"-o map.png is missing"};
+    }
+    const auto kind = kind_of(*file);
+    expect_fitting(arguments, kind);
+    const auto size =
+        kind == Kind::pdf
+            ? paper_size(arguments.value("--paper").value_or(std::string{default_paper}),
+                         arguments.flag("--landscape"))
+            : size_of(arguments.value("--size").value_or(std::string{default_picture_size}));
+    return {.file = *file,
+            .kind = kind,
+            .width_px = size.first,
+            .height_px = size.second,
+            .world_file = arguments.flag("--world-file"),
+            .bare = arguments.flag("--bare"),
+            .crs = arguments.value("--crs").value_or("")};
+}
+
+std::vector<std::filesystem::path> files_of(const PictureOutput& output) {
+    std::vector files{output.file};
+    if (output.world_file) {
+        files.push_back(world_file_of(output.file));
+        files.push_back(auxiliary_file_of(output.file));
+    }
+    return files;
+}
+
+std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output) {
+    const bool is_mercator =
+        output.crs.empty() || in_lower_case(output.crs) == in_lower_case(std::string{web_mercator});
+    return is_mercator ? nullptr : plane_projection(output.crs);
+}
+
+std::string write_picture(MapScene scene,
+                          MapStyle style,
+                          const PictureOutput& output,
+                          const std::string& made,
+                          const Progress& progress,
+                          const std::function<void()>& expect_valid) {
+    const auto copyright = scene.attribution;
+    const auto title = scene.title;
+    if (output.bare) {
+        make_bare(scene, style);
+    }
+    if (output.kind == Kind::pdf) {
+        const auto pdf = map_pdf(scene,
+                                 style,
+                                 {.width_px = double(output.width_px),
+                                  .height_px = double(output.height_px),
+                                  .px_per_inch = px_per_inch,
+                                  .title = title,
+                                  .author = copyright,
+                                  .made = made});
+        expect_not_stopped(progress);
+        expect_valid();
+        write_bytes(output.file, pdf);
+        return fmt::format("{:.0f} x {:.0f} mm",
+                           output.width_px / px_per_inch * mm_per_inch,
+                           output.height_px / px_per_inch * mm_per_inch);
+    }
+
+    const auto [width, height] =
+        output.bare ? bare_size(scene, output) : std::pair{output.width_px, output.height_px};
+    const PixelMap map{scene, style, {width, height}, expect_valid};
+    if (output.kind == Kind::geotiff) {
+        write_tif(map, copyright, output.file, progress);
+    } else {
+        write_png(map, output, progress);
+    }
+    return fmt::format("{} x {} pixels", width, height);
+}
+
+} // namespace macadam

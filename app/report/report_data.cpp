@@ -1,0 +1,322 @@
+#include "app/report/report_data.hpp"
+
+#include "app/query/section_query.hpp"
+#include "app/query/worst_sections_output.hpp"
+
+#include "render/scene/colour.hpp"
+#include "storage/networks/network_file.hpp"
+#include "storage/text/utc.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <ranges>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double histogram_step_mm_per_m = 0.25;
+constexpr double min_histogram_mm_per_m = 4;
+constexpr double max_histogram_mm_per_m = 12;
+
+constexpr std::size_t max_changed = 10; // stretches of each kind
+
+/// What the store says of its network: the measured segments, and how long all of it is.
+struct Survey {
+    std::vector<SegmentRecord> measured;
+    std::map<std::string, double> network_m; ///< by highway tag
+};
+
+Survey survey_of(const RoadStore& store) {
+    Survey survey;
+    SegmentFilter filter;
+    filter.with_state_only = false;
+    store.visit(filter, [&](const SegmentRecord& record) {
+        survey.network_m[record.highway] += record.segment.to_m - record.segment.from_m;
+        if (record.state) {
+            survey.measured.push_back(record);
+        }
+    });
+    return survey;
+}
+
+/// As long as all but the roughest percent need.
+std::size_t histogram_bins(const std::vector<SegmentRecord>& measured) {
+    std::vector<RatedLength> pieces;
+    pieces.reserve(measured.size());
+    for (const auto& record : measured) {
+        pieces.push_back(rated_length(record));
+    }
+    const double most = pieces.empty() ? 0 : road_percentile(std::move(pieces), 0.99);
+    return static_cast<std::size_t>(
+        std::clamp(std::ceil(most), min_histogram_mm_per_m, max_histogram_mm_per_m) /
+        histogram_step_mm_per_m);
+}
+
+std::string day_of(std::int64_t utc_ms) {
+    return utc_day(utc_ms);
+}
+
+ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int64_t> last_ms) {
+    return first_ms && last_ms ? ReportDays{day_of(*first_ms), day_of(*last_ms)} : ReportDays{};
+}
+
+// --------------------------------------------------------------------------------------- values
+
+/// Cars from 1 on, as RoadStore::cars(); "" for trips that name none.
+std::map<std::string, std::string> numbers_of_cars(const RoadStore& store) {
+    std::map<std::string, std::string> numbers;
+    for (const auto& car : store.cars()) {
+        numbers[car] = car == unknown_car ? "" : std::to_string(numbers.size() + 1);
+    }
+    return numbers;
+}
+
+std::vector<ReportVehicle> vehicles_of(const RoadStore& store) {
+    const auto uses = store.vehicle_uses();
+    auto numbers = numbers_of_cars(store);
+    std::vector<ReportVehicle> vehicles;
+    for (const auto& use : uses) {
+        vehicles.push_back({.name = numbers[use.vehicle],
+                            .model = use.vehicle_model == own_file_model ? "" : use.vehicle_model,
+                            .method = use.method,
+                            .trips = use.trips,
+                            .undated_trips = use.undated_trips,
+                            .passes = use.passes,
+                            .km = use.km,
+                            .matched_km = use.matched_km,
+                            .rows_read = use.rows_read,
+                            .rows_used = use.rows_used});
+    }
+    std::ranges::stable_sort(vehicles, std::ranges::greater{}, &ReportVehicle::km);
+    return vehicles;
+}
+
+std::vector<ReportSection> sections_of(const RoadStore& store, const SectionOptions& options) {
+    std::vector<ReportSection> sections;
+    each_section(store, options, {}, [&](const NamedSection& named) {
+        sections.push_back({.name = named.name,
+                            .from_m = named.from_m,
+                            .to_m = named.to_m,
+                            .excluded_m = named.section.excluded_m,
+                            .open_share = named.section.open_share,
+                            .measured = named.section.measured});
+    });
+    return sections;
+}
+
+std::optional<ReportPublication> publication_of(const StoreInfo& info) {
+    if (!info.published_alone) {
+        return std::nullopt;
+    }
+    ReportPublication crowd;
+    if (const auto& publication = info.publication) {
+        crowd = {.month = publication->month,
+                 .trips = info.trips,
+                 .cars = static_cast<std::size_t>(publication->vehicles),
+                 .passes = info.passes,
+                 .left_out = publication->left_out,
+                 .left_out_m = 1000 * publication->left_out_km};
+    }
+    return crowd;
+}
+
+// --------------------------------------------------------------------------------------- change
+
+std::vector<SegmentRecord> states_in(const RoadStore& store, const Period& period) {
+    SegmentFilter filter;
+    filter.period = period;
+    std::vector<SegmentRecord> records;
+    store.visit(filter, [&](const SegmentRecord& record) { records.push_back(record); });
+    return records;
+}
+
+/// What a road has become, as classes of a map, from blue to red.
+const ClassTable& verdicts() {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    static constexpr std::array classes{IriClass{"improved", 0, false},
+                                        IriClass{"no change shown", 0, false},
+                                        IriClass{"deteriorated", none, false}};
+    static const ClassTable table{"change", "Change", classes};
+    return table;
+}
+
+constexpr int middle_rank = 3; // a width that suits town streets and main roads
+
+/// The compared segments over a scene whose roads are made quiet.
+void colour_change(MapScene& scene,
+                   std::span<const ComparedSegment> segments,
+                   std::span<const SegmentRecord> since) {
+    std::map<std::pair<std::int64_t, std::uint32_t>, int> directions;
+    for (const auto& segment : segments) {
+        const auto& key = since[segment.after].segment.key;
+        ++directions[{key.way_id, key.index}];
+    }
+    for (auto& line : scene.lines) {
+        line.iri_class = -1;
+        line.few_passes = false;
+    }
+    for (const auto& segment : segments) {
+        const auto& of = since[segment.after].segment;
+        MapLine line;
+        line.line = of.line;
+        line.iri_class = static_cast<int>(segment.verdict);
+        line.forward = of.key.forward;
+        line.both_ways = directions.at({of.key.way_id, of.key.index}) == 2;
+        line.rank = middle_rank;
+        scene.lines.push_back(std::move(line));
+    }
+}
+
+std::vector<ReportChangedStretch> drawn(const RoadStore& store,
+                                        const std::vector<ChangedStretch>& stretches,
+                                        const ChangeSince& change,
+                                        std::span<const SegmentRecord> since,
+                                        ReportPictures& pictures) {
+    std::vector<ReportChangedStretch> listed;
+    for (const auto& stretch : stretches | std::views::take(max_changed)) {
+        std::vector<ComparedSegment> segments;
+        for (const auto i : stretch.stretch.records) {
+            segments.push_back(change.segments[i]);
+        }
+        auto scene = quiet_scene(store, stretch.stretch, verdicts());
+        colour_change(scene, segments, since);
+        listed.push_back({stretch,
+                          std::string{heading_of(stretch.stretch)},
+                          pictures.stretch(scene, &verdicts())});
+    }
+    return listed;
+}
+
+std::size_t pictures_of(const ChangeSince& change) {
+    return 1 + std::min(change.worse.size(), max_changed) +
+           std::min(change.better.size(), max_changed);
+}
+
+/// States before and since, and what they say together.
+struct Compared {
+    std::vector<SegmentRecord> since;
+    ChangeSince change;
+};
+
+std::optional<Compared>
+compared(const RoadStore& store, const RoadNetwork& roads, const ReportConfig& config) {
+    if (!config.since_ms) {
+        return std::nullopt;
+    }
+    const auto before = states_in(store, {std::nullopt, config.since_ms});
+    auto since = states_in(store, {config.since_ms, std::nullopt});
+    auto change = change_since(roads, before, since, {});
+    return Compared{std::move(since), std::move(change)};
+}
+
+ReportChange change_of(const RoadStore& store,
+                       const Compared& compared,
+                       const ReportConfig& config,
+                       ReportPictures& pictures) {
+    const auto& [since, change] = compared;
+    ReportChange values{.since = day_of(*config.since_ms),
+                        .change = change,
+                        .colours = {},
+                        .worse = {},
+                        .better = {},
+                        .map = {}};
+    std::ranges::copy(class_colours(config.style, values.colours.size()), values.colours.begin());
+    if (change.segments.empty()) {
+        return values;
+    }
+    auto scene = whole_scene(store, config.style);
+    colour_change(scene, change.segments, since);
+    values.map_width_m = pictures.map_width_m(scene);
+    values.map = pictures.map(scene, &verdicts());
+    values.worse = drawn(store, change.worse, change, since, pictures);
+    values.better = drawn(store, change.better, change, since, pictures);
+    return values;
+}
+
+/// What the maps draw in grey, if anything.
+std::optional<ReportFewPasses> few_passes_of(const MapScene& map, const ReportConfig& config) {
+    const auto is_grey = [](const MapLine& line) { return line.iri_class >= 0 && line.few_passes; };
+    if (std::ranges::none_of(map.lines, is_grey)) {
+        return std::nullopt;
+    }
+    using enum MapStyle::Theme;
+    const auto grey = [&](MapStyle::Theme theme) {
+        return palette(in_theme(config.style, theme)).few_passes;
+    };
+    const bool on_paper = config.pictures == PictureUse::paper;
+    return ReportFewPasses{config.style.min_passes, grey(on_paper ? print : light), grey(dark)};
+}
+
+} // namespace
+
+Report report_of(const RoadStore& store, const ReportConfig& config, const Progress& progress) {
+    const auto& classes = *config.style.classes;
+    const auto info = store.info();
+    const auto survey = survey_of(store);
+    const auto roads = load_or_build_network(store);
+    WorstSectionConfig poor;
+    poor.above_mm_per_m = poor_above(classes);
+    auto stretches = worst_sections(roads, survey.measured, poor);
+
+    Report report;
+    report.wording = config.wording;
+    report.title = config.title;
+    report.period = days_of(info.first_seen_ms, info.last_seen_ms);
+    report.network_source =
+        info.settings.network_source == traced_network_source ? "" : info.settings.network_source;
+    report.attribution = info.settings.attribution;
+    report.segment_length_m = info.settings.segment_length_m;
+    report.classes = &classes;
+    report.colours = class_colours(config.style, classes.classes.size());
+    report.words = config.style.words;
+    report.summary = network_summary(survey.measured, survey.network_m, classes);
+    report.histogram = iri_histogram(
+        survey.measured, classes, histogram_step_mm_per_m, histogram_bins(survey.measured));
+    report.segments = info.segments;
+    report.segments_with_passes = survey.measured.size();
+    report.poor_above_mm_per_m = poor.above_mm_per_m;
+    report.min_stretch_m = poor.min_length_m;
+    report.stretches = stretches.size();
+    for (const auto& stretch : stretches) {
+        report.stretches_m += stretch.length_m;
+    }
+    if (config.sections) {
+        report.sections = sections_of(store, *config.sections);
+    }
+    report.vehicles = vehicles_of(store);
+    report.quality = data_quality(survey.measured);
+    report.publication = publication_of(info);
+    report.is_own = info.settings.privacy == PrivacyProfile::own;
+    report.lateral_passes = info.lateral_passes;
+    report.row_reasons = store.row_reasons();
+
+    const auto change = compared(store, roads, config);
+    stretches.resize(std::min(stretches.size(), config.worst));
+    ReportPictures pictures{config.style,
+                            config.pictures,
+                            progress,
+                            stretches.size() + 1 + (change ? pictures_of(change->change) : 0)};
+    const auto map = whole_scene(store, config.style);
+    report.few_passes = few_passes_of(map, config);
+    report.map = pictures.map(map);
+    report.map_width_m = pictures.map_width_m(map);
+    for (auto& stretch : stretches) {
+        const auto scene = stretch_scene(store, stretch, survey.measured, classes);
+        report.worst.push_back({.stretch = stretch,
+                                .heading = std::string{heading_of(stretch)},
+                                .seen = days_of(stretch.first_seen_ms, stretch.last_seen_ms),
+                                .map = pictures.stretch(scene)});
+    }
+    if (change) {
+        report.change = change_of(store, *change, config, pictures);
+    }
+    return report;
+}
+
+} // namespace macadam

@@ -1,0 +1,150 @@
+#include "app/report/report_maps.hpp"
+
+#include "app/render/map_scene.hpp"
+#include "estimator/common/error.hpp"
+#include "mapping/analysis/correlated_mean.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+/// Sizes of the pictures.
+struct PictureSizes {
+    int map_width_px;
+    int stretch_width_px;
+};
+constexpr PictureSizes on_screen{1400, 480};
+constexpr PictureSizes on_paper{2100, 700}; // 300 dots an inch on A4, of which three stretches
+                                            // share the width
+constexpr double min_map_shape = 0.625;     // height by width
+constexpr double max_map_shape = 0.893;
+
+// A picture of the highest shape shows at least what lower ones show of the same box.
+constexpr int max_width_px = 1120, max_height_px = 1000;
+constexpr double stretch_shape = 0.75;
+constexpr double min_margin_m = 60;   // around a stretch: the next side streets
+constexpr double margin_share = 0.25; // of its extent
+
+const PictureSizes& sizes_for(PictureUse use) {
+    return use == PictureUse::paper ? on_paper : on_screen;
+}
+
+/// As high as a box needs at the map's width, within what suits a page.
+int map_height_px(const GeoBox& box, int width_px) {
+    const double middle_deg = (box.south_deg + box.north_deg) / 2;
+    const double width_m = distance_m({middle_deg, box.west_deg}, {middle_deg, box.east_deg});
+    const double height_m =
+        distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
+    const double shape =
+        std::clamp(height_m / std::max(width_m, 1.0), min_map_shape, max_map_shape);
+    return static_cast<int>(width_px * shape);
+}
+
+GeoBox box_around(const WorstSection& stretch) {
+    GeoBox box;
+    for (const auto& point : stretch.line) {
+        box = including(box, point);
+    }
+    const double extent_m =
+        distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
+    return grown(box, std::max(min_margin_m, margin_share * extent_m));
+}
+
+MapStyle unadorned(MapStyle style) {
+    style.legend = false; // the page has it
+    return style;
+}
+
+} // namespace
+
+MapStyle in_theme(MapStyle style, MapStyle::Theme theme) {
+    const auto is_dark = [](MapStyle::Theme of) { return of == MapStyle::Theme::dark; };
+    if (is_dark(style.theme) != is_dark(theme)) {
+        style.colours = {};
+    }
+    style.theme = theme;
+    return style;
+}
+
+ReportPictures::ReportPictures(const MapStyle& style,
+                               PictureUse use,
+                               const Progress& progress,
+                               std::size_t count)
+    : style_{unadorned(style)}, use_{use}, progress_{progress}, count_{count} {}
+
+ReportPicture ReportPictures::draw(const MapScene& scene,
+                                   int width_px,
+                                   int height_px,
+                                   const ClassTable* classes) {
+    if (progress_.stop.stop_requested()) {
+        throw InputError{"stopped before the report was complete"};
+    }
+    progress_(++drawn_, count_);
+    const auto png = [&](MapStyle::Theme theme) {
+        auto style = in_theme(style_, theme);
+        style.classes = classes != nullptr ? classes : style.classes;
+        return encode_png(render_map(scene, style, width_px, height_px));
+    };
+    using enum MapStyle::Theme;
+    return use_ == PictureUse::paper ? ReportPicture{png(print), {}, width_px, height_px}
+                                     : ReportPicture{png(light), png(dark), width_px, height_px};
+}
+
+ReportPicture ReportPictures::map(const MapScene& scene, const ClassTable* classes) {
+    const int width_px = sizes_for(use_).map_width_px;
+    return draw(scene, width_px, map_height_px(scene.box, width_px), classes);
+}
+
+ReportPicture ReportPictures::stretch(const MapScene& scene, const ClassTable* classes) {
+    const int width_px = sizes_for(use_).stretch_width_px;
+    return draw(scene, width_px, static_cast<int>(width_px * stretch_shape), classes);
+}
+
+double ReportPictures::map_width_m(const MapScene& scene) const {
+    const int width_px = sizes_for(use_).map_width_px;
+    return ground_width_m(scene, style_, width_px, map_height_px(scene.box, width_px));
+}
+
+MapScene whole_scene(const RoadStore& store, const MapStyle& style) {
+    auto scene = map_scene(
+        store, {.style = unadorned(style), .width_px = max_width_px, .height_px = max_height_px});
+    scene.subtitle.clear();    // the page says it
+    scene.attribution.clear(); // likewise
+    scene.scale_bar = false;   // likewise, in letters that a phone shows as large as all others
+    return scene;
+}
+
+MapScene
+quiet_scene(const RoadStore& store, const WorstSection& stretch, const ClassTable& classes) {
+    MapScene scene;
+    scene.scale_bar = false; // too small to read on a phone; the page says how long the stretch is
+    scene.box = box_around(stretch);
+    const auto around = grown(scene.box,
+                              distance_m({scene.box.south_deg, scene.box.west_deg},
+                                         {scene.box.north_deg, scene.box.east_deg}));
+    scene.lines = map_lines(store, around, classes);
+    for (auto& line : scene.lines) {
+        line.iri_class = -1;
+        line.name.clear(); // too small to read, and the words beside say where it is
+    }
+    return scene;
+}
+
+MapScene stretch_scene(const RoadStore& store,
+                       const WorstSection& stretch,
+                       const std::vector<SegmentRecord>& measured,
+                       const ClassTable& classes) {
+    auto scene = quiet_scene(store, stretch, classes);
+    for (const auto i : stretch.records) {
+        const auto& record = measured[i];
+        MapLine line;
+        line.line = record.segment.line;
+        line.iri_class = static_cast<int>(class_index(classes, rated_length(record).iri));
+        scene.lines.push_back(std::move(line));
+    }
+    return scene;
+}
+
+} // namespace macadam

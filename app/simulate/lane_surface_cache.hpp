@@ -1,0 +1,32 @@
+#pragma once
+
+#include "mapping/simulation/lane.hpp"
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace macadam {
+
+/// Surfaces of lanes for several threads at once: made when first asked for, and kept until they
+/// take more than `max_bytes` in all; then the oldest go. What is gone is made anew, the same.
+class LaneStore {
+public:
+    using Make = std::function<RoadSurface(const Lane&)>;
+    LaneStore(Make make, std::size_t max_bytes) : make_{std::move(make)}, max_bytes_{max_bytes} {}
+
+    std::shared_ptr<const RoadSurface> operator()(const Lane& lane);
+
+private:
+    Make make_;
+    std::size_t max_bytes_;
+    std::mutex mutex_;
+    std::map<Lane, std::shared_ptr<const RoadSurface>> kept_;
+    std::deque<Lane> age_; ///< oldest first
+    std::size_t bytes_ = 0;
+};
+
+} // namespace macadam

@@ -1,0 +1,76 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/publication_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/store/calibration_output.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace macadam {
+namespace {
+
+void run_calibrate(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const bool keep = !arguments.flag("--dry-run");
+    expect_operator(opened_store(file, RoadStore::Access::read, console, Reader::operator_),
+                    "calibrations of single cars");
+    auto store = opened_store(file,
+                              keep ? RoadStore::Access::write : RoadStore::Access::read,
+                              console,
+                              Reader::operator_);
+    warn_of_waiting(store, file, console);
+    const auto progress = console.progress("calibrating");
+    const auto report = store.calibrate(keep, progress);
+    if (arguments.flag("--json")) {
+        print(json_of(report));
+    } else {
+        print_words(text_of(report));
+    }
+    const bool any = std::ranges::any_of(
+        report.cars, [](const CalibratedCar& car) { return car.calibration.has_value(); });
+    if (!any) {
+        throw InputError{fmt::format("{}: no car could be calibrated: each needs 50 segments "
+                                     "that other cars passed within a year, and a vehicle_id "
+                                     "in its trips; the database is unchanged",
+                                     file.string())};
+    }
+    console.say(keep ? fmt::format("generation {}: all segments were fused with this "
+                                   "calibration",
+                                   report.generation)
+                     : std::string{"the database is unchanged (--dry-run)"});
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{Option{"--dry-run",
+                                    "",
+                                    "Only report: leave the database "
+                                    "unchanged."},
+                             Option{"--json", "", "Print the result as one JSON object."}};
+
+} // namespace
+
+const Command calibrate_command{
+    .name = "calibrate",
+    .summary = "Calibrate each car against other cars on the same roads",
+    .about = "Estimates a gain and an offset for each car, and how much cars, trips and passes "
+             "vary, and fuses all\n"
+             "passes again with them: a new generation, in one transaction. Until it is "
+             "committed, readers see the old\n"
+             "values and imports continue; they wait only for the final write. The calibration "
+             "applies until the next\n"
+             "one, also to new trips. The mean of all cars is assumed to be right; its "
+             "possible bias is part of every\n"
+             "interval.",
+    .example = "  macadam calibrate roads.gpkg --dry-run      preview of the result\n"
+               "  macadam calibrate roads.gpkg\n"
+               "  macadam info roads.gpkg --audit             past operations",
+    .operands = operands,
+    .options = options,
+    .run = run_calibrate};
+
+} // namespace macadam

@@ -1,0 +1,83 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/segment_options.hpp"
+
+#include "storage/text/json.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace macadam {
+namespace {
+
+std::string json_of(const Forgotten& forgotten) {
+    const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+    JsonObject object;
+    object.add("trips", whole(forgotten.trips))
+        .add("passes", whole(forgotten.passes))
+        .add("segments", whole(forgotten.segments))
+        .add("calibrated_anew", forgotten.calibrated)
+        .add("log_is_clean", forgotten.log_is_clean);
+    return object.text() + "\n";
+}
+
+void run_forget(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const ForgetRequest request{.trips = arguments.values("--trip"),
+                                .vehicles = arguments.values("--vehicle")};
+    if (request.trips.empty() && request.vehicles.empty()) {
+        throw UsageError{"expected --trip or --vehicle: what to delete"};
+    }
+    auto store = opened_store(file, RoadStore::Access::write, console);
+    const auto progress = console.progress("deleting");
+    const auto forgotten = store.forget(request, progress);
+    if (arguments.flag("--json")) {
+        print(json_of(forgotten));
+    } else {
+        print_words(
+            fmt::format("{} permanently deleted: {} over {}{}\n",
+                        counted(forgotten.trips, "trip"),
+                        counted(forgotten.passes, "pass"),
+                        counted(forgotten.segments, "segment"),
+                        forgotten.calibrated ? "; the cars were recalibrated without them" : ""));
+    }
+    if (!forgotten.log_is_clean) {
+        console.warn(fmt::format("{}-wal: another program is reading the database, so its log "
+                                 "still contains the deleted data until the last reader closes "
+                                 "it",
+                                 file.string()));
+    }
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{
+    Option{"--trip", "TRIP", "Trips by trip_id, file name or SHA-256 of the content.", "", true},
+    Option{"--vehicle",
+           "ID",
+           "All trips of these cars, by vehicle_id or by pseudonym ('macadam info').",
+           "",
+           true},
+    Option{"--json", "", "Print the result as one JSON object."}};
+
+} // namespace
+
+const Command forget_command{
+    .name = "forget",
+    .summary = "Permanently delete trips or cars",
+    .about = "Deletes their passes, traces and all values derived from them, in one "
+             "transaction; the segments are fused\n"
+             "again from the remaining trips, and the bytes are overwritten. The result equals "
+             "a database that never\n"
+             "contained these trips ('macadam info --digest' proves it). A later import skips "
+             "them unless --take-back is\n"
+             "given; only a hash of their hash is kept for that. Pictures, exports and copies "
+             "made before are not\n"
+             "affected.",
+    .example = "  macadam forget roads.gpkg --trip 2026-03-01-0815\n"
+               "  macadam forget roads.gpkg --vehicle van-7 van-9",
+    .operands = operands,
+    .options = options,
+    .run = run_forget};
+
+} // namespace macadam

@@ -1,0 +1,217 @@
+#include "app/cli/commands.hpp"
+#include "app/database/key_messages.hpp"
+#include "app/database/publication_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/import/alignment_summary.hpp"
+#include "app/query/audit_output.hpp"
+#include "app/report/control_monitoring.hpp"
+#include "app/store/info_tables.hpp"
+#include "app/store/truth_output.hpp"
+
+#include "storage/text/json.hpp"
+#include "storage/text/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+double share(double part, double whole) {
+    return whole > 0 ? part / whole : 0;
+}
+
+std::string json_of(const AlignmentSummary& laid) {
+    JsonObject object;
+    object.add("drives", laid.drives)
+        .add("found", laid.found)
+        .add("beyond_reach", laid.beyond_reach)
+        .add("moved_far", laid.moved_far)
+        .add("middle_lag_m",
+             laid.found > 0 ? json_number(laid.middle_lag_cm / 100.0, 2) : JsonValue{nullptr});
+    return object.text();
+}
+
+/// What a store knows of its roads from elsewhere.
+struct KnownRoads {
+    std::vector<SurveyUse> surveys;
+    std::vector<WatchedSection> controls;
+};
+
+/// \param truth  JSON; "" = not asked for
+std::string json_of(const StoreInfo& info,
+                    const InfoTables& tables,
+                    const KnownRoads& known,
+                    bool operates,
+                    const std::string& digest,
+                    const std::string& truth) {
+    const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+    std::vector<std::string> classes;
+    for (const auto& [name, km] : info.classes) {
+        JsonObject entry;
+        entry.add("class", name)
+            .add("km", JsonNumber{km, 3})
+            .add("share", JsonNumber{share(km, info.km), 4});
+        classes.push_back(entry.text());
+    }
+    JsonObject object;
+    object.add("trips", whole(info.trips))
+        .add("undated_trips", whole(info.undated_trips))
+        .add("passes", whole(info.passes))
+        .add("passes_lateral_alone", whole(info.lateral_passes))
+        .add("vehicles", JsonRaw{json_string_array(info.vehicles)})
+        .add("segments", whole(info.segments))
+        .add("segments_with_passes", whole(info.segments_with_passes))
+        .add("km", JsonNumber{info.km, 3})
+        .add("network_km", JsonNumber{info.network_km, 3})
+        .add("classes", JsonRaw{json_array(classes)})
+        .add("laid_on_others", JsonRaw{json_of(info.laid)});
+    add_to(object, tables);
+    object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);
+    if (info.settings.privacy == PrivacyProfile::crowd) {
+        object.add("publication", JsonRaw{json_of(info.publication)})
+            .add("published_alone", info.published_alone);
+    }
+    object.add("surveys", JsonRaw{json_of(known.surveys)})
+        .add("control_sections", JsonRaw{json_of(known.controls)});
+    object.add("generation", std::int64_t{info.generation}).add("digest", digest);
+    if (!truth.empty()) {
+        object.add("truth", JsonRaw{truth});
+    }
+    return object.text() + "\n";
+}
+
+std::string period_of(const StoreInfo& info) {
+    if (!info.first_seen_ms || !info.last_seen_ms) {
+        return "undated";
+    }
+    const auto first = utc_day(*info.first_seen_ms);
+    const auto last = utc_day(*info.last_seen_ms);
+    return first == last ? first : fmt::format("{} to {}", first, last);
+}
+
+std::string_view words_for(PrivacyProfile privacy) {
+    return privacy == PrivacyProfile::crowd ? "crowd: other people's cars"
+                                            : "own: the operator's cars, nothing is anonymised";
+}
+
+std::string trips_of(const StoreInfo& info) {
+    if (info.published_alone) {
+        return fmt::format("at least {} of {} cars, {}",
+                           info.trips,
+                           info.publication ? info.publication->vehicles : 0,
+                           counted(info.passes, "pass"));
+    }
+    return fmt::format("{} ({} undated), {}, {}",
+                       info.trips,
+                       info.undated_trips,
+                       counted(info.vehicles.size(), "vehicle"),
+                       counted(info.passes, "pass"));
+}
+
+std::string text_of(const StoreInfo& info, bool operates) {
+    auto text = fmt::format(
+        "network     {}, {:.1f} km counting each direction, {} segments of about {:g} m\n"
+        "trips       {}\n"
+        "period      {}\n"
+        "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n"
+        "privacy     {}; vehicle key {}\n",
+        info.settings.network_source,
+        info.network_km,
+        info.segments,
+        info.settings.segment_length_m,
+        trips_of(info),
+        period_of(info),
+        info.km,
+        info.segments_with_passes,
+        100 * share(info.km, info.network_km),
+        words_for(info.settings.privacy),
+        operates ? "present" : "absent");
+    if (info.settings.privacy == PrivacyProfile::crowd) {
+        text += fmt::format("published   {}\n",
+                            info.publication ? words_for(*info.publication) : "nothing yet");
+    }
+    if (info.lateral_passes > 0) {
+        text += fmt::format("lateral     {} of the passes from lateral acceleration only, "
+                            "which is far less accurate\n",
+                            info.lateral_passes);
+    }
+    if (const auto words = alignment_summary_text(info.laid); !words.empty()) {
+        text += fmt::format("passes      {}\n", words);
+    }
+    for (const auto& [name, km] : info.classes) {
+        text += fmt::format("{:<12}{:.2f} km, {:.1f} %\n", name, km, 100 * share(km, info.km));
+    }
+    return text;
+}
+
+void print_info(const RoadStore& store, const Arguments& arguments) {
+    if (arguments.flag("--digest")) {
+        print(store.digest() + "\n");
+        return;
+    }
+    if (arguments.flag("--audit")) {
+        expect_operator(store, "audit entries");
+        const auto entries = store.audit();
+        arguments.flag("--json") ? print(json_of(entries)) : print_words(text_of(entries));
+        return;
+    }
+    std::optional<TruthComparison> truth;
+    if (const auto truth_file = arguments.value("--truth")) {
+        truth = compared(store, *truth_file);
+    }
+    const auto info = store.info();
+    const auto tables = info_tables(store);
+    const KnownRoads known{store.surveys(), watched_sections(store)};
+    if (arguments.flag("--json")) {
+        print(json_of(info,
+                      tables,
+                      known,
+                      store.is_operator(),
+                      store.digest(),
+                      truth ? json_of(*truth) : ""));
+    } else {
+        print_words(text_of(info, store.is_operator()) + text_of(tables) + text_of(known.surveys) +
+                    text_of(known.controls) + (truth ? "\n" + text_of(*truth) : ""));
+    }
+}
+
+void run_info(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const auto store = open_for_operator(file, console);
+    warn_of_waiting(store, file, console);
+    warn_of_open_key(store, console);
+    print_info(store, arguments);
+    store.expect_in_place();
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{
+    Option{"--json", "", "One JSON object instead, with the digest."},
+    Option{"--truth",
+           "FILE.csv",
+           "Compare with true values: a truth.csv of 'macadam simulate' or of a profiler."},
+    Option{"--audit", "", "List the operations that changed values, with their times."},
+    Option{"--digest",
+           "",
+           "Print only the digest: 64 hex digits, equal for equal content on any machine."}};
+
+} // namespace
+
+const Command info_command{
+    .name = "info",
+    .summary = "Show coverage, passes, vehicles and kilometres per class",
+    .about = "Each direction of a road counts separately. Road classes are those of "
+             "OpenStreetMap; a pass counts on the\nday on which its trip began.",
+    .example = "  macadam info roads.gpkg\n"
+               "  macadam info roads.gpkg --digest       has anything changed?\n"
+               "  macadam info fleet/roads.gpkg --truth fleet/truth.csv",
+    .operands = operands,
+    .options = options,
+    .run = run_info};
+
+} // namespace macadam

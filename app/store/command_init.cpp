@@ -1,0 +1,267 @@
+#include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/import/trip_inputs.hpp"
+#include "app/store/network_update_output.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/motion/mounting.hpp"
+#include "mapping/conflation/network_conflation.hpp"
+#include "mapping/inference/network_inference.hpp"
+#include "mapping/network/build_network.hpp"
+#include "storage/networks/network_file.hpp"
+#include "storage/networks/network_reader.hpp"
+#include "storage/store/road_store.hpp"
+#include "storage/text/text.hpp"
+#include "storage/trips/trip_reader.hpp"
+#include "storage/trips/trip_search.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+namespace macadam {
+namespace {
+
+constexpr double min_segment_m = 5;
+constexpr double max_segment_m = 1000;
+
+struct InitOptions {
+    std::filesystem::path store;
+    std::optional<std::filesystem::path> network;
+    std::optional<std::filesystem::path> update; ///< a newer network for a store that is there
+    std::vector<std::filesystem::path> trips;    ///< to trace a network from
+    LayerColumns columns;
+    std::string attribution;
+    double segment_length_m;
+    PrivacyProfile privacy;
+    std::size_t max_members; ///< of an archive of trips
+    bool json;
+};
+
+PrivacyProfile privacy_in(const Arguments& arguments) {
+    const auto name = arguments.value("--privacy").value_or("own");
+    const auto profile = privacy_profile_named(name);
+    if (!profile) {
+        throw UsageError{fmt::format("--privacy is {}, expected own or crowd", in_quotes(name))};
+    }
+    return *profile;
+}
+
+InitOptions parse_init(const Arguments& arguments) {
+    InitOptions options;
+    options.store = arguments.operand("STORE");
+    if (options.store.extension() != ".gpkg") {
+        throw UsageError{fmt::format("STORE is '{}', expected a name that ends in .gpkg",
+                                     options.store.string())};
+    }
+    options.network = arguments.value("--network");
+    const auto trips = arguments.values("--trace");
+    options.trips.assign(trips.begin(), trips.end());
+    options.update = arguments.value("--update");
+    const int sources = (options.network ? 1 : 0) + (options.update ? 1 : 0) + !trips.empty();
+    if (sources != 1) {
+        throw UsageError{"expected either --network FILE, --trace TRIP... or --update FILE"};
+    }
+    options.json = arguments.flag("--json");
+    if (options.json && !options.update) {
+        throw UsageError{"--json requires --update, which reports the changes of the roads"};
+    }
+    if (options.update && arguments.number("--segment-length")) {
+        throw UsageError{"--segment-length cannot be changed by --update"};
+    }
+    if (options.update && arguments.value("--privacy")) {
+        throw UsageError{"--privacy cannot be changed by --update"};
+    }
+    options.privacy = privacy_in(arguments);
+    if (options.privacy == PrivacyProfile::crowd && !trips.empty()) {
+        throw UsageError{
+            "--trace cannot be combined with --privacy crowd: roads traced from trips end "
+            "where the trips end; expected --network"};
+    }
+    options.segment_length_m = arguments.number("--segment-length", RoadNetwork{}.segment_length_m);
+    if (!(options.segment_length_m >= min_segment_m && options.segment_length_m <= max_segment_m)) {
+        throw UsageError{fmt::format("--segment-length is {}, expected {} to {} metres",
+                                     options.segment_length_m,
+                                     min_segment_m,
+                                     max_segment_m)};
+    }
+    options.columns = {.layer = arguments.value("--layer").value_or(""),
+                       .id = arguments.value("--id-column").value_or(""),
+                       .name = arguments.value("--name-column").value_or(""),
+                       .highway = arguments.value("--highway-column").value_or(""),
+                       .oneway = arguments.value("--oneway-column").value_or("")};
+    options.attribution = arguments.value("--attribution").value_or("");
+    options.max_members = max_members_of(arguments);
+    return options;
+}
+
+bool is_osm(const std::filesystem::path& file) {
+    const auto name = file.filename().string();
+    return name.find(".osm") != std::string::npos || name.ends_with(".pbf");
+}
+
+/// Trips are read one by one, and only what they drew is kept.
+std::vector<Way> traced_ways(const InitOptions& options, const Console& console) {
+    const TraceConfig config;
+    std::vector<TripDrawing> trips;
+    for (const auto& path : options.trips) {
+        TripWalk walk{path, {.tracks = true, .max_files = options.max_members}};
+        const auto reading = console.progress("reading trips");
+        while (const auto trip = walk.next()) {
+            reading(walk.given() - 1, walk.count().value_or(walk.given() + 1));
+            trips.push_back(trip_drawing(read_trip(*trip, needs_of_match()), config));
+        }
+        reading(1, 1);
+    }
+    auto ways = trace_network(trips, config, console.progress("tracing roads"));
+    if (ways.empty()) {
+        throw InputError{fmt::format("no road could be traced from {} trips, expected "
+                                     "positions along at least {} m, at most {} s apart",
+                                     trips.size(),
+                                     config.min_way_m,
+                                     config.longest_gap_s)};
+    }
+    return ways;
+}
+
+void refuse_store(const std::filesystem::path& network) {
+    if (network.extension() == ".gpkg" && is_store(network)) {
+        throw InputError{fmt::format("{}: is a road database, expected the map from which it "
+                                     "was made",
+                                     network.string())};
+    }
+}
+
+NetworkSource source_of(const std::filesystem::path& network, const std::string& attribution) {
+    return {network.filename().string(),
+            attribution.empty() && is_osm(network) ? "© OpenStreetMap contributors (ODbL)"
+                                                   : attribution};
+}
+
+void make_store(const InitOptions& options, const Console& console) {
+    const auto warn = [&](const std::string& words) { console.say(words); };
+    auto ways =
+        options.network
+            ? read_network(
+                  *options.network, options.columns, console.progress("reading roads"), warn)
+            : traced_ways(options, console);
+
+    const auto source =
+        options.network ? source_of(*options.network, options.attribution)
+                        : NetworkSource{std::string{traced_network_source}, options.attribution};
+    StoreSettings settings;
+    settings.segment_length_m = options.segment_length_m;
+    settings.network_source = source.name;
+    settings.attribution = source.attribution;
+    settings.privacy = options.privacy;
+    const auto roads = build_network(std::move(ways), options.segment_length_m);
+    const auto store =
+        RoadStore::create(options.store, roads, settings, console.progress("writing segments"));
+
+    cache_network(store, roads);
+
+    const auto info = store.info();
+    console.say(fmt::format("{}: {}, {}, {}, {:.1f} km counting each direction",
+                            options.store.string(),
+                            counted(way_count(roads), "way"),
+                            counted(link_count(roads), "link"),
+                            counted(info.segments, "segment"),
+                            info.network_km));
+}
+
+void expect_to_go_on(const Progress& progress, const std::filesystem::path& store) {
+    if (progress.stop.stop_requested()) {
+        throw InputError{fmt::format("{}: interrupted; the database is unchanged", store.string())};
+    }
+}
+
+void update_store(const InitOptions& options, const Console& console) {
+    auto store = opened_store(options.store, RoadStore::Access::write, console);
+    const auto warn = [&](const std::string& words) { console.say(words); };
+    const auto before = load_or_build_network(store, warn);
+    const auto after = build_network(
+        read_network(*options.update, options.columns, console.progress("reading roads"), warn),
+        store.settings().segment_length_m);
+
+    const auto comparing = console.progress("comparing roads");
+    const auto change = change_between(before, after, {}, comparing);
+    expect_to_go_on(comparing, options.store);
+    const auto update = store.update_network(before,
+                                             after,
+                                             change,
+                                             source_of(*options.update, options.attribution),
+                                             console.progress("moving passes"));
+    cache_network(store, after);
+    if (options.json) {
+        print(json_of(update));
+    } else {
+        print_words(text_of(update));
+    }
+}
+
+void run_init(const Arguments& arguments, const Console& console) {
+    const auto options = parse_init(arguments);
+    if (const auto& network = options.update ? options.update : options.network) {
+        refuse_store(*network);
+    }
+    if (options.update) {
+        update_store(options, console);
+    } else {
+        make_store(options, console);
+    }
+}
+
+constexpr std::array operands{Operand{
+    "STORE", "The road database to create, a new .gpkg file; with --update an existing one."}};
+
+constexpr std::array options{
+    Option{"--network",
+           "FILE",
+           "Road map: .osm.pbf, .osm, or any line layer that GDAL reads (.gpkg, .shp, "
+           ".geojson, ...)."},
+    Option{"--update",
+           "FILE",
+           "Update an existing database to a newer map of the same area; passes move to the "
+           "matching roads."},
+    Option{"--trace",
+           "TRIP",
+           "Without a map: trace the roads from these trips (logs, .gpx).",
+           "",
+           true},
+    Option{"--privacy",
+           "PROFILE",
+           "own (the operator's cars, nothing is anonymised) or crowd (other people's cars).",
+           "own"},
+    max_members_option,
+    Option{
+        "--segment-length", "METRES", "Approximate length of a segment, the unit of fusion.", "20"},
+    Option{"--layer", "NAME", "Line layers: name of the layer.", "the first with lines"},
+    Option{
+        "--id-column", "NAME", "Line layers: column with an integer road id.", "the feature's id"},
+    Option{"--name-column", "NAME", "Line layers: column with the road name."},
+    Option{"--highway-column", "NAME", "Line layers: column with the road class."},
+    Option{"--oneway-column", "NAME", "Line layers: column with yes, no or -1 (or FT, TF, B)."},
+    Option{
+        "--attribution", "TEXT", "Copyright notice shown on maps.", "OpenStreetMap for OSM files"},
+    Option{"--json", "", "With --update: report the changes as one JSON object."}};
+
+} // namespace
+
+const Command init_command{
+    .name = "init",
+    .summary = "Create a road database from a road network",
+    .about = "Cuts every road into segments of about 20 m, separately for each direction in which "
+             "it may be driven, and\nwrites them to a new GeoPackage. From OpenStreetMap it takes "
+             "the road classes that are open to cars.",
+    .example =
+        "  macadam init roads.gpkg --network town.osm.pbf\n"
+        "  macadam init roads.gpkg --network roads.shp --id-column LINK_ID --oneway-column ONEWAY\n"
+        "  macadam init roads.gpkg --trace trips/               no map at hand\n"
+        "  macadam init roads.gpkg --update town-2027.osm.pbf   the map has changed",
+    .operands = operands,
+    .options = options,
+    .run = run_init};
+
+} // namespace macadam

@@ -1,0 +1,66 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/segment_options.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/text/text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace macadam {
+namespace {
+
+void expect_crowd(const std::string& profile, const std::filesystem::path& file) {
+    const auto named = privacy_profile_named(profile);
+    if (!named) {
+        throw UsageError{fmt::format("PROFILE is {}, expected crowd", in_quotes(profile))};
+    }
+    if (*named == PrivacyProfile::own) {
+        throw InputError{fmt::format("{}: data removed from a crowd database cannot be "
+                                     "restored; expected crowd, or a new database for your own "
+                                     "cars",
+                                     file.string())};
+    }
+}
+
+void run_privacy(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    expect_crowd(arguments.operand("PROFILE"), file);
+    auto store = opened_store(file, RoadStore::Access::write, console);
+    const auto progress = console.progress("trimming");
+    const auto made = store.make_crowd(progress);
+    print_words(fmt::format("now a crowd database: {} trimmed, {} deleted\n",
+                            counted(made.trips, "trip"),
+                            counted(made.passes, "pass")));
+    console.say("nothing can be exported before 'macadam publish'; earlier exports and copies "
+                "are not affected");
+    if (!made.log_is_clean) {
+        console.warn(fmt::format("{}-wal: another program is reading the database, so its log "
+                                 "still contains the deleted data until the last reader closes "
+                                 "it",
+                                 file.string()));
+    }
+}
+
+constexpr std::array operands{store_operand, Operand{"PROFILE", "crowd."}};
+
+} // namespace
+
+const Command privacy_command{
+    .name = "privacy",
+    .summary = "Convert a database of your own cars into a crowd database, permanently",
+    .about =
+        "Deletes all data near the ends and long stops of every trip and overwrites the bytes, "
+        "as if the trips had\n"
+        "been imported into a database made by 'init --privacy crowd'; since the database "
+        "keeps no positions, it\n"
+        "deletes more than an import would. From then on only publications can be exported. "
+        "This cannot be undone.",
+    .example = "  macadam privacy roads.gpkg crowd",
+    .operands = operands,
+    .options = {},
+    .run = run_privacy};
+
+} // namespace macadam

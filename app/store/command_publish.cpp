@@ -1,0 +1,56 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/publication_messages.hpp"
+#include "app/database/segment_options.hpp"
+
+#include "storage/networks/network_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+namespace macadam {
+namespace {
+
+std::int64_t now_utc_ms() {
+    using namespace std::chrono;
+    return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+void run_publish(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    auto store = opened_store(file, RoadStore::Access::write, console);
+    const auto progress = console.progress("publishing");
+    const auto done = store.publish(load_or_build_network(store), now_utc_ms(), progress);
+    if (arguments.flag("--json")) {
+        print(json_of(std::optional{done.publication}) + "\n");
+    } else {
+        print_words(words_for(done.publication) + "\n");
+    }
+    console.say(fmt::format("{} new or with more passes", counted(done.changed, "segment")));
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{Option{"--json", "", "Print the publication as one JSON object."}};
+
+} // namespace
+
+const Command publish_command{
+    .name = "publish",
+    .summary = "Publish the values of a crowd database, once a month",
+    .about = "A database of other people's cars (init --privacy crowd) exports only the values of "
+             "its latest publication.\n"
+             "Each of them is based on five cars or more and changes only when five cars or more "
+             "have new data, so that\n"
+             "single cars cannot be told from the difference of two publications. Needs the key of "
+             "the database. A\n"
+             "publication stays unchanged until the next one, in the next calendar month or later "
+             "(docs/privacy.md).",
+    .example = "  macadam publish crowd.gpkg\n  macadam export crowd.gpkg -o roads.geojson     "
+               " published values only",
+    .operands = operands,
+    .options = options,
+    .run = run_publish};
+
+} // namespace macadam

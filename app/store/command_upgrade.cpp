@@ -1,0 +1,78 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/segment_options.hpp"
+
+#include "storage/store/privacy/privacy_key.hpp"
+#include "storage/store/upgrade/store_upgrade.hpp"
+#include "storage/text/json.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+namespace macadam {
+namespace {
+
+std::string json_of(const StoreUpgrade& done) {
+    JsonObject object;
+    object.add("from_version", std::int64_t{done.from_version})
+        .add("to_version", std::int64_t{done.to_version})
+        .add("cars", static_cast<std::int64_t>(done.cars))
+        .add("trips_renamed", static_cast<std::int64_t>(done.trips))
+        .add("digest", done.digest.empty() ? JsonValue{nullptr} : JsonValue{done.digest});
+    return object.text() + "\n";
+}
+
+std::string text_of(const StoreUpgrade& done, const std::filesystem::path& file) {
+    if (done.from_version == done.to_version) {
+        return fmt::format(
+            "{}: is already of version {}, nothing to do\n", file.string(), done.to_version);
+    }
+    return fmt::format("{}: upgraded from version {} to {}; {} pseudonymised with the key "
+                       "{}{}\n"
+                       "digest before and after: {}\n",
+                       file.string(),
+                       done.from_version,
+                       done.to_version,
+                       counted(done.cars, "car"),
+                       key_file_of(file).string(),
+                       done.made_key ? ", which is new: keep a copy of it apart from the "
+                                       "database"
+                                     : "",
+                       done.digest);
+}
+
+void run_upgrade(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const auto done =
+        upgrade_store(file, wait_policy_for(file, console), [&](std::string_view part) {
+            return console.progress(std::string{part});
+        });
+    if (arguments.flag("--json")) {
+        print(json_of(done));
+    } else {
+        print_words(text_of(done, file));
+    }
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{Option{"--json", "", "Print the result as one JSON object."}};
+
+} // namespace
+
+const Command upgrade_command{
+    .name = "upgrade",
+    .summary = "Upgrade a database of an earlier version",
+    .about = "Keeps all content and verifies this with the digest ('macadam info --digest'), which "
+             "is computed before and\n"
+             "after. All is one transaction: on any failure the database is unchanged. Cars get "
+             "pseudonyms under a key,\n"
+             "which is written beside the database (docs/store.md).",
+    .example = "  macadam upgrade roads.gpkg",
+    .operands = operands,
+    .options = options,
+    .run = run_upgrade};
+
+} // namespace macadam

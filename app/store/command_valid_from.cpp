@@ -1,0 +1,119 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/period_options.hpp"
+#include "app/database/segment_options.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/text/json.hpp"
+#include "storage/text/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace macadam {
+namespace {
+
+std::string text_of(const std::vector<ValidSince>& all) {
+    if (all.empty()) {
+        return "no segment has a start date: all passes count\n";
+    }
+    std::string text;
+    for (const auto& [segment, from_ms] : all) {
+        text += fmt::format("{:<24} {}\n", name_of(segment), utc_text(from_ms));
+    }
+    return text;
+}
+
+std::string json_of(const std::vector<ValidSince>& all) {
+    std::vector<std::string> entries;
+    for (const auto& [segment, from_ms] : all) {
+        JsonObject entry;
+        entry.add("segment", name_of(segment)).add("valid_from", utc_text(from_ms));
+        entries.push_back(entry.text());
+    }
+    return json_array(entries) + "\n";
+}
+
+/// All that the options name, driven or not.
+std::vector<SegmentKey> segments_named(const RoadStore& store, const Arguments& arguments) {
+    SegmentFilter filter;
+    filter.with_state_only = false;
+    filter.key = parse_key(arguments);
+    filter.way_id = arguments.integer("--way");
+    filter.name_part = arguments.value("--name").value_or("");
+    filter.highway = arguments.value("--highway").value_or("");
+    if (const auto degrees = arguments.numbers("--bbox", 4)) {
+        filter.box = box_of(*degrees);
+    }
+    if (!filter.key && !filter.way_id && !filter.box && filter.name_part.empty() &&
+        filter.highway.empty()) {
+        throw UsageError{"expected a selection of roads: --segment, --way, --name, --highway "
+                         "or --bbox"};
+    }
+    std::vector<SegmentKey> keys;
+    store.visit(filter, [&](const SegmentRecord& record) { keys.push_back(record.segment.key); });
+    if (keys.empty()) {
+        throw InputError{
+            fmt::format("{}: has no segment that meets these conditions", store.file().string())};
+    }
+    return keys;
+}
+
+void run_valid_from(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const auto from_ms = parse_begin(arguments, "--from");
+    const bool readmit = arguments.flag("--any-day");
+    if (from_ms && readmit) {
+        throw UsageError{"--from and --any-day cannot be combined"};
+    }
+    if (!from_ms && !readmit) {
+        const auto store = opened_store(file, RoadStore::Access::read, console);
+        const auto all = store.valid_since();
+        print(arguments.flag("--json") ? json_of(all) : text_of(all));
+        return;
+    }
+    auto store = opened_store(file, RoadStore::Access::write, console);
+    const auto segments = segments_named(store, arguments);
+    const auto progress = console.progress("fusing");
+    const auto found =
+        store.set_valid_from(segments, from_ms, arguments.value("--reason").value_or(""), progress);
+    console.say(from_ms ? fmt::format("{}: only passes from {} on count",
+                                      counted(found, "segment"),
+                                      utc_text(*from_ms))
+                        : fmt::format("{}: all passes count", counted(found, "segment")));
+}
+
+constexpr std::array operands{store_operand};
+constexpr std::array options{
+    Option{"--from", "TIME", "Start date: 2026-05-01, or a time in UTC."},
+    Option{"--any-day", "", "Clear the start date."},
+    Option{"--segment", "KEY", "One segment, such as 123456+0007."},
+    way_option,
+    name_option,
+    highway_option,
+    bbox_option,
+    Option{"--reason", "TEXT", "Reason for the audit: 'resurfaced, contract 17'."},
+    Option{"--json", "", "Without --from: print the list as JSON."}};
+
+} // namespace
+
+const Command valid_from_command{
+    .name = "valid-from",
+    .summary = "Ignore data from before a resurfacing",
+    .about = "Passes before the start date, and undated ones, no longer count for these "
+             "segments; they stay in the\n"
+             "database, and --any-day re-admits them. Both directions are selected unless "
+             "--segment names one. Without\n"
+             "--from and --any-day: lists the segments with a start date. Most resurfacings "
+             "are detected automatically\n"
+             "(column 'changed'), but only after some passes.",
+    .example = "  macadam valid-from roads.gpkg --from 2026-05-01 --way 123456 --reason "
+               "'resurfaced'\n"
+               "  macadam valid-from roads.gpkg --any-day --way 123456\n"
+               "  macadam valid-from roads.gpkg",
+    .operands = operands,
+    .options = options,
+    .run = run_valid_from};
+
+} // namespace macadam

@@ -1,0 +1,165 @@
+#include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/pipeline/column_mapping_option.hpp"
+#include "app/pipeline/pipeline.hpp"
+#include "app/pipeline/single_trip.hpp"
+#include "app/trace/match_output.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/motion/make_odometer.hpp"
+#include "estimator/motion/mounting.hpp"
+#include "mapping/matching/edge_traversals.hpp"
+#include "mapping/matching/map_match.hpp"
+#include "mapping/network/build_network.hpp"
+#include "storage/atomic/atomic_file.hpp"
+#include "storage/networks/network_file.hpp"
+#include "storage/networks/network_reader.hpp"
+#include "storage/store/road_store.hpp"
+#include "storage/trips/foreign/gpx_reader.hpp"
+#include "storage/trips/trip_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+struct MatchOptions {
+    std::filesystem::path trip;
+    std::filesystem::path network;
+    std::optional<std::filesystem::path> output;
+    LayerColumns columns;
+    bool arcs;
+};
+
+MatchOptions parse_match(const Arguments& arguments) {
+    const auto network = arguments.value("--network");
+    if (!network) {
+        throw UsageError{"--network FILE is missing"};
+    }
+    MatchOptions options{.trip = arguments.operand("TRIP"),
+                         .network = *network,
+                         .output = arguments.value("--output"),
+                         .columns = {.layer = arguments.value("--layer").value_or(""),
+                                     .id = arguments.value("--id-column").value_or(""),
+                                     .name = "",
+                                     .highway = "",
+                                     .oneway = arguments.value("--oneway-column").value_or("")},
+                         .arcs = arguments.flag("--arcs")};
+    if (options.output) {
+        const auto suffix = options.output->extension();
+        if (suffix != ".csv" && (suffix != ".geojson" || options.arcs)) {
+            throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv{}",
+                                         options.output->string(),
+                                         options.arcs ? "" : " or .geojson")};
+        }
+    }
+    return options;
+}
+
+/// Of a map, of a store that was made from one, or of the file beside such a store.
+RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
+    const auto warn = [&](const std::string& words) { console.say(words); };
+    if (options.network.extension() == ".gpkg" && is_store(options.network)) {
+        const auto store = opened_store(options.network, RoadStore::Access::read, console);
+        auto roads = load_or_build_network(store, warn);
+        store.expect_in_place();
+        return roads;
+    }
+    if (is_network_file(options.network)) {
+        return open_network_file(options.network).roads;
+    }
+    return build_network(
+        read_network(options.network, options.columns, console.progress("reading roads"), warn));
+}
+
+/// The trip with its receiver's latency; made-up times have none.
+TripLog timed(TripLog trip, std::vector<std::string>& warnings) {
+    const auto made_up = trip.meta.other.find(times_key);
+    if (made_up == trip.meta.other.end()) {
+        return with_latency(std::move(trip), warnings);
+    }
+    warnings.push_back(fmt::format("its points have no increasing times; {}, so t_enter_s and "
+                                   "t_leave_s give the order only",
+                                   made_up->second));
+    return trip;
+}
+
+void run_match(const Arguments& arguments, const Console& console) {
+    const auto options = parse_match(arguments);
+    if (options.output) {
+        refuse_to_replace(*options.output, {options.trip, options.network});
+    }
+    const auto roads = roads_of(options, console);
+    const auto source = one_trip(options.trip, mapping_of(arguments));
+    std::vector<std::string> warnings;
+    const auto trip = timed(
+        read_trip(source, needs_of_match_with_heading(), console.progress("reading")), warnings);
+
+    const auto [trace, summary] = with_trip_name(source.name(), [&] {
+        auto use = unused(trip);
+        const auto odometer = make_odometer(trip, {}, use);
+        const auto heading = make_heading(trip, odometer, estimate_mounting(trip, odometer));
+        auto matched = map_match(trip, odometer, roads, {}, use, heading);
+        auto words = matched_words(matched, odometer);
+        return std::pair{std::move(matched), std::move(words)};
+    });
+    for (const auto& warning : warnings) {
+        console.say(warning);
+    }
+    console.say(summary);
+
+    const bool geojson = options.output && options.output->extension() == ".geojson";
+    const auto text = options.arcs ? arcs_csv(trace, roads)
+                      : geojson    ? passages_geojson(edge_traversals(trace), roads)
+                                   : passages_csv(edge_traversals(trace), roads);
+    if (!options.output) {
+        print(text);
+        return;
+    }
+    AtomicFile file{*options.output};
+    file.write(text);
+    file.commit();
+}
+
+constexpr std::array operands{
+    Operand{"TRIP", "One trip log or GPX track; positions suffice, speed improves the result."}};
+constexpr std::array options{
+    Option{"--network",
+           "FILE",
+           "The roads: .osm.pbf, .osm, a road database, its STORE-network file, or any line "
+           "layer that GDAL reads."},
+    mapping_option,
+    Option{"--arcs", "", "List every pair of consecutive nodes instead of parts of edges."},
+    Option{"-o,--output",
+           "FILE",
+           "Write a .csv or .geojson file instead of CSV on standard "
+           "output."},
+    Option{"--layer", "NAME", "Line layers: name of the layer.", "the first with lines"},
+    Option{
+        "--id-column", "NAME", "Line layers: column with an integer road id.", "the feature's id"},
+    Option{"--oneway-column", "NAME", "Line layers: column with yes, no or -1."}};
+
+} // namespace
+
+const Command match_command{
+    .name = "match",
+    .summary = "Match a trip to the road network",
+    .about =
+        "One row for each passage of an edge, in driving order: from_m and to_m along the way, "
+        "times, and a\n"
+        "confidence from 0 to 1. Parts off the network and gaps in the positions are separate "
+        "rows with their\n"
+        "reason. A summary of kilometres and mean confidence goes to standard error.",
+    .example = "  macadam match drive.trip.csv --network town.osm.pbf\n"
+               "  macadam match drive.trip.csv --network town.osm.pbf -o match.geojson\n"
+               "  macadam match drive.trip.csv --network town.osm.pbf --arcs > arcs.csv\n"
+               "  macadam match tour.gpx --network roads.gpkg          a road database",
+    .operands = operands,
+    .options = options,
+    .run = run_match};
+
+} // namespace macadam

@@ -1,0 +1,53 @@
+#include "estimator/common/plugin_library.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <dlfcn.h>
+
+namespace macadam {
+namespace {
+
+/// Our own libraries stand in lib/ beside the program; no search path, and no variable of the
+/// environment, leads to others of their names.
+std::string path_of(std::string_view library) {
+    constexpr std::string_view our_prefix = "macadam_";
+    if (!library.starts_with(our_prefix)) {
+        return std::string{library};
+    }
+    struct Free {
+        void operator()(char* text) const { std::free(text); } // NOLINT(*-no-malloc)
+    };
+    const std::unique_ptr<char, Free> program{::realpath("/proc/self/exe", nullptr)};
+    if (!program) {
+        throw InputError{
+            fmt::format("cannot find the program folder with lib/{}, expected /proc to be "
+                        "mounted",
+                        library)};
+    }
+    const std::string path{program.get()};
+    return fmt::format("{}/lib/{}", path.substr(0, path.rfind('/')), library);
+}
+
+} // namespace
+
+void* plugin_symbol(const char* library, const char* symbol) {
+    // dlopen counts its openings, so asking again for an open library is cheap and never closes it.
+    void* const handle = dlopen(path_of(library).c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) {
+        throw InputError{fmt::format("cannot open the library '{}': {}", library, dlerror())};
+    }
+    void* const found = dlsym(handle, symbol);
+    if (found == nullptr) {
+        throw InputError{fmt::format("the library '{}' has no function '{}'", library, symbol)};
+    }
+    return found;
+}
+
+} // namespace macadam

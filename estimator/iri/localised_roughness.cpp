@@ -1,0 +1,56 @@
+#include "estimator/iri/localised_roughness.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace macadam {
+
+namespace {
+
+constexpr double rounding = 1e-9; // of a whole count that was computed
+
+} // namespace
+
+MovingMean::MovingMean(double count)
+    : count_{count}, last_(static_cast<std::size_t>(std::ceil(count - rounding)), 0.0) {
+    assert(!last_.empty());
+}
+
+std::optional<double> MovingMean::push(double value) {
+    const std::size_t size = last_.size();
+    auto& oldest = last_[pushed_ % size];
+    sum_ += value - oldest;
+    oldest = value;
+    ++pushed_;
+    if (pushed_ % size == 0) { // afresh, or the rounding of millions of sums would add up
+        sum_ = std::accumulate(last_.begin(), last_.end(), 0.0);
+    }
+    if (pushed_ < size) {
+        return {};
+    }
+    const double left_out = static_cast<double>(size) - count_;
+    return (sum_ - left_out * last_[pushed_ % size]) / count_;
+}
+
+std::optional<RoughPlace> RoughPlaces::push(double at_m, double value) {
+    if (!(value > threshold_)) {
+        return finish();
+    }
+    if (!place_) {
+        place_ = RoughPlace{.from_m = at_m, .to_m = at_m, .peak = value, .peak_at_m = at_m};
+    }
+    place_->to_m = at_m;
+    if (value > place_->peak) {
+        place_->peak = value;
+        place_->peak_at_m = at_m;
+    }
+    return {};
+}
+
+std::optional<RoughPlace> RoughPlaces::finish() {
+    return std::exchange(place_, std::nullopt);
+}
+
+} // namespace macadam

@@ -1,0 +1,486 @@
+#include "estimator/motion/heading.hpp"
+
+#include "estimator/motion/mounting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+
+namespace macadam {
+namespace {
+
+constexpr double rad_per_deg = std::numbers::pi / 180;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+constexpr double longest_silence_s = 0.5; // bridged by a line
+constexpr double slight_axis = 0.2;       // of the vertical in a sensor's axis: it may be missing
+
+constexpr double noise_rad_per_sqrt_s = 0.002; // angle random walk, shaking of the mount with it
+constexpr double scale_sd = 0.01;              // of the gyro, and of hills: cos 6 degrees
+constexpr double min_sd_rad = 0.003;           // of stamps that are not quite the sensor's
+
+constexpr double prior_bias_sd_radps = 0.02;        // 1 degree a second: not calibrated
+constexpr double bias_walk_radps_per_sqrt_s = 5e-5; // with temperature: 0.003 rad/s in an hour
+constexpr double block_s = 10;                      // the bias is one within it
+constexpr double longest_drift_s = 3600;
+constexpr double far_off = 3; // sds: beyond, a reading counts less
+
+constexpr double standing_mps = 0.1;
+constexpr double min_stand_s = 2;
+constexpr double quiet_radps = 0.02;      // people getting in shake it more
+constexpr double stand_sd_radps = 0.0005; // of the mean rate while standing
+
+constexpr double course_from_mps = 4;
+constexpr double min_span_s = 20; // between courses that are compared
+constexpr double max_span_s = 90;
+constexpr double course_sd_rad = 3 * rad_per_deg;
+constexpr double chord_sd_rad = 8 * rad_per_deg;
+constexpr double min_chord_m = 15;
+constexpr double longest_chord_s = 5;
+constexpr double unstated_latency_sd_s = 0.7;
+constexpr double stated_latency_sd_s = 0.1;
+constexpr double contradiction_rad = 0.5;
+constexpr double max_contradicting = 1.0 / 3;
+
+double wrapped(double rad) {
+    return std::remainder(rad, 2 * std::numbers::pi);
+}
+
+// -------------------------------------------------------------------------------- integration
+
+/// Rate about the vertical; NaN if an axis that matters was not sampled.
+double vertical_rate(const TriaxialSamples& gyro, std::size_t i, const Eigen::Vector3d& up) {
+    const float axes[] = {gyro.x[i], gyro.y[i], gyro.z[i]};
+    double rate = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!std::isnan(axes[axis])) {
+            rate += up[axis] * static_cast<double>(axes[axis]);
+        } else if (std::abs(up[axis]) > slight_axis) {
+            return unknown;
+        }
+    }
+    return rate;
+}
+
+/// \param spans  in order, not overlapping.
+bool is_within(double t_s, std::span<const TimeSpan> spans) {
+    const auto span = std::ranges::upper_bound(spans, t_s, {}, &TimeSpan::to_s);
+    return span != spans.end() && span->from_s <= t_s;
+}
+
+double time_s(const Heading& heading, std::int64_t step) {
+    return heading.start_s + heading.step_s * static_cast<double>(step);
+}
+
+/// The last step that is not after a time.
+std::int64_t last_step_until(const Heading& heading, double t_s) {
+    auto step = static_cast<std::int64_t>(std::floor((t_s - heading.start_s) / heading.step_s));
+    step += time_s(heading, step + 1) <= t_s ? 1 : 0; // a quotient is rounded
+    step -= time_s(heading, step) > t_s ? 1 : 0;
+    return step;
+}
+
+/// Trapezoids between the samples, read off at even times; of a silence, at its ends alone.
+Heading integrated(const TripLog& trip, const Mounting& mounting) {
+    const Eigen::Vector3d up = mounting.to_vehicle.row(2);
+    Heading heading;
+    std::int64_t next = 0; // step to be read off
+    double last_s = unknown;
+    double last_radps = 0;
+    double turned_rad = 0;
+    for (std::size_t i = 0; i < trip.gyro.t_s.size(); ++i) {
+        const double t_s = trip.gyro.t_s[i];
+        const double radps = vertical_rate(trip.gyro, i, up);
+        if (std::isnan(radps) || is_within(t_s, mounting.otherwise)) {
+            continue;
+        }
+        if (std::isnan(last_s)) {
+            heading.start_s = t_s;
+            heading.turned_rad.push_back(0);
+            heading.runs.push_back({0, 0});
+            next = 1;
+            last_s = t_s;
+            last_radps = radps;
+            continue;
+        }
+        const bool silent = t_s - last_s > longest_silence_s;
+        if (silent) {
+            heading.silent.push_back({last_s, t_s});
+        }
+        const double gain_rad = silent ? 0 : (last_radps + radps) / 2 * (t_s - last_s);
+        const auto last = last_step_until(heading, t_s);
+        if (silent && last > next + 1) {
+            heading.turned_rad.push_back(static_cast<float>(turned_rad));
+            heading.runs.push_back({last, heading.turned_rad.size()});
+            next = last;
+        }
+        for (; next <= last; ++next) {
+            const double share = (time_s(heading, next) - last_s) / (t_s - last_s);
+            heading.turned_rad.push_back(static_cast<float>(turned_rad + share * gain_rad));
+        }
+        turned_rad += gain_rad;
+        last_s = t_s;
+        last_radps = radps;
+    }
+    return heading;
+}
+
+/// The number of the last step.
+std::int64_t end_step(const Heading& heading) {
+    const auto& [first_step, first] = heading.runs.back();
+    return first_step + static_cast<std::int64_t>(heading.turned_rad.size() - first) - 1;
+}
+
+double end_s(const Heading& heading) {
+    return time_s(heading, end_step(heading));
+}
+
+bool was_measured(const Heading& heading, double from_s, double to_s) {
+    if (heading.turned_rad.empty() || from_s < heading.start_s - heading.step_s ||
+        to_s > end_s(heading) + 2 * heading.step_s) {
+        return false;
+    }
+    const auto next = std::ranges::upper_bound(heading.silent, from_s, {}, &TimeSpan::to_s);
+    return next == heading.silent.end() || next->from_s >= to_s;
+}
+
+// --------------------------------------------------------------------------------------- bias
+
+/// What some time says of the bias.
+struct Reading {
+    double t_s;
+    double radps;
+    double variance;
+};
+
+/// Steps over the middle of a silence, in which there is nothing to be read.
+class SilenceSkipper {
+public:
+    explicit SilenceSkipper(const Heading& heading)
+        : next_{heading.silent.begin()}, end_{heading.silent.end()} {}
+
+    /// The time itself; in a long silence, some whole steps later, shortly before its end.
+    double after(double t_s, double step_s) {
+        constexpr double looked_into_s = 10;
+        while (next_ != end_ && next_->to_s <= t_s) {
+            ++next_;
+        }
+        if (next_ == end_ || t_s < next_->from_s + looked_into_s) {
+            return t_s;
+        }
+        const double steps = std::floor((next_->to_s - t_s) / step_s) - 1;
+        return steps > 0 ? t_s + steps * step_s : t_s;
+    }
+
+private:
+    std::vector<TimeSpan>::const_iterator next_;
+    std::vector<TimeSpan>::const_iterator end_;
+};
+
+std::vector<Reading> standing_readings(const Heading& heading, const Odometer& odometer) {
+    constexpr double left_m = 1; // over a silence: it stood no longer
+    SilenceSkipper skipper{heading};
+    std::vector<Reading> readings;
+    double from_s = unknown;
+    const auto close = [&](double to_s) {
+        const double took_s = to_s - from_s;
+        if (took_s >= min_stand_s && was_measured(heading, from_s, to_s)) {
+            const double radps = (turned_at(heading, to_s) - turned_at(heading, from_s)) / took_s;
+            readings.push_back({(from_s + to_s) / 2,
+                                radps,
+                                stand_sd_radps * stand_sd_radps +
+                                    noise_rad_per_sqrt_s * noise_rad_per_sqrt_s / took_s});
+        }
+        from_s = unknown;
+    };
+    const double step_s = 5 * heading.step_s;
+    double before_radps = unknown;
+    for (double t_s = heading.start_s; t_s + step_s <= end_s(heading); t_s += step_s) {
+        const double radps = (turned_at(heading, t_s + step_s) - turned_at(heading, t_s)) / step_s;
+        const bool stands = odometer.speed_mps(t_s) < standing_mps &&
+                            !(std::abs(radps - before_radps) > quiet_radps);
+        if (stands && std::isnan(from_s)) {
+            from_s = t_s + step_s; // the last of the stopping left out
+        } else if (!stands && !std::isnan(from_s)) {
+            close(t_s - step_s);
+        }
+        before_radps = radps;
+        const double skipped_to_s = skipper.after(t_s, step_s);
+        if (skipped_to_s > t_s &&
+            odometer.travel_m(skipped_to_s) - odometer.travel_m(t_s) > left_m) {
+            from_s = unknown;
+        }
+        t_s = skipped_to_s;
+    }
+    if (!std::isnan(from_s)) {
+        close(end_s(heading));
+    }
+    return readings;
+}
+
+struct Course {
+    double t_s;
+    double rad; ///< positive to the left
+    double sd_rad;
+};
+
+std::vector<Course> stated_courses(const TripLog& trip) {
+    std::vector<Course> courses;
+    for (const auto& fix : trip.fixes) {
+        if (fix.speed_mps > static_cast<float>(course_from_mps) && !std::isnan(fix.course_deg)) {
+            courses.push_back({fix.t_s - trip.meta.gnss_latency_s,
+                               -static_cast<double>(fix.course_deg) * rad_per_deg,
+                               course_sd_rad});
+        }
+    }
+    return courses;
+}
+
+std::vector<Course> courses_of_chords(const TripLog& trip) {
+    std::vector<Course> courses;
+    const GnssFix* from = nullptr;
+    for (const auto& fix : trip.fixes) {
+        if (from == nullptr || fix.t_s - from->t_s > longest_chord_s) {
+            from = &fix;
+            continue;
+        }
+        const double way_m = distance_m(from->at, fix.at);
+        if (way_m < min_chord_m) {
+            continue;
+        }
+        if (way_m > course_from_mps * (fix.t_s - from->t_s)) {
+            courses.push_back({(from->t_s + fix.t_s) / 2 - trip.meta.gnss_latency_s,
+                               -course_deg(from->at, fix.at) * rad_per_deg,
+                               chord_sd_rad});
+        }
+        from = &fix;
+    }
+    return courses;
+}
+
+std::vector<Course> courses_of(const TripLog& trip) {
+    auto courses = stated_courses(trip);
+    return courses.size() * 4 > trip.fixes.size() ? courses : courses_of_chords(trip);
+}
+
+/// What the stamp of a course may be off, in angle.
+double blur_rad(const Heading& heading, double t_s, const TripMeta& meta) {
+    const double rate_radps = turned_at(heading, t_s + 0.5) - turned_at(heading, t_s - 0.5);
+    return rate_radps * (meta.gnss_latency_stated ? stated_latency_sd_s : unstated_latency_sd_s);
+}
+
+std::vector<Reading>
+driving_readings(const Heading& heading, const std::vector<Course>& courses, const TripMeta& meta) {
+    std::vector<Reading> readings;
+    for (std::size_t from = 0, to = 0; to < courses.size(); ++to) {
+        const auto& a = courses[from];
+        const auto& b = courses[to];
+        const double took_s = b.t_s - a.t_s;
+        if (took_s < min_span_s) {
+            continue;
+        }
+        from = to;
+        if (took_s > max_span_s || !was_measured(heading, a.t_s, b.t_s)) {
+            continue;
+        }
+        const double gyro_rad = turned_at(heading, b.t_s) - turned_at(heading, a.t_s);
+        const double sd_rad = std::hypot(std::hypot(a.sd_rad, b.sd_rad),
+                                         blur_rad(heading, a.t_s, meta),
+                                         blur_rad(heading, b.t_s, meta));
+        readings.push_back({(a.t_s + b.t_s) / 2,
+                            wrapped(gyro_rad - (b.rad - a.rad)) / took_s,
+                            sd_rad * sd_rad / (took_s * took_s)});
+    }
+    return readings;
+}
+
+struct Belief {
+    double mean;
+    double variance;
+};
+
+Belief updated(const Belief& belief, const Reading& reading) {
+    const double off = reading.radps - belief.mean;
+    const double expected = belief.variance + reading.variance;
+    const double excess = off * off / (far_off * far_off * expected);
+    const double variance = reading.variance + std::max(0.0, excess - 1) * expected;
+    const double gain = belief.variance / (belief.variance + variance);
+    return {belief.mean + gain * off, (1 - gain) * belief.variance};
+}
+
+/// What is thought of the bias in a block, of which the first begins at start_s.
+struct Block {
+    std::int64_t number;
+    Belief bias;
+};
+
+std::int64_t block_of(const Heading& heading, std::int64_t step) {
+    return step / std::llround(block_s / heading.step_s);
+}
+
+/// The blocks that hold values.
+std::vector<Block> blocks_of(const Heading& heading) {
+    std::vector<Block> blocks;
+    for (auto run = heading.runs.begin(); run != heading.runs.end(); ++run) {
+        const auto size = static_cast<std::int64_t>(size_of(heading, run));
+        const auto last = block_of(heading, run->first_step + size - 1);
+        auto number = block_of(heading, run->first_step);
+        for (number += !blocks.empty() && blocks.back().number == number ? 1 : 0; number <= last;
+             ++number) {
+            blocks.push_back({number, {}});
+        }
+    }
+    return blocks;
+}
+
+/// Over silences the bias wanders on.
+std::vector<Block> smoothed_bias(const Heading& heading, std::vector<Reading> readings) {
+    std::ranges::sort(readings, {}, &Reading::t_s);
+    constexpr double walk_a_block =
+        bias_walk_radps_per_sqrt_s * bias_walk_radps_per_sqrt_s * block_s;
+    auto blocks = blocks_of(heading);
+    const auto walk_to = [&](std::size_t i) {
+        return walk_a_block * static_cast<double>(blocks[i].number - blocks[i - 1].number);
+    };
+    Belief belief{0, prior_bias_sd_radps * prior_bias_sd_radps};
+    auto next = readings.begin();
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        belief.variance += i > 0 ? walk_to(i) : 0;
+        const double until_s =
+            heading.start_s + static_cast<double>(blocks[i].number + 1) * block_s;
+        for (; next != readings.end() && next->t_s < until_s; ++next) {
+            belief = updated(belief, *next);
+        }
+        blocks[i].bias = belief;
+    }
+    for (auto i = blocks.size() - 1; i-- > 0;) {
+        auto& earlier = blocks[i].bias;
+        const auto& later = blocks[i + 1].bias;
+        const double walk = walk_to(i + 1);
+        const double gain = earlier.variance / (earlier.variance + walk);
+        earlier.mean += gain * (later.mean - earlier.mean);
+        earlier.variance += gain * gain * (later.variance - earlier.variance - walk);
+    }
+    return blocks;
+}
+
+/// Between two runs, what is thought of the bias at their ends holds half and half; over a long
+/// silence nothing is taken off, or what is left of a float would not tell turns.
+Heading without_bias(Heading heading, const std::vector<Block>& blocks) {
+    double bias_rad = 0;
+    double variance = 0;
+    auto block = blocks.begin();
+    auto last = block->bias;
+    for (auto run = heading.runs.cbegin(); run != heading.runs.cend(); ++run) {
+        const auto size = size_of(heading, run);
+        for (std::size_t i = 0; i < size; ++i) {
+            const auto number = block_of(heading, run->first_step + static_cast<std::int64_t>(i));
+            while (block->number < number) {
+                ++block;
+            }
+            const auto& belief = block->bias;
+            if (i == 0 && run != heading.runs.cbegin()) {
+                const auto before = run - 1;
+                const auto steps = static_cast<double>(run->first_step - before->first_step) -
+                                   static_cast<double>(size_of(heading, before)); // without a value
+                const double drift_s = heading.step_s * steps;
+                bias_rad += drift_s < longest_drift_s ? (last.mean + belief.mean) / 2 * drift_s : 0;
+                variance += (last.variance + belief.variance) / 2 * steps;
+            }
+            const auto at = run->first + i;
+            bias_rad += at > 0 ? belief.mean * heading.step_s : 0;
+            variance += belief.variance;
+            heading.turned_rad[at] -= static_cast<float>(bias_rad);
+            last = belief;
+        }
+    }
+    heading.bias_sd_radps = std::sqrt(variance / static_cast<double>(end_step(heading) + 1));
+    return heading;
+}
+
+/// Whether most courses turn otherwise than the gyro does.
+bool is_contradicted(const Heading& heading,
+                     const std::vector<Course>& courses,
+                     const TripMeta& meta) {
+    int compared = 0;
+    int contradicting = 0;
+    for (std::size_t from = 0, to = 0; to < courses.size(); ++to) {
+        const auto& a = courses[from];
+        const auto& b = courses[to];
+        if (b.t_s - a.t_s < min_span_s) {
+            continue;
+        }
+        from = to;
+        if (b.t_s - a.t_s > max_span_s || !was_measured(heading, a.t_s, b.t_s)) {
+            continue;
+        }
+        const double gyro_rad = turned_at(heading, b.t_s) - turned_at(heading, a.t_s);
+        const double blurred_rad =
+            std::abs(blur_rad(heading, a.t_s, meta)) + std::abs(blur_rad(heading, b.t_s, meta));
+        const double off_rad = std::abs(wrapped(gyro_rad - (b.rad - a.rad)));
+        ++compared;
+        contradicting += off_rad > contradiction_rad + 3 * blurred_rad ? 1 : 0;
+    }
+    return contradicting > max_contradicting * compared;
+}
+
+} // namespace
+
+std::vector<Heading::Run>::const_iterator run_at(const Heading& heading, double step) {
+    const auto after = std::ranges::upper_bound(heading.runs, step, {}, [](const auto& run) {
+        return static_cast<double>(run.first_step);
+    });
+    return after == heading.runs.begin() ? after : after - 1;
+}
+
+std::size_t size_of(const Heading& heading, std::vector<Heading::Run>::const_iterator run) {
+    const auto next = run + 1;
+    return (next == heading.runs.end() ? heading.turned_rad.size() : next->first) - run->first;
+}
+
+double turned_at(const Heading& heading, double t_s) {
+    const double steps = std::clamp(
+        (t_s - heading.start_s) / heading.step_s, 0.0, static_cast<double>(end_step(heading)));
+    const auto run = run_at(heading, steps);
+    const auto last = size_of(heading, run) - 1;
+    const double into = steps - static_cast<double>(run->first_step);
+    const auto i = std::min(static_cast<std::size_t>(into), last);
+    const auto next = std::min(run->first + i + 1, heading.turned_rad.size() - 1);
+    const double step = i < last || run + 1 == heading.runs.end()
+                            ? 1
+                            : static_cast<double>((run + 1)->first_step - run->first_step) -
+                                  static_cast<double>(last); // the silence
+    return std::lerp(static_cast<double>(heading.turned_rad[run->first + i]),
+                     static_cast<double>(heading.turned_rad[next]),
+                     (into - static_cast<double>(i)) / step);
+}
+
+Turn turned(const Heading& heading, double from_s, double to_s) {
+    if (!was_measured(heading, from_s, to_s)) {
+        return {0, std::numeric_limits<double>::infinity()};
+    }
+    const double rad = turned_at(heading, to_s) - turned_at(heading, from_s);
+    const double took_s = to_s - from_s;
+    return {rad,
+            std::hypot(std::hypot(min_sd_rad, noise_rad_per_sqrt_s * std::sqrt(took_s)),
+                       heading.bias_sd_radps * took_s,
+                       scale_sd * rad)};
+}
+
+Heading make_heading(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
+    auto heading = integrated(trip, mounting);
+    if (heading.turned_rad.size() < 2) {
+        return {};
+    }
+    const auto courses = courses_of(trip);
+    auto readings = standing_readings(heading, odometer);
+    std::ranges::copy(driving_readings(heading, courses, trip.meta), std::back_inserter(readings));
+    const auto blocks = smoothed_bias(heading, std::move(readings));
+    heading = without_bias(std::move(heading), blocks);
+    return is_contradicted(heading, courses, trip.meta) ? Heading{} : heading;
+}
+
+} // namespace macadam

@@ -1,0 +1,23 @@
+#include "estimator/smoother/filter/road_smoother.hpp"
+
+#include "estimator/smoother/filter/forward_backward.hpp"
+
+namespace macadam {
+
+SmoothedRoad smooth_road(std::span<const DriveRecord> passages,
+                         const RoadGrid& grid,
+                         const RoadPrior& prior,
+                         std::uint64_t seed,
+                         SmootherMemory& memory) {
+    FilterResult forward = kalman_filter(passages, grid, prior, seed, std::move(memory));
+    SmoothedRoad road = disturbance_smoother(passages, grid, prior, forward);
+    road.log_likelihood = forward.log_likelihood;
+    road.innovation = std::move(forward.innovation);
+    road.log_variance = std::move(forward.log_variance);
+    road.profile_m = profile_of(road.increment_m, forward.wander);
+    road.perturbation_m = profile_of(road.perturbed_m, forward.wander);
+    memory = std::move(forward.memory);
+    return road;
+}
+
+} // namespace macadam

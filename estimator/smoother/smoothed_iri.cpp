@@ -1,0 +1,225 @@
+#include "estimator/smoother/smoothed_iri.hpp"
+
+#include "estimator/smoother/friction.hpp"
+#include "estimator/smoother/stretch_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr std::size_t tuning_samples = 3000;
+constexpr std::size_t min_tuning_samples = 1200;
+
+constexpr double iri_per_parameter = 0.6; // relative, of a parameter off by so much: 0.45 to 0.75
+constexpr double untuned_sd = 0.1; // relative, of a car of which too little was seen to tune it
+
+// Of every IRI alike, what simulated cars leave: of a car that is known, and of one whose friction
+// had to be found, among dampers, bars and bushes that no vehicle file tells
+// (docs/method/smoother.md).
+constexpr double known_car_part = 0.02;
+constexpr double found_car_part = 0.04;
+constexpr double random_part = 0.07; // of 1 m, independent from metre to metre
+constexpr double indicative_common = 0.20;
+
+std::size_t sample_at(const DriveRecord& passage, double travel_m) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(passage.travel_m, travel_m) -
+                                    passage.travel_m.begin());
+}
+
+bool is_felt(const DriveRecord& passage) {
+    return std::ranges::any_of(passage.felt, [](const auto& felt) { return !felt.empty(); });
+}
+
+/// The cells [from, to) of an estimate, on the grid's own count, put behind what is there.
+void append(const std::vector<float>& cells,
+            const RoadGrid& grid,
+            std::ptrdiff_t from,
+            std::ptrdiff_t to,
+            std::vector<float>& onto) {
+    for (std::ptrdiff_t cell = from; cell < to; ++cell) {
+        onto.push_back(cells[static_cast<std::size_t>(cell - grid.first_cell)]);
+    }
+}
+
+void append(const std::vector<std::vector<float>>& metres,
+            const RoadGrid& grid,
+            std::ptrdiff_t from_cell,
+            std::ptrdiff_t to_cell,
+            std::vector<std::vector<float>>& onto) {
+    onto.resize(metres.size());
+    const double cells_a_metre = 1 / grid.cell_m;
+    const auto metre = [&](std::ptrdiff_t cell) {
+        return static_cast<std::size_t>(static_cast<double>(cell - grid.first_cell) /
+                                        cells_a_metre);
+    };
+    for (std::size_t road = 0; road < metres.size(); ++road) {
+        const auto per_metre = static_cast<std::ptrdiff_t>(cells_a_metre);
+        for (std::ptrdiff_t cell = from_cell; cell + per_metre <= to_cell; cell += per_metre) {
+            const std::size_t at = std::min(metre(cell), metres[road].size() - 1);
+            onto[road].push_back(metres[road][at]);
+        }
+    }
+}
+
+/// Stations [from, to) of an estimate behind what is there. Each piece has its own zero, so it is
+/// set down where the one before it ended.
+void append(const RoadEstimate& estimate,
+            std::ptrdiff_t from,
+            std::ptrdiff_t to,
+            EstimatedProfile& onto) {
+    const auto put = [&](double left, std::vector<float>& track_m) {
+        const auto height_m = [&](std::ptrdiff_t cell) {
+            const std::ptrdiff_t at = std::max<std::ptrdiff_t>(0, cell - estimate.grid.first_cell);
+            const auto& [mean, half] = estimate.profile_m[static_cast<std::size_t>(at)];
+            return mean + left * half;
+        };
+        const double raise_m =
+            track_m.empty() ? 0 : static_cast<double>(track_m.back()) - height_m(from - 1);
+        for (std::ptrdiff_t cell = from; cell < to; ++cell) {
+            track_m.push_back(static_cast<float>(height_m(cell) + raise_m));
+        }
+    };
+    if (estimate.felt.mean) {
+        put(0, onto.centre_m);
+    }
+    if (estimate.felt.mean && estimate.felt.half) {
+        put(+1, onto.left_m);
+        put(-1, onto.right_m);
+    }
+}
+
+/// The rectified strokes of cells [from, to), and the headline's scatter.
+void append(const RoadEstimate& estimate, std::ptrdiff_t from, std::ptrdiff_t to, IriRun& onto) {
+    if (estimate.felt.half && estimate.felt.mean) {
+        append(estimate.left_mm_per_m, estimate.grid, from, to, onto.left_mm_per_m);
+        append(estimate.right_mm_per_m, estimate.grid, from, to, onto.right_mm_per_m);
+        append(estimate.tracks_scatter, estimate.grid, from, to, onto.scatter_mm_per_m);
+    } else {
+        append(estimate.centre_scatter, estimate.grid, from, to, onto.scatter_mm_per_m);
+    }
+    append(estimate.centre_mm_per_m, estimate.grid, from, to, onto.centre_mm_per_m);
+}
+
+IriRun empty_run(const Stretch& stretch, const EstimatorConfig& config, double cell_m) {
+    return {.start_travel_m = stretch.travel_m.empty() ? 0 : stretch.travel_m.front(),
+            .cell_m = cell_m,
+            .left_mm_per_m = {},
+            .right_mm_per_m = {},
+            .centre_mm_per_m = {},
+            .speed_mps = {},
+            .lead_in_m = config.lead_in_m,
+            .indicative = false,
+            .scatter_mm_per_m = {}};
+}
+
+double common_sd_of(const TunedCar& car, bool indicative) {
+    const bool known = car.friction_sd_n == 0 && car.iri_sd == 0;
+    return std::hypot(
+        known ? known_car_part : found_car_part, car.iri_sd, indicative ? indicative_common : 0);
+}
+
+/// Where both axles have been, in whole metres.
+std::pair<std::ptrdiff_t, std::ptrdiff_t> cells_under(const DriveRecord& passage, double cell_m) {
+    const auto& car = passage.cars.front().car;
+    const auto cells_a_metre = static_cast<std::ptrdiff_t>(std::lround(1 / cell_m));
+    const double first_m = std::ceil(passage.travel_m.front() + car.front_m);
+    const double last_m = std::floor(passage.travel_m.back() + car.rear_m);
+    return {static_cast<std::ptrdiff_t>(first_m) * cells_a_metre,
+            static_cast<std::ptrdiff_t>(last_m) * cells_a_metre};
+}
+
+/// Cells [from, to) of a run, and the samples [first, last) by which they are smoothed.
+struct Piece {
+    std::ptrdiff_t from, to;
+    std::size_t first, last;
+};
+
+Piece piece_at(const DriveRecord& passage,
+               std::ptrdiff_t from,
+               std::ptrdiff_t end,
+               double cell_m,
+               const PieceConfig& config) {
+    const auto& travel_m = passage.travel_m;
+    const auto cells_a_metre = static_cast<std::ptrdiff_t>(std::lround(1 / cell_m));
+    const double from_m = static_cast<double>(from) * cell_m;
+    const std::size_t furthest =
+        std::min(travel_m.size() - 1, sample_at(passage, from_m) + config.core_samples);
+    const double until_m =
+        std::min(from_m + config.core_m, std::max(from_m + 1, travel_m[furthest]));
+    const std::size_t last =
+        std::min(travel_m.size(), sample_at(passage, until_m + config.margin_m) + 1);
+    const auto whole = static_cast<std::ptrdiff_t>(std::floor(until_m)) * cells_a_metre;
+    const auto to =
+        last == travel_m.size() ? end : std::clamp(whole, std::min(end, from + cells_a_metre), end);
+    return {from, to, sample_at(passage, from_m - config.margin_m), last};
+}
+
+} // namespace
+
+TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
+    auto passage = passage_of(stretch, vehicle, config);
+    if (passage.travel_m.size() < min_tuning_samples || !is_felt(passage)) {
+        return {.vehicle = vehicle,
+                .friction_n = vehicle.half_car.friction_n.value_or(0),
+                .iri_sd = untuned_sd};
+    }
+    const std::size_t count = std::min(passage.travel_m.size(), tuning_samples);
+    const std::size_t from = (passage.travel_m.size() - count) / 2;
+    Vehicle tunable = with_height(vehicle);
+    if (passage.felt[0].empty() || passage.felt[3].empty()) {
+        tunable.uncertainty.clear();
+    }
+    auto piece = piece_of(passage, from, from + count);
+    piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
+    auto tuned = tuned_car(piece, tunable, {});
+    tuned.vehicle.imu.height_above_roll_axis_m = vehicle.imu.height_above_roll_axis_m;
+    if (tunable.uncertainty.empty()) {
+        for (const auto& [parameter, sd] : vehicle.uncertainty) {
+            tuned.iri_sd = std::hypot(tuned.iri_sd, iri_per_parameter * sd);
+        }
+    }
+    return tuned;
+}
+
+IriRun smoothed_iri(const Stretch& stretch,
+                    const TunedCar& car,
+                    const EstimatorConfig& config,
+                    const PieceConfig& pieces) {
+    SmootherConfig smoother;
+    smoother.colour = car.colour;
+    auto passage = passage_of(stretch, car.vehicle, config);
+    IriRun run = empty_run(stretch, config, smoother.cell_m);
+    if (!is_felt(passage) || passage.travel_m.size() < 3) {
+        return run;
+    }
+    const Vehicle vehicle = with_height(car.vehicle);
+    passage.cars = cars_with_friction(vehicle, stretch.step_s);
+    run.indicative = !felt_by({&passage, 1}).mean;
+    run.common_sd = common_sd_of(car, run.indicative);
+    run.random_sd = random_part;
+
+    const auto [begin, end] = cells_under(passage, smoother.cell_m);
+    run.start_travel_m = static_cast<double>(begin) * smoother.cell_m;
+    run.profile = {.start_travel_m = run.start_travel_m, .step_m = smoother.cell_m};
+    for (auto cell = begin; cell < end;) {
+        const auto piece = piece_at(passage, cell, end, smoother.cell_m, pieces);
+        const auto estimate = smooth_passages(
+            {{piece_of(passage, piece.first, piece.last), vehicle, car.friction_n}}, smoother);
+        append(estimate, piece.from, piece.to, run);
+        if (config.profile) {
+            append(estimate, piece.from, piece.to, run.profile);
+        }
+        cell = piece.to;
+    }
+    for (std::size_t i = 0; i < run.centre_mm_per_m.size(); ++i) {
+        const double at_m = run.start_travel_m + (static_cast<double>(i) + 0.5) * run.cell_m;
+        const std::size_t k = std::min(sample_at(passage, at_m), stretch.speed_mps.size() - 1);
+        run.speed_mps.push_back(stretch.speed_mps[k]);
+    }
+    return run;
+}
+
+} // namespace macadam

@@ -1,0 +1,219 @@
+#include "estimator/smoother/stretch_record.hpp"
+
+#include "estimator/smoother/box_smoothing.hpp"
+#include "estimator/smoother/lowpass_inverse.hpp"
+#include "estimator/smoother/wheel_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace macadam {
+namespace {
+
+// Of the channels' zeros, variance a second: gravity's share on hills and in bends, what the yaw
+// rate does not explain of a bend's pull, drift of the gyroscope.
+constexpr std::array<double, channel_count> zero_drift{1e-4, 1e-2, 1e-6, 1e-6};
+constexpr double lateral_drift_without_yaw = 1;
+
+constexpr double usual_height_m = 0.3; // of an IMU above the roll axis
+
+// What linear cars leave of the readings beside sensor noise, over their rms within some seconds.
+constexpr double model_part = 0.02;
+constexpr double model_window_s = 4;
+
+constexpr double bend_part = 0.3; // of a bend's pull: where the sensor sits, and how it hangs
+constexpr double bend_window_s = 4;
+
+constexpr double slope_window_s = 0.4; // of the speed: brakes bite within that
+
+std::vector<double> doubles(const std::vector<float>& values, double over) {
+    std::vector<double> out(values.size());
+    std::ranges::transform(
+        values, out.begin(), [=](float v) { return static_cast<double>(v) / over; });
+    return out;
+}
+
+/// Sensor noise and what the model leaves of a channel, per sample.
+std::vector<double> variance_of(const std::vector<double>& felt, double noise, double step_s) {
+    const auto reach = static_cast<std::size_t>(model_window_s / 2 / step_s);
+    std::vector<double> sums(felt.size() + 1);
+    for (std::size_t k = 0; k < felt.size(); ++k) {
+        sums[k + 1] = sums[k] + felt[k] * felt[k];
+    }
+    std::vector<double> variance(felt.size());
+    for (std::size_t k = 0; k < felt.size(); ++k) {
+        const std::size_t from = k - std::min(k, reach);
+        const std::size_t to = std::min(felt.size(), k + reach + 1);
+        const double power = (sums[to] - sums[from]) / static_cast<double>(to - from);
+        variance[k] = noise * noise + model_part * model_part * power;
+    }
+    return variance;
+}
+
+/// Acceleration along the road, by the slope of the speed over a part of a second.
+std::vector<double> acceleration_mps2(const Stretch& stretch) {
+    const std::size_t n = stretch.speed_mps.size();
+    const auto reach = static_cast<std::size_t>(slope_window_s / 2 / stretch.step_s);
+    std::vector<double> slope(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t from = k - std::min(k, reach);
+        const std::size_t to = std::min(n - 1, k + reach);
+        slope[k] = static_cast<double>(stretch.speed_mps[to] - stretch.speed_mps[from]) /
+                   (stretch.step_s * static_cast<double>(std::max<std::size_t>(to - from, 1)));
+    }
+    return slope;
+}
+
+/// What leans on the car: braking where pitch was felt, bends where anything rolls.
+void add_pulls(DriveRecord& passage, const Stretch& stretch, bool yaw) {
+    if (!passage.felt[3].empty()) {
+        passage.pull[0] = acceleration_mps2(stretch);
+        std::ranges::for_each(passage.pull[0], [](double& a) { a = -a; });
+    }
+    if (yaw && !(passage.felt[1].empty() && passage.felt[2].empty())) {
+        passage.pull[1].resize(stretch.yaw_radps.size());
+        std::ranges::transform(
+            stretch.yaw_radps, stretch.speed_mps, passage.pull[1].begin(), std::multiplies{});
+    }
+}
+
+/// What is left of a bend's pull in the lateral channel, to be counted as noise there.
+void add_bends(std::vector<double>& variance, const Stretch& stretch) {
+    std::vector<double> pull2(variance.size());
+    for (std::size_t k = 0; k < pull2.size(); ++k) {
+        pull2[k] = std::pow(
+            bend_part * static_cast<double>(stretch.yaw_radps[k] * stretch.speed_mps[k]), 2);
+    }
+    pull2 = windowed(std::move(pull2), bend_window_s / stretch.step_s);
+    for (std::size_t k = 0; k < pull2.size(); ++k) {
+        variance[k] += pull2[k];
+    }
+}
+
+/// What of the stretch serves the estimate. Pitch and roll of a car whose axles are not stated
+/// cannot be told from what shakes the sensor, and a lateral acceleration without a roll rate
+/// beside it says too little of short waves.
+SensorSet
+sensors_for(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
+    switch (config.channels) {
+    case Channels::vertical:
+        return {.vertical = true};
+    case Channels::lateral:
+        return {.lateral = true, .yaw = true};
+    case Channels::both:
+        return {.vertical = true, .lateral = true, .yaw = true};
+    case Channels::automatic:
+        break;
+    }
+    if (config.sensors) {
+        SensorSet named = *config.sensors;
+        named.pitch = named.pitch && vehicle.axles; // a car on one axle does not pitch
+        return named;
+    }
+    const bool rolls = config.tracks && vehicle.axles && !stretch.roll_radps.empty();
+    const bool alone = stretch.vertical_mps2.empty() && !rolls;
+    return {.vertical = true,
+            .lateral = alone || (rolls && vehicle.imu.height_above_roll_axis_m > 0),
+            .roll = rolls,
+            .pitch = vehicle.axles.has_value(),
+            .yaw = true};
+}
+
+/// Lateral acceleration without the pull of bends, if the yaw rate tells it.
+std::vector<double> lateral_of(const Stretch& stretch, double gain, bool yaw) {
+    auto lateral = doubles(stretch.lateral_mps2, gain);
+    for (std::size_t k = 0; k < lateral.size() && yaw; ++k) {
+        lateral[k] -= static_cast<double>(stretch.yaw_radps[k] * stretch.speed_mps[k]) / gain;
+    }
+    return lateral;
+}
+
+/// Sensor noise and what the model leaves, of every channel.
+std::array<std::vector<double>, channel_count>
+variances_of(const DriveRecord& passage, const Stretch& stretch, const ImuMount& imu, double gain) {
+    const double noise[] = {imu.noise_mps2 / gain,
+                            imu.noise_mps2 / gain,
+                            std::max(imu.noise_radps, stretch.roll_noise_radps),
+                            std::max(imu.noise_radps, stretch.pitch_noise_radps)};
+    std::array<std::vector<double>, channel_count> variance;
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        variance[channel] = variance_of(passage.felt[channel], noise[channel], stretch.step_s);
+    }
+    return variance;
+}
+
+} // namespace
+
+DriveRecord
+passage_of(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
+    const SensorSet sensors = sensors_for(stretch, vehicle, config);
+    const bool yaw = sensors.yaw && !stretch.yaw_radps.empty();
+    DriveRecord passage;
+    passage.first_sample = std::llround(stretch.start_s / stretch.step_s);
+    passage.travel_m = stretch.travel_m;
+    passage.drift = zero_drift;
+    auto& [vertical, lateral, roll, pitch] = passage.felt;
+    if (sensors.vertical) {
+        vertical = doubles(stretch.vertical_mps2, vehicle.gain);
+    }
+    if (sensors.lateral) {
+        lateral = lateral_of(stretch, vehicle.gain, yaw);
+        passage.drift[1] = yaw ? zero_drift[1] : lateral_drift_without_yaw;
+    }
+    if (sensors.roll) {
+        roll = doubles(stretch.roll_radps, 1);
+    }
+    if (sensors.pitch) {
+        pitch = doubles(stretch.pitch_radps, 1);
+    }
+    if (vehicle.imu.lowpass_hz > 0) {
+        for (auto& felt : passage.felt) {
+            felt = inverse_lowpass(
+                felt, stretch.step_s, vehicle.imu.lowpass_hz, vehicle.imu.lowpass_order);
+        }
+    }
+    add_pulls(passage, stretch, yaw);
+    if (const auto turn_m = wheel_circumference_m(passage)) {
+        passage = without_wheel_order(std::move(passage), *turn_m);
+    }
+    passage.variance = variances_of(passage, stretch, vehicle.imu, vehicle.gain);
+    if (!passage.felt[1].empty() && yaw) {
+        add_bends(passage.variance[1], stretch);
+    }
+    return passage;
+}
+
+DriveRecord piece_of(const DriveRecord& whole, std::size_t from, std::size_t to) {
+    const auto cut = [=](const std::vector<double>& values) {
+        return values.empty()
+                   ? values
+                   : std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(from),
+                                         values.begin() + static_cast<std::ptrdiff_t>(to));
+    };
+    DriveRecord piece{.cars = whole.cars,
+                      .which = {},
+                      .first_sample = whole.first_sample + static_cast<std::int64_t>(from),
+                      .travel_m = cut(whole.travel_m),
+                      .felt = {},
+                      .variance = {},
+                      .drift = whole.drift,
+                      .pull = {}};
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        piece.felt[channel] = cut(whole.felt[channel]);
+        piece.variance[channel] = cut(whole.variance[channel]);
+    }
+    for (std::size_t pull = 0; pull < pull_count; ++pull) {
+        piece.pull[pull] = cut(whole.pull[pull]);
+    }
+    return piece;
+}
+
+Vehicle with_height(Vehicle vehicle) {
+    if (vehicle.imu.height_above_roll_axis_m <= 0) {
+        vehicle.imu.height_above_roll_axis_m = usual_height_m;
+    }
+    return vehicle;
+}
+
+} // namespace macadam

@@ -1,0 +1,241 @@
+#include "mapping/analysis/change_since.hpp"
+
+#include "mapping/analysis/network_summary.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double um_per_mm = 1000;
+constexpr double interval_90 = 1.645; // two-sided, normal distribution
+constexpr double interval_95 = 1.96;
+
+struct Place {
+    std::size_t before;
+    std::size_t after;
+};
+
+/// What both sides know, and the length that one alone knows is handed to `alone`.
+template <typename Alone>
+std::vector<Place> common_places(std::span<const SegmentRecord> before,
+                                 std::span<const SegmentRecord> since,
+                                 const Alone& alone) {
+    std::vector<Place> places;
+    std::size_t i = 0, k = 0;
+    while (i < before.size() || k < since.size()) {
+        const bool first = k == since.size() ||
+                           (i < before.size() && before[i].segment.key < since[k].segment.key);
+        const bool second =
+            !first && (i == before.size() || since[k].segment.key < before[i].segment.key);
+        if (first) {
+            alone(before[i++], &ChangeLengths::before_alone_m);
+        } else if (second) {
+            alone(since[k++], &ChangeLengths::since_alone_m);
+        } else {
+            places.push_back({i++, k++});
+        }
+    }
+    return places;
+}
+
+/// The mean over a road: half of what is left of the variance is common to its segments, as in
+/// road_mean.
+Difference mean_of(std::span<const Difference> pieces) {
+    Difference mean;
+    double sum = 0, together = 0, apart = 0;
+    for (const auto& [length_m, mm_per_m, sd] : pieces) {
+        mean.length_m += length_m;
+        sum += length_m * mm_per_m;
+        together += length_m * sd;
+        apart += length_m * sd * length_m * sd;
+    }
+    if (mean.length_m > 0) {
+        mean.mm_per_m = sum / mean.length_m;
+        mean.sd = std::sqrt(std::lerp(apart, together * together, common_share_along_road)) /
+                  mean.length_m;
+    }
+    return mean;
+}
+
+void add(ChangeLengths& lengths, const ComparedSegment& segment) {
+    auto& of = segment.verdict == Verdict::improved       ? lengths.improved_m
+               : segment.verdict == Verdict::deteriorated ? lengths.deteriorated_m
+                                                          : lengths.unchanged_m;
+    of += segment.difference.length_m;
+}
+
+bool says_nothing(const ChangeLengths& lengths) {
+    return lengths.improved_m + lengths.unchanged_m + lengths.deteriorated_m +
+               lengths.before_alone_m + lengths.since_alone_m <=
+           0;
+}
+
+/// Differences as states: positive where the verdict is the one that is looked for, else 0. What
+/// follows roads and joins neighbours then finds their stretches.
+std::vector<SegmentRecord> as_records(std::span<const ComparedSegment> segments,
+                                      std::span<const SegmentRecord> since,
+                                      Verdict verdict) {
+    std::vector<SegmentRecord> records;
+    for (const auto& segment : segments) {
+        auto record = since[segment.after];
+        const double change = std::abs(segment.difference.mm_per_m) * um_per_mm;
+        record.state->iri_um =
+            segment.verdict == verdict ? std::max(1, static_cast<IriUm>(std::lround(change))) : 0;
+        records.push_back(std::move(record));
+    }
+    return records;
+}
+
+ChangedStretch rated(WorstSection stretch,
+                     const ChangeSince& change,
+                     std::span<const SegmentRecord> before,
+                     std::span<const SegmentRecord> since) {
+    std::vector<RatedLength> first, second;
+    std::vector<Difference> differences;
+    for (const auto i : stretch.records) {
+        const auto& segment = change.segments[i];
+        first.push_back(rated_length(before[segment.before]));
+        second.push_back(rated_length(since[segment.after]));
+        differences.push_back(segment.difference);
+    }
+    ChangedStretch rated{std::move(stretch), road_mean(first), road_mean(second), {}};
+    rated.difference = mean_of(differences);
+    rated.low = rated.difference.mm_per_m - interval_90 * rated.difference.sd;
+    rated.high = rated.difference.mm_per_m + interval_90 * rated.difference.sd;
+    return rated;
+}
+
+std::vector<ChangedStretch> stretches_of(const RoadNetwork& roads,
+                                         const ChangeSince& change,
+                                         std::span<const SegmentRecord> before,
+                                         std::span<const SegmentRecord> since,
+                                         Verdict verdict) {
+    const WorstSectionConfig runs{.above_mm_per_m = 0,
+                                  .min_length_m = change.config.min_length_m,
+                                  .max_unmeasured_m = change.config.max_unmeasured_m,
+                                  .most_better_m = change.config.max_other_m,
+                                  .sharpest_turn_deg = change.config.sharpest_turn_deg};
+    std::vector<ChangedStretch> stretches;
+    for (auto& stretch : worst_sections(roads, as_records(change.segments, since, verdict), runs)) {
+        auto changed = rated(std::move(stretch), change, before, since);
+        if (verdict == Verdict::deteriorated ? changed.low > 0 : changed.high < 0) {
+            stretches.push_back(std::move(changed));
+        }
+    }
+    std::ranges::stable_sort(stretches, std::ranges::greater{}, [](const ChangedStretch& changed) {
+        return std::abs(changed.difference.mm_per_m);
+    });
+    return stretches;
+}
+
+std::vector<bool> verdicts(std::span<const Difference> differences, double rate) {
+    std::vector<double> chances;
+    std::ranges::transform(differences, std::back_inserter(chances), chance_of);
+    return called(chances, rate);
+}
+
+} // namespace
+
+double common_variance(const SegmentState& state, const FusionConfig& config) {
+    if (state.vehicles == 0) {
+        return 0;
+    }
+    const double level = state.iri_um / um_per_mm;
+    const double sd = state.sd_um / um_per_mm;
+    const double rest = std::hypot(
+        config.rest_relative_sd * level, config.trip_relative_sd * level, config.rest_sd_mm_per_m);
+    const double of_cars = sd * sd - rest * rest / state.passes;
+    const double stated = of_cars / (config.common_share + config.car_share / state.vehicles);
+    return std::max(0.0, config.common_share * stated);
+}
+
+Difference
+difference_of(const SegmentRecord& before, const SegmentRecord& after, const FusionConfig& config) {
+    const auto first = rated_length(before);
+    const auto second = rated_length(after);
+    const double common1 = common_variance(*before.state, config);
+    const double common2 = common_variance(*after.state, config);
+    const double apart = first.sd * first.sd - common1 + second.sd * second.sd - common2;
+    return {second.length_m,
+            second.iri - first.iri,
+            std::hypot(std::sqrt(apart), std::sqrt(common1) - std::sqrt(common2))};
+}
+
+double chance_of(const Difference& difference) {
+    return difference.sd > 0
+               ? std::erfc(std::abs(difference.mm_per_m) / difference.sd / std::numbers::sqrt2)
+               : 1;
+}
+
+std::vector<bool> called(std::span<const double> chances, double rate) {
+    std::vector<double> sorted(chances.begin(), chances.end());
+    std::ranges::sort(sorted);
+    double border = -1;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        if (sorted[i] <= rate * static_cast<double>(i + 1) / static_cast<double>(sorted.size())) {
+            border = sorted[i];
+        }
+    }
+    std::vector<bool> is_called;
+    for (const double chance : chances) {
+        is_called.push_back(chance <= border);
+    }
+    return is_called;
+}
+
+ChangeSince change_since(const RoadNetwork& roads,
+                         std::span<const SegmentRecord> before,
+                         std::span<const SegmentRecord> since,
+                         const ChangeSinceConfig& config) {
+    ChangeSince change;
+    change.config = config;
+    for (const auto kind : road_kinds()) {
+        change.kinds.emplace_back().kind = kind;
+    }
+    const auto of_kind = [&](const SegmentRecord& record) -> ChangeLengths& {
+        return *std::ranges::find(change.kinds, road_kind(record.highway), &ChangeLengths::kind);
+    };
+    const auto places = common_places(
+        before, since, [&](const SegmentRecord& record, double ChangeLengths::*alone_m) {
+            const double length_m = record.segment.to_m - record.segment.from_m;
+            change.all.*alone_m += length_m;
+            of_kind(record).*alone_m += length_m;
+        });
+    std::vector<Difference> differences;
+    for (const auto& [i, k] : places) {
+        differences.push_back(difference_of(before[i], since[k], config.fusion));
+        change.called_alone +=
+            chance_of(differences.back()) < std::erfc(interval_95 / std::numbers::sqrt2) ? 1 : 0;
+    }
+    const auto is_called = verdicts(differences, config.rate);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto verdict = !is_called[i]                 ? Verdict::no_change_shown
+                             : differences[i].mm_per_m > 0 ? Verdict::deteriorated
+                                                           : Verdict::improved;
+        change.segments.push_back({places[i].before, places[i].after, differences[i], verdict});
+        add(change.all, change.segments.back());
+        add(of_kind(since[places[i].after]), change.segments.back());
+    }
+    change.all.mean = mean_of(differences);
+    for (auto& kind : change.kinds) {
+        std::vector<Difference> of_this;
+        for (const auto& segment : change.segments) {
+            if (road_kind(since[segment.after].highway) == kind.kind) {
+                of_this.push_back(segment.difference);
+            }
+        }
+        kind.mean = mean_of(of_this);
+    }
+    std::erase_if(change.kinds, says_nothing);
+    change.worse = stretches_of(roads, change, before, since, Verdict::deteriorated);
+    change.better = stretches_of(roads, change, before, since, Verdict::improved);
+    return change;
+}
+
+} // namespace macadam

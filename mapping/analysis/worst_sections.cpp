@@ -1,0 +1,290 @@
+#include "mapping/analysis/worst_sections.hpp"
+
+#include "mapping/analysis/maximum_scoring_runs.hpp"
+#include "mapping/network/road_strokes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr std::size_t unmeasured = ~std::size_t{0};
+constexpr double a_centimetre_m = 0.01; // what lengths are written to
+
+/// Places of the measured segments in the order of their keys.
+struct Lookup {
+    std::span<const SegmentRecord> records;
+    std::vector<std::size_t> order;
+
+    const SegmentKey& key(std::size_t i) const { return records[i].segment.key; }
+};
+
+Lookup lookup_of(std::span<const SegmentRecord> records) {
+    Lookup lookup{records, {}};
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        if (records[i].state) {
+            lookup.order.push_back(i);
+        }
+    }
+    std::ranges::sort(lookup.order, [&](auto a, auto b) { return lookup.key(a) < lookup.key(b); });
+    return lookup;
+}
+
+/// A segment of a road as it is followed.
+struct Piece {
+    EdgeId edge;
+    std::uint32_t number; ///< along the edge, as driven
+    std::size_t record;   ///< or unmeasured
+    double length_m;
+};
+
+/// Those of an edge that are measured, in the order of their keys.
+std::span<const std::size_t>
+measured_on(const RoadNetwork& roads, const Lookup& lookup, EdgeId edge) {
+    const auto link = link_at(roads, edge);
+    const SegmentKey first{way_of(roads, edge).id, is_forward(edge), link.first_segment};
+    auto past = first;
+    past.index += link.segments;
+    const auto at = [&](const SegmentKey& key) {
+        return std::ranges::lower_bound(
+            lookup.order, key, {}, [&](std::size_t i) { return lookup.key(i); });
+    };
+    return {at(first), at(past)};
+}
+
+std::vector<Piece> pieces_on(const RoadNetwork& roads, const Lookup& lookup, EdgeId edge) {
+    const auto link = link_at(roads, edge);
+    const double piece_m = (link.to_m - link.from_m) / link.segments;
+    std::vector<Piece> pieces;
+    for (std::uint32_t i = 0; i < link.segments; ++i) {
+        pieces.push_back({edge, i, unmeasured, piece_m});
+    }
+    for (const auto record : measured_on(roads, lookup, edge)) {
+        const auto along = lookup.key(record).index - link.first_segment;
+        pieces[is_forward(edge) ? along : link.segments - 1 - along].record = record;
+    }
+    return pieces;
+}
+
+std::vector<Piece>
+pieces_along(const RoadNetwork& roads, const Lookup& lookup, const std::vector<EdgeId>& chain) {
+    std::vector<Piece> pieces;
+    for (const auto edge : chain) {
+        const auto more = pieces_on(roads, lookup, edge);
+        pieces.insert(pieces.end(), more.begin(), more.end());
+    }
+    return pieces;
+}
+
+/// Edges with a measured segment, and those so short that a stretch may bridge them.
+std::vector<bool>
+edges_to_follow(const RoadNetwork& roads, const Lookup& lookup, const WorstSectionConfig& config) {
+    std::vector<bool> wanted(2 * link_count(roads), false);
+    for (std::uint32_t i = 0; i < wanted.size(); ++i) {
+        const EdgeId edge{i};
+        wanted[i] = !measured_on(roads, lookup, edge).empty() ||
+                    (is_drivable(roads, edge) && length_m(roads, edge) <= config.max_unmeasured_m);
+    }
+    return wanted;
+}
+
+double excess_mm_per_m(const Lookup& lookup, const Piece& piece, const WorstSectionConfig& config) {
+    return rated_length(lookup.records[piece.record]).iri - config.above_mm_per_m;
+}
+
+/// What lies between two poor pieces.
+struct Between {
+    double unmeasured_m = 0; ///< in a row, at most so far
+    double better_m = 0;
+    double row_m = 0; ///< unmeasured, in a row, now
+
+    void add(const Piece& piece) {
+        row_m = piece.record == unmeasured ? row_m + piece.length_m : 0;
+        better_m += piece.record == unmeasured ? 0 : piece.length_m;
+        unmeasured_m = std::max(unmeasured_m, row_m);
+    }
+    bool may_be_bridged(const WorstSectionConfig& config) const {
+        return unmeasured_m <= config.max_unmeasured_m + a_centimetre_m &&
+               better_m <= config.most_better_m + a_centimetre_m;
+    }
+};
+
+/// Parts of a road that begin and end with poor pieces and hold nothing that must not be bridged.
+std::vector<IndexRange> blocks_of(const std::vector<Piece>& pieces,
+                                  const Lookup& lookup,
+                                  const WorstSectionConfig& config) {
+    std::vector<IndexRange> blocks;
+    Between between;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const bool poor =
+            pieces[i].record != unmeasured && excess_mm_per_m(lookup, pieces[i], config) > 0;
+        if (!poor) {
+            between.add(pieces[i]);
+            continue;
+        }
+        if (blocks.empty() || !between.may_be_bridged(config)) {
+            blocks.push_back({i, i});
+        }
+        blocks.back().last = i + 1;
+        between = {};
+    }
+    return blocks;
+}
+
+/// A road's runs of poor pieces, as parts of it.
+std::vector<IndexRange> poor_runs(const std::vector<Piece>& pieces,
+                                  const Lookup& lookup,
+                                  const WorstSectionConfig& config) {
+    std::vector<IndexRange> runs;
+    std::vector<double> scores;
+    for (const auto& block : blocks_of(pieces, lookup, config)) {
+        scores.clear();
+        for (auto i = block.first; i < block.last; ++i) {
+            scores.push_back(pieces[i].record == unmeasured
+                                 ? 0
+                                 : pieces[i].length_m * excess_mm_per_m(lookup, pieces[i], config));
+        }
+        for (const auto& run : maximal_scoring_runs(scores)) {
+            runs.push_back({block.first + run.first, block.first + run.last});
+        }
+    }
+    return runs;
+}
+
+// ----------------------------------------------------------------------------- what they amount to
+
+std::vector<Segment> segments_along(const RoadNetwork& roads, std::span<const Piece> pieces) {
+    std::vector<Segment> segments, of_edge;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (i == 0 || pieces[i].edge != pieces[i - 1].edge) {
+            of_edge = segments_of(roads, pieces[i].edge);
+        }
+        segments.push_back(of_edge[pieces[i].number]);
+    }
+    return segments;
+}
+
+/// Whether a segment begins, as driven, where a part of its way ends.
+bool goes_on(const StretchPart& part, const Segment& segment) {
+    if (part.way_id != segment.key.way_id || part.forward != segment.key.forward) {
+        return false;
+    }
+    const double apart_m = part.forward ? segment.from_m - part.to_m : segment.to_m - part.from_m;
+    return std::abs(apart_m) < a_centimetre_m;
+}
+
+std::vector<StretchPart> parts_of(const std::vector<Segment>& segments) {
+    std::vector<StretchPart> parts;
+    for (const auto& segment : segments) {
+        if (parts.empty() || !goes_on(parts.back(), segment)) {
+            parts.push_back(
+                {segment.key.way_id, segment.key.forward, segment.from_m, segment.to_m});
+        } else if (segment.key.forward) {
+            parts.back().to_m = segment.to_m;
+        } else {
+            parts.back().from_m = segment.from_m;
+        }
+    }
+    return parts;
+}
+
+std::vector<GeoPoint> line_through(const std::vector<Segment>& segments) {
+    std::vector<GeoPoint> line;
+    for (const auto& segment : segments) {
+        for (const auto& point : segment.line) {
+            if (line.empty() || distance_m(line.back(), point) > a_centimetre_m) {
+                line.push_back(point);
+            }
+        }
+    }
+    return line;
+}
+
+/// The earlier or later of two times, by `better`; the known one if only one is.
+template <typename Better>
+std::optional<std::int64_t>
+better_of(std::optional<std::int64_t> a, std::optional<std::int64_t> b, Better better) {
+    return a && b ? std::optional{better(*a, *b) ? *a : *b} : a ? a : b;
+}
+
+/// Everything that the measured segments say.
+WorstSection rated(std::vector<std::size_t> records, const Lookup& lookup, double common_share) {
+    WorstSection stretch{};
+    std::vector<RatedLength> lengths;
+    std::vector<std::int32_t> passes;
+    for (const auto i : records) {
+        const auto& state = *lookup.records[i].state;
+        lengths.push_back(rated_length(lookup.records[i]));
+        passes.push_back(state.passes);
+        stretch.worst_iri = std::max(stretch.worst_iri, lengths.back().iri);
+        stretch.vehicles = std::max(stretch.vehicles, state.vehicles);
+        stretch.first_seen_ms =
+            better_of(stretch.first_seen_ms, state.first_seen_ms, std::less<>{});
+        stretch.last_seen_ms =
+            better_of(stretch.last_seen_ms, state.last_seen_ms, std::greater<>{});
+    }
+    std::ranges::sort(passes);
+    stretch.mean = road_mean(lengths, common_share);
+    stretch.min_passes = passes.front();
+    stretch.median_passes = (passes[(passes.size() - 1) / 2] + passes[passes.size() / 2]) / 2.0;
+    stretch.records = std::move(records);
+    return stretch;
+}
+
+WorstSection stretch_of(const RoadNetwork& roads,
+                        const Lookup& lookup,
+                        std::span<const Piece> pieces,
+                        double common_share) {
+    std::vector<std::size_t> records;
+    double length_m = 0;
+    for (const auto& piece : pieces) {
+        length_m += piece.length_m;
+        if (piece.record != unmeasured) {
+            records.push_back(piece.record);
+        }
+    }
+    auto stretch = rated(std::move(records), lookup, common_share);
+    const auto segments = segments_along(roads, pieces);
+    const auto& first = lookup.records[stretch.records.front()];
+    stretch.name = first.name;
+    stretch.highway = first.highway;
+    stretch.parts = parts_of(segments);
+    stretch.line = line_through(segments);
+    stretch.length_m = length_m;
+    stretch.middle = halfway_along(stretch.line);
+    return stretch;
+}
+
+} // namespace
+
+double poor_above(const ClassTable& table) {
+    return table.classes[(table.classes.size() - 1) / 2].to_mm_per_m;
+}
+
+std::vector<WorstSection> worst_sections(const RoadNetwork& roads,
+                                         std::span<const SegmentRecord> measured,
+                                         const WorstSectionConfig& config) {
+    const auto lookup = lookup_of(measured);
+    const auto wanted = edges_to_follow(roads, lookup, config);
+    std::vector<WorstSection> stretches;
+    for (const auto& chain : road_strokes(roads, wanted, config.sharpest_turn_deg)) {
+        const auto pieces = pieces_along(roads, lookup, chain);
+        for (const auto& run : poor_runs(pieces, lookup, config)) {
+            const auto of_run = std::span{pieces}.subspan(run.first, run.last - run.first);
+            auto stretch = stretch_of(roads, lookup, of_run, config.common_share);
+            if (stretch.length_m >= config.min_length_m - a_centimetre_m) {
+                stretches.push_back(std::move(stretch));
+            }
+        }
+    }
+    std::ranges::sort(stretches, [&](const WorstSection& a, const WorstSection& b) {
+        return std::pair{-a.mean.iri, lookup.key(a.records.front())} <
+               std::pair{-b.mean.iri, lookup.key(b.records.front())};
+    });
+    return stretches;
+}
+
+} // namespace macadam

@@ -1,0 +1,190 @@
+#include "mapping/conflation/matched_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double max_proportioned_m = 400; // beyond, feet are right within less than lengths
+constexpr double straight_m = 0.3;         // of the place along a road: less is drawing
+constexpr double step_back_m = 6;          // as in a walk; more is a second lap of a loop
+
+/// Two stations of one place.
+struct Knot {
+    double before_m;
+    double after_m;
+};
+
+/// A run's part on one way in one direction.
+struct Stretch {
+    std::uint32_t way;
+    bool forward;
+    std::vector<Knot> knots; ///< both rise
+};
+
+/// How far each place of a run is along the new roads.
+std::vector<double> gone_m(const WalkRun& run) {
+    std::vector<double> gone{0};
+    for (std::size_t i = 1; i < run.size(); ++i) {
+        const bool same_edge = run[i].edge == run[i - 1].edge;
+        gone.push_back(gone.back() + (same_edge ? run[i].along_m - run[i - 1].along_m : 0));
+    }
+    return gone;
+}
+
+bool is_at_change(const WalkRun& run, std::size_t i) {
+    return (i > 0 && run[i - 1].edge != run[i].edge) ||
+           (i + 1 < run.size() && run[i + 1].edge != run[i].edge);
+}
+
+/// Between two nodes that both networks have, lengths say more than feet of perpendiculars: these
+/// stay behind where the map was moved along the road.
+WalkRun proportioned(const WalkRun& run, const ChangeConfig& config) {
+    const auto gone = gone_m(run);
+    WalkRun result;
+    std::optional<std::size_t> last;
+    for (std::size_t i = 0; i < run.size(); ++i) {
+        result.push_back(run[i]);
+        if (!run[i].is_node) {
+            continue;
+        }
+        if (last) {
+            const double new_m = gone[i] - gone[*last];
+            const double old_m = run[i].offset_m - run[*last].offset_m;
+            if (new_m > 0 && old_m <= max_proportioned_m &&
+                std::abs(new_m - old_m) <= config.max_stretched_m + config.max_stretched * old_m) {
+                result.resize(result.size() - (i - *last));
+                for (auto k = *last + 1; k <= i; ++k) {
+                    if (k == i || is_at_change(run, k)) {
+                        result.push_back(run[k]);
+                        result.back().offset_m =
+                            run[*last].offset_m + old_m * (gone[k] - gone[*last]) / new_m;
+                    }
+                }
+            }
+        }
+        last = i;
+    }
+    return result;
+}
+
+double station_on(const Link& link, bool forward, double along_m) {
+    return forward ? link.from_m + along_m : along_m - link.to_m;
+}
+
+std::vector<Stretch> stretches_of(const RoadNetwork& after, const WalkRun& run) {
+    std::vector<Stretch> stretches;
+    for (const auto& place : run) {
+        const auto link = link_at(after, place.edge);
+        const bool forward = is_forward(place.edge);
+        const double at_m = station_on(link, forward, place.along_m);
+        if (stretches.empty() || stretches.back().way != link.way ||
+            stretches.back().forward != forward ||
+            at_m < stretches.back().knots.back().after_m - step_back_m) {
+            stretches.push_back({link.way, forward, {}});
+        }
+        auto& knots = stretches.back().knots;
+        const double min_m = knots.empty() ? at_m : knots.back().after_m;
+        knots.push_back({place.offset_m, std::max(at_m, min_m)});
+    }
+    return stretches;
+}
+
+/// The fewest knots that need be kept, and the last one of all is: those off the straight line
+/// between their neighbours (Douglas and Peucker, The Canadian Cartographer 10 (1973), pp.
+/// 112-122).
+std::vector<Knot> straightened(std::span<const Knot> knots) {
+    if (knots.size() <= 2) {
+        return {knots.begin(), knots.end()};
+    }
+    const auto& first = knots.front();
+    const auto& last = knots.back();
+    const double slope = last.before_m > first.before_m
+                             ? (last.after_m - first.after_m) / (last.before_m - first.before_m)
+                             : 0;
+    double farthest_m = straight_m;
+    std::size_t split = 0;
+    for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+        const double on_line_m = first.after_m + slope * (knots[i].before_m - first.before_m);
+        const double off_m = std::abs(knots[i].after_m - on_line_m);
+        if (off_m > farthest_m) {
+            farthest_m = off_m;
+            split = i;
+        }
+    }
+    if (split == 0) {
+        return {first, last};
+    }
+    auto straight = straightened(knots.first(split + 1));
+    straight.pop_back();
+    for (const auto& knot : straightened(knots.subspan(split))) {
+        straight.push_back(knot);
+    }
+    return straight;
+}
+
+double whole_mm(double at_m) {
+    return std::round(at_m * 1000) / 1000;
+}
+
+double before_m(const WalkRun& run) {
+    return run.back().offset_m - run.front().offset_m;
+}
+
+double after_m(const std::vector<Stretch>& stretches) {
+    double sum_m = 0;
+    for (const auto& stretch : stretches) {
+        sum_m += stretch.knots.back().after_m - stretch.knots.front().after_m;
+    }
+    return sum_m;
+}
+
+} // namespace
+
+std::vector<RoadCorrespondence> same_roads(const RoadNetwork& before,
+                                           const RoadNetwork& after,
+                                           std::uint32_t way,
+                                           bool forward,
+                                           const std::vector<WalkRun>& runs,
+                                           const std::vector<bool>& left_out,
+                                           const ChangeConfig& config) {
+    const auto old = way_at(before, way);
+    const double whole_m = old.along_m.back();
+    const double start_m = forward ? 0 : -whole_m;
+    std::vector<RoadCorrespondence> roads;
+    for (const auto& walked : runs) {
+        const auto run = proportioned(walked, config);
+        const auto stretches = stretches_of(after, run);
+        const double run_m = before_m(run);
+        const bool is_long = run_m >= std::min(config.min_run_m, whole_m / 2);
+        const bool is_as_long = std::abs(after_m(stretches) - run_m) <=
+                                config.max_stretched_m + config.max_stretched * run_m;
+        if (!is_long || !is_as_long) {
+            continue;
+        }
+        for (const auto& stretch : stretches) {
+            const auto knots = straightened(stretch.knots);
+            for (std::size_t i = 1; i < knots.size() && !left_out[stretch.way]; ++i) {
+                const RoadCorrespondence road{{old.id,
+                                               forward,
+                                               whole_mm(start_m + knots[i - 1].before_m),
+                                               whole_mm(start_m + knots[i].before_m)},
+                                              {way_at(after, stretch.way).id,
+                                               stretch.forward,
+                                               whole_mm(knots[i - 1].after_m),
+                                               whole_mm(knots[i].after_m)}};
+                if (road.before.to_station_m > road.before.from_station_m &&
+                    road.after.to_station_m > road.after.from_station_m) {
+                    roads.push_back(road);
+                }
+            }
+        }
+    }
+    return roads;
+}
+
+} // namespace macadam

@@ -1,0 +1,176 @@
+#include "mapping/conflation/way_assignment.hpp"
+
+#include "mapping/conflation/matched_runs.hpp"
+#include "mapping/conflation/segment_correspondence.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr int max_rounds = 8; // each settles all quarrels of two; few are of more
+
+/// What a way says a part of the new network has been.
+struct AssignmentBid {
+    DirectedPart part;
+    std::size_t way; ///< its place in the list
+    std::size_t road;
+};
+
+/// Two claims that overlap.
+struct AssignmentConflict {
+    AssignmentBid first;
+    AssignmentBid second;
+    double from_station_m;
+    double to_station_m;
+};
+
+double length_m(const DirectedPart& part) {
+    return part.to_station_m - part.from_station_m;
+}
+
+std::vector<AssignmentBid> claims_of(const std::vector<WayMatch>& ways) {
+    std::vector<AssignmentBid> claims;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        for (std::size_t k = 0; k < ways[i].roads.size(); ++k) {
+            claims.push_back({ways[i].roads[k].after, i, k});
+        }
+    }
+    std::ranges::sort(claims, {}, [](const AssignmentBid& claim) {
+        return std::tuple{claim.part.way_id,
+                          !claim.part.forward,
+                          claim.part.from_station_m,
+                          claim.way,
+                          claim.road};
+    });
+    return claims;
+}
+
+std::vector<AssignmentConflict> quarrels_in(const std::vector<WayMatch>& ways,
+                                            double max_shared_m) {
+    const auto claims = claims_of(ways);
+    std::vector<AssignmentConflict> quarrels;
+    for (std::size_t i = 0; i < claims.size(); ++i) {
+        const auto& a = claims[i].part;
+        for (auto k = i + 1; k < claims.size(); ++k) {
+            const auto& b = claims[k].part;
+            if (b.way_id != a.way_id || b.forward != a.forward ||
+                b.from_station_m >= a.to_station_m - max_shared_m) {
+                break;
+            }
+            const double to_m = std::min(a.to_station_m, b.to_station_m);
+            if (to_m - b.from_station_m > max_shared_m) {
+                quarrels.push_back({claims[i], claims[k], b.from_station_m, to_m});
+            }
+        }
+    }
+    return quarrels;
+}
+
+std::set<EdgeId> edges_in(const RoadNetwork& roads, const AssignmentConflict& quarrel) {
+    constexpr double min_m = 1;
+    const auto& part = quarrel.first.part;
+    const double from_m = part.forward ? quarrel.from_station_m : -quarrel.to_station_m;
+    const double to_m = part.forward ? quarrel.to_station_m : -quarrel.from_station_m;
+    std::set<EdgeId> edges;
+    const auto way = way_at(roads, *way_numbered(roads, part.way_id));
+    for (auto i = way.first_link; i < way.past_link; ++i) {
+        const auto link = link_at(roads, LinkId{i});
+        if (std::min(link.to_m, to_m) - std::max(link.from_m, from_m) > min_m) {
+            edges.insert(edge_of(LinkId{i}, part.forward));
+        }
+    }
+    return edges;
+}
+
+/// Without the first or the last metres of what it has become.
+RoadCorrespondence without(const RoadCorrespondence& road, double first_m, double last_m) {
+    const double scale = length_m(road.before) / length_m(road.after);
+    auto rest = road;
+    rest.after.from_station_m += first_m;
+    rest.after.to_station_m -= last_m;
+    rest.before.from_station_m += first_m * scale;
+    rest.before.to_station_m -= last_m * scale;
+    return rest;
+}
+
+/// Both claims end in the middle of what they share, which is not half of either.
+void cut_ends(std::vector<WayMatch>& ways, const AssignmentConflict& quarrel) {
+    const double half_m = (quarrel.to_station_m - quarrel.from_station_m) / 2;
+    auto& first = ways[quarrel.first.way].roads[quarrel.first.road];
+    auto& second = ways[quarrel.second.way].roads[quarrel.second.road];
+    first = without(first, 0, half_m);
+    second = without(second, half_m, 0);
+}
+
+bool is_at_ends(const AssignmentConflict& quarrel) {
+    const double shared_m = quarrel.to_station_m - quarrel.from_station_m;
+    return 2 * shared_m < length_m(quarrel.first.part) &&
+           2 * shared_m < length_m(quarrel.second.part) &&
+           quarrel.to_station_m == quarrel.first.part.to_station_m;
+}
+
+} // namespace
+
+WayMatch followed_again(WayMatch way,
+                        const RoadNetwork& before,
+                        const RoadNetwork& after,
+                        const RoadWalker& walker,
+                        const std::vector<bool>& left_out,
+                        const ChangeConfig& config) {
+    const auto walk = walker.walk(way.way, way.forward, way.barred);
+    way.cost = walk.cost;
+    way.roads = same_roads(before, after, way.way, way.forward, walk.runs, left_out, config);
+    return way;
+}
+
+std::vector<WayMatch> assign_one_to_one(std::vector<WayMatch> ways,
+                                        const RoadNetwork& before,
+                                        const RoadNetwork& after,
+                                        const RoadWalker& walker,
+                                        const std::vector<bool>& left_out,
+                                        const ChangeConfig& config) {
+    const auto without_edges = [&](const WayMatch& way, const std::set<EdgeId>& edges) {
+        auto barred = way;
+        barred.barred.insert(edges.begin(), edges.end());
+        return followed_again(std::move(barred), before, after, walker, left_out, config);
+    };
+    for (int round = 0; round < max_rounds; ++round) {
+        std::set<std::size_t> settled;
+        for (const auto& quarrel : quarrels_in(ways, config.max_shared_m)) {
+            const auto first = quarrel.first.way;
+            const auto second = quarrel.second.way;
+            if (settled.contains(first) || settled.contains(second)) {
+                continue;
+            }
+            settled.insert({first, second});
+            if (is_at_ends(quarrel)) {
+                cut_ends(ways, quarrel);
+            } else if (first == second) {
+                auto& roads = ways[first].roads;
+                const auto shorter = length_m(quarrel.first.part) < length_m(quarrel.second.part)
+                                         ? quarrel.first.road
+                                         : quarrel.second.road;
+                roads.erase(roads.begin() + static_cast<std::ptrdiff_t>(shorter));
+            } else {
+                const auto edges = edges_in(after, quarrel);
+                auto other_first = without_edges(ways[first], edges);
+                auto other_second = without_edges(ways[second], edges);
+                const bool first_yields =
+                    other_first.cost - ways[first].cost < other_second.cost - ways[second].cost;
+                (first_yields ? ways[first] : ways[second]) =
+                    std::move(first_yields ? other_first : other_second);
+            }
+        }
+        if (settled.empty()) {
+            break;
+        }
+    }
+    return ways;
+}
+
+} // namespace macadam

@@ -1,0 +1,123 @@
+#include "mapping/fusion/fleet_calibration.hpp"
+
+#include "mapping/fusion/fleet_fit.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr int max_rounds = 400;
+constexpr int first_spread_round = 8; // the fit is about right then
+constexpr int last_spread_round = 64;
+constexpr double settled = 1e-8; // relative: far below the whole millionths that are kept
+
+constexpr double cars_of_prior = 4;
+
+/// At least two cars passed; what is read where only one did tells nothing of it. Their places are
+/// numbered anew, from 0 without a gap.
+std::vector<FleetReading> shared_readings(const std::vector<FleetReading>& readings) {
+    std::vector<FleetReading> shared;
+    std::uint32_t places = 0;
+    for (std::size_t i = 0, past = 0; i < readings.size(); i = past) {
+        bool is_shared = false;
+        for (past = i; past < readings.size() && readings[past].place == readings[i].place;
+             ++past) {
+            is_shared = is_shared || readings[past].car != readings[i].car;
+        }
+        for (auto j = i; is_shared && j < past; ++j) {
+            shared.push_back(readings[j]);
+            shared.back().place = places;
+        }
+        places += is_shared ? 1 : 0;
+    }
+    return shared;
+}
+
+/// Places that each car shares with others, each once.
+std::vector<std::size_t> shared_places(const std::vector<FleetReading>& readings,
+                                       std::size_t cars) {
+    std::vector<std::size_t> places(cars, 0);
+    std::vector<std::optional<std::uint32_t>> last(cars);
+    for (const auto& reading : readings) {
+        if (last[reading.car] != reading.place) {
+            last[reading.car] = reading.place;
+            ++places[reading.car];
+        }
+    }
+    return places;
+}
+
+double square(double x) {
+    return x * x;
+}
+
+/// How far cars that are not known are off each other, robustly.
+double spread_of_cars(const FleetFit& fit, const std::vector<bool>& counts, double prior_sd) {
+    std::vector<double> off;
+    double sampling = 0;
+    for (std::size_t car = 0; car < counts.size(); ++car) {
+        if (counts[car]) {
+            off.push_back(std::abs(fit.cars[car].error_at_middle));
+            sampling += fit.cars[car].variance_at_middle;
+        }
+    }
+    if (off.size() < 2) {
+        return prior_sd;
+    }
+    const auto n = static_cast<double>(off.size());
+    const double seen = square(sd_over_mad_of_normal * median_of(off)) * n / (n - 1) - sampling / n;
+    return std::sqrt((cars_of_prior * square(prior_sd) + n * std::max(0.0, seen)) /
+                     (cars_of_prior + n));
+}
+
+} // namespace
+
+FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
+                                 const std::vector<std::optional<double>>& known,
+                                 const FleetPrior& prior) {
+    const auto shared = shared_readings(readings);
+    const auto places = shared_places(shared, known.size());
+    FleetFit fit{shared, known, prior};
+    for (int round = 0; round < max_rounds; ++round) {
+        const double moved = fit.settle();
+        const bool is_spread_round =
+            round >= first_spread_round && round <= last_spread_round && (round & (round - 1)) == 0;
+        if (is_spread_round) {
+            fit.take_spread();
+        } else if (moved < settled && round > last_spread_round) {
+            break;
+        }
+    }
+
+    std::vector<bool> counts(known.size());
+    for (std::size_t car = 0; car < known.size(); ++car) {
+        counts[car] = !known[car] && places[car] >= prior.min_shared;
+    }
+    FleetCalibration fleet{.cars = std::vector<std::optional<CarCalibration>>(known.size()),
+                           .shared = std::vector<std::size_t>(known.size(), 0),
+                           .car_sd = spread_of_cars(fit, counts, prior.car_sd),
+                           .trip_sd = fit.trip_sd,
+                           .rest_sd = fit.rest_sd,
+                           .anchor_sd = 0,
+                           .places = fit.place_count()};
+    for (const auto& reading : shared) {
+        ++fleet.shared[reading.car];
+    }
+    for (std::size_t car = 0; car < known.size(); ++car) {
+        if (counts[car]) {
+            const auto& [gain, offset_um, error, variance] = fit.cars[car];
+            fleet.cars[car] =
+                CarCalibration{.gain = gain,
+                               .offset_um = offset_um,
+                               .relative_sd = std::sqrt(variance + square(prior.min_car_sd))};
+        }
+    }
+    const auto cars = static_cast<double>(std::ranges::count(counts, true));
+    fleet.anchor_sd = fit.known_sd.value_or(fleet.car_sd / std::sqrt(std::max(1.0, cars)));
+    return fleet;
+}
+
+} // namespace macadam

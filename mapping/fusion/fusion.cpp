@@ -1,0 +1,365 @@
+#include "mapping/fusion/fusion.hpp"
+
+#include "mapping/fusion/roughness_time_series.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double um_per_mm = 1000;
+constexpr double interval_90 = 1.645;  // two-sided, normal distribution
+constexpr double sd_over_mad = 1.4826; // normal distribution
+constexpr double claims = 6;           // readings that scatter as claimed, known beforehand
+constexpr double survey_share = 0.5;   // of a reference's variance: alike in all its rows on a road
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+struct Weighed {
+    double value_um;
+    double weight;
+};
+
+/// Middle of the values by weight; halfway between two where they share it evenly.
+double weighted_median(std::vector<Weighed> values) {
+    std::sort(values.begin(), values.end(), [](const Weighed& a, const Weighed& b) {
+        return std::pair{a.value_um, a.weight} < std::pair{b.value_um, b.weight};
+    });
+    double whole = 0;
+    for (const auto& value : values) {
+        whole += value.weight;
+    }
+    double passed = 0;
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+        passed += values[i].weight;
+        if (std::abs(2 * passed - whole) <= 1e-12 * whole) {
+            return (values[i].value_um + values[i + 1].value_um) / 2;
+        }
+        if (2 * passed > whole) {
+            return values[i].value_um;
+        }
+    }
+    return values.back().value_um;
+}
+
+/// Linear in IRI; a pass read by a calibrated car as it would have been by a good one.
+double true_um(const FusionInput& input, double read_um) {
+    return input.calibration
+               ? std::max(0.0, (read_um - input.calibration->offset_um) / input.calibration->gain)
+               : read_um;
+}
+
+/// Passes in the order of car, trip and occurrence; cars by their first trip, so that what numbers
+/// they have changes no sum.
+std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
+    struct Place {
+        std::size_t first; ///< pass of the car
+        std::int64_t vehicle;
+        std::size_t pass;
+    };
+    std::vector<Place> places;
+    places.reserve(passes.size());
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        places.push_back({i, passes[i].vehicle, i});
+    }
+    std::ranges::sort(places, {}, [](const Place& place) {
+        return std::pair{place.vehicle, place.pass};
+    });
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        if (places[i].vehicle == places[i - 1].vehicle) {
+            places[i].first = places[i - 1].first;
+        }
+    }
+    std::ranges::sort(places, {}, [](const Place& place) {
+        return std::pair{place.first, place.pass};
+    });
+    std::vector<const FusionInput*> sorted;
+    sorted.reserve(passes.size());
+    for (const auto& place : places) {
+        sorted.push_back(&passes[place.pass]);
+    }
+    return sorted;
+}
+
+/// Runs of passes that `alike` puts together.
+template <typename Alike>
+std::vector<FusionObservations::Block> runs_of(const std::vector<const FusionInput*>& passes,
+                                               const Alike& alike) {
+    std::vector<FusionObservations::Block> runs;
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        if (i == 0 || !alike(*passes[i - 1], *passes[i])) {
+            runs.push_back({static_cast<Index>(i), 0});
+        }
+        ++runs.back().count;
+    }
+    return runs;
+}
+
+VectorXd values_of(const std::vector<const FusionInput*>& passes) {
+    VectorXd values(static_cast<Index>(passes.size()));
+    std::ranges::transform(passes, values.begin(), [](const FusionInput* input) {
+        return true_um(*input, input->pass.iri_um);
+    });
+    return values;
+}
+
+/// The middle of what the passes read, each alike.
+double level_um(const VectorXd& values) {
+    std::vector<Weighed> alike;
+    for (const double value_um : values) {
+        alike.push_back({value_um, 1});
+    }
+    return std::max(1.0, weighted_median(std::move(alike)));
+}
+
+/// The sds that passes state, as they would be had the passes read what the segment is. Most of an
+/// sd is a share of what was read, and a pass must not gain weight by reading low.
+VectorXd stated_um(const std::vector<const FusionInput*>& passes, double level_um) {
+    VectorXd stated(static_cast<Index>(passes.size()));
+    std::ranges::transform(passes, stated.begin(), [&](const FusionInput* input) {
+        return input->pass.sd_um * level_um / std::max<double>(1, input->pass.iri_um);
+    });
+    return stated;
+}
+
+/// With 0 for references.
+VectorXd of_cars_alone(const std::vector<const FusionInput*>& passes, VectorXd values) {
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        if (passes[i]->reference) {
+            values[static_cast<Index>(i)] = 0;
+        }
+    }
+    return values;
+}
+
+/// Of the stated variance, in the car's part of a reading.
+struct Shares {
+    double car;    ///< of a car that is not calibrated
+    double common; ///< of one that is, beside what its calibration states
+};
+
+FusionObservations readings_of(const std::vector<const FusionInput*>& passes,
+                               const VectorXd& values,
+                               const VectorXd& stated,
+                               double level_um,
+                               const Shares& shares,
+                               const FusionConfig& config) {
+    const auto same_car = [](const FusionInput& a, const FusionInput& b) {
+        return a.vehicle == b.vehicle;
+    };
+    const auto same_trip = [&](const FusionInput& a, const FusionInput& b) {
+        return same_car(a, b) && a.trip_sha256 == b.trip_sha256;
+    };
+    const double rest =
+        std::hypot(config.rest_relative_sd * level_um, config.rest_sd_mm_per_m * um_per_mm);
+    FusionObservations readings{.values = values,
+                                .car_sd = std::sqrt(shares.car) * stated,
+                                .rest_sd = VectorXd::Constant(values.size(), rest),
+                                .trip_sd = config.trip_relative_sd * level_um,
+                                .cars = runs_of(passes, same_car),
+                                .trips = runs_of(passes, same_trip)};
+    const auto input = [&](Index i) { return passes[static_cast<std::size_t>(i)]; };
+    for (Index i = 0; i < values.size(); ++i) {
+        if (const auto& calibration = input(i)->calibration) {
+            readings.car_sd[i] = std::hypot(calibration->relative_sd * level_um,
+                                            std::sqrt(shares.common) * stated[i]);
+        }
+        if (input(i)->reference) {
+            readings.car_sd[i] = std::sqrt(survey_share) * stated[i];
+            readings.rest_sd[i] = std::sqrt(1 - survey_share) * stated[i];
+        }
+    }
+    std::erase_if(readings.trips, [&](const auto& trip) { return input(trip.first)->reference; });
+    return readings;
+}
+
+VectorXd trip_variances(const FusionObservations& readings) {
+    VectorXd variances = VectorXd::Zero(readings.values.size());
+    for (const auto& [first, count] : readings.trips) {
+        variances.segment(first, count).setConstant(readings.trip_sd * readings.trip_sd);
+    }
+    return variances;
+}
+
+/// Of each reading by itself, without what all cars share.
+VectorXd variances_of(const FusionObservations& readings) {
+    return readings.car_sd.array().square() + readings.rest_sd.array().square() +
+           trip_variances(readings).array();
+}
+
+double scatter_um(const VectorXd& values, const VectorXd& variances) {
+    std::vector<Weighed> weighed;
+    for (Index i = 0; i < values.size(); ++i) {
+        weighed.push_back({values[i], 1 / variances[i]});
+    }
+    const double middle_um = weighted_median(weighed);
+    for (auto& value : weighed) {
+        value.value_um = std::abs(value.value_um - middle_um);
+    }
+    return sd_over_mad * weighted_median(std::move(weighed));
+}
+
+/// 1 / variance of each reading by itself, as far as it and its car are trusted.
+VectorXd weights_of(const FusionObservations& readings, const RobustWeights& trust) {
+    VectorXd variances = readings.rest_sd.array().square() / trust.of_reading.array() +
+                         trip_variances(readings).array();
+    for (Index i = 0; const auto& [first, count] : readings.cars) {
+        variances.segment(first, count).array() +=
+            readings.car_sd.segment(first, count).array().square() / trust.of_car[i++];
+    }
+    return variances.cwiseInverse();
+}
+
+/// By how much the passes scatter more than they claim, at least 1.
+double
+excess(const FusionObservations& readings, const RoughnessTrend& level, const VectorXd& weights) {
+    const VectorXd variances = variances_of(readings);
+    const VectorXd trust = weights.cwiseProduct(variances);
+    const VectorXd off = readings.values - level.expected_um;
+    const double strangeness =
+        (trust.array() * off.array().square() / variances.array()).sum() / trust.maxCoeff();
+    const auto others = static_cast<double>(readings.values.size() - 1);
+    return std::sqrt(std::max(1.0, (claims + strangeness) / (claims + others)));
+}
+
+/// Mean distance of one side from the headline in the passes since `from_ms`.
+std::optional<double> side_off_um(const std::vector<const FusionInput*>& passes,
+                                  const VectorXd& weights,
+                                  std::optional<IriUm> Pass::*side,
+                                  const std::optional<RoadChange>& change) {
+    double whole = 0, sum = 0;
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        const auto& input = *passes[i];
+        const auto side_um = input.pass.*side;
+        const bool old = change && input.utc_ms && *input.utc_ms < change->utc_ms;
+        if (side_um && !old) {
+            const double weight = weights[static_cast<Index>(i)];
+            whole += weight;
+            sum += weight * (true_um(input, *side_um) - true_um(input, input.pass.iri_um));
+        }
+    }
+    return whole > 0 ? std::optional{sum / whole} : std::nullopt;
+}
+
+IriUm whole_um(double um) {
+    return static_cast<IriUm>(std::lround(um));
+}
+
+std::optional<IriUm> side_um(double level_um, const std::optional<double>& off_um) {
+    return off_um ? std::optional{std::max(0, whole_um(level_um + *off_um))} : std::nullopt;
+}
+
+/// What needs no weights: counts, dates, flags.
+SegmentState gathered(std::span<const FusionInput> passes) {
+    SegmentState state{};
+    state.segment = passes.front().pass.segment;
+    state.centre_only = true;
+    state.validity = 0xff;
+    for (const auto& input : passes) {
+        const auto& utc_ms = input.utc_ms;
+        state.passes += input.reference ? 0 : 1;
+        state.centre_only = state.centre_only && input.pass.centre_only;
+        state.validity &= input.pass.validity;
+        if (utc_ms) {
+            state.first_seen_ms = std::min(state.first_seen_ms.value_or(*utc_ms), *utc_ms);
+            state.last_seen_ms = std::max(state.last_seen_ms.value_or(*utc_ms), *utc_ms);
+        }
+    }
+    return state;
+}
+
+SegmentState with_level(SegmentState state, const RoughnessTrend& level, double sd_um) {
+    state.iri_um = std::max(0, whole_um(level.um));
+    state.sd_um = std::max(1, whole_um(sd_um));
+    state.low_um = std::max(0, whole_um(level.um - interval_90 * sd_um));
+    state.high_um = std::max(state.iri_um, whole_um(level.um + interval_90 * sd_um));
+    if (level.trend) {
+        state.trend_um_per_year = whole_um(level.trend->um_per_year);
+        state.trend_sd_um_per_year = whole_um(level.trend->sd_um_per_year);
+    }
+    if (!level.steps.empty()) {
+        const auto& last = level.steps.back();
+        state.change = RoadChange{last.utc_ms, whole_um(last.um)};
+    }
+    return state;
+}
+
+/// What all cars together may read wrong, of each reading. \param stated  0 for references.
+VectorXd common_sd(const VectorXd& stated, double level_um, const FusionConfig& config) {
+    return stated.unaryExpr([&](double stated_um) {
+        return stated_um > 0 ? std::hypot(std::sqrt(config.common_share) * stated_um,
+                                          config.anchor_relative_sd * level_um)
+                             : 0.0;
+    });
+}
+
+std::int32_t cars_in(const std::vector<const FusionInput*>& passes,
+                     const FusionObservations& readings) {
+    return static_cast<std::int32_t>(std::ranges::count_if(readings.cars, [&](const auto& car) {
+        return !passes[static_cast<std::size_t>(car.first)]->reference;
+    }));
+}
+
+std::vector<std::optional<std::int64_t>> times_of(const std::vector<const FusionInput*>& passes) {
+    std::vector<std::optional<std::int64_t>> times;
+    times.reserve(passes.size());
+    for (const auto* input : passes) {
+        times.push_back(input->utc_ms);
+    }
+    return times;
+}
+
+} // namespace
+
+SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& config) {
+    assert(!passes.empty());
+    const auto sorted = by_car(passes);
+    const VectorXd values = values_of(sorted);
+    const double middle_um = level_um(values);
+    const VectorXd stated = stated_um(sorted, middle_um);
+    const VectorXd of_cars = of_cars_alone(sorted, stated);
+    const bool beside_references = of_cars.maxCoeff() > 0 && of_cars.minCoeff() <= 0;
+    // What is common to all cars cannot be weighed away, yet a pass that is less sure for it is
+    // worth less; beside references it is estimated.
+    auto weighed = readings_of(
+        sorted,
+        values,
+        stated,
+        middle_um,
+        beside_references ? Shares{config.car_share, 0}
+                          : Shares{config.common_share + config.car_share, config.common_share},
+        config);
+    if (beside_references) {
+        weighed.common_sd = common_sd(of_cars, middle_um, config);
+    }
+    auto tail = config.tail;
+    tail.scatter_sd = scatter_um(values, variances_of(weighed));
+    const auto level = roughness_level(weighed, times_of(sorted), middle_um, tail, config.change);
+
+    const auto weights = weights_of(weighed, level.trust);
+    const auto apart =
+        readings_of(sorted, values, stated, middle_um, {config.car_share, 0}, config);
+    const VectorXd cars_part = of_cars_alone(sorted, level.influence);
+    const double apart_um = std::sqrt(variance_of(apart, cars_part) + level.change_variance_um2);
+    const double common_um =
+        beside_references ? 0 : std::sqrt(config.common_share) * of_cars.dot(level.influence);
+    const double anchor_um = of_cars.minCoeff() > 0 ? config.anchor_relative_sd * level.um : 0;
+    const double factor = excess(weighed, level, weights);
+    const double cars_um = std::hypot(factor * apart_um, factor * common_um, anchor_um);
+    const double references_um =
+        std::sqrt(variance_of(apart, VectorXd{level.influence - cars_part}));
+    auto state = with_level(gathered(passes), level, std::hypot(cars_um, references_um));
+    state.vehicles = cars_in(sorted, weighed);
+    state.left_um =
+        side_um(level.um, side_off_um(sorted, weights, &Pass::iri_left_um, state.change));
+    state.right_um =
+        side_um(level.um, side_off_um(sorted, weights, &Pass::iri_right_um, state.change));
+    return state;
+}
+
+} // namespace macadam

@@ -1,0 +1,96 @@
+#include "mapping/geometry/local_frame.hpp"
+
+#include "estimator/common/plugin_library.hpp"
+#include "mapping/geometry/geodesy_plugin.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace macadam {
+namespace {
+
+const char* const library = "macadam_geodesy.so";
+
+struct Vector3 {
+    double x, y, z;
+};
+
+/// The axes of the local frame in the earth-centred one: east, north and the ellipsoid's normal.
+struct Axes {
+    Vector3 east, north, up;
+};
+
+Axes axes_at(const GeoPoint& origin) {
+    constexpr double rad_per_deg = std::numbers::pi / 180;
+    const double lat = origin.lat_deg * rad_per_deg;
+    const double lon = origin.lon_deg * rad_per_deg;
+    const double sin_lat = std::sin(lat), cos_lat = std::cos(lat);
+    const double sin_lon = std::sin(lon), cos_lon = std::cos(lon);
+    return {{-sin_lon, cos_lon, 0},
+            {-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat},
+            {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat}};
+}
+
+double dot(const Vector3& a, const Vector3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Earth-centred place of a point on the ellipsoid. A trip asks for tens of thousands, and in
+/// double they are right to a nanometre, so MRPT's long double is not needed. Source: Snyder, "Map
+/// Projections: A Working Manual" (1987), eq. 4-20; WGS 84.
+Vector3 geocentric(const GeoPoint& point) {
+    constexpr double rad_per_deg = std::numbers::pi / 180;
+    constexpr double equator_m = 6378137;
+    constexpr double flattening = 1 / 298.257223563;
+    constexpr double square_eccentricity = flattening * (2 - flattening);
+    const double lat = point.lat_deg * rad_per_deg;
+    const double lon = point.lon_deg * rad_per_deg;
+    const double sin_lat = std::sin(lat);
+    const double cos_lat = std::cos(lat);
+    const double normal_m = equator_m / std::sqrt(1 - square_eccentricity * sin_lat * sin_lat);
+    return {normal_m * cos_lat * std::cos(lon),
+            normal_m * cos_lat * std::sin(lon),
+            normal_m * (1 - square_eccentricity) * sin_lat};
+}
+
+} // namespace
+
+PointEn LocalFrame::to_local(const GeoPoint& point) const {
+    return to_local(std::span{&point, 1}).front();
+}
+
+std::vector<PointEn> LocalFrame::to_local(std::span<const GeoPoint> points) const {
+    const auto axes = axes_at(origin);
+    const auto base = geocentric(origin);
+    std::vector<PointEn> local;
+    local.reserve(points.size());
+    for (const auto& point : points) {
+        const auto at = geocentric(point);
+        const Vector3 from_base{at.x - base.x, at.y - base.y, at.z - base.z};
+        local.push_back({dot(axes.east, from_base), dot(axes.north, from_base)});
+    }
+    return local;
+}
+
+GeoPoint LocalFrame::to_geo(const PointEn& point) const {
+    static const auto geodetic =
+        plugin_function<GeodesyToGeodetic>(library, geodesy_to_geodetic_name);
+
+    const auto axes = axes_at(origin);
+    const auto base = geocentric(origin);
+
+    // The plane leaves the ellipsoid upwards; come back down along the frame's own vertical until
+    // the height is nothing, so that to_local brings back the very same east and north.
+    double up = 0;
+    GeoPoint found = origin;
+    for (int round = 0; round < 5; ++round) {
+        const double at[3] = {
+            base.x + axes.east.x * point.east_m + axes.north.x * point.north_m + axes.up.x * up,
+            base.y + axes.east.y * point.east_m + axes.north.y * point.north_m + axes.up.y * up,
+            base.z + axes.east.z * point.east_m + axes.north.z * point.north_m + axes.up.z * up};
+        up -= geodetic(at, &found);
+    }
+    return found;
+}
+
+} // namespace macadam

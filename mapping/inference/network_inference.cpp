@@ -1,0 +1,171 @@
+#include "mapping/inference/network_inference.hpp"
+
+#include "mapping/geometry/local_frame.hpp"
+#include "mapping/inference/inferred_network.hpp"
+#include "mapping/inference/junctions.hpp"
+#include "mapping/inference/position_spread.hpp"
+#include "mapping/inference/refinement.hpp"
+#include "mapping/inference/track_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+
+namespace macadam {
+namespace {
+
+constexpr int rounds = 3;      // of drawing; later ones join what the first's noise kept apart
+constexpr int refinements = 2; // a round; the second sees every line beside the road's middle
+
+GeoBox extent_of(const TripLog& trip) {
+    GeoBox box;
+    for (const auto& fix : trip.fixes) {
+        if (std::isfinite(fix.at.lat_deg) && std::isfinite(fix.at.lon_deg)) {
+            box = including(box, fix.at);
+        }
+    }
+    return box;
+}
+
+LocalFrame frame_in_middle_of(const GeoBox& box) {
+    return is_empty(box) ? LocalFrame{{0, 0}}
+                         : LocalFrame{between(
+                               {box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}, 0.5)};
+}
+
+LocalFrame frame_of(std::span<const TripDrawing* const> trips) {
+    GeoBox box;
+    for (const auto* const trip : trips) {
+        for (const auto& line : trip->lines) {
+            for (const auto& point : line.points) {
+                box = including(box, point);
+            }
+        }
+    }
+    return frame_in_middle_of(box);
+}
+
+bool drew_before(const GeoPoint& a, const GeoPoint& b) {
+    return std::tie(a.lat_deg, a.lon_deg) < std::tie(b.lat_deg, b.lon_deg);
+}
+
+bool is_before(const TripDrawing* a, const TripDrawing* b) {
+    if (a->sha256 != b->sha256) {
+        return a->sha256 < b->sha256;
+    }
+    return std::lexicographical_compare(
+        a->lines.begin(),
+        a->lines.end(),
+        b->lines.begin(),
+        b->lines.end(),
+        [](const auto& x, const auto& y) {
+            return std::lexicographical_compare(
+                x.points.begin(), x.points.end(), y.points.begin(), y.points.end(), drew_before);
+        });
+}
+
+/// By content, each once.
+std::vector<const TripDrawing*> in_order(std::span<const TripDrawing> trips) {
+    std::vector<const TripDrawing*> ordered;
+    for (const auto& trip : trips) {
+        ordered.push_back(&trip);
+    }
+    std::ranges::stable_sort(ordered, is_before);
+    const auto is_same = [](const TripDrawing* a, const TripDrawing* b) {
+        return !is_before(a, b) && !is_before(b, a);
+    };
+    ordered.erase(std::unique(ordered.begin(), ordered.end(), is_same), ordered.end());
+    return ordered;
+}
+
+std::vector<TraceLine> lines_of(std::span<const TripDrawing* const> trips,
+                                const LocalFrame& frame) {
+    std::vector<TraceLine> lines;
+    for (const auto* const trip : trips) {
+        for (const auto& line : trip->lines) {
+            lines.push_back({frame.to_local(line.points), line.sd_m, line.after_turn});
+        }
+    }
+    return lines;
+}
+
+double median_sd_m(const std::vector<TraceLine>& lines) {
+    std::vector<double> sds;
+    for (const auto& line : lines) {
+        sds.push_back(line.sd_m);
+    }
+    const auto middle = sds.begin() + static_cast<std::ptrdiff_t>(sds.size() / 2);
+    std::nth_element(sds.begin(), middle, sds.end());
+    return sds.empty() ? 0 : *middle;
+}
+
+/// The ways of a drawing on the globe, their nodes numbered from 1 in the order of the ways.
+std::vector<Way> ways_of(const InferredNetwork& drawing, const LocalFrame& frame) {
+    std::vector<std::int64_t> node_ids(drawing.nodes.size(), 0);
+    std::int64_t last_id = 0;
+    std::vector<Way> ways;
+    for (const auto& traced : drawing.ways) {
+        Way way{static_cast<std::int64_t>(ways.size() + 1), "", "", Oneway::forward, {}, {}};
+        for (const auto node : traced.nodes) {
+            if (node_ids[node] == 0) {
+                node_ids[node] = ++last_id;
+            }
+            way.node_ids.push_back(node_ids[node]);
+            way.line.push_back(frame.to_geo(drawing.nodes[node]));
+        }
+        ways.push_back(std::move(way));
+    }
+    return ways;
+}
+
+} // namespace
+
+TripDrawing trip_drawing(const TripLog& trip, const TraceConfig& config) {
+    const auto frame = frame_in_middle_of(extent_of(trip));
+    TripDrawing drawing{trip.sha256, {}};
+    for (const auto& line : trace_lines(trip, frame, config)) {
+        TripDrawing::Line drawn{{}, line.sd_m, line.after_turn};
+        for (const auto& point : line.points) {
+            drawn.points.push_back(frame.to_geo(point));
+        }
+        drawing.lines.push_back(std::move(drawn));
+    }
+    return drawing;
+}
+
+std::vector<Way> trace_network(std::span<const TripDrawing> trips,
+                               const TraceConfig& config,
+                               const Progress& progress) {
+    constexpr std::size_t steps = rounds * (1 + refinements) + 1;
+    std::size_t done = 0;
+    const auto step = [&] { progress(++done, steps); };
+
+    const auto ordered = in_order(trips);
+    const auto frame = frame_of(ordered);
+    const auto lines = with_seen_sd(lines_of(ordered, frame), config);
+    InferredNetwork drawing;
+    for (int round = 0; round < rounds; ++round) {
+        drawing = round == 0 ? drawing_of(lines, config)
+                             : drawn_again(drawing, median_sd_m(lines), config);
+        step();
+        for (int i = 0; i < refinements; ++i) {
+            drawing = refined(std::move(drawing), lines, config);
+            step();
+        }
+        drawing = without_outliers(drawing, config);
+    }
+    drawing = joined(std::move(drawing), lines, config);
+    step();
+    return ways_of(drawing, frame);
+}
+
+std::vector<Way> trace_network(std::span<const TripLog> trips, const TraceConfig& config) {
+    std::vector<TripDrawing> drawings;
+    for (const auto& trip : trips) {
+        drawings.push_back(trip_drawing(trip, config));
+    }
+    return trace_network(drawings, config);
+}
+
+} // namespace macadam

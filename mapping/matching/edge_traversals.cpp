@@ -1,0 +1,66 @@
+#include "mapping/matching/edge_traversals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr double meet_m = 1; // offsets that are nearer than this go on from each other
+
+double long_m(const MatchedInterval& piece) {
+    return piece.to_offset_m - piece.from_offset_m;
+}
+
+bool goes_on(const MatchedInterval& before, const MatchedInterval& piece) {
+    if (before.kind != piece.kind) {
+        return false;
+    }
+    if (piece.kind != IntervalKind::road) {
+        return before.reason == piece.reason;
+    }
+    return before.edge == piece.edge && std::abs(piece.from_offset_m - before.to_offset_m) < meet_m;
+}
+
+void append(MatchedInterval& passage, const MatchedInterval& piece) {
+    const double whole_m = long_m(passage) + long_m(piece);
+    const double share = whole_m > 0 ? long_m(piece) / whole_m : 0;
+    passage.confidence = std::lerp(passage.confidence, piece.confidence, share);
+    passage.to_travel_m = piece.to_travel_m;
+    passage.to_offset_m = std::max(passage.to_offset_m, piece.to_offset_m);
+    passage.t_leave_s = piece.t_leave_s;
+    passage.offset_sd_m = std::max(passage.offset_sd_m, piece.offset_sd_m);
+}
+
+} // namespace
+
+MatchedTrace edge_traversals(const MatchedTrace& trace, double min_m) {
+    MatchedTrace joined;
+    for (const auto& piece : trace) {
+        if (!joined.empty() && goes_on(joined.back(), piece)) {
+            append(joined.back(), piece);
+        } else {
+            joined.push_back(piece);
+        }
+    }
+    MatchedTrace passages;
+    for (auto& piece : joined) {
+        const double gone_m = piece.kind == IntervalKind::road
+                                  ? long_m(piece)
+                                  : piece.to_travel_m - piece.from_travel_m;
+        const bool is_speck = gone_m < min_m;
+        if (is_speck && !passages.empty()) {
+            passages.back().to_travel_m = piece.to_travel_m;
+            passages.back().t_leave_s = piece.t_leave_s;
+        } else if (!is_speck) {
+            if (passages.empty()) { // specks before it
+                piece.from_travel_m = joined.front().from_travel_m;
+                piece.t_enter_s = joined.front().t_enter_s;
+            }
+            passages.push_back(std::move(piece));
+        }
+    }
+    return passages;
+}
+
+} // namespace macadam

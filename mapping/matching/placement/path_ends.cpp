@@ -1,0 +1,129 @@
+#include "mapping/matching/placement/path_ends.hpp"
+
+#include <algorithm>
+
+namespace macadam {
+namespace {
+
+constexpr double end_m = 0.5;         // this near to an edge's end it is passed
+constexpr double left_m = 15;         // off an edge's line: the car has left it
+constexpr double touched_m = 10;      // less of an edge is noise, ...
+constexpr double touched_share = 0.9; // ... unless it is a short edge and all of it was driven
+
+/// A position and its place along an edge, in the direction of travel.
+struct PathPosition {
+    std::size_t position;
+    double offset_m;
+    double off_m;
+};
+
+PathPosition placed(const RoadNetwork& roads,
+                    CandidateIndex& plane,
+                    const MatchObservations& positions,
+                    EdgeId edge,
+                    std::size_t position) {
+    const auto place = plane.nearest(link_of(edge), positions.all[position].at);
+    return {position,
+            is_forward(edge) ? place.along_m : length_m(roads, edge) - place.along_m,
+            place.distance_m};
+}
+
+/// Takes the legs from `first` to before `last` out; the path goes on at the same node.
+void erase_legs(RoadPath& path, std::size_t first, std::size_t last) {
+    const double from_m = path.legs[first].start_m;
+    const double gone_m = path.legs[last].start_m - from_m;
+    for (auto& at_m : path.sample_m) {
+        if (first == 0 || at_m > from_m + gone_m) {
+            at_m -= gone_m;
+        } else {
+            at_m = std::min(at_m, from_m);
+        }
+    }
+    const auto legs = path.legs.begin();
+    const auto next = path.legs.erase(legs + static_cast<std::ptrdiff_t>(first),
+                                      legs + static_cast<std::ptrdiff_t>(last));
+    std::for_each(next, path.legs.end(), [&](Leg& leg) { leg.start_m -= gone_m; });
+}
+
+/// Whether noise alone can have put `m` on the leg's edge.
+bool hardly_touched(const RoadNetwork& roads, const Leg& leg, double m) {
+    return m < std::min(touched_m, touched_share * length_m(roads, leg.edge));
+}
+
+} // namespace
+
+void settle_end(RoadPath& path,
+                const RoadNetwork& roads,
+                CandidateIndex& plane,
+                const MatchObservations& positions,
+                std::size_t limit) {
+    const auto leg = path.legs.back();
+    const double edge_m = length_m(roads, leg.edge);
+    const auto at = static_cast<std::size_t>(
+        std::lower_bound(path.sample_m.begin(), path.sample_m.end() - 1, leg.start_m) -
+        path.sample_m.begin());
+    PathPosition last{path.positions[at], path.sample_m[at] - leg.start_m + leg.from_m, 0};
+    for (auto i = last.position + 1; i < limit && last.offset_m < edge_m - end_m; ++i) {
+        const auto next = placed(roads, plane, positions, leg.edge, i);
+        if (i > path.positions.back() && next.off_m > left_m) {
+            break;
+        }
+        last = next;
+    }
+    path.positions.resize(at + 1);
+    path.sample_m.resize(at + 1);
+    if (last.position != path.positions.back()) {
+        path.positions.push_back(last.position);
+        path.sample_m.push_back(
+            std::max(path.sample_m.back(), leg.start_m + last.offset_m - leg.from_m));
+    }
+}
+
+void settle_begin(RoadPath& path,
+                  const RoadNetwork& roads,
+                  CandidateIndex& plane,
+                  const MatchObservations& positions,
+                  std::size_t limit) {
+    const auto leg = path.legs.front();
+    const auto after =
+        std::upper_bound(path.sample_m.begin() + 1, path.sample_m.end(), leg.to_m - leg.from_m);
+    const auto at = after - path.sample_m.begin() - 1;
+    PathPosition first{path.positions[static_cast<std::size_t>(at)], *(after - 1) + leg.from_m, 0};
+    for (auto i = first.position; i-- > limit + 1 && first.offset_m > end_m;) {
+        const auto next = placed(roads, plane, positions, leg.edge, i);
+        if (i < path.positions.front() && next.off_m > left_m) {
+            break;
+        }
+        first = next;
+    }
+    path.positions.erase(path.positions.begin(), path.positions.begin() + at);
+    path.sample_m.erase(path.sample_m.begin(), path.sample_m.begin() + at);
+    if (first.position != path.positions.front()) {
+        path.positions.insert(path.positions.begin(), first.position);
+        path.sample_m.insert(path.sample_m.begin(),
+                             std::min(path.sample_m.front(), first.offset_m - leg.from_m));
+    }
+}
+
+void trim(RoadPath& path, const RoadNetwork& roads) {
+    auto& legs = path.legs;
+    for (std::size_t i = 1; i + 2 < legs.size();) {
+        const bool there_and_back =
+            legs[i + 1].edge == reversed(legs[i].edge) && legs[i].from_m == 0;
+        if (there_and_back && legs[i].to_m < touched_m) {
+            erase_legs(path, i, i + 2);
+        } else {
+            ++i;
+        }
+    }
+    while (legs.size() > 1 &&
+           hardly_touched(roads, legs[0], legs[1].start_m - path.sample_m.front())) {
+        erase_legs(path, 0, 1);
+    }
+    while (legs.size() > 1 &&
+           hardly_touched(roads, legs.back(), path.sample_m.back() - legs.back().start_m)) {
+        legs.pop_back();
+    }
+}
+
+} // namespace macadam

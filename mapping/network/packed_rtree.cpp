@@ -1,0 +1,166 @@
+#include "mapping/network/packed_rtree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr std::size_t max_levels = 9; // 16^8 leaves are all that 32 bits can number
+
+bool meet(const GridBox& a, const GridBox& b) {
+    return a.south_e7 <= b.north_e7 && b.south_e7 <= a.north_e7 && a.west_e7 <= b.east_e7 &&
+           b.west_e7 <= a.east_e7;
+}
+
+GridBox around(const GridBox& a, const GridBox& b) {
+    return {std::min(a.south_e7, b.south_e7),
+            std::min(a.west_e7, b.west_e7),
+            std::max(a.north_e7, b.north_e7),
+            std::max(a.east_e7, b.east_e7)};
+}
+
+/// Distance along the Hilbert curve that fills a square of 2^32 by 2^32.
+///
+/// Source: H. S. Warren, "Hacker's Delight", 2nd ed. (2012), chapter 16: the state is one of four
+/// orientations, here as a swap and a complement of the two coordinates.
+std::uint64_t hilbert_distance(std::uint32_t x, std::uint32_t y) {
+    std::uint64_t distance = 0;
+    for (auto bit = 32U; bit-- > 0;) {
+        const auto right = x >> bit & 1U;
+        const auto up = y >> bit & 1U;
+        distance = distance << 2U | ((3U * right) ^ up);
+        if (up == 0) {
+            if (right == 1) {
+                x = ~x;
+                y = ~y;
+            }
+            std::swap(x, y);
+        }
+    }
+    return distance;
+}
+
+/// From the middle of a box, counted from the south pole and the antimeridian.
+std::uint64_t place_on_curve(const GridBox& box) {
+    const auto middle = [](std::int32_t a, std::int32_t b) {
+        return static_cast<std::uint32_t>((std::int64_t{a} + b) / 2 + (std::int64_t{1} << 31U));
+    };
+    return hilbert_distance(middle(box.west_e7, box.east_e7), middle(box.south_e7, box.north_e7));
+}
+
+std::size_t parents_of(std::size_t boxes) {
+    return (boxes + box_tree_fan_out - 1) / box_tree_fan_out;
+}
+
+/// Where each level begins, the leaves' first; the last is the number of all boxes.
+struct Levels {
+    std::array<std::size_t, max_levels + 1> first{};
+    std::size_t count = 0;
+};
+
+Levels levels_of(std::size_t leaves) {
+    Levels levels;
+    auto in_level = leaves;
+    while (in_level > 0) {
+        levels.first[levels.count + 1] = levels.first[levels.count] + in_level;
+        ++levels.count;
+        in_level = in_level == 1 ? 0 : parents_of(in_level);
+    }
+    return levels;
+}
+
+} // namespace
+
+GridBox on_grid(const GeoBox& box) {
+    constexpr double per_deg = 1e7;
+    constexpr double max_lat_deg = 90;
+    constexpr double max_lon_deg = 180;
+    const auto down = [](double deg, double max_deg) {
+        return static_cast<std::int32_t>(std::floor(std::clamp(deg, -max_deg, max_deg) * per_deg));
+    };
+    const auto up = [](double deg, double max_deg) {
+        return static_cast<std::int32_t>(std::ceil(std::clamp(deg, -max_deg, max_deg) * per_deg));
+    };
+    return {down(box.south_deg, max_lat_deg),
+            down(box.west_deg, max_lon_deg),
+            up(box.north_deg, max_lat_deg),
+            up(box.east_deg, max_lon_deg)};
+}
+
+std::size_t box_tree_size(std::size_t leaves) {
+    const auto levels = levels_of(leaves);
+    return levels.first[levels.count];
+}
+
+BoxTreeArrays build_box_tree(std::vector<GridBox> leaves, std::vector<std::uint32_t> numbers) {
+    assert(leaves.size() == numbers.size());
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(leaves.size());
+    for (std::uint32_t i = 0; i < leaves.size(); ++i) {
+        order[i] = {place_on_curve(leaves[i]), i};
+    }
+    std::sort(order.begin(), order.end());
+
+    const auto levels = levels_of(leaves.size());
+    BoxTreeArrays tree;
+    tree.boxes.reserve(levels.first[levels.count]);
+    tree.numbers.reserve(leaves.size());
+    for (const auto& [distance, leaf] : order) {
+        tree.boxes.push_back(leaves[leaf]);
+        tree.numbers.push_back(numbers[leaf]);
+    }
+    for (std::size_t level = 0; level + 1 < levels.count; ++level) {
+        const auto past = levels.first[level + 1];
+        for (auto first = levels.first[level]; first < past; first += box_tree_fan_out) {
+            auto box = tree.boxes[first];
+            for (auto i = first + 1; i < std::min(first + box_tree_fan_out, past); ++i) {
+                box = around(box, tree.boxes[i]);
+            }
+            tree.boxes.push_back(box);
+        }
+    }
+    return tree;
+}
+
+std::vector<std::uint32_t> numbers_meeting(const PackedRtree& tree, const GridBox& box) {
+    const auto levels = levels_of(tree.numbers.size());
+    std::vector<std::uint32_t> found;
+    // Depth first: the boxes of a level that are still to be looked at, from `at` to `past`.
+    struct Range {
+        std::size_t at = 0;
+        std::size_t past = 0;
+    };
+    std::array<Range, max_levels> open{};
+    auto level = levels.count;
+    if (level > 0) {
+        --level;
+        open[level] = {levels.first[level], levels.first[level + 1]};
+    }
+    while (level < levels.count) {
+        auto& range = open[level];
+        if (range.at == range.past) {
+            ++level;
+            continue;
+        }
+        const auto i = range.at++;
+        if (!meet(tree.boxes[i], box)) {
+            continue;
+        }
+        if (level == 0) {
+            found.push_back(tree.numbers[i]);
+            continue;
+        }
+        const auto child = levels.first[level - 1] + (i - levels.first[level]) * box_tree_fan_out;
+        --level;
+        open[level] = {child, std::min(child + box_tree_fan_out, levels.first[level + 1])};
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+}
+
+} // namespace macadam

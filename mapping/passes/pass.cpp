@@ -1,0 +1,205 @@
+#include "mapping/passes/pass.hpp"
+
+#include "estimator/roughness/roughness_mean.hpp"
+#include "mapping/passes/segment_overlap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double millionths = 1e6;
+constexpr double thousandths = 1e3;
+constexpr double largest_um = 1e9; // 1000 m/km is no road
+
+/// One drive over one segment, as the match has it.
+struct Passage {
+    SegmentKey segment;
+    double segment_m;                   ///< its length
+    std::vector<TravelSpan> travel;     ///< apart from one another
+    double offset_m = 0;                ///< driven along the road
+    double confident_m = 0;             ///< the same, times the confidence of the match
+    std::optional<std::uint32_t> drive; ///< over the chunk
+    double t_enter_s;
+    double t_leave_s;
+};
+
+bool goes_on(const Passage& passage, const SegmentOverlap& part) {
+    return passage.segment == part.segment &&
+           part.travel.from_m - passage.travel.back().to_m < passage.segment_m;
+}
+
+Passage longer_by(Passage passage, const SegmentOverlap& part) {
+    if (!passage.travel.empty() && passage.travel.back().to_m == part.travel.from_m) {
+        passage.travel.back().to_m = part.travel.to_m;
+    } else {
+        passage.travel.push_back(part.travel);
+    }
+    const double length_m = part.to_station_m - part.from_station_m;
+    passage.offset_m += length_m;
+    passage.confident_m += length_m * part.confidence;
+    passage.t_leave_s = part.t_leave_s;
+    return passage;
+}
+
+std::vector<Passage> passages_of(std::span<const SegmentOverlap> parts) {
+    std::vector<Passage> passages;
+    for (const auto& part : parts) {
+        if (passages.empty() || !goes_on(passages.back(), part)) {
+            passages.push_back({.segment = part.segment,
+                                .segment_m = part.segment_m,
+                                .travel = {},
+                                .drive = part.drive,
+                                .t_enter_s = part.t_enter_s,
+                                .t_leave_s = part.t_leave_s});
+        }
+        passages.back() = longer_by(std::move(passages.back()), part);
+    }
+    return passages;
+}
+
+using Known = std::optional<double>;
+
+/// What was read of a segment in one passage; sums over its ranges, weighted by covered length.
+/// A side counts only where every range has it.
+struct Reading {
+    double covered_m = 0; ///< along the trip
+    double iri = 0;
+    double sd = 0;
+    Known left = 0;
+    Known right = 0;
+    Known centre = 0;
+    double speed = 0;
+    bool centre_only = false;
+    std::uint8_t validity = validity::ok;
+};
+
+Known sum_of(const Known& sum, const Known& value, double weight) {
+    return sum && value ? Known{*sum + weight * *value} : std::nullopt;
+}
+
+Reading read(const Passage& passage, const IriTrace& roughness, const Vehicle& vehicle) {
+    Reading reading;
+    for (const auto& range : passage.travel) {
+        const auto mean = mean_over(roughness, range.from_m, range.to_m, vehicle);
+        const auto headline = headline_of(mean);
+        const double w = mean.covered_m;
+        if (!headline || !(w > 0)) {
+            continue;
+        }
+        reading.covered_m += w;
+        reading.iri += w * headline->iri_mm_per_m;
+        reading.sd += w * headline->sd_mm_per_m; // one car: its ranges err alike
+        reading.speed += w * mean.speed_mps;
+        reading.left = sum_of(reading.left, mean.left_mm_per_m, w);
+        reading.right = sum_of(reading.right, mean.right_mm_per_m, w);
+        reading.centre = sum_of(reading.centre, mean.hri_mm_per_m, w);
+        reading.centre_only = reading.centre_only || headline->centre_only;
+        reading.validity |= mean.validity;
+    }
+    return reading;
+}
+
+IriUm whole_um(double mm_per_m) {
+    return static_cast<IriUm>(std::lround(mm_per_m * thousandths));
+}
+
+std::optional<IriUm> whole_um(const Known& sum, double weights) {
+    return sum ? std::optional{whole_um(*sum / weights)} : std::nullopt;
+}
+
+double driven_m(const Passage& passage) {
+    double sum_m = 0;
+    for (const auto& range : passage.travel) {
+        sum_m += range.to_m - range.from_m;
+    }
+    return sum_m;
+}
+
+/// MRI inferred from HRI is indicative, too; from then on the flag does not tell why.
+std::uint8_t validity_of(const Reading& reading) {
+    unsigned flags = reading.validity;
+    flags |= (flags & validity::indicative) != 0 ? validity::lateral_alone : 0U;
+    flags |= reading.centre_only ? validity::indicative : 0U;
+    return static_cast<std::uint8_t>(flags);
+}
+
+Pass quantised(const Passage& passage, const Reading& r, double covered_m) {
+    const double confidence = passage.confident_m / passage.offset_m;
+    return {
+        .segment = passage.segment,
+        .occurrence = 0,
+        .iri_left_um = whole_um(r.left, r.covered_m),
+        .iri_right_um = whole_um(r.right, r.covered_m),
+        .iri_centre_um = whole_um(r.centre, r.covered_m),
+        .iri_um = whole_um(r.iri / r.covered_m),
+        .sd_um = std::max(1, whole_um(r.sd / r.covered_m)),
+        .centre_only = r.centre_only,
+        .validity = validity_of(r),
+        .speed_mmps = static_cast<std::int32_t>(std::lround(r.speed / r.covered_m * thousandths)),
+        .covered_mm = static_cast<std::int32_t>(std::lround(covered_m * thousandths)),
+        .confidence_ppm =
+            static_cast<std::int32_t>(std::lround(std::clamp(confidence, 0.0, 1.0) * millionths)),
+        .t_ms = std::llround((passage.t_enter_s + passage.t_leave_s) / 2 * thousandths),
+        .drive = passage.drive};
+}
+
+std::optional<Pass> pass_of(const Passage& passage,
+                            const IriTrace& roughness,
+                            const Vehicle& vehicle,
+                            const PassConfig& config) {
+    if (passage.confident_m < config.min_confidence * passage.offset_m) {
+        return std::nullopt;
+    }
+    const auto reading = read(passage, roughness, vehicle);
+    // Metres of the trip stand for metres of the road; a match that stepped back covers none twice.
+    const double covered_m =
+        std::min(passage.segment_m, reading.covered_m * passage.offset_m / driven_m(passage));
+    const bool is_read = reading.iri / reading.covered_m * thousandths < largest_um &&
+                         reading.sd / reading.covered_m * thousandths < largest_um;
+    if (!is_read || covered_m < config.min_cover * passage.segment_m) {
+        return std::nullopt;
+    }
+    return quantised(passage, reading, covered_m);
+}
+
+} // namespace
+
+std::optional<Headline> headline_of(const IriMean& mean) {
+    if (mean.mri_mm_per_m) {
+        return Headline{*mean.mri_mm_per_m, mean.sd_mm_per_m, false};
+    }
+    if (!mean.hri_mm_per_m) {
+        return std::nullopt;
+    }
+    // Of a quotient the relative variances add up:
+    // (hri sd / ratio)^2 + (iri * sd of ratio / ratio)^2.
+    const double iri = *mean.hri_mm_per_m / hri_over_mri;
+    return Headline{
+        iri,
+        std::hypot(mean.sd_mm_per_m / hri_over_mri, iri * sd_hri_over_mri / hri_over_mri),
+        true};
+}
+
+std::vector<Pass> extract_passes(const IriTrace& roughness,
+                                 const MatchedTrace& matched,
+                                 const RoadNetwork& roads,
+                                 const Vehicle& vehicle,
+                                 const PassConfig& config) {
+    std::vector<Pass> passes;
+    std::map<SegmentKey, std::uint32_t> occurrences;
+    const auto parts = driven_parts(matched, roads, config.min_confidence);
+    for (const auto& passage : passages_of(parts)) {
+        if (auto pass = pass_of(passage, roughness, vehicle, config)) {
+            pass->occurrence = occurrences[pass->segment]++;
+            passes.push_back(*pass);
+        }
+    }
+    return passes;
+}
+
+} // namespace macadam

@@ -1,0 +1,181 @@
+#include "mapping/surveys/reference_passes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double min_overlap_m = 1; // of two rows: less is the match's place
+
+struct Part {
+    const ReferencePart* part;
+    const SurveyRow* row;
+    ReferenceIri iri;
+};
+
+double length_m(const ReferencePart& part) {
+    return part.to_m - part.from_m;
+}
+
+bool overlaps(const ReferencePart& a, const ReferencePart& b) {
+    const double shared_m = std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m);
+    return shared_m > std::min(min_overlap_m, std::min(length_m(a), length_m(b)) / 2);
+}
+
+/// The parts of one passage over a segment do not overlap.
+using Passage = std::vector<Part>;
+
+void add_to_first_free(std::vector<Passage>& passages, const Part& part) {
+    for (auto& passage : passages) {
+        if (std::ranges::none_of(
+                passage, [&](const Part& other) { return overlaps(*other.part, *part.part); })) {
+            passage.push_back(part);
+            return;
+        }
+    }
+    passages.push_back({part});
+}
+
+double covered_m(const Passage& passage) {
+    double sum_m = 0;
+    for (const auto& part : passage) {
+        sum_m += length_m(*part.part);
+    }
+    return std::min(sum_m, passage.front().part->segment_m);
+}
+
+/// Mean by length of what each part's row says; nothing where one of them does not say it.
+template <typename Value>
+std::optional<double> mean_of(const Passage& passage, const Value& value) {
+    double sum = 0, whole_m = 0;
+    for (const auto& part : passage) {
+        const std::optional<double> one = value(part);
+        if (!one) {
+            return std::nullopt;
+        }
+        sum += length_m(*part.part) * *one;
+        whole_m += length_m(*part.part);
+    }
+    return sum / whole_m;
+}
+
+/// Of the road's scatter within rows, what the mean of these parts has.
+double scatter_share(const Passage& passage) {
+    const double whole_m = covered_m(passage);
+    double share = 1 - whole_m / passage.front().part->segment_m;
+    for (const auto& part : passage) {
+        const double part_m = length_m(*part.part);
+        const double row_m = std::max(part.part->row_m, part_m);
+        share += std::pow(part_m / whole_m, 2) * (1 - part_m / row_m);
+    }
+    return share;
+}
+
+double relative_sd(const Passage& passage, const ReferenceConfig& config) {
+    const bool from_hri =
+        std::ranges::any_of(passage, [](const Part& part) { return part.iri.from_hri; });
+    return std::hypot(config.relative_sd,
+                      config.within_row_relative_sd * std::sqrt(scatter_share(passage)),
+                      from_hri ? sd_hri_over_mri / hri_over_mri : 0);
+}
+
+IriUm whole_um(double mm_per_m) {
+    return static_cast<IriUm>(std::lround(mm_per_m * 1000));
+}
+
+std::optional<IriUm> known_um(const std::optional<double>& mm_per_m) {
+    return mm_per_m ? std::optional{whole_um(*mm_per_m)} : std::nullopt;
+}
+
+Pass pass_of(const Passage& passage, std::uint32_t occurrence, const ReferenceConfig& config) {
+    const auto side = [&](std::optional<double> SurveyRow::*iri) {
+        return known_um(mean_of(passage, [&](const Part& part) { return part.row->*iri; }));
+    };
+    const double iri =
+        *mean_of(passage, [](const Part& part) { return std::optional{part.iri.mm_per_m}; });
+    const double confidence =
+        *mean_of(passage, [](const Part& part) { return std::optional{part.part->confidence}; });
+    Pass pass{};
+    pass.segment = passage.front().part->segment;
+    pass.occurrence = occurrence;
+    pass.iri_left_um = side(&SurveyRow::left_mm_per_m);
+    pass.iri_right_um = side(&SurveyRow::right_mm_per_m);
+    pass.iri_centre_um = side(&SurveyRow::hri_mm_per_m);
+    pass.iri_um = whole_um(iri);
+    pass.sd_um = std::max(1, whole_um(iri * relative_sd(passage, config)));
+    pass.centre_only =
+        std::ranges::any_of(passage, [](const Part& part) { return part.iri.from_hri; });
+    pass.covered_mm = static_cast<std::int32_t>(std::lround(covered_m(passage) * 1000));
+    pass.confidence_ppm = static_cast<std::int32_t>(std::lround(confidence * 1e6));
+    return pass;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) {
+        return 0;
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+/// Why a row that lies on the network cannot enter a pass; "" if it can.
+std::string_view fault_of(const SurveyRow& row) {
+    if (headline_of(row)) {
+        return "";
+    }
+    return row.left_mm_per_m || row.right_mm_per_m ? "one_track" : "no_iri";
+}
+
+} // namespace
+
+ReferencePasses reference_passes(const ReferenceSurvey& survey,
+                                 const PlacedReference& placed,
+                                 const ReferenceConfig& config) {
+    ReferencePasses all;
+    std::map<SegmentKey, std::vector<Passage>> segments;
+    std::vector<std::string_view> reasons = placed.unplaced;
+    std::map<std::size_t, double> lengths_m;
+    for (const auto& part : placed.parts) {
+        const auto& row = survey.rows[part.row].values;
+        lengths_m[part.row] = part.row_m;
+        all.placed_m += length_m(part);
+        reasons[part.row] = fault_of(row);
+        if (reasons[part.row].empty() && part.confidence < config.min_confidence) {
+            reasons[part.row] = "unsure_match";
+        } else if (reasons[part.row].empty()) {
+            add_to_first_free(segments[part.segment], {&part, &row, *headline_of(row)});
+        }
+    }
+    std::vector<bool> used(survey.rows.size(), false);
+    for (const auto& [segment, passages] : segments) {
+        std::uint32_t occurrence = 0;
+        for (const auto& passage : passages) {
+            if (covered_m(passage) < config.min_cover * passage.front().part->segment_m) {
+                continue;
+            }
+            all.passes.push_back(pass_of(passage, occurrence++, config));
+            for (const auto& part : passage) {
+                used[part.part->row] = true;
+            }
+        }
+    }
+    for (std::size_t row = 0; row < used.size(); ++row) {
+        if (used[row]) {
+            ++all.used;
+        } else {
+            ++all.reasons[std::string{reasons[row].empty() ? "short_part" : reasons[row]}];
+        }
+    }
+    std::vector<double> rows_m;
+    for (const auto& [row, row_m] : lengths_m) {
+        rows_m.push_back(row_m);
+    }
+    all.row_m = median(std::move(rows_m));
+    return all;
+}
+
+} // namespace macadam

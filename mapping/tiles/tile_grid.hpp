@@ -1,0 +1,43 @@
+#pragma once
+
+#include "estimator/common/geo.hpp"
+
+#include <compare>
+#include <cstdint>
+
+namespace macadam {
+
+/// A square of the web's map: zoom 0 has one tile, each zoom four times as many as the one before.
+/// x grows eastwards from the antimeridian, y southwards from 85.0511 degrees north.
+///
+/// Source: OGC 17-083r2, "Two Dimensional Tile Matrix Set", annex D.1, WebMercatorQuad.
+struct TileId {
+    std::uint8_t zoom = 0;
+    std::uint32_t x = 0; ///< 0 .. 2^zoom - 1
+    std::uint32_t y = 0; ///< 0 .. 2^zoom - 1
+    friend auto operator<=>(const TileId&, const TileId&) = default;
+};
+
+inline constexpr int max_zoom = 22; ///< a tile of 256 px is then 10 m wide at the equator
+
+/// Where a place lies among the tiles of a zoom, in tiles: the whole part of each names the tile.
+struct TilePlace {
+    double x = 0;
+    double y = 0;
+};
+
+/// \param point  latitudes beyond 85.0511 degrees are taken for that.
+TilePlace tile_place(const GeoPoint& point, int zoom);
+GeoPoint geo_point(const TilePlace& place, int zoom);
+
+/// What a tile shows, or with `margin` (in tiles) what lies so much around it, too.
+GeoBox tile_box(const TileId& tile, double margin = 0);
+
+/// The tiles of a zoom that a box touches, from the first to the last of both.
+struct TileRange {
+    std::uint32_t first_x = 0, first_y = 0;
+    std::uint32_t last_x = 0, last_y = 0; ///< inclusive
+};
+TileRange tiles_of(const GeoBox& box, int zoom);
+
+} // namespace macadam

@@ -1,0 +1,214 @@
+#include "mapping/transfer/transferred_passes.hpp"
+
+#include "mapping/transfer/transferred_pieces.hpp"
+#include "mapping/transfer/transferred_trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <span>
+#include <tuple>
+
+namespace macadam {
+namespace {
+
+constexpr double min_cover = PassConfig{}.min_cover;
+constexpr double mm_per_m = 1000;
+
+using ChunkOrder = std::tuple<std::int64_t, bool, std::uint32_t>;
+
+ChunkOrder order_of(const ChunkKey& chunk) {
+    return {chunk.way_id, !chunk.forward, chunk.number};
+}
+
+/// Length-weighted sums over the pieces of one passage.
+class PieceMean {
+public:
+    explicit PieceMean(std::span<const CarriedPiece> pieces) : pieces_{pieces} {
+        for (const auto& piece : pieces) {
+            covered_m_ += piece.covered_m;
+        }
+    }
+
+    double covered_m() const { return covered_m_; }
+
+    template <typename Value>
+    double of(Value value) const {
+        double sum = 0;
+        for (const auto& piece : pieces_) {
+            sum += piece.covered_m * value(piece);
+        }
+        return sum / covered_m_;
+    }
+
+    template <typename Integer>
+    Integer whole(Integer Pass::*value) const {
+        return static_cast<Integer>(std::llround(of(
+            [&](const CarriedPiece& piece) { return static_cast<double>(piece.pass->*value); })));
+    }
+
+    /// Nothing where one of them has none.
+    std::optional<IriUm> known(std::optional<IriUm> Pass::*value) const {
+        const auto is_known = [&](const CarriedPiece& piece) {
+            return (piece.pass->*value).has_value();
+        };
+        return std::ranges::all_of(pieces_, is_known)
+                   ? std::optional{static_cast<IriUm>(
+                         std::lround(of([&](const CarriedPiece& piece) {
+                             return static_cast<double>(*(piece.pass->*value));
+                         })))}
+                   : std::nullopt;
+    }
+
+private:
+    std::span<const CarriedPiece> pieces_;
+    double covered_m_ = 0;
+};
+
+/// The pass of a drive over one new segment; nothing where too little of it is covered.
+std::optional<Pass> pass_of(std::span<const CarriedPiece> pieces) {
+    const PieceMean mean{pieces};
+    const auto& first = pieces.front();
+    const double segment_m = length_m(first.correspondence.whole_m);
+    const double covered_m = std::min(segment_m, mean.covered_m());
+    if (!(covered_m > 0) || covered_m < min_cover * segment_m) {
+        return std::nullopt;
+    }
+    auto pass = *first.pass;
+    pass.segment = first.correspondence.after;
+    pass.iri_left_um = mean.known(&Pass::iri_left_um);
+    pass.iri_right_um = mean.known(&Pass::iri_right_um);
+    pass.iri_centre_um = mean.known(&Pass::iri_centre_um);
+    pass.iri_um = mean.whole(&Pass::iri_um);
+    pass.sd_um = std::max(1, mean.whole(&Pass::sd_um)); // one car: its passes err alike
+    pass.speed_mmps = mean.whole(&Pass::speed_mmps);
+    pass.confidence_ppm = mean.whole(&Pass::confidence_ppm);
+    pass.covered_mm = static_cast<std::int32_t>(std::lround(covered_m * mm_per_m));
+    pass.t_ms = std::llround(mean.of([](const CarriedPiece& piece) { return piece.t_ms; }));
+    for (const auto& piece : pieces) {
+        pass.centre_only = pass.centre_only || piece.pass->centre_only;
+        pass.validity = static_cast<std::uint8_t>(pass.validity | piece.pass->validity);
+    }
+    return pass;
+}
+
+/// The pieces of a drive over one new segment: it is there but once.
+std::map<SegmentKey, std::vector<CarriedPiece>>
+pieces_by_segment(const std::vector<CarriedPiece>& pieces) {
+    std::map<SegmentKey, std::vector<CarriedPiece>> by_segment;
+    for (const auto& piece : pieces) {
+        by_segment[piece.correspondence.after].push_back(piece);
+    }
+    return by_segment;
+}
+
+/// Of which old passes a new one is made, beside it.
+struct NewPass {
+    Pass pass;
+    std::vector<const Pass*> made_of;
+};
+
+std::vector<NewPass> passes_of(const CarriedDrive& drive,
+                               const SegmentCorrespondences& correspondences) {
+    std::vector<NewPass> passes;
+    for (const auto& [key, pieces] : pieces_by_segment(drive.pieces)) {
+        std::vector<const Pass*> made_of;
+        std::ranges::transform(pieces, std::back_inserter(made_of), &CarriedPiece::pass);
+        // Slivers of its neighbours may be there, too, of the last millimetre.
+        const auto same = std::ranges::find_if(pieces, [&](const CarriedPiece& piece) {
+            const auto correspondence = correspondences.unchanged(piece.pass->segment);
+            return correspondence && correspondence->after == key;
+        });
+        if (same != pieces.end()) {
+            auto pass = *same->pass;
+            pass.segment = key;
+            pass.drive = drive.number;
+            passes.push_back({pass, std::move(made_of)});
+        } else if (auto pass = pass_of(pieces)) {
+            pass->drive = drive.number;
+            passes.push_back({*pass, std::move(made_of)});
+        }
+    }
+    return passes;
+}
+
+/// Numbers passages over a segment in the order of time.
+void number_occurrences(std::vector<NewPass>& passes) {
+    std::ranges::stable_sort(passes, {}, [](const NewPass& made) { return made.pass.t_ms; });
+    std::map<SegmentKey, std::uint32_t> occurrences;
+    for (auto& [pass, made_of] : passes) {
+        pass.occurrence = occurrences[pass.segment]++;
+    }
+}
+
+/// Old chunks whose readings only get another name, and those of which others are cut.
+struct Parted {
+    TransferredPasses renamed;
+    TripPasses rest;
+};
+
+SegmentKey renamed_key(const SegmentKey& key, const SegmentCorrespondences& correspondences) {
+    return correspondences.unchanged(key)->after;
+}
+
+Parted parted(const TripPasses& old, const SegmentCorrespondences& correspondences) {
+    const double segment_length_m = correspondences.before().segment_length_m;
+    std::map<ChunkOrder, std::optional<ShiftedChunk>> chunks;
+    const auto moved = [&](const ChunkKey& chunk) {
+        const auto [found, is_new] = chunks.try_emplace(order_of(chunk));
+        if (is_new) {
+            found->second = correspondences.moved(chunk);
+        }
+        return found->second;
+    };
+    Parted parts;
+    for (const auto& pass : old.passes) {
+        if (moved(chunk_of(pass.segment, segment_length_m))) {
+            parts.renamed.readings.passes.push_back(pass);
+            parts.renamed.readings.passes.back().segment =
+                renamed_key(pass.segment, correspondences);
+            ++parts.renamed.moved;
+        } else {
+            parts.rest.passes.push_back(pass);
+        }
+    }
+    for (const auto& trace : old.traces) {
+        if (const auto to = moved(trace.chunk)) {
+            parts.renamed.readings.traces.push_back(trace);
+            auto& renamed = parts.renamed.readings.traces.back();
+            renamed.chunk = to->chunk;
+            renamed.first_m += static_cast<std::int32_t>(std::lround(to->shift_m));
+        } else {
+            parts.rest.traces.push_back(trace);
+        }
+    }
+    return parts;
+}
+
+} // namespace
+
+TransferredPasses carried(const TripPasses& old, const SegmentCorrespondences& correspondences) {
+    auto [all, rest] = parted(old, correspondences);
+    std::vector<NewPass> passes;
+    for (const auto& pieces : pieces_by_chunk(rest.passes, correspondences)) {
+        for (const auto& drive : drives_of(pieces)) {
+            std::ranges::move(passes_of(drive, correspondences), std::back_inserter(passes));
+            if (auto trace =
+                    trace_of(drive, rest.traces, correspondences.before().segment_length_m)) {
+                all.readings.traces.push_back(std::move(*trace));
+            }
+        }
+    }
+    number_occurrences(passes);
+    std::set<const Pass*> used;
+    for (const auto& [pass, made_of] : passes) {
+        all.readings.passes.push_back(pass);
+        used.insert(made_of.begin(), made_of.end());
+    }
+    all.moved += used.size();
+    all.lost = rest.passes.size() - used.size();
+    return all;
+}
+
+} // namespace macadam

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "render/canvas/draw_target.hpp"
+#include "render/scene/scene.hpp"
+
+#include <cstdint>
+
+namespace macadam {
+
+/// Draws shapes and text onto a picture, or onto some rows of one, with smooth edges.
+class Canvas final : public DrawTarget {
+public:
+    /// \param top_px  of the picture's rows, the first that `image` has
+    explicit Canvas(Image image, int top_px = 0) : image_{std::move(image)}, top_px_{top_px} {}
+
+    void fill(const RoundedBox& shape, std::uint32_t rgb) override;
+    void stroke(const PixelPoint& from,
+                const PixelPoint& to,
+                double radius_px,
+                std::uint32_t rgb) override;
+    void fill_triangle(const PixelPoint& a,
+                       const PixelPoint& b,
+                       const PixelPoint& c,
+                       std::uint32_t rgb) override;
+    void write(const TextMask& text, const PixelPoint& at, std::uint32_t rgb) override;
+
+    Image finished() && { return std::move(image_); }
+
+private:
+    template <typename Coverage>
+    void blend(const PixelBox& box, std::uint32_t rgb, Coverage coverage);
+
+    Image image_;
+    int top_px_;
+};
+
+} // namespace macadam

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "render/canvas/canvas.hpp"
+#include "render/labels/label_placement.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace macadam {
+
+/// 0xRRGGBB.
+struct LabelInks {
+    std::uint32_t ink;
+    std::uint32_t quiet_ink;
+    std::uint32_t halo;
+};
+
+/// A pixel of the plane, in whole pixels.
+struct PlanePixel {
+    int x = 0, y = 0;
+};
+
+/// Draws labels onto a canvas that shows a part of the plane they were placed in; what lies outside
+/// is cut off. Two canvases that share a pixel of the plane get the same pixel.
+///
+/// \param corner  top left pixel of the canvas on the plane
+void draw_labels(Canvas& canvas,
+                 std::span<const Label> labels,
+                 const PlanePixel& corner,
+                 const LabelInks& inks,
+                 TypeSetter& setter);
+
+/// The ink of a label, on the plane.
+TextMask label_mask(const Label& label, TypeSetter& setter);
+
+/// What lies within `radius_px` of ink, with soft edges.
+TextMask halo_of(const TextMask& ink, double radius_px);
+
+} // namespace macadam

@@ -1,0 +1,110 @@
+#include "render/map/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+// Sizes at 1000 px.
+constexpr double title_px = 30;
+constexpr double subtitle_px = 17;
+constexpr double attribution_px = 13;
+constexpr double margin_px = 26;
+constexpr double scale_room_px = 300;
+constexpr double scale_height_px = 50;
+constexpr double line_height = 1.3; // of the em
+constexpr double ascent = 0.93;     // of DejaVu Sans, of the em
+constexpr double max_header = 0.3;  // of the sheet's height
+
+struct Block {
+    std::vector<std::string> lines;
+    TextLook look;
+    double height_px() const { return double(lines.size()) * look.size_px * line_height; }
+};
+
+/// Text that is too long for two lines is set smaller, then in more lines; only what would take the
+/// map's own place is left out, and says so.
+Block block(
+    TypeSetter& setter, const std::string& text, TextLook look, double width, double height) {
+    const double smallest_px = look.size_px * 0.7;
+    auto lines = setter.wrapped(text, look, width);
+    while (lines.size() > 1 && look.size_px * 0.92 >= smallest_px) {
+        look.size_px *= 0.92;
+        lines = setter.wrapped(text, look, width);
+    }
+    const auto most = std::max<std::size_t>(1, std::size_t(height / (look.size_px * line_height)));
+    if (lines.size() > most) {
+        lines.resize(most);
+        lines.back() = setter.wrapped(lines.back(), look, width - look.size_px).front() + "…";
+    }
+    return {lines, look};
+}
+
+std::vector<PlacedText> placed(const Block& block, const PixelPoint& corner, bool quiet) {
+    std::vector<PlacedText> texts;
+    texts.reserve(block.lines.size());
+    double y = corner.y + block.look.size_px * ascent;
+    for (const auto& line : block.lines) {
+        texts.push_back({line, block.look, {corner.x, std::round(y)}, quiet});
+        y += block.look.size_px * line_height;
+    }
+    return texts;
+}
+
+} // namespace
+
+double unit_of(int width_px, int height_px) {
+    const double side_px = std::min(width_px, height_px);
+    const double readable = std::clamp(side_px / 512 * 0.72, 0.55, 0.72);
+    return std::max(side_px / 1000, readable);
+}
+
+PixelBox inset(const PixelBox& box, double margin) {
+    return {box.left + margin, box.top + margin, box.right - margin, box.bottom - margin};
+}
+
+Layout layout_of(const MapScene& scene, int width_px, int height_px, TypeSetter& setter) {
+    const double unit = unit_of(width_px, height_px);
+    const double margin = std::round(margin_px * unit);
+    const double width = width_px - 2 * margin;
+    const double max_px = height_px * max_header;
+    Layout layout;
+    layout.unit = unit;
+    const auto add = [&layout](const std::vector<PlacedText>& texts) {
+        layout.texts.insert(layout.texts.end(), texts.begin(), texts.end());
+    };
+
+    const auto title = block(setter, scene.title, {title_px * unit, true}, width, max_px * 0.6);
+    const auto subtitle = block(setter, scene.subtitle, {subtitle_px * unit}, width, max_px * 0.4);
+    double top = 0;
+    if (title.height_px() + subtitle.height_px() > 0) {
+        top = margin * 0.7;
+        add(placed(title, {margin, top}, false));
+        top += title.height_px();
+        add(placed(subtitle, {margin, top}, true));
+        top += subtitle.height_px() + margin * 0.6;
+    }
+
+    const double scale_width = std::min(scale_room_px * unit, width * 0.45);
+    const TextLook small{attribution_px * unit};
+    const auto credit =
+        block(setter, scene.attribution, small, width - scale_width - margin, max_px * 0.5);
+    const double scale_height = scene.scale_bar ? scale_height_px * unit : 0;
+    const double credit_height = credit.lines.empty() ? 0 : credit.height_px() + margin * 0.8;
+    const double footer = std::max(credit_height, scale_height);
+    const double bottom = std::round(height_px - footer);
+    double y = bottom + (footer - credit.height_px()) / 2;
+    for (const auto& line : credit.lines) {
+        const double line_width = setter.width_px(line, credit.look);
+        add(placed({{line}, credit.look}, {width_px - margin - line_width, y}, true));
+        y += credit.look.size_px * line_height;
+    }
+    layout.map = {0, std::round(top), double(width_px), bottom};
+    layout.scale_bar = scene.scale_bar;
+    layout.edges = !scene.to_the_edge;
+    layout.scale_room = {margin, bottom, margin + scale_width, double(height_px)};
+    return layout;
+}
+
+} // namespace macadam

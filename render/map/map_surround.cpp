@@ -1,0 +1,274 @@
+#include "render/map/map_surround.hpp"
+
+#include "render/canvas/canvas.hpp"
+#include "render/scene/scale_bar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+// Sizes at 1000 px.
+constexpr double margin_px = 30;      // between the data and the map's edge
+constexpr double card_margin_px = 18; // between the legend and the map's edge
+constexpr double label_px = 14;
+
+constexpr double min_scale = 0.9; // of a small map, over what it has without a legend
+
+/// Whether the line from `a` to `b` passes through the box: Liang and Barsky's clipping.
+bool passes_through(const PixelBox& box, const PixelPoint& a, const PixelPoint& b) {
+    double from = 0;
+    double to = 1;
+    const auto clip = [&](double start, double step, double low, double high) {
+        if (step == 0) {
+            return low <= start && start <= high;
+        }
+        const auto [enter, leave] = std::minmax({(low - start) / step, (high - start) / step});
+        from = std::max(from, enter);
+        to = std::min(to, leave);
+        return from <= to;
+    };
+    return clip(a.x, b.x - a.x, box.left, box.right) && clip(a.y, b.y - a.y, box.top, box.bottom);
+}
+
+using Corners = std::array<PixelPoint, 4>;
+
+/// Where the card could stand, the best place first.
+Corners corners_of(const PixelBox& map, const LegendCard& card) {
+    const double margin = std::round(card_margin_px * card.unit);
+    const double left = map.left + margin;
+    const double right = map.right - margin - card.width_px;
+    const double top = map.top + margin;
+    const double bottom = map.bottom - margin - card.height_px;
+    return {{{right, bottom}, {left, bottom}, {right, top}, {left, top}}};
+}
+
+PixelBox ground_of(const LegendCard& card, const PixelPoint& corner) {
+    const double air = 10 * card.unit;
+    return inset({corner.x, corner.y, corner.x + card.width_px, corner.y + card.height_px}, -air);
+}
+
+/// How many pieces of road each corner would hide.
+std::array<std::size_t, 4> hidden_by(const MapScene& scene,
+                                     const MapFrame& frame,
+                                     const LegendCard& card,
+                                     const Corners& corners) {
+    std::array<std::size_t, 4> hidden{};
+    for (const auto& line : scene.lines) {
+        for (std::size_t i = 0; i + 1 < line.line.size(); ++i) {
+            const auto a = to_pixel(frame, line.line[i]);
+            const auto b = to_pixel(frame, line.line[i + 1]);
+            for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+                hidden[corner] += passes_through(ground_of(card, corners[corner]), a, b) ? 1 : 0;
+            }
+        }
+    }
+    return hidden;
+}
+
+/// The card with as many entries beside each other as there is room for.
+LegendCard widest_card(const Legend& legend, const Layout& layout, TypeSetter& setter) {
+    const double room_px = layout.map.width() - 2 * card_margin_px * layout.unit;
+    auto best = legend_card(legend, 1, layout.unit, setter);
+    for (int columns = 2; columns <= int(legend.entries.size()); ++columns) {
+        const auto card = legend_card(legend, columns, layout.unit, setter);
+        if (card.width_px <= room_px && card.height_px < best.height_px) {
+            best = card;
+        }
+    }
+    return best;
+}
+
+Placement beside_or_below(const MapScene& scene,
+                          const Legend& legend,
+                          const Layout& layout,
+                          TypeSetter& setter) {
+    const double margin = margin_px * layout.unit;
+    const double card_margin = card_margin_px * layout.unit;
+    const auto column = legend_card(legend, 1, layout.unit, setter);
+    const auto row = widest_card(legend, layout, setter);
+    auto left_room = inset(layout.map, margin);
+    left_room.right -= std::min(column.width_px + card_margin, left_room.width() * 0.6);
+    auto upper_room = inset(layout.map, margin);
+    upper_room.bottom -= std::min(row.height_px + card_margin, upper_room.height() * 0.6);
+
+    const auto left_frame = fitted_frame(scene.box, left_room, scene.projection.get());
+    const auto upper_frame = fitted_frame(scene.box, upper_room, scene.projection.get());
+    if (left_frame.px_per_rad >= upper_frame.px_per_rad) {
+        return {left_frame, column, corners_of(layout.map, column)[0]};
+    }
+    return {upper_frame, row, corners_of(layout.map, row)[1]};
+}
+
+/// In a corner without roads, or where the data makes room for it.
+Placement placement_beside_roads(const MapScene& scene,
+                                 const Legend& legend,
+                                 const MapFrame& frame,
+                                 const Layout& layout,
+                                 TypeSetter& setter) {
+    const auto card = legend_card(legend, 1, layout.unit, setter);
+    const auto corners = corners_of(layout.map, card);
+    const auto hidden = hidden_by(scene, frame, card, corners);
+    const auto empty = std::ranges::find(hidden, 0U);
+    if (empty != hidden.end()) {
+        return {frame, card, corners[std::size_t(empty - hidden.begin())]};
+    }
+    return beside_or_below(scene, legend, layout, setter);
+}
+
+/// Whether the sheet is so small that its letters take more of it than on larger ones.
+bool has_large_letters(const Layout& layout) {
+    const double side_px = std::min(layout.map.width(), layout.scale_room.bottom);
+    return layout.unit * 1000 > side_px * 1.001;
+}
+
+struct NorthArrow {
+    PixelPoint foot;
+    double turn_rad; ///< clockwise from up
+};
+
+PixelPoint turned(const PixelPoint& point, const PixelPoint& pivot, double turn_rad) {
+    if (turn_rad == 0) { // not moved by a rounding
+        return point;
+    }
+    const double x = point.x - pivot.x;
+    const double y = point.y - pivot.y;
+    return {pivot.x + x * std::cos(turn_rad) - y * std::sin(turn_rad),
+            pivot.y + x * std::sin(turn_rad) + y * std::cos(turn_rad)};
+}
+
+void draw_north(DrawTarget& canvas,
+                TypeSetter& setter,
+                const NorthArrow& arrow,
+                double unit,
+                const Palette& colours) {
+    const auto& foot = arrow.foot;
+    const double height = 24 * unit;
+    const double half = 6.5 * unit;
+    const double notch = 5.5 * unit;
+    const PixelPoint tip{foot.x, foot.y - height};
+    const PixelPoint heart{foot.x, foot.y - notch};
+    const auto fill =
+        [&](const PixelPoint& a, const PixelPoint& b, const PixelPoint& c, std::uint32_t rgb) {
+            const PixelPoint pivot{foot.x, foot.y - height / 2};
+            canvas.fill_triangle(turned(a, pivot, arrow.turn_rad),
+                                 turned(b, pivot, arrow.turn_rad),
+                                 turned(c, pivot, arrow.turn_rad),
+                                 rgb);
+        };
+    // The light half reaches a little under the dark one, so that no ground shines through the
+    // seam.
+    const double under = 1;
+    fill({tip.x - under, tip.y + 4 * under},
+         {foot.x + half, foot.y},
+         {heart.x - under, heart.y},
+         colours.quiet_ink);
+    fill(tip, {foot.x + half, foot.y}, heart, colours.quiet_ink);
+    fill(tip, heart, {foot.x - half, foot.y}, colours.ink);
+    const double aside = half + 4 * unit + 5 * unit * std::abs(std::sin(arrow.turn_rad));
+    canvas.write(setter.mask("N", {label_px * unit, true}), {foot.x + aside, foot.y}, colours.ink);
+}
+
+void draw_scale(DrawTarget& canvas,
+                TypeSetter& setter,
+                const ScaleBar& bar,
+                const PixelPoint& start,
+                double unit,
+                const Palette& colours) {
+    const double thick = std::max(2.0, std::round(2.5 * unit));
+    const double tick = std::round(8 * unit);
+    const PixelBox line{start.x, start.y - thick, start.x + bar.width_px, start.y};
+    canvas.fill({line}, colours.ink);
+    canvas.fill({{line.left, line.bottom - tick, line.left + thick, line.bottom}}, colours.ink);
+    canvas.fill({{line.right - thick, line.bottom - tick, line.right, line.bottom}}, colours.ink);
+    const TextLook look{label_px * unit};
+    const double width = setter.width_px(bar.label, look);
+    canvas.write(setter.mask(bar.label, look),
+                 {(line.left + line.right - width) / 2, line.top - 5 * unit},
+                 colours.ink);
+}
+
+void draw_footer(DrawTarget& canvas,
+                 TypeSetter& setter,
+                 const Layout& layout,
+                 const MapFrame& frame,
+                 const MapStyle& style) {
+    const auto colours = palette(style);
+    const auto& room = layout.scale_room;
+    const double unit = layout.unit;
+    const double base = std::round((room.top + room.bottom) / 2 + 11 * unit);
+    const PixelPoint heart_of_map{(layout.map.left + layout.map.right) / 2,
+                                  (layout.map.top + layout.map.bottom) / 2};
+    draw_north(canvas,
+               setter,
+               {{room.left + 7 * unit, base}, north_rad(frame, heart_of_map)},
+               unit,
+               colours);
+
+    const double left = std::round(room.left + 46 * unit);
+    const double middle = (layout.map.top + layout.map.bottom) / 2;
+    const auto bar = scale_bar(metres_per_px(frame, middle), room.right - left, style.in_per_mi);
+    draw_scale(canvas, setter, bar, {left, base}, unit, colours);
+}
+
+void draw_edges(DrawTarget& canvas, const Layout& layout, const Palette& colours) {
+    const double line = std::max(1.0, std::round(layout.unit));
+    const auto& map = layout.map;
+    if (map.top > 0) {
+        canvas.fill({{map.left, map.top, map.right, map.top + line}}, colours.border);
+    }
+    canvas.fill({{map.left, map.bottom - line, map.right, map.bottom}}, colours.border);
+}
+
+} // namespace
+
+Placement placement_of(const MapScene& scene,
+                       const Legend& legend,
+                       const Layout& layout,
+                       TypeSetter& setter) {
+    const double margin = scene.to_the_edge ? 0 : margin_px * layout.unit;
+    const auto frame = fitted_frame(scene.box, inset(layout.map, margin), scene.projection.get());
+    if (legend.entries.empty()) {
+        return {frame, {}, {}};
+    }
+    auto best = placement_beside_roads(scene, legend, frame, layout, setter);
+    if (!has_large_letters(layout)) {
+        return best;
+    }
+    for (const auto& form : forms_of(legend)) {
+        if (best.frame.px_per_rad >= min_scale * frame.px_per_rad) {
+            break;
+        }
+        const auto placement = placement_beside_roads(scene, form, frame, layout, setter);
+        if (placement.frame.px_per_rad > best.frame.px_per_rad) {
+            best = placement;
+        }
+    }
+    return best;
+}
+
+void draw_map_surround(DrawTarget& canvas,
+                       const Layout& layout,
+                       const Placement& placement,
+                       const MapStyle& style,
+                       TypeSetter& setter) {
+    const auto colours = palette(style);
+    if (layout.edges) {
+        draw_edges(canvas, layout, colours);
+    }
+    for (const auto& text : layout.texts) {
+        canvas.write(setter.mask(text.text, text.look),
+                     text.at,
+                     text.quiet ? colours.quiet_ink : colours.ink);
+    }
+    if (layout.scale_bar) {
+        draw_footer(canvas, setter, layout, placement.frame, style);
+    }
+    if (!placement.card.legend.entries.empty()) {
+        draw_legend(canvas, setter, placement.card, placement.corner, colours);
+    }
+}
+
+} // namespace macadam

@@ -1,0 +1,127 @@
+#include "render/map/pdf_roads.hpp"
+
+#include "render/roads/road_polylines.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr int lowest_rank = 5;
+
+using Strands = std::vector<const Polyline*>;
+
+bool is_measured(const Polyline& strand) {
+    return strand.looks.front() != unmeasured_look;
+}
+
+Strands strands_of(std::span<const Polyline> strands, int rank, bool measured) {
+    Strands found;
+    for (const auto& strand : strands) {
+        if (!strand.looks.empty() && std::clamp(strand.rank, 0, lowest_rank) == rank &&
+            is_measured(strand) == measured) {
+            found.push_back(&strand);
+        }
+    }
+    return found;
+}
+
+struct PdfPen {
+    double radius_px;
+    std::uint64_t looks; ///< a bit for each
+    std::uint32_t rgb;
+};
+
+bool is_of(const PdfPen& brush, const Polyline& strand, std::size_t piece) {
+    return (brush.looks >> strand.looks[piece] & 1U) != 0;
+}
+
+/// Neighbouring pieces of the brush's looks are one line. What was painted before ends round below
+/// what is painted later, which is cut off where the look changes: so each look has its own length
+/// and no bend has a gap.
+void draw(PdfPage& page, const Polyline& strand, const PdfPen& brush) {
+    const auto& looks = strand.looks;
+    for (std::size_t i = 0; i < looks.size();) {
+        std::size_t end = i;
+        while (end < looks.size() && is_of(brush, strand, end)) {
+            ++end;
+        }
+        if (end > i) {
+            page.draw(std::span{strand.points}.subspan(i, end - i + 1),
+                      brush.radius_px,
+                      brush.rgb,
+                      {.round_begin = i == 0 || looks[i - 1] > looks[i],
+                       .round_end = end == looks.size() || looks[end] > looks[end - 1]});
+        }
+        i = std::max(end, i + 1);
+    }
+}
+
+void draw(PdfPage& page, const Strands& strands, const PdfPen& brush) {
+    for (const auto* strand : strands) {
+        draw(page, *strand, brush);
+    }
+}
+
+std::uint64_t bit_of(int look) {
+    return std::uint64_t{1} << look;
+}
+
+std::uint64_t looks_of(std::size_t classes, bool certain) {
+    std::uint64_t looks = certain ? bit_of(few_passes_look) : 0;
+    for (std::size_t i = 0; i < classes; ++i) {
+        looks |= bit_of(look_of(int(i), certain));
+    }
+    return looks;
+}
+
+} // namespace
+
+void draw_unmeasured_edges(PdfPage& page,
+                           std::span<const Polyline> strands,
+                           const LineWidths& widths,
+                           std::uint32_t rgb) {
+    for (int rank = lowest_rank; rank >= 0; --rank) {
+        draw(page,
+             strands_of(strands, rank, false),
+             {unmeasured_edge_radius_px(widths, rank), ~std::uint64_t{0}, rgb});
+    }
+}
+
+void draw_roads(PdfPage& page,
+                std::span<const Polyline> strands,
+                const LineWidths& widths,
+                const Palette& palette,
+                std::span<const std::uint32_t> class_colours) {
+    for (int rank = lowest_rank; rank >= 0; --rank) {
+        draw(page,
+             strands_of(strands, rank, false),
+             {unmeasured_radius_px(widths, rank), ~std::uint64_t{0}, palette.unmeasured});
+    }
+    for (int rank = lowest_rank; rank >= 0; --rank) {
+        const auto measured = strands_of(strands, rank, true);
+        for (const bool certain : {false, true}) {
+            draw(page,
+                 measured,
+                 {casing_radius_px(widths, rank, certain),
+                  looks_of(class_colours.size(), certain),
+                  palette.casing});
+        }
+        draw(page,
+             measured,
+             {core_radius_px(widths, rank, true), bit_of(few_passes_look), palette.few_passes});
+        for (std::size_t i = 0; i < class_colours.size(); ++i) {
+            for (const bool certain : {false, true}) {
+                draw(page,
+                     measured,
+                     {core_radius_px(widths, rank, certain),
+                      bit_of(look_of(int(i), certain)),
+                      class_colours[i]});
+            }
+        }
+    }
+}
+
+} // namespace macadam

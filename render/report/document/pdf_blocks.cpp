@@ -1,0 +1,211 @@
+#include "render/report/document/pdf_blocks.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace macadam {
+
+using namespace document;
+
+namespace {
+
+constexpr double bullet_indent_pt = 10;
+constexpr std::size_t keys_in_a_row = 3;
+constexpr std::size_t cards_in_a_row = 3;
+constexpr double card_gap_pt = 12;
+constexpr double key_padding_pt = 7;
+constexpr double legend_gap_pt = 14;
+constexpr double swatch_pt = 7;
+constexpr double max_line_pt = 440; // of running text: longer ones are hard to follow
+constexpr double scale_height_pt = 4;
+constexpr double room_over_map_pt = 80; // for heading and legend
+
+PdfType body() {
+    return {.size_pt = body_size_pt};
+}
+
+PdfType remark() {
+    return {.size_pt = small_size_pt, .rgb = print::quiet};
+}
+
+double line_width(const PdfSheets& sheets) {
+    return std::min(sheets.width_pt(), max_line_pt);
+}
+
+/// A key number in its box, without the box.
+struct Key {
+    PdfText what, value, more;
+
+    double height_pt() const {
+        return what.height_pt() + value.height_pt() + more.height_pt() + 2 * key_padding_pt;
+    }
+};
+
+struct CardText {
+    PdfText title, text;
+    double picture_pt;
+
+    double height_pt() const { return picture_pt + 4 + title.height_pt() + text.height_pt(); }
+};
+
+PdfText laid(const PdfSheets& sheets, const Paragraph& paragraph) {
+    return sheets.text(paragraph.text, paragraph.small ? remark() : body(), line_width(sheets));
+}
+
+/// A map as large as the page lets it be.
+struct LaidMap {
+    PdfText caption, scale;
+    double width_pt, height_pt; ///< of the picture
+
+    double whole_pt() const { return height_pt + 6 + scale.height_pt() + caption.height_pt(); }
+};
+
+LaidMap laid(const PdfSheets& sheets, const MapFigure& map) {
+    LaidMap laid{sheets.text(map.caption, remark(), sheets.width_pt()),
+                 sheets.text(map.scale, {.size_pt = small_size_pt}, -1),
+                 0,
+                 0};
+    const double shape =
+        static_cast<double>(map.picture.height_px) / std::max(1, map.picture.width_px);
+    const double room_pt = sheets.height_pt() - laid.whole_pt() - room_over_map_pt;
+    laid.width_pt = std::min(sheets.width_pt(), room_pt / shape);
+    laid.height_pt = laid.width_pt * shape;
+    return laid;
+}
+
+} // namespace
+
+double first_pt(const PdfSheets& sheets, const Paragraph& paragraph) {
+    return laid(sheets, paragraph).height_pt();
+}
+
+double first_pt(const PdfSheets& sheets, const MapFigure& map) {
+    return laid(sheets, map).whole_pt();
+}
+
+void put(PdfSheets& sheets, const Paragraph& paragraph) {
+    const auto text = laid(sheets, paragraph);
+    sheets.need(std::min(text.height_pt(), sheets.height_pt()));
+    sheets.draw(text, sheets.left_pt(), sheets.y_pt());
+    sheets.skip(text.height_pt() + block_gap_pt * 0.7);
+}
+
+void put(PdfSheets& sheets, const Bullets& bullets) {
+    for (const auto& item : bullets.items) {
+        const auto text = sheets.text(item, body(), line_width(sheets) - bullet_indent_pt);
+        sheets.need(std::min(text.height_pt(), sheets.height_pt()));
+        sheets.draw(sheets.text("•", body(), -1), sheets.left_pt(), sheets.y_pt());
+        sheets.draw(text, sheets.left_pt() + bullet_indent_pt, sheets.y_pt());
+        sheets.skip(text.height_pt() + 3);
+    }
+    sheets.skip(block_gap_pt);
+}
+
+void put(PdfSheets& sheets, const KeyNumbers& keys) {
+    const double gap_pt = 8;
+    const double width_pt =
+        (sheets.width_pt() - gap_pt * (keys_in_a_row - 1)) / static_cast<double>(keys_in_a_row);
+    const double text_pt = width_pt - 2 * key_padding_pt;
+    for (std::size_t i = 0; i < keys.numbers.size(); i += keys_in_a_row) {
+        std::vector<Key> row;
+        double height_pt = 0;
+        for (auto k = i; k < std::min(i + keys_in_a_row, keys.numbers.size()); ++k) {
+            const auto& [what, value, more] = keys.numbers[k];
+            row.push_back({sheets.text(what, remark(), text_pt),
+                           sheets.text(value, {.size_pt = 14, .bold = true}, text_pt),
+                           sheets.text(more, remark(), text_pt)});
+            height_pt = std::max(height_pt, row.back().height_pt());
+        }
+        sheets.need(height_pt);
+        double x_pt = sheets.left_pt();
+        for (const auto& key : row) {
+            sheets.frame(print::border, x_pt, sheets.y_pt(), width_pt, height_pt);
+            double y_pt = sheets.y_pt() + key_padding_pt;
+            for (const auto* const text : {&key.what, &key.value, &key.more}) {
+                sheets.draw(*text, x_pt + key_padding_pt, y_pt);
+                y_pt += text->height_pt();
+            }
+            x_pt += width_pt + gap_pt;
+        }
+        sheets.skip(height_pt + gap_pt);
+    }
+    sheets.skip(block_gap_pt / 2);
+}
+
+void put(PdfSheets& sheets, const Legend& legend) {
+    const auto title = sheets.text(legend.title, remark(), -1);
+    sheets.need(2 * title.height_pt());
+    double x_pt = sheets.left_pt();
+    sheets.draw(title, x_pt, sheets.y_pt());
+    x_pt += title.width_pt() + legend_gap_pt;
+    for (const auto& [rgb, name, range, dark_rgb] : legend.entries) {
+        const RichText words{{{name}, {range.empty() ? "" : " " + range, SpanLook::quiet}}};
+        const auto text = sheets.text(words, {.size_pt = small_size_pt}, -1);
+        const double width_pt = swatch_pt + 4 + text.width_pt();
+        if (x_pt + width_pt > sheets.left_pt() + sheets.width_pt()) {
+            x_pt = sheets.left_pt();
+            sheets.skip(text.height_pt() + 2);
+        }
+        const double middle_pt = sheets.y_pt() + text.height_pt() / 2;
+        if (rgb) {
+            sheets.fill(*rgb, x_pt, middle_pt - swatch_pt / 2, swatch_pt, swatch_pt);
+            sheets.frame(print::edge, x_pt, middle_pt - swatch_pt / 2, swatch_pt, swatch_pt);
+        } else {
+            sheets.fill(print::border, x_pt, middle_pt - 0.75, swatch_pt, 1.5);
+        }
+        sheets.draw(text, x_pt + swatch_pt + 4, sheets.y_pt());
+        x_pt += width_pt + legend_gap_pt;
+    }
+    sheets.skip(title.height_pt() + block_gap_pt / 2);
+}
+
+void put(PdfSheets& sheets, const MapFigure& map) {
+    const auto map_alignment = laid(sheets, map);
+    const auto& [caption, scale, width_pt, height_pt] = map_alignment;
+    sheets.need(map_alignment.whole_pt());
+    sheets.picture(map.picture, sheets.left_pt(), sheets.y_pt(), width_pt);
+    sheets.skip(height_pt + 4);
+    if (map.scale_percent > 0) {
+        const double bar_pt = width_pt * map.scale_percent / 100;
+        const double y_pt = sheets.y_pt() + scale.height_pt() / 2 - scale_height_pt / 2;
+        sheets.fill(print::ink, sheets.left_pt(), y_pt + scale_height_pt - 1, bar_pt, 1);
+        sheets.fill(print::ink, sheets.left_pt(), y_pt, 1, scale_height_pt);
+        sheets.fill(print::ink, sheets.left_pt() + bar_pt - 1, y_pt, 1, scale_height_pt);
+        sheets.draw(scale, sheets.left_pt() + bar_pt + 6, sheets.y_pt());
+        sheets.skip(scale.height_pt());
+    }
+    sheets.draw(caption, sheets.left_pt(), sheets.y_pt());
+    sheets.skip(caption.height_pt() + block_gap_pt);
+}
+
+void put(PdfSheets& sheets, const Cards& cards) {
+    const double width_pt = (sheets.width_pt() - card_gap_pt * (cards_in_a_row - 1)) /
+                            static_cast<double>(cards_in_a_row);
+    for (std::size_t i = 0; i < cards.cards.size(); i += cards_in_a_row) {
+        const auto last = std::min(i + cards_in_a_row, cards.cards.size());
+        std::vector<CardText> row;
+        double height_pt = 0;
+        for (auto k = i; k < last; ++k) {
+            const auto& card = cards.cards[k];
+            row.push_back(
+                {sheets.text(card.title, {.size_pt = small_size_pt, .bold = true}, width_pt),
+                 sheets.text(card.text, {.size_pt = small_size_pt - 0.5}, width_pt),
+                 width_pt * card.picture.height_px / std::max(1, card.picture.width_px)});
+            height_pt = std::max(height_pt, row.back().height_pt());
+        }
+        sheets.need(std::min(height_pt, sheets.height_pt()));
+        for (auto k = i; k < last; ++k) {
+            const auto& of = row[k - i];
+            const double x_pt =
+                sheets.left_pt() + static_cast<double>(k - i) * (width_pt + card_gap_pt);
+            sheets.place(cards.cards[k].id, sheets.y_pt());
+            sheets.picture(cards.cards[k].picture, x_pt, sheets.y_pt(), width_pt);
+            const double y_pt = sheets.y_pt() + of.picture_pt + 4;
+            sheets.draw(of.title, x_pt, y_pt);
+            sheets.draw(of.text, x_pt, y_pt + of.title.height_pt());
+        }
+        sheets.skip(height_pt + card_gap_pt);
+    }
+}
+
+} // namespace macadam

@@ -1,0 +1,213 @@
+#include "render/report/document/pdf_sheets.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+namespace macadam {
+namespace {
+
+constexpr double head_size_pt = 7.5;
+constexpr double head_y_pt = 25;
+constexpr double hairline_pt = 0.5;
+
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
+    static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data),
+                                             length); // NOLINT(*-reinterpret-cast)
+    return CAIRO_STATUS_SUCCESS;
+}
+
+cairo_status_t take(void* rest, unsigned char* data, unsigned int length) {
+    auto& bytes = *static_cast<std::span<const std::uint8_t>*>(rest);
+    if (bytes.size() < length) {
+        return CAIRO_STATUS_READ_ERROR;
+    }
+    std::memcpy(data, bytes.data(), length);
+    bytes = bytes.subspan(length);
+    return CAIRO_STATUS_SUCCESS;
+}
+
+void set_colour(cairo_t* cairo, std::uint32_t rgb) {
+    const auto part = [rgb](unsigned shift) { return (rgb >> shift & 0xFFU) / 255.0; };
+    cairo_set_source_rgb(cairo, part(16), part(8), part(0));
+}
+
+/// A name as attributes of Cairo's tags quote it.
+std::string quoted(const std::string& id) {
+    std::string text = "'";
+    for (const char c : id) {
+        text += c == '\'' || c == '\\' ? std::string{'\\', c} : std::string{c};
+    }
+    return text + "'";
+}
+
+std::string with_numbers(std::string text, int page, int pages) {
+    for (const auto& [place, number] : {std::pair{"{page}", page}, std::pair{"{pages}", pages}}) {
+        if (const auto at = text.find(place); at != std::string::npos) {
+            text.replace(at, std::strlen(place), std::to_string(number));
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+PdfSheets::PdfSheets(const Document& document, const PdfConfig& config, std::optional<int> pages)
+    : document_{document}, paper_{config.paper}, pages_{pages},
+      surface_{
+          cairo_pdf_surface_create_for_stream(append, &bytes_, paper_.width_pt, paper_.height_pt),
+          cairo_surface_destroy},
+      cairo_{cairo_create(surface_.get()), cairo_destroy} {
+    const auto set = [&](cairo_pdf_metadata_t what, const std::string& text) {
+        cairo_pdf_surface_set_metadata(surface_.get(), what, text.c_str());
+    };
+    set(CAIRO_PDF_METADATA_TITLE, document.title);
+    set(CAIRO_PDF_METADATA_CREATOR, "Macadam");
+    set(CAIRO_PDF_METADATA_CREATE_DATE, document.day.empty() ? "" : document.day + "T00:00:00Z");
+    begin_page();
+}
+
+void PdfSheets::begin_page() {
+    ++page_;
+    y_pt_ = top_margin_pt;
+    draw_map_surround();
+}
+
+void PdfSheets::draw_map_surround() const {
+    const PdfType quiet{.size_pt = head_size_pt, .rgb = print::quiet};
+    auto right = quiet;
+    right.to_the_right = true;
+    draw(text(with_numbers(document_.page_of, page_, pages_.value_or(page_)), right, width_pt()),
+         left_pt(),
+         paper_.height_pt - bottom_margin_pt + 14);
+    if (page_ > 1) {
+        const auto head = text(document_.running_head, quiet, width_pt());
+        pango_layout_set_height(head.layout(), 0); // one line, and an ellipsis if it is longer
+        pango_layout_set_ellipsize(head.layout(), PANGO_ELLIPSIZE_END);
+        draw(head, left_pt(), head_y_pt);
+        rule(print::border, left_pt(), head_y_pt + 14, width_pt());
+    }
+}
+
+void PdfSheets::need(double height_pt) {
+    if (!has_room(height_pt) && !is_at_top()) {
+        cairo_show_page(cairo_.get());
+        begin_page();
+    }
+}
+
+void PdfSheets::skip(double height_pt) {
+    y_pt_ += height_pt;
+}
+
+PdfText
+PdfSheets::text(const document::RichText& rich, const PdfType& type, double width_pt) const {
+    return {cairo_.get(), rich, type, width_pt};
+}
+
+void PdfSheets::draw(const PdfText& text, double x_pt, double y_pt) const {
+    set_colour(cairo_.get(), text.rgb());
+    cairo_move_to(cairo_.get(), x_pt, y_pt);
+    if (!text.target().empty()) {
+        cairo_tag_begin(cairo_.get(), CAIRO_TAG_LINK, ("dest=" + quoted(text.target())).c_str());
+    }
+    pango_cairo_show_layout(cairo_.get(), text.layout());
+    cairo_new_path(cairo_.get()); // no line goes on from where the text began
+    if (!text.target().empty()) {
+        cairo_tag_end(cairo_.get(), CAIRO_TAG_LINK);
+    }
+}
+
+void PdfSheets::fill(
+    std::uint32_t rgb, double x_pt, double y_pt, double width_pt, double height_pt) const {
+    set_colour(cairo_.get(), rgb);
+    cairo_rectangle(cairo_.get(), x_pt, y_pt, width_pt, height_pt);
+    cairo_fill(cairo_.get());
+}
+
+void PdfSheets::frame(
+    std::uint32_t rgb, double x_pt, double y_pt, double width_pt, double height_pt) const {
+    set_colour(cairo_.get(), rgb);
+    cairo_set_line_width(cairo_.get(), hairline_pt);
+    cairo_rectangle(cairo_.get(), x_pt, y_pt, width_pt, height_pt);
+    cairo_stroke(cairo_.get());
+}
+
+void PdfSheets::rule(std::uint32_t rgb, double x_pt, double y_pt, double width_pt) const {
+    set_colour(cairo_.get(), rgb);
+    cairo_set_line_width(cairo_.get(), hairline_pt);
+    cairo_move_to(cairo_.get(), x_pt, y_pt);
+    cairo_rel_line_to(cairo_.get(), width_pt, 0);
+    cairo_stroke(cairo_.get());
+}
+
+void PdfSheets::picture(const ReportPicture& picture,
+                        double x_pt,
+                        double y_pt,
+                        double width_pt) const {
+    const double scale = width_pt / std::max(1, picture.width_px);
+    if (!is_counting()) {
+        std::span<const std::uint8_t> bytes{picture.light_png};
+        const CairoSurface image{cairo_image_surface_create_from_png_stream(take, &bytes),
+                                 cairo_surface_destroy};
+        if (cairo_surface_status(image.get()) != CAIRO_STATUS_SUCCESS) {
+            throw InputError{
+                fmt::format("cannot read a picture of the report: {}",
+                            cairo_status_to_string(cairo_surface_status(image.get())))};
+        }
+        cairo_save(cairo_.get());
+        cairo_translate(cairo_.get(), x_pt, y_pt);
+        cairo_scale(cairo_.get(), scale, scale);
+        cairo_set_source_surface(cairo_.get(), image.get(), 0, 0);
+        cairo_paint(cairo_.get());
+        cairo_restore(cairo_.get());
+    }
+    frame(print::border, x_pt, y_pt, width_pt, scale * picture.height_px);
+}
+
+void PdfSheets::place(const std::string& id, double y_pt) const {
+    cairo_save(cairo_.get());
+    cairo_tag_begin(cairo_.get(),
+                    CAIRO_TAG_DEST,
+                    fmt::format("name={} x={:.1f} y={:.1f}", quoted(id), left_pt(), y_pt).c_str());
+    cairo_tag_end(cairo_.get(), CAIRO_TAG_DEST);
+    cairo_restore(cairo_.get());
+}
+
+int PdfSheets::outline(const std::string& title, int above) const {
+    return cairo_pdf_surface_add_outline(
+        surface_.get(),
+        above,
+        title.c_str(),
+        fmt::format("page={} pos=[{:.1f} {:.1f}]", page_, left_pt(), y_pt_).c_str(),
+        above == CAIRO_PDF_OUTLINE_ROOT ? CAIRO_PDF_OUTLINE_FLAG_OPEN
+                                        : cairo_pdf_outline_flags_t{});
+}
+
+int PdfSheets::outline_to(const std::string& id, const std::string& title, int above) const {
+    return cairo_pdf_surface_add_outline(surface_.get(),
+                                         above,
+                                         title.c_str(),
+                                         ("dest=" + quoted(id)).c_str(),
+                                         cairo_pdf_outline_flags_t{});
+}
+
+std::string PdfSheets::finished() {
+    cairo_show_page(cairo_.get());
+    const auto drawn = cairo_status(cairo_.get());
+    cairo_surface_finish(surface_.get());
+    const auto written = cairo_surface_status(surface_.get());
+    for (const auto status : {drawn, written}) {
+        if (status != CAIRO_STATUS_SUCCESS) {
+            throw InputError{
+                fmt::format("cannot write the PDF: {}", cairo_status_to_string(status))};
+        }
+    }
+    return std::move(bytes_);
+}
+
+} // namespace macadam

@@ -1,0 +1,257 @@
+#include "render/report/document/pdf_blocks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <vector>
+
+namespace macadam {
+
+using namespace document;
+
+namespace {
+
+constexpr std::array sizes_pt{8.0, 7.5, 7.0, 6.5, 6.0}; // the first with which all columns fit
+constexpr double gap_pt = 9;                            // between columns
+constexpr double padding_pt = 2.6;                      // over and under the text of a row
+constexpr double share_width_pt = 90;
+constexpr double max_head_pt = 80; // wider heads go over several lines
+constexpr double share_height_pt = 8;
+constexpr double swatch_pt = 7;
+constexpr double swatch_gap_pt = 4;
+constexpr std::size_t rows_that_stay_together = 12; // more may go over a page
+constexpr std::size_t rows_with_the_head = 2;       // at least, under the first head
+
+double swatch_width(const Cell& cell) {
+    return cell.swatch ? swatch_pt + swatch_gap_pt : 0;
+}
+
+/// Where the columns of a table stand, and how large its letters are.
+class Columns {
+public:
+    Columns(const PdfSheets& sheets, const Table& table) : sheets_{sheets}, table_{table} {
+        for (const double size_pt : sizes_pt) {
+            size_pt_ = size_pt;
+            measure();
+            if (sum_of(least_) <= room_pt()) {
+                break;
+            }
+        }
+        share_out();
+    }
+
+    double size_pt() const { return size_pt_; }
+    double x_pt(std::size_t column) const {
+        return sheets_.left_pt() +
+               std::accumulate(
+                   widths_.begin(), widths_.begin() + static_cast<std::ptrdiff_t>(column), 0.0) +
+               gap_pt * static_cast<double>(column);
+    }
+    double width_pt(std::size_t column) const { return widths_[column]; }
+    double whole_pt() const { return sum_of(widths_) + gap_pt * static_cast<double>(gaps()); }
+
+    PdfType type(std::size_t column, bool bold) const {
+        return {.size_pt = size_pt_, .bold = bold, .to_the_right = table_.columns[column].number};
+    }
+    PdfType head_type(std::size_t column) const {
+        auto type = this->type(column, true);
+        type.size_pt = size_pt_ - 0.5;
+        type.rgb = print::quiet;
+        return type;
+    }
+
+private:
+    static double sum_of(const std::vector<double>& widths) {
+        return std::accumulate(widths.begin(), widths.end(), 0.0);
+    }
+    std::size_t gaps() const { return table_.columns.size() - 1; }
+    double room_pt() const { return sheets_.width_pt() - gap_pt * static_cast<double>(gaps()); }
+
+    /// Of its longest word.
+    double least_of(const RichText& text, PdfType type) const {
+        type.breaks_words = false;
+        return sheets_.text(text, type, 0).width_pt();
+    }
+
+    void measure() {
+        least_.assign(table_.columns.size(), 0);
+        wanted_.assign(table_.columns.size(), 0);
+        for (std::size_t c = 0; c < table_.columns.size(); ++c) {
+            const auto& title = table_.columns[c].title;
+            const double whole = sheets_.text(title, head_type(c), -1).width_pt();
+            least_[c] = least_of(title, head_type(c));
+            wanted_[c] = std::max(least_[c], std::min(whole, max_head_pt));
+            for (const auto& row : table_.rows) {
+                measure(row[c], c);
+            }
+        }
+    }
+
+    void measure(const Cell& cell, std::size_t c) {
+        if (!cell.shares.empty()) {
+            least_[c] = std::max(least_[c], share_width_pt / 2);
+            wanted_[c] = std::max(wanted_[c], share_width_pt);
+            return;
+        }
+        const bool bold = table_.sum; // as the last row may be
+        const double whole =
+            sheets_.text(cell.text, type(c, bold), -1).width_pt() + swatch_width(cell);
+        const double word = table_.columns[c].number
+                                ? whole
+                                : least_of(cell.text, type(c, bold)) + swatch_width(cell);
+        wanted_[c] = std::max(wanted_[c], whole);
+        // A name may be longer than the page is wide; such a word is broken.
+        least_[c] = std::max(least_[c], std::min(word, sheets_.width_pt() / 4));
+    }
+
+    /// What columns want; if that is too much, what is missing is taken from those that can wrap,
+    /// in proportion to what they can give.
+    void share_out() {
+        widths_ = wanted_;
+        const double missing = sum_of(wanted_) - room_pt();
+        const double spare = sum_of(wanted_) - sum_of(least_);
+        if (missing <= 0 || spare <= 0) {
+            return;
+        }
+        const double share = std::min(1.0, missing / spare);
+        for (std::size_t c = 0; c < widths_.size(); ++c) {
+            widths_[c] -= share * (wanted_[c] - least_[c]);
+        }
+    }
+
+    const PdfSheets& sheets_;
+    const Table& table_;
+    double size_pt_ = 0;
+    std::vector<double> least_, wanted_, widths_;
+};
+
+/// Room for letters whose width is rounded elsewhere.
+constexpr double play_pt = 0.1;
+
+struct Row {
+    std::vector<PdfText> texts;
+    double height_pt = 0;
+};
+
+Row head_of(const PdfSheets& sheets, const Table& table, const Columns& columns) {
+    Row row;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        row.texts.push_back(sheets.text(
+            table.columns[c].title, columns.head_type(c), columns.width_pt(c) + play_pt));
+        row.height_pt = std::max(row.height_pt, row.texts.back().height_pt() + 2 * padding_pt);
+    }
+    return row;
+}
+
+Row row_of(const PdfSheets& sheets, const Table& table, const Columns& columns, std::size_t i) {
+    const bool bold = table.sum && i + 1 == table.rows.size();
+    Row row;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        const auto& cell = table.rows[i][c];
+        row.texts.push_back(sheets.text(cell.shares.empty() ? cell.text : RichText{""},
+                                        columns.type(c, bold),
+                                        columns.width_pt(c) - swatch_width(cell) + play_pt));
+        row.height_pt = std::max(row.height_pt, row.texts.back().height_pt() + 2 * padding_pt);
+    }
+    return row;
+}
+
+void draw_head(PdfSheets& sheets, const Columns& columns, const Row& head) {
+    for (std::size_t c = 0; c < head.texts.size(); ++c) {
+        const double lower = head.height_pt - padding_pt - head.texts[c].height_pt();
+        sheets.draw(head.texts[c], columns.x_pt(c), sheets.y_pt() + lower);
+    }
+    sheets.skip(head.height_pt);
+    sheets.rule(print::edge, sheets.left_pt(), sheets.y_pt(), columns.whole_pt());
+}
+
+void draw_shares(
+    const PdfSheets& sheets, const Cell& cell, double x_pt, double y_pt, double width_pt) {
+    double from = 0;
+    for (const auto& [percent, rgb] : cell.shares) {
+        sheets.fill(
+            rgb, x_pt + width_pt * from / 100, y_pt, width_pt * percent / 100, share_height_pt);
+        from += percent;
+    }
+    sheets.frame(print::edge, x_pt, y_pt, width_pt, share_height_pt);
+}
+
+void draw_row(PdfSheets& sheets,
+              const Columns& columns,
+              const Row& row,
+              const std::vector<Cell>& cells) {
+    const double y_pt = sheets.y_pt() + padding_pt;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const double x_pt = columns.x_pt(c);
+        if (cells[c].swatch) {
+            const double middle = (row.texts[c].height_pt() - swatch_pt) / 2;
+            sheets.fill(*cells[c].swatch, x_pt, y_pt + middle, swatch_pt, swatch_pt);
+            sheets.frame(print::edge, x_pt, y_pt + middle, swatch_pt, swatch_pt);
+        }
+        if (!cells[c].shares.empty()) {
+            draw_shares(sheets, cells[c], x_pt, y_pt + 1, columns.width_pt(c));
+        }
+        sheets.draw(row.texts[c], x_pt + swatch_width(cells[c]), y_pt);
+    }
+    sheets.skip(row.height_pt);
+    sheets.rule(print::border, sheets.left_pt(), sheets.y_pt(), columns.whole_pt());
+}
+
+/// A table in rows, ready to be drawn.
+struct Laid {
+    Columns columns;
+    PdfText caption;
+    Row head;
+    std::vector<Row> rows;
+
+    /// Of what stays together with the caption.
+    double first_pt() const {
+        const auto together = rows.size() <= rows_that_stay_together
+                                  ? rows.size()
+                                  : std::min(rows.size(), rows_with_the_head);
+        double height_pt = caption.height_pt() + padding_pt + head.height_pt;
+        for (std::size_t i = 0; i < together; ++i) {
+            height_pt += rows[i].height_pt;
+        }
+        return height_pt;
+    }
+};
+
+Laid laid(const PdfSheets& sheets, const Table& table) {
+    const Columns columns{sheets, table};
+    Laid laid{columns,
+              sheets.text(table.caption,
+                          {.size_pt = small_size_pt, .rgb = print::quiet},
+                          sheets.width_pt()),
+              head_of(sheets, table, columns),
+              {}};
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        laid.rows.push_back(row_of(sheets, table, columns, i));
+    }
+    return laid;
+}
+
+} // namespace
+
+double first_pt(const PdfSheets& sheets, const Table& table) {
+    return laid(sheets, table).first_pt();
+}
+
+void put(PdfSheets& sheets, const Table& table) {
+    const auto table_aligned = laid(sheets, table);
+    const auto& [columns, caption, head, rows] = table_aligned;
+    sheets.need(std::min(table_aligned.first_pt(), sheets.height_pt()));
+    sheets.draw(caption, sheets.left_pt(), sheets.y_pt());
+    sheets.skip(caption.height_pt() + padding_pt);
+    draw_head(sheets, columns, head);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!sheets.has_room(rows[i].height_pt)) {
+            sheets.need(rows[i].height_pt);
+            draw_head(sheets, columns, head);
+        }
+        draw_row(sheets, columns, rows[i], table.rows[i]);
+    }
+    sheets.skip(block_gap_pt);
+}
+
+} // namespace macadam

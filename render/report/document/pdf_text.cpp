@@ -1,0 +1,109 @@
+#include "render/report/document/pdf_text.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace macadam {
+
+using namespace document;
+
+namespace {
+
+// Of fonts-noto-core; Pango takes other fonts of the machine for scripts that it lacks.
+constexpr const char* family = "Noto Sans,DejaVu Sans,sans-serif";
+constexpr float line_spacing = 1.12F; // of the font's own, which for Noto Sans is 1.36
+
+struct FreeFont {
+    void operator()(PangoFontDescription* font) const { pango_font_description_free(font); }
+};
+struct FreeAttributes {
+    void operator()(PangoAttrList* list) const { pango_attr_list_unref(list); }
+};
+
+/// Valid UTF-8 without control characters but the ends of lines.
+std::string cleaned(const std::string& text) {
+    char* const valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
+    std::string clean{valid};
+    g_free(valid);
+    std::ranges::replace_if(
+        clean,
+        [](char c) { return c != '\n' && (static_cast<unsigned char>(c) < 0x20 || c == 0x7F); },
+        ' ');
+    return clean;
+}
+
+guint16 channel(std::uint32_t rgb, int shift) {
+    return static_cast<guint16>((rgb >> shift & 0xFFU) * 257);
+}
+
+void insert(PangoAttrList* list, PangoAttribute* attribute, std::size_t from, std::size_t to) {
+    attribute->start_index = static_cast<guint>(from);
+    attribute->end_index = static_cast<guint>(to);
+    pango_attr_list_insert(list, attribute);
+}
+
+void add_look(PangoAttrList* list, const Span& span, std::size_t from, std::size_t to) {
+    if (span.look == SpanLook::strong) {
+        insert(list, pango_attr_weight_new(PANGO_WEIGHT_BOLD), from, to);
+    }
+    if (span.look == SpanLook::quiet) {
+        insert(list,
+               pango_attr_foreground_new(
+                   channel(print::quiet, 16), channel(print::quiet, 8), channel(print::quiet, 0)),
+               from,
+               to);
+    }
+    if (span.unbroken) {
+        insert(list, pango_attr_allow_breaks_new(FALSE), from, to);
+    }
+}
+
+} // namespace
+
+PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, double width_pt)
+    : layout_{pango_cairo_create_layout(cairo)}, rgb_{type.rgb} {
+    auto* const context = pango_layout_get_context(layout_.get());
+    pango_cairo_context_set_resolution(context, 72); // a point is a unit of the page
+    pango_context_set_round_glyph_positions(context, FALSE);
+    const std::unique_ptr<PangoFontDescription, FreeFont> font{pango_font_description_new()};
+    pango_font_description_set_family(font.get(), family);
+    pango_font_description_set_size(font.get(), pango_units_from_double(type.size_pt));
+    pango_font_description_set_weight(font.get(),
+                                      type.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+    pango_layout_set_font_description(layout_.get(), font.get());
+
+    std::string text;
+    const std::unique_ptr<PangoAttrList, FreeAttributes> looks{pango_attr_list_new()};
+    for (const auto& span : rich.spans) {
+        if (span.look == SpanLook::phone) {
+            continue; // paper has room for the columns that say it
+        }
+        const auto from = text.size();
+        text += cleaned(span.text);
+        add_look(looks.get(), span, from, text.size());
+        target_ = span.target.empty() ? target_ : span.target;
+    }
+    insert(looks.get(), pango_attr_font_features_new("tnum=1"), 0, text.size());
+    pango_layout_set_text(layout_.get(), text.data(), static_cast<int>(text.size()));
+    pango_layout_set_attributes(layout_.get(), looks.get());
+    pango_layout_set_wrap(layout_.get(),
+                          type.breaks_words ? PANGO_WRAP_WORD_CHAR : PANGO_WRAP_WORD);
+    pango_layout_set_alignment(layout_.get(),
+                               type.to_the_right ? PANGO_ALIGN_RIGHT : PANGO_ALIGN_LEFT);
+    pango_layout_set_line_spacing(layout_.get(), line_spacing);
+    pango_layout_set_width(layout_.get(), width_pt < 0 ? -1 : pango_units_from_double(width_pt));
+}
+
+double PdfText::width_pt() const {
+    int width = 0;
+    pango_layout_get_size(layout_.get(), &width, nullptr);
+    return pango_units_to_double(width);
+}
+
+double PdfText::height_pt() const {
+    int height = 0;
+    pango_layout_get_size(layout_.get(), nullptr, &height);
+    return pango_units_to_double(height);
+}
+
+} // namespace macadam

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "render/report/document/document.hpp"
+
+#include <pango/pangocairo.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace macadam {
+
+/// Colours of print, as MapStyle::Theme::print has them.
+namespace print {
+inline constexpr std::uint32_t ink = 0x1a1a1a;
+inline constexpr std::uint32_t quiet = 0x555555;
+inline constexpr std::uint32_t border = 0xc8c8c8;
+inline constexpr std::uint32_t edge = 0x404040;
+} // namespace print
+
+/// How text is set.
+struct PdfType {
+    double size_pt;
+    bool bold = false;
+    std::uint32_t rgb = print::ink;
+    bool to_the_right = false;
+    bool breaks_words = true; ///< that are longer than a line
+};
+
+/// Text in lines, ready to be drawn.
+class PdfText {
+public:
+    /// \param width_pt  of its lines; less than 0: they end where the text ends them
+    PdfText(cairo_t* cairo, const document::RichText& rich, const PdfType& type, double width_pt);
+
+    double width_pt() const;  ///< of its widest line
+    double height_pt() const; ///< of all lines
+    PangoLayout* layout() const { return layout_.get(); }
+    std::uint32_t rgb() const { return rgb_; }
+    const std::string& target() const { return target_; } ///< "" = leads nowhere
+
+private:
+    struct Free {
+        void operator()(PangoLayout* layout) const { g_object_unref(layout); }
+    };
+    std::unique_ptr<PangoLayout, Free> layout_;
+    std::uint32_t rgb_;
+    std::string target_;
+};
+
+} // namespace macadam

@@ -1,0 +1,134 @@
+#include "render/report/document/stylesheet.hpp"
+
+#include "render/scene/colour.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+std::string colours_of(MapStyle::Theme theme) {
+    const auto colours = palette(theme);
+    return fmt::format("--page:#{:06x};--ground:#{:06x};--rule:#{:06x};--ink:#{:06x};"
+                       "--quiet:#{:06x};--edge:#{:06x}",
+                       colours.page,
+                       colours.ground,
+                       colours.border,
+                       colours.ink,
+                       colours.quiet_ink,
+                       colours.casing);
+}
+
+constexpr const char* rules = R"(
+*{box-sizing:border-box}
+html{-webkit-text-size-adjust:100%;text-size-adjust:100%}
+body{margin:0 auto;max-width:64rem;padding:1.25rem 1rem 3rem;background:var(--page);color:var(--ink);
+font:1rem/1.55 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
+h1{font-size:clamp(1.6rem,1.2rem + 2vw,2.3rem);line-height:1.15;margin:0 0 .4rem;overflow-wrap:anywhere}
+h2{font-size:1.3rem;line-height:1.25;margin:2.6rem 0 .6rem;padding-top:1.1rem;border-top:1px solid var(--rule)}
+h3{font-size:1rem;line-height:1.3;margin:0;overflow-wrap:anywhere}
+p,ul{max-width:44rem;margin:.6rem 0}
+ul{padding-left:1.2rem}
+li{margin:.25rem 0}
+.quiet,caption,figcaption,dt{color:var(--quiet)}
+.small{font-size:.875rem}
+.key{display:grid;grid-template-columns:repeat(auto-fit,minmax(9.5rem,1fr));gap:.75rem;margin:1.2rem 0}
+.key div{background:var(--ground);border:1px solid var(--rule);border-radius:.5rem;padding:.7rem .85rem}
+.key dt{font-size:.8125rem;line-height:1.3}
+.key dd{margin:.15rem 0 0}
+.key b{display:block;white-space:nowrap;font-size:1.35rem;line-height:1.2;font-weight:650;font-variant-numeric:tabular-nums}
+.key span{display:block;font-size:.8125rem;line-height:1.35;color:var(--quiet);font-variant-numeric:tabular-nums}
+.wide{overflow-x:auto;margin:1rem 0}
+.wide:focus-visible{outline:2px solid var(--edge);outline-offset:2px}
+table{border-collapse:collapse;font-size:.9rem;line-height:1.35;font-variant-numeric:tabular-nums}
+caption{text-align:left;font-size:.875rem;padding-bottom:.35rem;max-width:calc(100vw - 2rem)}
+th,td{padding:.38rem .7rem;text-align:left;vertical-align:top;border-bottom:1px solid var(--rule)}
+th:first-child{padding-left:0}
+thead th{vertical-align:bottom;font-size:.8125rem;font-weight:600;color:var(--quiet);border-bottom-color:var(--edge)}
+tbody th{font-weight:500}
+.n{text-align:right;white-space:nowrap}
+thead .n{white-space:normal}
+.nw,.key .nw{display:inline;white-space:nowrap}
+.all th,.all td{font-weight:650;border-bottom:0}
+.swatch{width:.85em;height:.85em;margin-right:.5em;vertical-align:-.06em}
+.bar{stroke:var(--edge);stroke-width:.6}
+.share{display:block;width:9rem;height:.95rem;margin-top:.12rem;border:1px solid var(--edge)}
+.histogram{display:block;width:100%;max-width:30rem;height:auto;margin:1rem 0}
+.histogram text{fill:var(--quiet)}
+.grid{stroke:var(--rule)}
+.mean{stroke:var(--ink);stroke-width:1.2;stroke-dasharray:3 3}
+.legend{display:flex;flex-wrap:wrap;gap:.3rem 1.3rem;list-style:none;padding:0;font-size:.9rem}
+.legend li{margin:0;font-variant-numeric:tabular-nums}
+.road{display:inline-block;width:1.6em;height:0;border-top:2px solid var(--quiet);opacity:.6;margin-right:.5em;vertical-align:.25em}
+figure{margin:1rem 0}
+img{display:block;width:100%;height:auto;border:1px solid var(--rule);border-radius:.4rem}
+.scale{display:flex;align-items:center;gap:.5rem;margin-bottom:.3rem;color:var(--ink)}
+.scale span{height:.45rem;border:1px solid var(--ink);border-top:0}
+.dark,.phone{display:none}
+.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,18rem),1fr));gap:1.25rem;margin:1.2rem 0}
+.cards figure{margin:0}
+figcaption{font-size:.875rem;line-height:1.4;font-variant-numeric:tabular-nums;margin-top:.45rem;overflow-wrap:anywhere}
+figcaption h3{color:var(--ink);margin-bottom:.15rem}
+figcaption b{color:var(--ink);font-weight:600}
+a{color:inherit}
+)";
+
+constexpr const char* on_a_phone = R"(
+@media screen and (max-width:44rem){.else{display:none}.phone{display:inline}}
+@media (max-width:34rem){table{font-size:.8125rem}th,td{padding:.35rem .4rem}.share{width:5rem}
+.key{grid-template-columns:1fr 1fr;gap:.5rem}.key div{padding:.55rem .65rem}.key b{font-size:1.25rem}}
+@media screen and (max-width:24rem){th,td{padding:.35rem .2rem}}
+)";
+
+constexpr const char* on_paper = R"(
+@page{size:A4;margin:16mm 15mm}
+@media print{body{max-width:none;padding:0;font-size:10pt;line-height:1.4}
+h1{font-size:20pt}h2{font-size:13pt;margin-top:1.6rem;padding-top:.7rem}
+h2,h3,caption{break-after:avoid}p,li{orphans:3;widows:3}
+tr,figure,.key div,.histogram{break-inside:avoid}thead{display:table-header-group}
+.wide{overflow:visible;break-inside:avoid}.long{break-inside:auto}.histogram{max-width:88mm}.legend{break-after:avoid}table{font-size:8.5pt}th,td{padding:.25rem .45rem}.share{width:5.5rem}
+.key{grid-template-columns:repeat(3,1fr);gap:.5rem}.key b{font-size:14pt}
+.cards{grid-template-columns:1fr 1fr 1fr;gap:.8rem}.cards figcaption{font-size:8.5pt}
+.map{max-width:calc(135mm*var(--shape))}a{text-decoration:none}}
+)";
+
+/// Rows as blocks of titles and values, where the screen is too narrow for columns.
+std::string stacked(std::string_view kind, int width_rem) {
+    std::string css = R"(
+@media screen and (max-width:WIDTHrem){KIND,KIND tbody,KIND caption{display:block}KIND thead,KIND td:empty{display:none}
+KIND tr{display:grid;grid-template-columns:repeat(auto-fill,minmax(5.5rem,1fr));gap:.3rem .8rem;padding:.55rem 0;border-bottom:1px solid var(--rule)}
+KIND th,KIND td{padding:0;border:0;text-align:left;white-space:normal}KIND th{grid-column:1/-1;font-weight:600}
+KIND td::before{content:attr(data-t);display:block;color:var(--quiet);font-size:.75rem;font-weight:400}}
+)";
+    const auto replace = [&css](std::string_view word, std::string_view by) {
+        for (auto at = css.find(word); at != std::string::npos; at = css.find(word, at)) {
+            css.replace(at, word.size(), by);
+        }
+    };
+    replace("KIND", kind);
+    replace("WIDTH", std::to_string(width_rem));
+    return css;
+}
+
+} // namespace
+
+std::string report_style() {
+    using enum MapStyle::Theme;
+    return fmt::format(":root{{color-scheme:light dark;{}}}\n"
+                       "@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n"
+                       "@media print{{:root{{color-scheme:light;{}}}}}\n"
+                       "{}@media screen and (prefers-color-scheme:dark){{.light{{display:none}}"
+                       ".dark{{display:block}}}}{}{}{}{}",
+                       colours_of(light),
+                       colours_of(dark),
+                       colours_of(print),
+                       rules,
+                       on_a_phone,
+                       stacked(".stack", 31),
+                       stacked(".many", 50),
+                       on_paper);
+}
+
+} // namespace macadam

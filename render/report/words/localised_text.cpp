@@ -1,0 +1,160 @@
+#include "render/report/words/localised_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr std::string_view narrow_blank = "\u202F";
+constexpr std::string_view dash = "–";
+constexpr std::string_view minus = "\u2212";
+
+/// Decimals with which roughness is written: a hundredth of a mm/m is about half an in/mi.
+int iri_decimals(IriUnit unit) {
+    return unit == IriUnit::mm_per_m ? 2 : 0;
+}
+
+} // namespace
+
+double in_unit(double mm_per_m, IriUnit unit) {
+    return unit == IriUnit::mm_per_m ? mm_per_m : mm_per_m * in_per_mi_of_mm_per_m;
+}
+
+std::string Localisation::operator()(std::string_view key, const Values& values) const {
+    return say(*language, key, values);
+}
+
+std::string Localisation::or_else(const std::string& key, std::string_view text) const {
+    const auto* const message = find_message(*language, key);
+    return std::string{message != nullptr ? message->text : text};
+}
+
+std::string Localisation::counted(std::string_view key, std::size_t number, Values values) const {
+    values.emplace_back("count", count(number));
+    return say(*language, fmt::format("{}.{}", key, language->plural(number)), values);
+}
+
+std::string Localisation::number(double value, int decimals) const {
+    auto text = fmt::format("{:.{}f}", value, decimals);
+    if (const auto point = text.find('.'); point != std::string::npos) {
+        text.replace(point, 1, language->decimal_mark);
+    }
+    return text;
+}
+
+std::string Localisation::signed_number(double value, int decimals) const {
+    // What rounds to nothing has no sign.
+    const bool nothing = std::abs(value) < 0.5 * std::pow(10.0, -decimals);
+    return fmt::format("{}{}",
+                       nothing     ? "±"
+                       : value < 0 ? minus
+                                   : "+",
+                       number(std::abs(nothing ? 0 : value), decimals));
+}
+
+std::string Localisation::whole(double value) const {
+    return fmt::format("{:.0f}", value);
+}
+
+std::string Localisation::shortest(double value) const {
+    auto text = fmt::format("{:g}", value);
+    if (const auto point = text.find('.'); point != std::string::npos) {
+        text.replace(point, 1, language->decimal_mark);
+    }
+    return text;
+}
+
+std::string Localisation::count(std::size_t count) const {
+    auto text = fmt::format("{}", count);
+    if (text.size() >= 5) {
+        for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3) {
+            text.insert(static_cast<std::size_t>(i), narrow_blank);
+        }
+    }
+    return text;
+}
+
+std::string Localisation::km(double length_m, double longest_m) const {
+    const int decimals = longest_m < 10e3 ? 2 : longest_m < 1000e3 ? 1 : 0;
+    return number(length_m / 1000, decimals);
+}
+
+std::string Localisation::percent(double part, double whole) const {
+    if (whole <= 0) {
+        return std::string{dash};
+    }
+    const double percent = 100 * part / whole;
+    if (percent <= 0) {
+        return "0 %";
+    }
+    return percent < 0.1 ? "< " + number(0.1, 1) + " %" : number(percent, 1) + " %";
+}
+
+std::string Localisation::day(std::string_view iso) const {
+    constexpr std::size_t iso_letters = 10;
+    if (iso.size() != iso_letters) {
+        return std::string{iso};
+    }
+    std::string text{language->day};
+    const auto put = [&](std::string_view place, std::string_view value) {
+        text.replace(text.find(place), place.size(), value);
+    };
+    put("{year}", iso.substr(0, 4));
+    put("{month}", iso.substr(5, 2));
+    put("{day}", iso.substr(8, 2));
+    return text;
+}
+
+std::string Localisation::period(std::string_view first_day, std::string_view last_day) const {
+    return first_day.empty() ? ""
+           : first_day == last_day
+               ? day(first_day)
+               : (*this)("period", {{"first", day(first_day)}, {"last", day(last_day)}});
+}
+
+std::string Localisation::iri(double mm_per_m) const {
+    return number(in_unit(mm_per_m, unit), iri_decimals(unit));
+}
+
+std::string Localisation::iri_change(double mm_per_m) const {
+    return signed_number(in_unit(mm_per_m, unit), iri_decimals(unit));
+}
+
+std::string_view Localisation::iri_unit() const {
+    return unit == IriUnit::mm_per_m ? "mm/m" : "in/mi";
+}
+
+std::string Localisation::iri_with_unit(double mm_per_m) const {
+    return fmt::format("{} {}", iri(mm_per_m), iri_unit());
+}
+
+std::string Localisation::interval(double low, double high) const {
+    return fmt::format("{} {} {}", iri(low), dash, iri(high));
+}
+
+std::string Localisation::interval(const RoadMean& mean) const {
+    return interval(mean.low, mean.high);
+}
+
+std::string Localisation::change_interval(double low, double high) const {
+    return (*this)("range.change", {{"from", iri_change(low)}, {"to", iri_change(high)}});
+}
+
+std::string Localisation::range(const ClassTable& table, std::size_t i) const {
+    const auto border = [&](std::size_t row) { return iri(table.classes[row].to_mm_per_m); };
+    const bool last = std::isinf(table.classes[i].to_mm_per_m);
+    if (i == 0) {
+        return last ? (*this)("range.all")
+                    : (*this)(table.classes[i].open ? "range.below" : "range.up_to",
+                              {{"to", border(i)}});
+    }
+    if (last) {
+        return (*this)(table.classes[i - 1].open ? "range.from" : "range.above",
+                       {{"from", border(i - 1)}});
+    }
+    return fmt::format("{} {} {}", border(i - 1), dash, border(i));
+}
+
+} // namespace macadam

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "mapping/analysis/length_weighted_mean.hpp"
+#include "mapping/style/iri_class.hpp"
+#include "render/report/words/messages.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+
+enum class IriUnit { mm_per_m, in_per_mi };
+
+/// How a report writes words, numbers, days and roughness. Values are mm/m whatever is written.
+struct Localisation {
+    const Language* language = &languages().front();
+    IriUnit unit = IriUnit::mm_per_m;
+
+    std::string operator()(std::string_view key, const Values& values = {}) const;
+
+    /// The message of that key, or else the text: names that come from data.
+    std::string or_else(const std::string& key, std::string_view text) const;
+
+    /// The message in the form that the number asks for, with the number as {count}.
+    std::string counted(std::string_view key, std::size_t count, Values values = {}) const;
+
+    std::string number(double value, int decimals) const;
+    std::string signed_number(double value, int decimals) const;
+    std::string whole(double value) const;    ///< "240"
+    std::string shortest(double value) const; ///< "20", "2.5": up to six digits
+    std::string
+    count(std::size_t count) const; ///< thousands parted by narrow blanks from 10 000 on
+
+    /// Kilometres of road with the decimals that fit the longest of them: 2 below 10 km, 1 below
+    /// 1000 km, then none.
+    std::string km(double length_m, double longest_m) const;
+
+    /// "34.1 %"; "0 %" only for nothing, "< 0.1 %" for hardly anything. A dash of nothing.
+    std::string percent(double part, double whole) const;
+
+    std::string day(std::string_view iso) const; ///< of "2026-03-01"
+    std::string period(std::string_view first_day,
+                       std::string_view last_day) const; ///< "" = no days
+
+    std::string iri(double mm_per_m) const;        ///< "2.41", or "153" in in/mi
+    std::string iri_change(double mm_per_m) const; ///< "+0.52", "+33"
+    std::string_view iri_unit() const;             ///< "mm/m"
+    std::string iri_with_unit(double mm_per_m) const;
+    std::string interval(double low, double high) const; ///< "2.11 – 2.71"
+    std::string interval(const RoadMean& mean) const;    ///< 90 %
+    std::string change_interval(double low, double high) const;
+    std::string range(const ClassTable& table,
+                      std::size_t i) const; ///< "below 1.50", "1.50 – 2.68"
+};
+
+/// Of mm/m in the unit.
+double in_unit(double mm_per_m, IriUnit unit);
+
+} // namespace macadam

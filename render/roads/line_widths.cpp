@@ -1,0 +1,118 @@
+#include "render/roads/line_widths.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <unordered_set>
+
+namespace macadam {
+namespace {
+
+// A pixel at zoom 0 of web maps with tiles of 256 px: the equator of WGS 84 / 256.
+constexpr double metres_per_px_at_zoom_0 = 2 * std::numbers::pi * 6378137.0 / 256;
+constexpr double zoom_base = 1.5;
+constexpr double separate_zoom = 13;
+constexpr double max_ink = 0.5; // of the ground near roads
+constexpr double ink_to_separate = 0.6;
+constexpr double min_core_px = 1.3; // a thinner line is more casing than colour
+constexpr double thinnest_core_px = 0.9;
+constexpr double thinnest_casing_px = 0.35;
+constexpr double uncertain_part = 0.55;  // of the width of a certain one
+constexpr double unmeasured_core = 0.75; // of a measured one: quieter
+constexpr double cell_px = 64;           // "near", in a picture of 1000 px
+
+double grown_width_px(double zoom) {
+    const double share = (std::pow(zoom_base, zoom - 10) - 1) / (std::pow(zoom_base, 6) - 1);
+    return std::clamp(1 + 5 * share, 1.0, 9.0);
+}
+
+bool inside(const PixelBox& box, const PixelPoint& point) {
+    return box.left <= point.x && point.x <= box.right && box.top <= point.y &&
+           point.y <= box.bottom;
+}
+
+} // namespace
+
+LineWidths line_widths(double metres_per_px, double unit) {
+    const double zoom = std::log2(metres_per_px_at_zoom_0 / (metres_per_px * unit));
+    const double core_px = grown_width_px(zoom);
+    return {.core_px = std::max(min_core_px, core_px * unit),
+            .casing_px = std::clamp(0.3 + 0.22 * core_px, 0.5, 1.6) * unit,
+            .separate_ways = zoom >= separate_zoom};
+}
+
+LineWidths tile_widths(double zoom) {
+    const double core_px = grown_width_px(zoom);
+    return {.core_px = core_px,
+            .casing_px = std::clamp(0.3 + 0.22 * core_px, 0.5, 1.6),
+            .separate_ways = zoom >= separate_zoom};
+}
+
+double rank_factor(int rank) {
+    constexpr std::array factors{1.3, 1.2, 1.1, 1.0, 0.9, 0.8};
+    return factors[std::size_t(std::clamp(rank, 0, 5))];
+}
+
+double ink_per_px(std::span<const Polyline> strands, const PixelBox& visible, double unit) {
+    const double side_px = cell_px * unit;
+    std::unordered_set<std::uint64_t> cells;
+    double length_px = 0;
+    for (const auto& strand : strands) {
+        for (std::size_t i = 0; i < strand.looks.size(); ++i) {
+            const auto& a = strand.points[i];
+            const auto& b = strand.points[i + 1];
+            const double piece_px = std::hypot(b.x - a.x, b.y - a.y);
+            const int steps = int(std::min(4096.0, 1 + piece_px / side_px));
+            for (int step = 0; step < steps; ++step) {
+                const double t = (step + 0.5) / steps;
+                const PixelPoint at{std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t)};
+                if (inside(visible, at)) {
+                    length_px += piece_px / steps;
+                    cells.insert(std::uint64_t(at.y / side_px) << 32 |
+                                 std::uint64_t(at.x / side_px));
+                }
+            }
+        }
+    }
+    return cells.empty() ? 0 : length_px / (double(cells.size()) * side_px * side_px);
+}
+
+LineWidths uncrowded(const LineWidths& widths, double ink_per_px, double unit) {
+    const double ink = ink_per_px * (widths.core_px + 2 * widths.casing_px);
+    if (ink <= max_ink) {
+        return widths;
+    }
+    const double thinner = max_ink / ink;
+    // Lines of less than a pixel of the final picture lose their colour.
+    const double real_px = std::max(1.0, std::sqrt(unit));
+    return {.core_px = std::max(std::min(widths.core_px, thinnest_core_px * real_px),
+                                widths.core_px * thinner),
+            .casing_px = std::max(std::min(widths.casing_px, thinnest_casing_px * real_px),
+                                  widths.casing_px * thinner * thinner),
+            .separate_ways = widths.separate_ways && thinner > ink_to_separate};
+}
+
+double core_radius_px(const LineWidths& widths, int rank, bool certain) {
+    return widths.core_px * rank_factor(rank) / 2 * (certain ? 1 : uncertain_part);
+}
+
+double casing_radius_px(const LineWidths& widths, int rank, bool certain) {
+    return core_radius_px(widths, rank, certain) + widths.casing_px;
+}
+
+double unmeasured_radius_px(const LineWidths& widths, int rank) {
+    return core_radius_px(widths, rank, true) * unmeasured_core;
+}
+
+double unmeasured_edge_radius_px(const LineWidths& widths, int rank) {
+    return unmeasured_radius_px(widths, rank) + widths.casing_px;
+}
+
+double way_offset_px(const LineWidths& widths, int rank) {
+    // The casings of the two ways overlap to a line as wide as each of them.
+    return widths.core_px * rank_factor(rank) / 2 + widths.casing_px / 2;
+}
+
+} // namespace macadam

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "render/roads/stroke_geometry.hpp"
+
+#include <span>
+
+namespace macadam {
+
+/// Line widths of a map, px, for a road of middling rank.
+struct LineWidths {
+    double core_px;
+    double casing_px;           ///< on each side
+    bool separate_ways = false; ///< both directions of a road have room beside each other
+};
+
+/// By scale: 1 px at zoom 10 to 6 px at zoom 16 and on to 9, growing by half per zoom, in a picture
+/// of 1000 px; in others in proportion.
+///
+/// \param unit  size of the picture, in thousands of pixels of its shorter side
+LineWidths line_widths(double metres_per_px, double unit);
+
+/// The same for tiles, by zoom alone, so that what is on one tile never shows on the next.
+///
+/// \param zoom  of tiles of 256 px
+LineWidths tile_widths(double zoom);
+
+/// A motorway is a little wider than a service road.
+double rank_factor(int rank);
+
+/// Part of the ground near roads that lines of width 1 px would cover.
+double ink_per_px(std::span<const Polyline> strands, const PixelBox& visible, double unit);
+
+/// The widths made narrower where roads are so dense that they would run into a blot.
+LineWidths uncrowded(const LineWidths& widths, double ink_per_px, double unit);
+
+double core_radius_px(const LineWidths& widths, int rank, bool certain);
+double casing_radius_px(const LineWidths& widths, int rank, bool certain);
+
+/// Of a road without a measurement, which is quieter, and of its edge on a base map.
+double unmeasured_radius_px(const LineWidths& widths, int rank);
+double unmeasured_edge_radius_px(const LineWidths& widths, int rank);
+
+/// From the centre line of the road to that of one direction.
+double way_offset_px(const LineWidths& widths, int rank);
+
+} // namespace macadam

@@ -1,0 +1,302 @@
+#include "render/roads/road_painter.hpp"
+
+#include "render/gl/pixel_painter.hpp"
+#include "render/roads/road_polylines.hpp"
+#include "render/roads/stroke_painter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr int lowest_rank = 5;
+
+using Strands = std::vector<const Polyline*>;
+
+bool is_measured(const Polyline& strand) {
+    return strand.looks.front() != unmeasured_look;
+}
+
+/// All classes, and what is drawn as wide as they.
+std::uint64_t looks_of(bool certain) {
+    std::uint64_t looks = certain ? only(few_passes_look) : 0;
+    for (int i = 0; i < max_classes; ++i) {
+        looks |= only(look_of(i, certain));
+    }
+    return looks;
+}
+
+/// A part of the sheet that OpenGL draws at once.
+struct Window {
+    int left_px, top_px, width_px, height_px;
+};
+
+PixelBox box_of(const Window& window) {
+    return {double(window.left_px),
+            double(window.top_px),
+            double(window.left_px + window.width_px),
+            double(window.top_px + window.height_px)};
+}
+
+PixelBox common(const PixelBox& a, const PixelBox& b) {
+    const double left = std::max(a.left, b.left);
+    const double top = std::max(a.top, b.top);
+    return {left,
+            top,
+            std::max(left, std::min(a.right, b.right)),
+            std::max(top, std::min(a.bottom, b.bottom))};
+}
+
+PixelBox moved(const PixelBox& box, double right_px, double down_px) {
+    return {box.left + right_px, box.top + down_px, box.right + right_px, box.bottom + down_px};
+}
+
+bool meet(const PixelBox& a, const PixelBox& b, double apart_px) {
+    return a.left <= b.right + apart_px && b.left <= a.right + apart_px &&
+           a.top <= b.bottom + apart_px && b.top <= a.bottom + apart_px;
+}
+
+PixelBox box_around(const Polyline& strand) {
+    PixelBox box{strand.points.front().x,
+                 strand.points.front().y,
+                 strand.points.front().x,
+                 strand.points.front().y};
+    for (const auto& point : strand.points) {
+        box = {std::min(box.left, point.x),
+               std::min(box.top, point.y),
+               std::max(box.right, point.x),
+               std::max(box.bottom, point.y)};
+    }
+    return box;
+}
+
+struct Road {
+    const Polyline* strand;
+    PixelBox box;
+};
+
+/// What is painted together.
+struct Layer {
+    std::vector<Road> measured, unmeasured;
+};
+
+std::array<Layer, lowest_rank + 1> layers_of(std::span<const Polyline> strands) {
+    std::array<Layer, lowest_rank + 1> layers;
+    for (const auto& strand : strands) {
+        if (!strand.looks.empty()) {
+            auto& layer = layers[std::size_t(std::clamp(strand.rank, 0, lowest_rank))];
+            (is_measured(strand) ? layer.measured : layer.unmeasured)
+                .push_back({&strand, box_around(strand)});
+        }
+    }
+    return layers;
+}
+
+/// Beyond the line itself: half a pixel of antialiasing, the overlap of looks, and some rounding.
+constexpr double beyond_line_px = 4;
+
+Strands near(const std::vector<Road>& roads, const PixelBox& box, double radius_px) {
+    Strands found;
+    for (const auto& road : roads) {
+        if (meet(road.box, box, radius_px + beyond_line_px)) {
+            found.push_back(road.strand);
+        }
+    }
+    return found;
+}
+
+void draw(StrokePainter& painter,
+          const Strands& strands,
+          const StrokePass& pass,
+          std::uint32_t rgb) {
+    // A few strands at a time, so that the quads of a large city need not be held at once.
+    constexpr std::size_t enough = 16384;
+    std::vector<StrokeQuad> quads;
+    for (const auto* strand : strands) {
+        const auto more = ribbon(*strand, pass);
+        quads.insert(quads.end(), more.begin(), more.end());
+        if (quads.size() >= enough) {
+            painter.draw(quads, rgb, pass.radius_px);
+            quads.clear();
+        }
+    }
+    painter.draw(quads, rgb, pass.radius_px);
+}
+
+/// OpenGL, and the memory that it draws into.
+struct GlRoadPainter {
+    GlRoadPainter(int width, int height)
+        : width_px{width}, height_px{height}, rgba(std::size_t(width) * std::size_t(height) * 4),
+          context{rgba, width, height}, painter{context}, pixels{context} {}
+
+    int width_px, height_px;
+    std::vector<std::uint8_t> rgba;
+    GlContext context;
+    StrokePainter painter;
+    PixelPainter pixels;
+};
+
+/// Four bytes a pixel to three, onto a band of the sheet, `down` rows below its first.
+void lay(const GlRoadPainter& easel, const Window& window, int down, Image& band) {
+    for (int y = 0; y < window.height_px; ++y) {
+        const auto* from = easel.rgba.data() + std::size_t(y) * std::size_t(easel.width_px) * 4;
+        auto* to =
+            band.rgb.data() +
+            (std::size_t(down + y) * std::size_t(band.width) + std::size_t(window.left_px)) * 3;
+        for (int x = 0; x < window.width_px; ++x, from += 4, to += 3) {
+            std::copy_n(from, 3, to);
+        }
+    }
+}
+
+} // namespace
+
+struct RoadPainter::Impl {
+    void paint(const Window& window);
+    void lay_ground(const Window& window, const PixelBox& map);
+    void paint_unmeasured(int rank, const StrokePass& view, double radius_px, std::uint32_t rgb);
+    void paint_measured(int rank, const StrokePass& view);
+    void prepare(int width_px, int height_px);
+
+    Sheet sheet;
+    std::array<Layer, lowest_rank + 1> layers;
+    LineWidths widths;
+    Palette palette;
+    std::vector<std::uint32_t> class_colours;
+    std::unique_ptr<GlRoadPainter> easel{};
+};
+
+/// The easel is kept as long as it is large enough.
+void RoadPainter::Impl::prepare(int width_px, int height_px) {
+    if (easel == nullptr || easel->width_px < width_px || easel->height_px < height_px) {
+        easel.reset();
+        easel = std::make_unique<GlRoadPainter>(width_px, height_px);
+    }
+    easel->context.make_current();
+}
+
+/// Some rows at a time: their pixels are held three times.
+void RoadPainter::Impl::lay_ground(const Window& window, const PixelBox& map) {
+    constexpr int pixels = 2'097'152;
+    const int left = int(map.left);
+    const int width = int(map.width());
+    const int bottom = int(map.bottom);
+    const int rows = std::max(1, pixels / width);
+    for (int top = int(map.top); top < bottom; top += rows) {
+        const int height = std::min(rows, bottom - top);
+        easel->pixels.lay({left - window.left_px, top - window.top_px, width, height},
+                          sheet.ground({left, top, width, height}));
+    }
+}
+
+void RoadPainter::Impl::paint_unmeasured(int rank,
+                                         const StrokePass& view,
+                                         double radius_px,
+                                         std::uint32_t rgb) {
+    auto pass = view;
+    pass.radius_px = radius_px;
+    pass.looks = every_look;
+    draw(easel->painter,
+         near(layers[std::size_t(rank)].unmeasured, view.visible, radius_px),
+         pass,
+         rgb);
+}
+
+void RoadPainter::Impl::paint_measured(int rank, const StrokePass& view) {
+    const double widest_px =
+        std::max(casing_radius_px(widths, rank, true), casing_radius_px(widths, rank, false));
+    const auto strands = near(layers[std::size_t(rank)].measured, view.visible, widest_px);
+    const auto paint = [&](double radius_px, std::uint64_t looks, std::uint32_t rgb) {
+        auto pass = view;
+        pass.radius_px = radius_px;
+        pass.looks = looks;
+        draw(easel->painter, strands, pass, rgb);
+    };
+    for (const bool certain : {false, true}) {
+        paint(casing_radius_px(widths, rank, certain), looks_of(certain), palette.casing);
+    }
+    paint(core_radius_px(widths, rank, true), only(few_passes_look), palette.few_passes);
+    for (std::size_t i = 0; i < class_colours.size(); ++i) {
+        for (const bool certain : {false, true}) {
+            paint(core_radius_px(widths, rank, certain),
+                  only(look_of(int(i), certain)),
+                  class_colours[i]);
+        }
+    }
+}
+
+void RoadPainter::Impl::paint(const Window& window) {
+    const auto whole = box_of(window);
+    const auto map = common(whole, sheet.map);
+    easel->painter.clear(moved(whole, -whole.left, -whole.top), palette.page);
+    easel->painter.clear(moved(map, -whole.left, -whole.top), palette.ground);
+    const StrokePass view{.radius_px = 0,
+                          .looks = 0,
+                          .visible = map,
+                          .left_px = window.left_px,
+                          .top_px = window.top_px};
+    if (map.width() > 0 && map.height() > 0) {
+        if (sheet.ground) {
+            lay_ground(window, map);
+            for (int rank = lowest_rank; rank >= 0; --rank) {
+                paint_unmeasured(
+                    rank, view, unmeasured_edge_radius_px(widths, rank), palette.ground);
+            }
+        }
+        for (int rank = lowest_rank; rank >= 0; --rank) {
+            paint_unmeasured(rank, view, unmeasured_radius_px(widths, rank), palette.unmeasured);
+        }
+        for (int rank = lowest_rank; rank >= 0; --rank) {
+            paint_measured(rank, view);
+        }
+    }
+    easel->painter.finish();
+}
+
+RoadPainter::RoadPainter(const Sheet& sheet,
+                         std::span<const Polyline> strands,
+                         const LineWidths& widths,
+                         const Palette& palette,
+                         std::span<const std::uint32_t> class_colours)
+    : impl_{std::make_unique<Impl>(
+          Impl{.sheet = sheet,
+               .layers = layers_of(strands),
+               .widths = widths,
+               .palette = palette,
+               .class_colours = {class_colours.begin(), class_colours.end()}})} {}
+
+RoadPainter::~RoadPainter() = default;
+
+Image RoadPainter::rows(int top_px, int count) {
+    assert(top_px >= 0 && count > 0 && top_px + count <= impl_->sheet.height_px);
+    const int width_px = impl_->sheet.width_px;
+    Image image{width_px, count, {}};
+    image.rgb.resize(std::size_t(width_px) * std::size_t(count) * 3);
+    const int window_width_px = std::min(width_px, max_stroke_window_px);
+    const int window_height_px = std::min(count, max_stroke_window_px);
+    impl_->prepare(window_width_px, window_height_px);
+    for (int down = 0; down < count; down += window_height_px) {
+        for (int left = 0; left < width_px; left += window_width_px) {
+            const Window window{left,
+                                top_px + down,
+                                std::min(window_width_px, width_px - left),
+                                std::min(window_height_px, count - down)};
+            impl_->paint(window);
+            lay(*impl_->easel, window, down, image);
+        }
+    }
+    return image;
+}
+
+Image painted_roads(const Sheet& sheet,
+                    std::span<const Polyline> strands,
+                    const LineWidths& widths,
+                    const Palette& palette,
+                    std::span<const std::uint32_t> class_colours) {
+    return RoadPainter{sheet, strands, widths, palette, class_colours}.rows(0, sheet.height_px);
+}
+
+} // namespace macadam

@@ -1,0 +1,239 @@
+#include "render/roads/stroke_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double fringe_px = 0.75;  // half a pixel of antialiasing and a little for rounding
+constexpr double overlap_px = 1.0;  // of neighbours that look different
+constexpr float far_px = 1e5;       // more than any picture
+constexpr double max_mitre = 0.6;   // tan of half the bend: 62 degrees
+constexpr double max_stretch = 2.0; // of a mitre when a line is moved aside
+constexpr double part_px = 1024;    // of a quad: long ones would be cut by OpenGL, each half anew
+constexpr double grid_per_px = 256; // where OSMesa's rasteriser puts corners
+
+PixelPoint plus(const PixelPoint& a, const PixelPoint& b, double times) {
+    return {a.x + b.x * times, a.y + b.y * times};
+}
+
+PixelPoint minus(const PixelPoint& a, const PixelPoint& b) {
+    return {a.x - b.x, a.y - b.y};
+}
+
+double dot(const PixelPoint& a, const PixelPoint& b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+/// To the right of a direction; y grows downwards.
+PixelPoint right_of(const PixelPoint& direction) {
+    return {-direction.y, direction.x};
+}
+
+double on_grid(double px) {
+    return std::round(px * grid_per_px) / grid_per_px;
+}
+
+struct Piece {
+    PixelPoint from, to;
+    PixelPoint direction;
+    double length_px;
+};
+
+Piece piece_at(const Polyline& strand, std::size_t i) {
+    const auto& from = strand.points[i];
+    const auto& to = strand.points[i + 1];
+    const auto step = minus(to, from);
+    const double length_px = std::hypot(step.x, step.y);
+    return {from, to, {step.x / length_px, step.y / length_px}, length_px};
+}
+
+/// Where two pieces meet, if they can share an edge.
+struct Mitre {
+    PixelPoint forward; ///< unit, across the shared edge
+    PixelPoint right;   ///< from the joint to the edge's end, for a half width of 1
+};
+
+std::optional<Mitre> mitre(const Piece& a, const Piece& b, double reach_px) {
+    const PixelPoint sum = plus(a.direction, b.direction, 1);
+    const double length = std::hypot(sum.x, sum.y); // 2 cos(bend / 2)
+    const double cosine = dot(a.direction, b.direction);
+    if (cosine <= 0) {
+        return std::nullopt;
+    }
+    const double tangent = std::sqrt(std::max(0.0, 1 - cosine) / (1 + cosine));
+    if (tangent > max_mitre || reach_px * tangent > std::min(a.length_px, b.length_px) / 2) {
+        return std::nullopt;
+    }
+    const PixelPoint forward{sum.x / length, sum.y / length};
+    const auto right = right_of(forward);
+    return Mitre{forward, {right.x * 2 / length, right.y * 2 / length}};
+}
+
+enum class Join { round, shared, under, over };
+
+/// One end of a piece: its two corners, and how far beyond the end a place is.
+struct End {
+    Join join = Join::round;
+    PixelPoint at;
+    PixelPoint outward; ///< unit, the direction that counts as beyond
+    PixelPoint left, right;
+};
+
+End round_end(const PixelPoint& at,
+              const PixelPoint& outward,
+              const PixelPoint& side,
+              double reach_px) {
+    const auto tip = plus(at, outward, reach_px);
+    return {Join::round, at, outward, plus(tip, side, -reach_px), plus(tip, side, reach_px)};
+}
+
+End mitred_end(const PixelPoint& at, const Mitre& mitre, double sign, Join join, double reach_px) {
+    const PixelPoint outward{mitre.forward.x * sign, mitre.forward.y * sign};
+    const auto edge = join == Join::shared ? at : plus(at, outward, overlap_px);
+    return {
+        join, at, outward, plus(edge, mitre.right, -reach_px), plus(edge, mitre.right, reach_px)};
+}
+
+Join join_of(const Polyline& strand, const StrokePass& pass, std::size_t mine, std::size_t other) {
+    if ((pass.looks & only(strand.looks[other])) != 0) {
+        return Join::shared;
+    }
+    return strand.looks[mine] > strand.looks[other] ? Join::over : Join::under;
+}
+
+/// Along `direction`, from a line through `origin`.
+LineDistance
+distance(const PixelPoint& origin, const PixelPoint& direction, const PixelPoint& anchor) {
+    return {float(direction.x), float(direction.y), float(dot(minus(anchor, origin), direction))};
+}
+
+LineDistance beyond(const End& end, const PixelPoint& anchor) {
+    const bool matters = end.join == Join::round || end.join == Join::over;
+    return matters ? distance(end.at, end.outward, anchor) : LineDistance{0, 0, -far_px};
+}
+
+PixelPoint between(const PixelPoint& a, const PixelPoint& b, double share) {
+    return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share)};
+}
+
+/// A part of a piece, of its length from 0 to 1.
+struct Part {
+    double begin, end;
+};
+
+StrokeQuad quad_of(const Piece& piece,
+                   const End& start,
+                   const End& end,
+                   const Part& part,
+                   const StrokePass& pass) {
+    const std::array corners{between(start.left, end.left, part.begin),
+                             between(start.right, end.right, part.begin),
+                             between(start.left, end.left, part.end),
+                             between(start.right, end.right, part.end)};
+    const auto middle = between(corners[0], corners[3], 0.5);
+    const PixelPoint anchor{std::floor(middle.x) + 0.5, std::floor(middle.y) + 0.5};
+    const auto across = distance(piece.from, right_of(piece.direction), anchor);
+    const auto before = beyond(start, anchor);
+    const auto after = beyond(end, anchor);
+    const auto vertex = [&](const PixelPoint& corner) {
+        return StrokeVertex{float(on_grid(corner.x) - pass.left_px),
+                            float(on_grid(corner.y) - pass.top_px),
+                            float(anchor.x - pass.left_px),
+                            float(anchor.y - pass.top_px),
+                            across,
+                            before,
+                            after,
+                            start.join == Join::round ? 1.F : 0.F,
+                            end.join == Join::round ? 1.F : 0.F};
+    };
+    return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2]), vertex(corners[3])};
+}
+
+bool outside(const Piece& piece, const PixelBox& box, double reach_px) {
+    const auto [left, right] = std::minmax(piece.from.x, piece.to.x);
+    const auto [top, bottom] = std::minmax(piece.from.y, piece.to.y);
+    return right + reach_px < box.left || left - reach_px > box.right ||
+           bottom + reach_px < box.top || top - reach_px > box.bottom;
+}
+
+/// Narrows a part to where a + (b - a) t lies between low and high.
+void narrow(Part& part, double a, double b, double low, double high) {
+    if (a == b) {
+        return; // all of it or, where `outside` has not said so, none
+    }
+    const double at_low = (low - a) / (b - a);
+    const double at_high = (high - a) / (b - a);
+    part.begin = std::max(part.begin, std::min(at_low, at_high));
+    part.end = std::min(part.end, std::max(at_low, at_high));
+}
+
+/// Which of its `parts` equal parts of a piece can be seen: from the first to before the last.
+std::pair<int, int>
+seen_parts(const Piece& piece, int parts, const PixelBox& box, double reach_px) {
+    Part seen{0, 1};
+    narrow(seen, piece.from.x, piece.to.x, box.left - reach_px, box.right + reach_px);
+    narrow(seen, piece.from.y, piece.to.y, box.top - reach_px, box.bottom + reach_px);
+    // Some more at either side: ends reach beyond their piece, and slanting ones across parts.
+    return {std::max(0, int(std::floor(seen.begin * parts)) - 2),
+            std::min(parts, int(std::ceil(seen.end * parts)) + 2)};
+}
+
+} // namespace
+
+std::vector<StrokeQuad> ribbon(const Polyline& strand, const StrokePass& pass) {
+    const double reach_px = pass.radius_px + fringe_px;
+    std::vector<StrokeQuad> quads;
+    for (std::size_t i = 0; i < strand.looks.size(); ++i) {
+        if ((pass.looks & only(strand.looks[i])) == 0) {
+            continue;
+        }
+        const auto piece = piece_at(strand, i);
+        if (outside(piece, pass.visible, reach_px + overlap_px)) {
+            continue;
+        }
+        const auto side = right_of(piece.direction);
+        auto start =
+            round_end(piece.from, {-piece.direction.x, -piece.direction.y}, side, reach_px);
+        auto end = round_end(piece.to, piece.direction, side, reach_px);
+        if (i > 0) {
+            if (const auto shared = mitre(piece_at(strand, i - 1), piece, reach_px)) {
+                start =
+                    mitred_end(piece.from, *shared, -1, join_of(strand, pass, i, i - 1), reach_px);
+            }
+        }
+        if (i + 1 < strand.looks.size()) {
+            if (const auto shared = mitre(piece, piece_at(strand, i + 1), reach_px)) {
+                end = mitred_end(piece.to, *shared, 1, join_of(strand, pass, i, i + 1), reach_px);
+            }
+        }
+        const int parts = std::max(1, int(std::ceil(piece.length_px / part_px)));
+        const auto [first, last] = seen_parts(piece, parts, pass.visible, reach_px + overlap_px);
+        for (int part = first; part < last; ++part) {
+            quads.push_back(
+                quad_of(piece, start, end, {double(part) / parts, double(part + 1) / parts}, pass));
+        }
+    }
+    return quads;
+}
+
+Polyline beside(const Polyline& strand, double right_px) {
+    Polyline moved = strand;
+    const auto last = strand.looks.size();
+    for (std::size_t i = 0; i <= last; ++i) {
+        const auto before = right_of(piece_at(strand, i == 0 ? 0 : i - 1).direction);
+        const auto after = right_of(piece_at(strand, i == last ? last - 1 : i).direction);
+        const auto sum = plus(before, after, 1);
+        const double squared = dot(sum, sum);
+        // Exact for gentle bends; a hairpin would throw its corner to infinity.
+        const double stretch =
+            squared > 0 ? std::min(2 / squared, max_stretch / std::sqrt(squared)) : 0.0;
+        moved.points[i] = plus(strand.points[i], sum, stretch * right_px);
+    }
+    return moved;
+}
+
+} // namespace macadam

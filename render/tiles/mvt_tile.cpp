@@ -1,0 +1,285 @@
+#include "render/tiles/mvt_tile.hpp"
+
+#include "estimator/roughness/roughness_trace.hpp"
+#include "mapping/tiles/tile_generalisation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+namespace chr = std::chrono;
+
+// ------------------------------------------------------------------------------------- segments
+
+enum SegmentField : std::uint32_t {
+    segment_field,
+    way_id,
+    name,
+    highway,
+    direction,
+    from_m,
+    to_m,
+    iri,
+    iri_class,
+    passes,
+    last_seen,
+    is_valid,
+    iri_sd,
+    iri_low,
+    iri_high,
+    vehicles,
+    first_seen,
+    trend_per_year
+};
+constexpr std::array<std::string_view, 18> segment_keys{"segment",
+                                                        "way_id",
+                                                        "name",
+                                                        "highway",
+                                                        "direction",
+                                                        "from_m",
+                                                        "to_m",
+                                                        "iri",
+                                                        "class",
+                                                        "passes",
+                                                        "last_seen",
+                                                        "validity",
+                                                        "iri_sd",
+                                                        "iri_low",
+                                                        "iri_high",
+                                                        "vehicles",
+                                                        "first_seen",
+                                                        "trend_per_year"};
+
+constexpr bool is_text(std::uint32_t field) {
+    return field == segment_field || field == name || field == highway || field == direction ||
+           field == iri_class || field == last_seen || field == is_valid || field == first_seen;
+}
+
+/// To 0.01 mm/m, which many segments share: a tenth of what one is known to.
+double rounded_mm_per_m(double mm_per_m) {
+    return static_cast<double>(std::llround(mm_per_m * 100)) / 100;
+}
+
+double rounded_m(double m) {
+    return static_cast<double>(std::llround(m * 10)) / 10;
+}
+
+void put_digits(std::array<char, 10>& text, std::size_t at, unsigned value, std::size_t digits) {
+    for (; digits > 0; --digits, value /= 10) {
+        text[at + digits - 1] = static_cast<char>('0' + value % 10);
+    }
+}
+
+/// "2026-03-01"
+std::array<char, 10> text_of(const chr::year_month_day& day) {
+    std::array text{'0', '0', '0', '0', '-', '0', '0', '-', '0', '0'};
+    put_digits(text, 0, static_cast<unsigned>(int{day.year()}), 4);
+    put_digits(text, 5, unsigned{day.month()}, 2);
+    put_digits(text, 8, unsigned{day.day()}, 2);
+    return text;
+}
+
+/// A property that is a day, as most neighbours have the same.
+class DayField {
+public:
+    explicit DayField(std::uint32_t key) : key_{key} {}
+
+    void add_to(VectorLayer& layer, const std::optional<std::int64_t>& utc_ms) {
+        if (!utc_ms) {
+            return;
+        }
+        const auto day =
+            chr::floor<chr::days>(chr::sys_time<chr::milliseconds>{chr::milliseconds{*utc_ms}});
+        if (day != day_) {
+            day_ = day;
+            text_ = text_of(day);
+        }
+        layer.add(key_, std::string_view{text_.data(), text_.size()});
+    }
+
+private:
+    std::uint32_t key_;
+    std::optional<chr::sys_days> day_;
+    std::array<char, 10> text_{};
+};
+
+void add_word(VectorLayer& layer, std::uint32_t key, std::string_view word) {
+    if (!word.empty()) {
+        layer.add(key, word);
+    }
+}
+
+void add_place(VectorLayer& layer, const TileSegment& segment, const VectorTileContext& context) {
+    const auto& key = segment.state.segment;
+    layer.add_unlike(segment_field, name_of(key));
+    layer.add(way_id, key.way_id);
+    add_word(layer, name, context.words->word(segment.name));
+    add_word(layer, highway, context.words->word(segment.highway));
+    layer.add(direction, key.forward ? "forward" : "backward");
+    layer.add_real(from_m, rounded_m(segment.from_m));
+    layer.add_real(to_m, rounded_m(segment.to_m));
+}
+
+void add_roughness(VectorLayer& layer,
+                   const SegmentState& state,
+                   const ClassTable& classes,
+                   DayField& last_seen_day) {
+    const double mm_per_m = state.iri_um / 1000.0;
+    layer.add_real(iri, rounded_mm_per_m(mm_per_m));
+    layer.add(iri_class, classes.classes[class_index(classes, mm_per_m)].name);
+    layer.add(passes, std::int64_t{state.passes});
+    last_seen_day.add_to(layer, state.last_seen_ms);
+    if (state.validity == validity::ok) {
+        layer.add(is_valid, "ok");
+    } else {
+        layer.add(is_valid, name_of_validity(state.validity));
+    }
+}
+
+void add_detail(VectorLayer& layer, const SegmentState& state, DayField& first_seen_day) {
+    layer.add_real(iri_sd, rounded_mm_per_m(state.sd_um / 1000.0));
+    layer.add_real(iri_low, rounded_mm_per_m(state.low_um / 1000.0));
+    layer.add_real(iri_high, rounded_mm_per_m(state.high_um / 1000.0));
+    layer.add(vehicles, std::int64_t{state.vehicles});
+    first_seen_day.add_to(layer, state.first_seen_ms);
+    if (state.trend_um_per_year) {
+        layer.add_real(trend_per_year, rounded_mm_per_m(*state.trend_um_per_year / 1000.0));
+    }
+}
+
+// ---------------------------------------------------------------------------------------- parts
+
+enum PartField : std::uint32_t {
+    part_name,
+    part_highway,
+    part_iri,
+    part_class,
+    part_passes,
+    part_last_seen,
+    part_validity,
+    part_worst,
+    part_length_m,
+    part_of_class ///< the first of as many as there are classes
+};
+constexpr std::array<std::string_view, part_of_class> part_keys{
+    "name", "highway", "iri", "class", "passes", "last_seen", "validity", "iri_worst", "length_m"};
+
+/// "very good" -> "very_good_m"
+std::string length_key(const IriClass& roughness) {
+    auto key = fmt::format("{}_m", roughness.name);
+    std::ranges::replace(key, ' ', '_');
+    return key;
+}
+
+std::vector<std::string> length_keys(const ClassTable& classes) {
+    std::vector<std::string> keys;
+    for (const auto& roughness : classes.classes) {
+        keys.push_back(length_key(roughness));
+    }
+    return keys;
+}
+
+std::int64_t whole_m(std::int64_t mm) {
+    return (mm + 500) / 1000;
+}
+
+void add_lengths(VectorLayer& layer, const RoadPart& part) {
+    layer.add(part_length_m, whole_m(length_mm(part)));
+    const auto classes = std::ranges::count_if(part.class_mm, [](auto mm) { return mm > 0; });
+    for (std::uint32_t i = 0; classes > 1 && i < part.class_mm.size(); ++i) {
+        if (part.class_mm[i] > 0) {
+            layer.add(part_of_class + i, whole_m(part.class_mm[i]));
+        }
+    }
+}
+
+void add_part(VectorLayer& layer,
+              const RoadPart& part,
+              const VectorTileContext& context,
+              DayField& last_seen_day) {
+    if (part.is_directed) { // from zoom 12 on: below it no name has room
+        add_word(layer, part_name, context.words->word(part.name));
+        last_seen_day.add_to(layer, part.last_seen_ms);
+    }
+    add_word(layer, part_highway, context.words->word(part.highway));
+    layer.add_real(part_iri, rounded_mm_per_m(iri_of(part)));
+    layer.add(part_class, context.classes->classes[class_of(part, *context.classes)].name);
+    layer.add(part_passes, std::int64_t{part.passes});
+    if (part.validity != validity::ok) {
+        layer.add(part_validity, name_of_validity(part.validity));
+    }
+    layer.add_real(part_worst, rounded_mm_per_m(part.worst_um / 1000.0));
+    add_lengths(layer, part);
+    layer.end(feature_id(part.first));
+}
+
+} // namespace
+
+std::vector<VectorField> vector_fields(const ClassTable& classes) {
+    std::vector<VectorField> fields;
+    for (std::uint32_t i = 0; i < segment_keys.size(); ++i) {
+        fields.push_back({std::string{segment_keys[i]}, !is_text(i)});
+    }
+    fields.push_back({"iri_worst", true});
+    fields.push_back({"length_m", true});
+    for (const auto& key : length_keys(classes)) {
+        fields.push_back({key, true});
+    }
+    return fields;
+}
+
+std::optional<std::uint64_t> feature_id(const SegmentKey& key) {
+    constexpr int index_bits = 18,
+                  way_bits = 34; // and one for the direction: 53, what doubles tell
+    const bool fits = key.way_id >= 0 && key.way_id < std::int64_t{1} << way_bits &&
+                      key.index < std::uint32_t{1} << index_bits;
+    if (!fits) {
+        return std::nullopt;
+    }
+    return (static_cast<std::uint64_t>(key.way_id) << (index_bits + 1)) |
+           (std::uint64_t{key.index} << 1U) | (key.forward ? 0U : 1U);
+}
+
+std::string vector_tile(const TileId& tile,
+                        std::span<const TileSegment* const> segments,
+                        SegmentDetail detail,
+                        const VectorTileContext& context) {
+    VectorLayer layer{roughness_layer, tile, segment_keys};
+    DayField first_seen_day{first_seen}, last_seen_day{last_seen};
+    for (const auto* const segment : segments) {
+        if (!layer.begin(segment->line)) {
+            continue;
+        }
+        add_place(layer, *segment, context);
+        add_roughness(layer, segment->state, *context.classes, last_seen_day);
+        if (detail == SegmentDetail::full) {
+            add_detail(layer, segment->state, first_seen_day);
+        }
+        layer.end(feature_id(segment->state.segment));
+    }
+    return layer.count() > 0 ? layer.tile_bytes() : std::string{};
+}
+
+std::string vector_tile(const TileId& tile,
+                        std::span<const RoadPart* const> parts,
+                        const VectorTileContext& context) {
+    const auto of_classes = length_keys(*context.classes);
+    std::vector<std::string_view> keys{part_keys.begin(), part_keys.end()};
+    keys.insert(keys.end(), of_classes.begin(), of_classes.end());
+    VectorLayer layer{roughness_layer, tile, keys};
+    DayField last_seen_day{part_last_seen};
+    for (const auto* const part : parts) {
+        if (layer.begin(part->line)) {
+            add_part(layer, *part, context, last_seen_day);
+        }
+    }
+    return layer.count() > 0 ? layer.tile_bytes() : std::string{};
+}
+
+} // namespace macadam

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "render/labels/label_placement.hpp"
+#include "render/projection/tile_pixel_grid.hpp"
+#include "render/roads/line_widths.hpp"
+#include "render/scene/scene.hpp"
+
+#include <span>
+#include <vector>
+
+namespace macadam {
+
+/// The names of roads in a window of the world, in pixels of the world: motorways and primary roads
+/// from zoom 11 on, secondary and tertiary ones from 13, the others from 15 to 22 (of tiles of 256
+/// px).
+///
+/// \param lines  all of every label cell that the window touches
+std::vector<Label> tile_labels(std::span<const MapLine> lines,
+                               const WorldWindow& window,
+                               const LineWidths& widths,
+                               TypeSetter& setter);
+
+} // namespace macadam

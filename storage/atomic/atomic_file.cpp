@@ -1,0 +1,146 @@
+#include "storage/atomic/atomic_file.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr mode_t mode = 0666; // less the umask
+constexpr const char* name_in_folder = "file";
+
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+    throw InputError{fmt::format("{}: cannot be written: {}", file.string(), std::strerror(error))};
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+    return file.has_parent_path() ? file.parent_path() : std::filesystem::path{"."};
+}
+
+/// What the system says of syncing a folder: 0 or an errno.
+int sync_folder(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) {
+        return errno;
+    }
+    const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    return error;
+}
+
+/// By which a file without a name is given one.
+std::string way_to(int descriptor) {
+    return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+/// \returns 0 or an errno.
+int link_to(int descriptor, const std::filesystem::path& name) {
+    return ::linkat(
+               AT_FDCWD, way_to(descriptor).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0
+               ? 0
+               : errno;
+}
+
+/// A file without a name; -1 where there are none, or where it could not be given one later.
+int nameless_file(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+    if (descriptor >= 0 && ::access(way_to(descriptor).c_str(), F_OK) != 0) {
+        ::close(descriptor);
+        return -1;
+    }
+    return descriptor;
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path file) : file_{std::move(file)} {
+    const int descriptor = opened();
+    if (descriptor >= 0) {
+        out_ = ::fdopen(descriptor, "wb");
+    }
+    if (out_ == nullptr) {
+        fail(file_, errno);
+    }
+}
+
+AtomicFile::~AtomicFile() {
+    if (out_ != nullptr) {
+        std::fclose(out_);
+    }
+}
+
+int AtomicFile::opened() {
+    const int descriptor = nameless_file(folder_of(file_));
+    if (descriptor >= 0) {
+        return descriptor;
+    }
+    try {
+        folder_.emplace(file_);
+    } catch (const std::system_error& error) {
+        fail(file_, error.code().value());
+    }
+    return ::open((folder_->path() / name_in_folder).c_str(),
+                  O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC,
+                  mode);
+}
+
+void AtomicFile::write(std::string_view text) {
+    if (text.empty()) { // which may lie nowhere
+        return;
+    }
+    if (std::fwrite(text.data(), 1, text.size(), out_) != text.size()) {
+        fail(file_, errno);
+    }
+}
+
+/// A link replaces no file; only a file with a name can take the place of another.
+void AtomicFile::put_in_place() {
+    if (folder_) {
+        const auto whole = folder_->path() / name_in_folder;
+        if (std::rename(whole.c_str(), file_.c_str()) != 0) {
+            fail(file_, errno);
+        }
+        return;
+    }
+    const int descriptor = ::fileno(out_);
+    int error = link_to(descriptor, file_);
+    if (error == EEXIST) {
+        ::flock(descriptor, LOCK_SH | LOCK_NB); // it is worked on
+        const auto name = temporary_name(file_);
+        const RemovedIfCutOff removed{name};
+        error = link_to(descriptor, name);
+        if (error == 0 && std::rename(name.c_str(), file_.c_str()) != 0) {
+            error = errno;
+            ::unlink(name.c_str());
+        }
+    }
+    if (error != 0) {
+        fail(file_, error);
+    }
+}
+
+void AtomicFile::commit() {
+    if (std::fflush(out_) != 0 || ::fsync(::fileno(out_)) != 0) {
+        fail(file_, errno);
+    }
+    put_in_place();
+    if (std::fclose(std::exchange(out_, nullptr)) != 0) {
+        fail(file_, errno);
+    }
+    if (const int error = sync_folder(folder_of(file_))) {
+        fail(file_, error);
+    }
+}
+
+} // namespace macadam

@@ -1,0 +1,262 @@
+#include "storage/exports/segment_export.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/common/plugin_library.hpp"
+#include "mapping/geometry/antimeridian.hpp"
+#include "storage/atomic/atomic_file_set.hpp"
+#include "storage/exports/flatgeobuf_index.hpp"
+#include "storage/gdal/ogr_line_writer.hpp"
+#include "storage/text/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+using Type = LineFileColumn::Type;
+using Values = std::vector<std::optional<std::string>>;
+
+std::size_t write_lines(const SegmentExport& what,
+                        const LineFile& file,
+                        const std::function<LineParts(const SegmentRecord&)>& shape_of) {
+    auto* const write = plugin_function<LineFileWrite>("macadam_gdal.so", line_file_write_name);
+    std::size_t written = 0;
+    try {
+        write(file, [&](const LinePut& put) {
+            written = each_segment(what, [&](const SegmentRecord& record) {
+                put(shape_of(record), field_values(record, what.classes));
+            });
+        });
+    } catch (const InputError& error) {
+        throw InputError{fmt::format("{}: {}", what.file.string(), error.what())};
+    }
+    return written;
+}
+
+// ---------------------------------------------------------------------------------- FlatGeobuf
+
+std::vector<LineFileColumn> flatgeobuf_columns() {
+    std::vector<LineFileColumn> columns;
+    for (const auto& field : segment_fields()) {
+        columns.push_back({field.name,
+                           field.type == Field::Type::text   ? Type::text
+                           : field.type == Field::Type::real ? Type::real
+                                                             : Type::integer});
+    }
+    return columns;
+}
+
+// ----------------------------------------------------------------------------------- Shapefile
+
+// ESRI Shapefile Technical Description (1998), pp. 4-10: a file header of 100 bytes; before each
+// record 8; of a PolyLine 44 and 4 for each part and 16 for each point. dBASE III: 32 bytes of
+// header and 32 for each column, an end mark, a deletion mark before each row, and an end mark.
+constexpr std::uint64_t shp_header_bytes = 100;
+constexpr std::uint64_t shp_record_bytes = 8 + 44;
+constexpr std::uint64_t shp_part_bytes = 4;
+constexpr std::uint64_t shp_point_bytes = 16;
+constexpr std::uint64_t shx_record_bytes = 8;
+constexpr std::uint64_t dbf_header_bytes = 33;
+constexpr std::uint64_t dbf_end_bytes = 1;
+constexpr std::uint64_t dbf_column_bytes = 32;
+constexpr std::uint64_t max_file_bytes = std::numeric_limits<std::int32_t>::max();
+
+constexpr int max_text_bytes = 254; // of a column of characters
+constexpr int day_bytes = 8;
+constexpr int integer_bytes = 18; // more digits and GDAL reads the column as real numbers
+constexpr int real_bytes = 13;    // 2147483.647 mm/m, and metres along a way of any length
+
+/// Of most fields the name itself, which must not be longer.
+std::string_view short_name(const Field& field) {
+    constexpr std::size_t max_bytes = 10;
+    return field.name.size() <= max_bytes ? field.name : "trend_year";
+}
+
+/// What a Shapefile has to know before its first row.
+struct Measure {
+    std::uint64_t shp_bytes = shp_header_bytes;
+    std::uint64_t rows = 0;
+    std::array<std::size_t, 32> widest{}; ///< bytes of each field
+    std::optional<std::int64_t> last_seen_ms;
+};
+
+Measure measured(const SegmentExport& what) {
+    Measure measure;
+    measure.rows = each_segment(what, [&](const SegmentRecord& record) {
+        measure.shp_bytes += shp_record_bytes;
+        for (const auto& part : cut_at_antimeridian(record.segment.line)) {
+            measure.shp_bytes += shp_part_bytes + part.size() * shp_point_bytes;
+        }
+        const auto values = field_values(record, what.classes);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            measure.widest[i] = std::max(measure.widest[i], values[i] ? values[i]->size() : 0);
+        }
+        if (record.state && record.state->last_seen_ms) {
+            measure.last_seen_ms = std::max(measure.last_seen_ms, record.state->last_seen_ms);
+        }
+    });
+    return measure;
+}
+
+LineFileColumn shapefile_column(const Field& field, std::size_t widest) {
+    const auto name = short_name(field);
+    if (is_day(field)) {
+        return {name, Type::day, day_bytes};
+    }
+    switch (field.type) {
+    case Field::Type::integer:
+        return {name, Type::integer, integer_bytes};
+    case Field::Type::real:
+        return {name, Type::real, real_bytes, field.decimals};
+    case Field::Type::text:
+        break;
+    }
+    const auto width = std::clamp<std::size_t>(widest, 1, max_text_bytes);
+    return {name, Type::text, static_cast<int>(width)};
+}
+
+std::vector<LineFileColumn> shapefile_columns(const Measure& measure) {
+    std::vector<LineFileColumn> columns;
+    for (const auto& field : segment_fields()) {
+        columns.push_back(shapefile_column(field, measure.widest[columns.size()]));
+    }
+    return columns;
+}
+
+std::uint64_t dbf_bytes(const Measure& measure, const std::vector<LineFileColumn>& columns) {
+    std::uint64_t row_bytes = 1;
+    for (const auto& column : columns) {
+        row_bytes += static_cast<std::uint64_t>(column.width);
+    }
+    return dbf_header_bytes + columns.size() * dbf_column_bytes + measure.rows * row_bytes +
+           dbf_end_bytes;
+}
+
+void expect_room(const SegmentExport& what,
+                 const Measure& measure,
+                 const std::vector<LineFileColumn>& columns) {
+    const auto bytes = std::max(measure.shp_bytes, dbf_bytes(measure, columns));
+    if (bytes > max_file_bytes) {
+        throw InputError{fmt::format("{}: {} segments need a file of {:.1f} GB, expected at most "
+                                     "the 2 GB of a Shapefile: choose fewer (--bbox), or .gpkg or "
+                                     ".fgb",
+                                     what.file.string(),
+                                     measure.rows,
+                                     static_cast<double>(bytes) / 1e9)};
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (columns[i].type == Type::integer && measure.widest[i] > std::size_t{integer_bytes}) {
+            throw InputError{fmt::format("{}: a {} has {} digits, expected at most the {} of a "
+                                         "Shapefile: choose .gpkg or .fgb",
+                                         what.file.string(),
+                                         columns[i].name,
+                                         measure.widest[i],
+                                         integer_bytes)};
+        }
+    }
+}
+
+/// The day that a .dbf says it was changed: that of the last pass, so that the same roads make the
+/// same bytes.
+std::string day_of(const Measure& measure) {
+    constexpr std::int64_t earliest_ms = -2'208'988'800'000; // 1900: a .dbf counts years from there
+    constexpr std::int64_t latest_ms = 5'837'097'599'999;    // 2154, in one byte
+    const auto utc_ms = std::clamp(measure.last_seen_ms.value_or(0), earliest_ms, latest_ms);
+    return utc_day(utc_ms);
+}
+
+/// Indexes that other programs put beside a Shapefile: of other lines than the new ones.
+std::vector<std::string> stale_beside(const std::string& stem) {
+    std::vector<std::string> names;
+    for (const auto* suffix : {".qix", ".sbn", ".sbx", ".idm", ".ind", ".atx"}) {
+        names.push_back(stem + suffix);
+    }
+    return names;
+}
+
+/// GDAL is silent where the end of a Shapefile did not reach a full disk, and its own reader too;
+/// but how long the files must be is known before the first row.
+bool is_whole_shapefile(const std::filesystem::path& shp,
+                        const Measure& measure,
+                        const std::vector<LineFileColumn>& columns) {
+    const auto has_bytes = [&](const char* suffix, std::uint64_t bytes) {
+        auto file = shp;
+        return std::filesystem::file_size(file.replace_extension(suffix)) == bytes;
+    };
+    return has_bytes(".shp", measure.shp_bytes) &&
+           has_bytes(".shx", shp_header_bytes + measure.rows * shx_record_bytes) &&
+           has_bytes(".dbf", dbf_bytes(measure, columns));
+}
+
+} // namespace
+
+std::size_t export_flatgeobuf(const SegmentExport& what) {
+    AtomicFileSet files{what.file};
+    const auto place = files.folder() / what.file.filename();
+    LineFile plain{.driver = "FlatGeobuf",
+                   .file = files.folder() / "plain.fgb",
+                   .layer = "roughness",
+                   .options = {{"SPATIAL_INDEX", "NO"}, {"DESCRIPTION", description_of(what)}},
+                   .columns = flatgeobuf_columns()};
+    std::vector<GeoBox> boxes;
+    const auto parts_of = [&](const SegmentRecord& record) -> LineParts {
+        const auto& line = record.segment.line; // of a layer of lines, which have one part
+        LineParts parts{crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line};
+        boxes.emplace_back();
+        for (const auto& point : parts.front()) {
+            boxes.back() = including(boxes.back(), point);
+        }
+        return parts;
+    };
+    const auto written = write_lines(what, plain, parts_of);
+    if (written == 0) {
+        // Without features GDAL writes a header only where it is to write an index.
+        plain.file = place;
+        plain.options.front().second = "YES";
+        write_lines(what, plain, parts_of);
+    } else {
+        try {
+            index_flatgeobuf(plain.file, std::move(boxes), place);
+        } catch (const InputError& error) {
+            throw InputError{fmt::format("{}: {}", what.file.string(), error.what())};
+        }
+    }
+    std::filesystem::remove(files.folder() / "plain.fgb");
+    what.store.expect_in_place();
+    files.commit();
+    return written;
+}
+
+std::size_t export_shapefile(const SegmentExport& what) {
+    const auto measure = measured(what);
+    const auto columns = shapefile_columns(measure);
+    expect_room(what, measure, columns);
+    AtomicFileSet files{what.file};
+    const auto stem = what.file.stem().string();
+    const LineFile file{
+        .driver = "ESRI Shapefile",
+        .file = files.folder() / what.file.filename(),
+        .layer = stem,
+        .options = {{"ENCODING", "UTF-8"}, {"DBF_DATE_LAST_UPDATE", day_of(measure)}},
+        .columns = columns};
+    const auto written = write_lines(what, file, [](const SegmentRecord& record) {
+        return cut_at_antimeridian(record.segment.line);
+    });
+    if (!is_whole_shapefile(file.file, measure, columns)) {
+        throw InputError{
+            fmt::format("{}: cannot be written; the disk may be full", what.file.string())};
+    }
+    what.store.expect_in_place();
+    files.commit(stale_beside(stem));
+    return written;
+}
+
+} // namespace macadam

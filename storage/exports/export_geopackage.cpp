@@ -1,0 +1,118 @@
+#include "storage/exports/segment_export.hpp"
+
+#include "mapping/geometry/antimeridian.hpp"
+#include "storage/atomic/atomic_file_set.hpp"
+#include "storage/geopackage/geopackage.hpp"
+#include "storage/geopackage/geopackage_geometry.hpp"
+#include "storage/geopackage/qgis_style.hpp"
+#include "storage/sqlite/sqlite.hpp"
+#include "storage/store/rows/segment_row.hpp"
+#include "storage/text/utc.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr const char* roughness_table = R"(
+CREATE TABLE roughness (
+    fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,
+    geom LINESTRING,
+    segment TEXT NOT NULL,
+    way_id INTEGER NOT NULL,
+    name TEXT,
+    highway TEXT,
+    direction TEXT NOT NULL,
+    from_m DOUBLE NOT NULL,
+    to_m DOUBLE NOT NULL,
+    iri DOUBLE,
+    iri_sd DOUBLE,
+    iri_low DOUBLE,
+    iri_high DOUBLE,
+    iri_left DOUBLE,
+    iri_right DOUBLE,
+    "index" TEXT,
+    class TEXT,
+    passes INTEGER NOT NULL,
+    vehicles INTEGER NOT NULL,
+    first_seen DATE,
+    last_seen DATE,
+    trend_per_year DOUBLE,
+    trend_sd DOUBLE,
+    changed DATE,
+    change DOUBLE,
+    validity TEXT
+);
+)";
+
+/// A table of lines takes none in parts: over the antimeridian longitudes go on.
+std::vector<GeoPoint> smooth_line(const SegmentRecord& record) {
+    const auto& line = record.segment.line;
+    return crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line;
+}
+
+/// The fields' texts become numbers by the columns' affinity.
+void write_row(Statement& insert,
+               const SegmentRecord& record,
+               std::span<const GeoPoint> line,
+               const ClassTable& classes) {
+    const auto values = field_values(record, classes);
+    insert.bind(Blob{geometry_of(line)});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        insert.bind_at(static_cast<int>(i) + 2, values[i]);
+    }
+    insert.step();
+}
+
+/// Not the time of the export but the day of the last pass, so that the same roads make the same
+/// bytes.
+void date_by_content(Database& database, const ObservedPeriod& seen) {
+    const auto day = utc_text(seen.last_ms.value_or(0)).substr(0, 10);
+    const auto time = day + "T00:00:00.000Z";
+    database.prepare("UPDATE gpkg_contents SET last_change = ?").run(time);
+    database.prepare("UPDATE layer_styles SET update_time = ?").run(time);
+}
+
+std::size_t write_geopackage(const SegmentExport& what, const std::filesystem::path& file) {
+    Database database{file, Database::Access::create, what.file};
+    add_geometry_functions(database);
+    Transaction all{database, Transaction::Kind::write};
+    make_geopackage(database);
+    database.run(roughness_table);
+    GeoBox box;
+    std::size_t written = 0;
+    {
+        auto insert = database.prepare(
+            "INSERT INTO roughness VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?,"
+            " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        written = each_segment(what, [&](const SegmentRecord& record) {
+            const auto line = smooth_line(record);
+            write_row(insert, record, line, what.classes);
+            for (const auto& point : line) {
+                box = including(box, point);
+            }
+        });
+    }
+    list_features(database,
+                  {"roughness",
+                   "roughness",
+                   description_of(what),
+                   is_empty(box) ? what.store.info().box : box});
+    index_features(database, "roughness");
+    add_style_table(database);
+    add_default_style(database, "roughness", what.classes);
+    date_by_content(database, what.store.seen());
+    all.commit();
+    return written;
+}
+
+} // namespace
+
+std::size_t export_geopackage(const SegmentExport& what) {
+    AtomicFileSet files{what.file};
+    const auto written = write_geopackage(what, files.main_file());
+    what.store.expect_in_place();
+    remove_leftovers_of(what.file);
+    files.commit();
+    return written;
+}
+
+} // namespace macadam

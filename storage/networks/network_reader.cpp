@@ -1,0 +1,148 @@
+#include "storage/networks/network_reader.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/common/plugin_library.hpp"
+#include "storage/networks/ogr_reader.hpp"
+#include "storage/networks/osm_reader.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace macadam {
+
+namespace {
+
+/// GDAL takes names that begin so for addresses, connections or documents, not for files.
+void expect_plain_name(const std::string& name) {
+    static constexpr std::array<std::string_view, 5> others{"/vsi", "PG:", "MYSQL:", "<", "{"};
+    const bool other = std::any_of(
+        others.begin(), others.end(), [&](auto start) { return name.starts_with(start); });
+    if (other || name.find("://") != std::string::npos) {
+        throw InputError{
+            fmt::format("{}: is not a file name, expected a map or a line layer", name)};
+    }
+}
+
+void expect_present(const std::filesystem::path& file) {
+    std::error_code failure;
+    const auto kind = std::filesystem::status(file, failure);
+    if (!std::filesystem::exists(kind)) {
+        throw InputError{fmt::format("{}: cannot be read: {}",
+                                     file.string(),
+                                     failure ? failure.message() : "No such file or directory")};
+    }
+}
+
+/// Of the files that make up a layer: a Shapefile is several of one stem, a geodatabase a folder.
+std::uint64_t bytes_of_layer(const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
+    std::error_code none; // what cannot be seen counts nothing
+    const bool is_folder = fs::is_directory(file, none);
+    const auto folder = is_folder ? file : fs::absolute(file).parent_path();
+    std::uint64_t bytes = is_folder ? 0 : fs::file_size(file, none);
+    for (fs::directory_iterator entry{folder, none}, end; !none && entry != end;
+         entry.increment(none)) {
+        std::error_code gone;
+        const auto& path = entry->path();
+        const bool is_part =
+            is_folder || (path.stem() == file.stem() && path.filename() != file.filename());
+        const auto size =
+            is_part && fs::is_regular_file(path, gone) ? fs::file_size(path, gone) : 0;
+        bytes += gone ? 0 : size;
+    }
+    return bytes;
+}
+
+/// Holds what comes out of a layer to what can be in it: a view of a database, or a packed file,
+/// gives as much as it likes.
+class LayerBounds {
+public:
+    explicit LayerBounds(const std::filesystem::path& file)
+        : file_{file}, most_{free_bytes + bytes_of_layer(file)} {}
+
+    void add(const Way& way) {
+        bytes_ += 1 + way.line.size() + way.name.size() + way.highway.size();
+        if (bytes_ > most_) {
+            throw InputError{
+                fmt::format("{}: contains more points and names than bytes, which no map does",
+                            file_.string())};
+        }
+    }
+
+private:
+    static constexpr std::uint64_t free_bytes = 100'000;
+
+    std::filesystem::path file_;
+    std::uint64_t most_;
+    std::uint64_t bytes_ = 0;
+};
+
+std::vector<Way> read_layer(const std::filesystem::path& file, const LayerColumns& columns) {
+    std::vector<Way> ways;
+    LayerBounds bounds{file};
+    auto* const read = plugin_function<OgrReadLines>("macadam_gdal.so", ogr_read_lines_name);
+    read(file, columns, [&](Way way) {
+        bounds.add(way);
+        if (way.line.size() >= 2) {
+            ways.push_back(std::move(way));
+        }
+    });
+    std::sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.id < b.id; });
+    return ways;
+}
+
+bool has_far_step(const Way& way) {
+    return std::adjacent_find(
+               way.line.begin(), way.line.end(), [](const GeoPoint& a, const GeoPoint& b) {
+                   return !(distance_m(a, b) <= longest_step_m);
+               }) != way.line.end();
+}
+
+/// What was left out, in words; "" if nothing was.
+std::string words_of(const LeftOutWays& left_out, const std::filesystem::path& file) {
+    const auto counted = [](std::size_t count) {
+        return fmt::format("{} {}", count, count == 1 ? "way" : "ways");
+    };
+    std::string words;
+    if (left_out.far_steps > 0) {
+        words = fmt::format("{} with points more than {:.0f} km apart",
+                            counted(left_out.far_steps),
+                            longest_step_m / 1000);
+    }
+    if (left_out.in_circles > 0) {
+        words += fmt::format("{}{} repeating the same few nodes",
+                             words.empty() ? "" : " and ",
+                             counted(left_out.in_circles));
+    }
+    return words.empty() ? "" : fmt::format("{}: skipped: {}", file.string(), words);
+}
+
+} // namespace
+
+std::vector<Way> read_network(const std::filesystem::path& file,
+                              const LayerColumns& columns,
+                              const Progress& progress,
+                              const std::function<void(const std::string&)>& warn) {
+    expect_plain_name(file.string());
+    expect_present(file);
+    LeftOutWays left_out;
+    auto ways = is_osm_file(file) ? read_osm(file, progress, left_out) : read_layer(file, columns);
+    left_out.far_steps = std::erase_if(ways, has_far_step);
+    const auto words = words_of(left_out, file);
+    if (ways.empty()) {
+        throw InputError{words.empty()
+                             ? fmt::format("{}: contains no drivable road", file.string())
+                             : fmt::format("{}; it contains no other drivable road", words)};
+    }
+    if (warn && !words.empty()) {
+        warn(words);
+    }
+    return ways;
+}
+
+} // namespace macadam

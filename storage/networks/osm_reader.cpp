@@ -1,0 +1,240 @@
+#include "storage/networks/osm_reader.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/networks/osm_objects.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <iterator>
+#include <limits>
+#include <new>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+namespace macadam {
+
+namespace {
+
+using NodeIds = std::vector<std::int64_t>;
+using ProgressThrottle = std::function<void(std::uint64_t bytes)>;
+
+void visit(const std::filesystem::path& file, const OsmVisitor& visitor) {
+    (file.extension() == ".pbf" ? visit_osm_pbf : visit_osm_xml)(file, visitor);
+}
+
+NodeIds without_repeats(std::span<const std::int64_t> nodes) {
+    NodeIds ids;
+    ids.reserve(nodes.size());
+    std::unique_copy(nodes.begin(), nodes.end(), std::back_inserter(ids));
+    return ids;
+}
+
+/// Whether a way goes over its own nodes again and again, as no road does: a few bytes that would
+/// take very much memory. Those of OSM itself have at most 2,000 nodes.
+bool runs_in_circles(NodeIds nodes) {
+    constexpr std::size_t usual_nodes = 2000;
+    constexpr std::size_t max_rounds = 4;
+    if (nodes.size() <= usual_nodes) {
+        return false;
+    }
+    const auto count = nodes.size();
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return count > max_rounds * nodes.size();
+}
+
+/// What a file says of ways, yet without places.
+struct WaysAndTurns {
+    std::vector<Way> ways; ///< the drivable ones
+    std::vector<TurnOutOfWay> turns;
+};
+
+std::string name_in(const OsmTags& tags, std::int64_t way) {
+    constexpr std::size_t longest = 1024; // OSM has up to 255 characters
+    const auto name = name_of(tags);
+    if (name.size() > longest) {
+        throw InputError{fmt::format(
+            "the name of way '{}' has {} bytes, expected at most {}", way, name.size(), longest)};
+    }
+    return std::string{name};
+}
+
+WaysAndTurns ways_and_turns(const std::filesystem::path& file,
+                            const ProgressThrottle& pace,
+                            LeftOutWays& left_out) {
+    WaysAndTurns all;
+    visit(file,
+          {.node = {},
+           .way =
+               [&](std::int64_t id, const OsmTags& tags, std::span<const std::int64_t> nodes) {
+                   if (!is_drivable(tags)) {
+                       return;
+                   }
+                   auto ids = without_repeats(nodes);
+                   if (runs_in_circles(ids)) {
+                       ++left_out.in_circles;
+                       return;
+                   }
+                   all.ways.push_back({.id = id,
+                                       .name = name_in(tags, id),
+                                       .highway = tags("highway"),
+                                       .oneway = oneway_of(tags),
+                                       .node_ids = std::move(ids),
+                                       .line = {},
+                                       .speed_limit_cmps = speed_limit_cmps_of(tags),
+                                       .turns = {}});
+               },
+           .relation =
+               [&](const OsmTags& tags, std::span<const OsmMember> members) {
+                   const auto found = turns_in(tags, members);
+                   all.turns.insert(all.turns.end(), found.begin(), found.end());
+               },
+           .pace = pace});
+    return all;
+}
+
+NodeIds used_nodes(const std::vector<Way>& ways) {
+    NodeIds ids;
+    for (const auto& way : ways) {
+        ids.insert(ids.end(), way.node_ids.begin(), way.node_ids.end());
+    }
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    ids.shrink_to_fit();
+    return ids;
+}
+
+/// Stands for the place of a node that the file does not have.
+constexpr PackedPoint nowhere{std::numeric_limits<std::int32_t>::max(), 0};
+
+/// Places of the nodes `ids`, which rise; `nowhere` where the file has none.
+std::vector<PackedPoint>
+places_of(const NodeIds& ids, const std::filesystem::path& file, const ProgressThrottle& pace) {
+    std::vector<PackedPoint> places(ids.size(), nowhere);
+    auto at = ids.begin();
+    std::int64_t last = 0;
+    const auto take = [&](std::int64_t id, const PackedPoint& place) {
+        // Nearly every file has its nodes in order: then one step forward finds the next.
+        if (id < last) {
+            at = std::lower_bound(ids.begin(), ids.end(), id);
+        }
+        last = id;
+        while (at != ids.end() && *at < id) {
+            ++at;
+        }
+        if (at != ids.end() && *at == id) {
+            places[static_cast<std::size_t>(at - ids.begin())] = place;
+        }
+    };
+    visit(file, {.node = take, .way = {}, .relation = {}, .pace = pace});
+    return places;
+}
+
+/// The longest part of `way`, by points, all of whose places are known.
+Way placed(Way way, const NodeIds& ids, const std::vector<PackedPoint>& places) {
+    NodeIds best_ids;
+    std::vector<GeoPoint> best_line;
+    NodeIds part_ids;
+    std::vector<GeoPoint> part_line;
+    const auto end_part = [&] {
+        if (part_ids.size() > best_ids.size()) {
+            best_ids = part_ids;
+            best_line = part_line;
+        }
+        part_ids.clear();
+        part_line.clear();
+    };
+    for (const auto id : way.node_ids) {
+        const auto found = std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
+        const auto& place = places[static_cast<std::size_t>(found)];
+        if (place == nowhere) {
+            end_part();
+            continue;
+        }
+        part_ids.push_back(id);
+        part_line.push_back(Unpacked{}(place));
+    }
+    end_part();
+    way.node_ids = std::move(best_ids);
+    way.line = std::move(best_line);
+    return way;
+}
+
+std::vector<Way>
+placed(std::vector<Way> ways, const NodeIds& ids, const std::vector<PackedPoint>& places) {
+    for (auto& way : ways) {
+        way = placed(std::move(way), ids, places);
+    }
+    std::erase_if(ways, [](const Way& way) { return way.line.size() < 2; });
+    return ways;
+}
+
+/// Extracts that were put together may hold a way of their border twice.
+std::vector<Way> in_order(std::vector<Way> ways) {
+    const auto by_id = [](const Way& a, const Way& b) { return a.id < b.id; };
+    const auto same_id = [](const Way& a, const Way& b) { return a.id == b.id; };
+    std::stable_sort(ways.begin(), ways.end(), by_id);
+    ways.erase(std::unique(ways.begin(), ways.end(), same_id), ways.end());
+    return ways;
+}
+
+/// Gives each turn rule to its way. \param ways  in the order of their ids
+std::vector<Way> with_turns(std::vector<Way> ways, std::vector<TurnOutOfWay> turns) {
+    std::sort(turns.begin(), turns.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.from_way, a.rule.via_node, a.rule.to_way, a.rule.only) <
+               std::tie(b.from_way, b.rule.via_node, b.rule.to_way, b.rule.only);
+    });
+    for (const auto& turn : turns) {
+        const auto way = std::lower_bound(ways.begin(),
+                                          ways.end(),
+                                          turn.from_way,
+                                          [](const Way& a, std::int64_t id) { return a.id < id; });
+        const bool known = way != ways.end() && way->id == turn.from_way;
+        if (known && (way->turns.empty() || way->turns.back() != turn.rule)) {
+            way->turns.push_back(turn.rule);
+        }
+    }
+    return ways;
+}
+
+} // namespace
+
+bool is_osm_file(const std::filesystem::path& file) {
+    static constexpr std::array<std::string_view, 5> suffixes{
+        ".pbf", ".osm", ".osm.xml", ".osm.gz", ".osm.bz2"};
+    const auto name = file.filename().string();
+    return std::any_of(
+        suffixes.begin(), suffixes.end(), [&](auto suffix) { return name.ends_with(suffix); });
+}
+
+std::vector<Way>
+read_osm(const std::filesystem::path& file, const Progress& progress, LeftOutWays& left_out) {
+    const auto bytes = std::filesystem::file_size(file);
+    const auto pace = [&](std::size_t pass) {
+        return [&progress, bytes, pass](std::uint64_t read) {
+            constexpr std::size_t passes = 2;
+            progress(pass * bytes + read, passes * bytes);
+            if (progress.stop.stop_requested()) {
+                throw InputError{"reading was stopped"};
+            }
+        };
+    };
+    try {
+        auto all = ways_and_turns(file, pace(0), left_out);
+        const auto ids = used_nodes(all.ways);
+        const auto places = places_of(ids, file, pace(1));
+        return with_turns(in_order(placed(std::move(all.ways), ids, places)), std::move(all.turns));
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw InputError{
+            fmt::format("{}: cannot be read as an OSM map: {}", file.string(), error.what())};
+    }
+}
+
+} // namespace macadam

@@ -1,0 +1,127 @@
+#include "storage/store/fusion/chunk_states.hpp"
+
+#include "mapping/passes/trace_cutting.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+bool is_in(const Period& period, const std::optional<std::int64_t>& utc_ms) {
+    return utc_ms && !(period.from_ms && *utc_ms < *period.from_ms) &&
+           !(period.until_ms && *utc_ms >= *period.until_ms);
+}
+
+bool is_chosen(const PassChoice& choice, const FusionInput& input) {
+    return !(choice.cars_alone && input.reference) &&
+           (!choice.period || is_in(*choice.period, input.utc_ms));
+}
+
+DriveSet drives_of(const std::vector<ChunkPass>& passes) {
+    DriveSet drives;
+    for (const auto& [fid, input, from_m, to_m] : passes) {
+        if (input.pass.drive) {
+            drives.emplace(input.trip_sha256, *input.pass.drive);
+        }
+    }
+    return drives;
+}
+
+/// Takes the pass to where its trace lies among the others.
+void put_in_its_place(ChunkPass& pass, std::span<const PlacedTrace> traces) {
+    auto& input = pass.input;
+    const auto* placed = find_trace(traces, input.trip_sha256, input.pass.drive);
+    if (placed != nullptr) {
+        input.pass = moved(input.pass,
+                           pass.from_m,
+                           pass.to_m,
+                           placed->trace,
+                           lag_m(placed->lag, pass.from_m),
+                           lag_m(placed->lag, pass.to_m));
+    }
+}
+
+std::vector<FusedSegment> fused(std::vector<ChunkPass> passes,
+                                std::span<const PlacedTrace> traces,
+                                const FusionConfig& config) {
+    std::vector<FusedSegment> segments;
+    std::vector<FusionInput> inputs;
+    for (std::size_t i = 0; i < passes.size();) {
+        const auto fid = passes[i].fid;
+        inputs.clear();
+        for (; i < passes.size() && passes[i].fid == fid; ++i) {
+            put_in_its_place(passes[i], traces);
+            inputs.push_back(std::move(passes[i].input));
+        }
+        segments.push_back({fid, fuse(inputs, config)});
+    }
+    return segments;
+}
+
+} // namespace
+
+ChunkFusion::ChunkFusion(Database& database)
+    : traces_{database}, passes_{database}, valid_from_{database},
+      cars_{read_calibrations(database)}, config_{read_fusion_config(database)} {}
+
+std::vector<ChunkPass> ChunkFusion::valid_passes(std::int64_t chunk, std::int64_t segments) {
+    auto passes = passes_.of(chunk, segments);
+    if (const auto since_ms = valid_from_.of(chunk, chunk + segments); !since_ms.empty()) {
+        std::erase_if(passes, [&](const ChunkPass& pass) {
+            const auto since = since_ms.find(pass.fid);
+            return since != since_ms.end() &&
+                   !(pass.input.utc_ms && *pass.input.utc_ms >= since->second);
+        });
+    }
+    for (auto& pass : passes) {
+        if (const auto car = cars_.find(pass.input.vehicle); car != cars_.end()) {
+            pass.input.calibration = car->second.calibration;
+        }
+    }
+    return passes;
+}
+
+std::vector<ChunkPass> ChunkFusion::readings(std::int64_t chunk,
+                                             std::int64_t segments,
+                                             const std::unordered_set<std::string>& trips) {
+    auto passes = passes_.of(chunk, segments);
+    std::erase_if(passes,
+                  [&](const auto& pass) { return !trips.contains(pass.input.trip_sha256); });
+    align_with_each_other(chunk, passes);
+    return passes;
+}
+
+std::vector<ChunkPass> ChunkFusion::passes_of_cars(std::int64_t chunk, std::int64_t segments) {
+    auto passes = valid_passes(chunk, segments);
+    std::erase_if(passes, [](const ChunkPass& pass) { return pass.input.reference; });
+    return passes;
+}
+
+void ChunkFusion::align_with_each_other(std::int64_t chunk, std::vector<ChunkPass>& passes) {
+    const auto traces = traces_.placed(chunk, drives_of(passes));
+    for (auto& pass : passes) {
+        put_in_its_place(pass, traces);
+    }
+}
+
+FusedChunk ChunkFusion::of(std::int64_t chunk, std::int64_t segments_per_chunk) {
+    const auto traces = traces_.placed(chunk);
+    std::vector<LagLine> lags;
+    std::ranges::transform(traces, std::back_inserter(lags), &PlacedTrace::lag);
+    return {summary_of(lags), fused(valid_passes(chunk, segments_per_chunk), traces, config_)};
+}
+
+std::vector<FusedSegment>
+ChunkFusion::of(std::int64_t chunk, std::int64_t segments_per_chunk, const PassChoice& choice) {
+    auto passes = valid_passes(chunk, segments_per_chunk);
+    std::erase_if(passes, [&](const auto& pass) { return !is_chosen(choice, pass.input); });
+    if (passes.empty()) {
+        return {};
+    }
+    const auto traces = traces_.placed(chunk, drives_of(passes));
+    return fused(std::move(passes), traces, config_);
+}
+
+} // namespace macadam

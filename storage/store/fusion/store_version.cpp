@@ -1,0 +1,45 @@
+#include "storage/store/fusion/store_version.hpp"
+
+namespace macadam {
+namespace {
+
+std::vector<std::int64_t> rows_of(Statement& select) {
+    std::vector<std::int64_t> rows;
+    while (select.step()) {
+        rows.push_back(select.integer(0));
+    }
+    return rows;
+}
+
+} // namespace
+
+StoreVersion moment_of(Database& database) {
+    return {database.number("SELECT coalesce(max(id), 0) FROM audit WHERE what <> 'import'"),
+            database.number("SELECT coalesce(max(id), 0) FROM main.trip")};
+}
+
+std::vector<std::int64_t> chunks_driven_since(Database& database, const StoreVersion& before) {
+    auto select = database.prepare(
+        "SELECT segment.strip FROM main.pass AS pass CROSS JOIN segment"
+        " ON segment.fid = pass.segment WHERE pass.trip > ?1"
+        " UNION SELECT strip FROM main.trace INDEXED BY trace_of_trip WHERE trip > ?1 ORDER BY 1");
+    select.bind(before.last_trip);
+    return rows_of(select);
+}
+
+std::vector<std::int64_t> driven_chunks(Database& database) {
+    auto select = database.prepare(
+        "SELECT DISTINCT segment.strip FROM (SELECT DISTINCT segment FROM pass) AS driven"
+        " CROSS JOIN segment ON segment.fid = driven.segment ORDER BY 1");
+    return rows_of(select);
+}
+
+std::vector<std::int64_t> dirty_chunks(Database& database) {
+    auto select = database.prepare(
+        "SELECT segment.strip FROM segment_dirty AS dirty"
+        " CROSS JOIN segment ON segment.fid = dirty.segment UNION SELECT strip FROM strip_dirty"
+        " ORDER BY 1");
+    return rows_of(select);
+}
+
+} // namespace macadam

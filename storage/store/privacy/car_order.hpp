@@ -1,0 +1,20 @@
+#pragma once
+
+#include "storage/sqlite/sqlite.hpp"
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Pseudonyms of the cars of a store, in the order of RoadStore::cars(). Pseudonyms differ from key
+/// to key, and this order does not.
+std::vector<std::string> read_cars(Database& database);
+
+/// Where each of them stands, from 0.
+std::map<std::string, std::size_t> places_of_cars(std::span<const std::string> cars);
+
+} // namespace macadam

@@ -1,0 +1,102 @@
+#include "storage/store/publication/publication_rows.hpp"
+
+#include "mapping/privacy/published_state.hpp"
+
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+constexpr double m_per_km = 1000;
+
+/// Segments that some car drove and the publication does not show.
+constexpr const char* left_out_segments =
+    "SELECT count(*), coalesce(sum(segment.to_m - segment.from_m), 0) FROM"
+    " (SELECT DISTINCT segment FROM pass CROSS JOIN trip ON trip.id = pass.trip"
+    " WHERE trip.reference_ppm IS NULL EXCEPT SELECT fid FROM published_state) AS left_out"
+    " CROSS JOIN segment ON segment.fid = left_out.segment";
+
+constexpr const char* shown_segments =
+    "SELECT count(*), coalesce(sum(segment.to_m - segment.from_m), 0) FROM published_state AS state"
+    " CROSS JOIN segment ON segment.fid = state.fid";
+
+// Tables whose names a connection of `anyone` finds empty, or without cars.
+constexpr const char* hide_all_but_published = R"(
+PRAGMA temp_store = MEMORY;
+CREATE TEMP VIEW segment_state AS SELECT * FROM main.published_state;
+CREATE TEMP VIEW trip AS SELECT * FROM main.trip WHERE reference_ppm IS NOT NULL;
+CREATE TEMP VIEW pass AS SELECT * FROM main.pass
+    WHERE trip IN (SELECT id FROM main.trip WHERE reference_ppm IS NOT NULL);
+CREATE TEMP VIEW row_reason AS SELECT * FROM main.row_reason
+    WHERE trip IN (SELECT id FROM main.trip WHERE reference_ppm IS NOT NULL);
+CREATE TEMP VIEW vehicle AS SELECT * FROM main.vehicle WHERE 0;
+CREATE TEMP VIEW trace AS SELECT * FROM main.trace WHERE 0;
+CREATE TEMP VIEW strip_state AS SELECT * FROM main.strip_state WHERE 0;
+CREATE TEMP VIEW segment_dirty AS SELECT * FROM main.segment_dirty WHERE 0;
+CREATE TEMP VIEW strip_dirty AS SELECT * FROM main.strip_dirty WHERE 0;
+CREATE TEMP VIEW state_change AS SELECT * FROM main.state_change WHERE 0;
+CREATE TEMP VIEW calibration AS SELECT * FROM main.calibration WHERE 0;
+CREATE TEMP VIEW audit AS SELECT * FROM main.audit WHERE 0;
+CREATE TEMP VIEW import_note AS SELECT * FROM main.import_note WHERE 0;
+CREATE TEMP VIEW forgotten AS SELECT * FROM main.forgotten WHERE 0;
+CREATE TEMP VIEW published_pending AS SELECT * FROM main.published_pending WHERE 0;
+CREATE TEMP VIEW published_until AS SELECT * FROM main.published_until WHERE 0;
+)";
+
+} // namespace
+
+std::optional<Publication> latest_publication(Database& database) {
+    auto select = database.prepare("SELECT number, month, segments, length_m, left_segments,"
+                                   " left_m, trips, cars FROM publication"
+                                   " ORDER BY number DESC LIMIT 1");
+    if (!select.step()) {
+        return std::nullopt;
+    }
+    return Publication{.number = select.integer(0),
+                       .month = select.text(1),
+                       .segments = static_cast<std::size_t>(select.integer(2)),
+                       .km = select.real(3) / m_per_km,
+                       .left_out = static_cast<std::size_t>(select.integer(4)),
+                       .left_out_km = select.real(5) / m_per_km,
+                       .trips = static_cast<std::int32_t>(select.integer(6)),
+                       .vehicles = static_cast<std::int32_t>(select.integer(7))};
+}
+
+PublicationReach reach_of(Database& database, std::int64_t number) {
+    auto select =
+        database.prepare("SELECT last_trip, last_segment FROM publication WHERE number = ?");
+    return select.bind(number).step() ? PublicationReach{select.integer(0), select.integer(1)}
+                                      : PublicationReach{};
+}
+
+Publication add_publication(Database& database, const std::string& month) {
+    auto shown = database.prepare(shown_segments);
+    shown.step();
+    auto left = database.prepare(left_out_segments);
+    left.step();
+    const auto count = [&](const char* sql) {
+        return std::int64_t{told_count(static_cast<std::int32_t>(database.number(sql)))};
+    };
+    database
+        .prepare("INSERT INTO publication VALUES"
+                 " ((SELECT coalesce(max(number), 0) + 1 FROM publication), ?,"
+                 " (SELECT coalesce(max(id), 0) FROM trip),"
+                 " (SELECT coalesce(max(fid), 0) FROM segment), ?, ?, ?, ?, ?, ?)")
+        .run(month,
+             shown.integer(0),
+             shown.real(1),
+             (left.integer(0) + 9) / 10 * 10,
+             100 * std::ceil(left.real(1) / 100),
+             count("SELECT count(*) FROM trip WHERE reference_ppm IS NULL"),
+             count("SELECT count(*) FROM vehicle"));
+    return *latest_publication(database);
+}
+
+void show_published_alone(Database& database) {
+    // A view in memory counts as writing, too.
+    database.run("PRAGMA query_only = OFF");
+    database.run(hide_all_but_published);
+    database.run("PRAGMA query_only = ON");
+}
+
+} // namespace macadam

@@ -1,0 +1,333 @@
+#include "storage/store/publication/publication_work.hpp"
+
+#include "estimator/common/error.hpp"
+#include "mapping/privacy/drive_ends.hpp"
+#include "mapping/privacy/network_blocks.hpp"
+#include "mapping/privacy/published_state.hpp"
+#include "mapping/privacy/release_batches.hpp"
+#include "storage/sqlite/bulk_insert.hpp"
+#include "storage/store/fusion/chunk_states.hpp"
+#include "storage/store/fusion/store_version.hpp"
+#include "storage/store/publication/publication_rows.hpp"
+#include "storage/store/rows/segment_row.hpp"
+#include "storage/store/schema/store_schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr std::int64_t longest_hold = 3; // publications
+
+/// Passes in the first or the last block of a drive: segment's row, trip hash, occurrence.
+using EndPasses = std::set<std::tuple<std::int64_t, std::string, std::uint32_t>>;
+
+using TripRows = std::unordered_map<std::string, std::int64_t>; ///< by hash
+
+TripRows rows_of_trips(Database& database) {
+    auto select = database.prepare("SELECT sha256, id FROM trip WHERE reference_ppm IS NULL");
+    TripRows rows;
+    while (select.step()) {
+        rows[select.text(0)] = select.integer(1);
+    }
+    return rows;
+}
+
+EndPasses end_passes_of(Database& database, const NetworkBlocks& blocks, const TripRows& trips) {
+    struct Row {
+        std::int64_t fid;
+        std::uint32_t occurrence;
+    };
+    auto select = database.prepare(
+        "SELECT pass.segment, pass.occurrence, pass.t_ms, segment.way_id, segment.direction,"
+        " segment.seq FROM pass CROSS JOIN segment ON segment.fid = pass.segment"
+        " WHERE pass.trip = ? ORDER BY pass.t_ms, pass.segment");
+    EndPasses ends;
+    for (const auto& [sha256, trip] : trips) {
+        std::vector<Row> rows;
+        std::vector<BlockPassage> passages;
+        for (select.bind(trip); select.step();) {
+            rows.push_back({select.integer(0), static_cast<std::uint32_t>(select.integer(1))});
+            passages.push_back({select.integer(2),
+                                blocks.block_of({select.integer(3),
+                                                 select.text(4) == "forward",
+                                                 static_cast<std::uint32_t>(select.integer(5))})});
+        }
+        select.reset();
+        const auto at_end = in_end_blocks(passages);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (at_end[i]) {
+                ends.emplace(rows[i].fid, sha256, rows[i].occurrence);
+            }
+        }
+    }
+    return ends;
+}
+
+/// What was published of a segment: passes of trips up to a row, but for some.
+struct PublishedUntil {
+    std::int64_t last_trip = 0;
+    std::set<std::pair<std::int64_t, std::uint32_t>> pending{}; ///< trip, occurrence
+};
+
+/// A segment's passes, by their place in those of the chunk.
+struct SegmentPasses {
+    std::int64_t fid;
+    std::size_t first;
+    std::size_t past;
+    std::vector<std::size_t> pending; ///< those of them that no publication tells of
+    Release release;                  ///< of these
+};
+
+class PublicationMaker {
+public:
+    PublicationMaker(Database& database, const PublicationWork& work)
+        : work_{work}, blocks_{*work.roads}, trips_{rows_of_trips(database)},
+          ends_{end_passes_of(database, blocks_, trips_)}, states_{database},
+          number_{1 + database.number("SELECT coalesce(max(number), 0) FROM publication")},
+          before_{reach_of(database, number_ - 1)}, rule_{.last_of_key =
+                                                              read_last_of_keys(database)},
+          until_{database.prepare("SELECT last_trip FROM published_until WHERE segment = ?")},
+          put_until_{database.prepare("INSERT OR REPLACE INTO published_until VALUES (?, ?)")},
+          pending_{
+              database.prepare("SELECT trip, occurrence FROM published_pending WHERE segment = ?")},
+          drop_pending_{database.prepare("DELETE FROM published_pending WHERE segment = ?")},
+          put_pending_{database.prepare("INSERT INTO published_pending VALUES (?, ?, ?)")},
+          figures_{database.prepare(
+              "SELECT coalesce(max(number), 0) FROM published_figure WHERE segment = ?")},
+          put_figure_{database.prepare("INSERT INTO published_figure VALUES"
+                                       " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")},
+          put_state_{database, "INSERT OR REPLACE INTO published_state", state_column_count},
+          last_trip_{database.number("SELECT coalesce(max(id), 0) FROM trip")} {
+        for (std::int64_t hold = 0; hold <= longest_hold; ++hold) {
+            reach_.push_back(reach_of(database, number_ - hold).last_trip);
+        }
+    }
+
+    /// \returns how many of its segments tell something new.
+    std::size_t take_chunk(std::int64_t chunk) {
+        auto passes = states_.passes_of_cars(chunk, work_.segments_per_chunk);
+        std::erase_if(passes, [&](const ChunkPass& pass) {
+            return ends_.contains({pass.fid, pass.input.trip_sha256, pass.input.pass.occurrence});
+        });
+        const auto segments = segments_in(passes);
+        const auto changed = std::ranges::count_if(segments, [](const SegmentPasses& segment) {
+            return !segment.release.batches.empty();
+        });
+        if (changed > 0) {
+            write(chunk, std::move(passes), segments);
+        }
+        return static_cast<std::size_t>(changed);
+    }
+
+    void flush() { put_state_.flush(); }
+
+private:
+    std::vector<SegmentPasses> segments_in(const std::vector<ChunkPass>& passes) {
+        std::vector<SegmentPasses> segments;
+        for (std::size_t first = 0; first < passes.size();) {
+            std::size_t past = first;
+            while (past < passes.size() && passes[past].fid == passes[first].fid) {
+                ++past;
+            }
+            segments.push_back(segment_of(passes, first, past));
+            first = past;
+        }
+        return segments;
+    }
+
+    SegmentPasses
+    segment_of(const std::vector<ChunkPass>& passes, std::size_t first, std::size_t past) {
+        const auto fid = passes[first].fid;
+        const auto told = told_of(fid);
+        const auto aged = aged_trip(passes[first].input.pass.segment);
+        SegmentPasses segment{fid, first, past, {}, {}};
+        std::vector<PendingPass> pending;
+        for (auto i = first; i < past; ++i) {
+            const auto& input = passes[i].input;
+            const auto trip = trips_.at(input.trip_sha256);
+            if (trip > told.last_trip || told.pending.contains({trip, input.pass.occurrence})) {
+                segment.pending.push_back(i);
+                pending.push_back({.vehicle = input.vehicle,
+                                   .utc_ms = input.utc_ms,
+                                   .is_new = trip > before_.last_trip,
+                                   .has_aged = trip <= aged});
+            }
+        }
+        segment.release = release(pending, rule_);
+        return segment;
+    }
+
+    /// Of a segment of a later map all passes so far count as told: it begins anew.
+    PublishedUntil told_of(std::int64_t fid) {
+        until_.bind(fid);
+        PublishedUntil until;
+        if (until_.step()) {
+            until.last_trip = until_.integer(0);
+            for (pending_.bind(fid); pending_.step();) {
+                until.pending.emplace(pending_.integer(0),
+                                      static_cast<std::uint32_t>(pending_.integer(1)));
+            }
+            pending_.reset();
+        } else if (number_ > 1 && fid > before_.last_segment) {
+            until.last_trip = before_.last_trip;
+        }
+        until_.reset();
+        return until;
+    }
+
+    /// Trips up to this row were there one to three publications ago; how many, the key draws for
+    /// each block, so that no single trip can be read off the segments that appear at once.
+    std::int64_t aged_trip(const SegmentKey& segment) {
+        const auto block = blocks_.block_of(segment);
+        const auto [found, is_new] = aged_.try_emplace(block, 0);
+        if (is_new) {
+            const double drawn = work_.key->draw(fmt::format("{}", block), "hold", 1).front();
+            const auto hold = 1 + static_cast<std::size_t>(drawn * longest_hold);
+            found->second = reach_[hold];
+        }
+        return found->second;
+    }
+
+    void write(std::int64_t chunk,
+               std::vector<ChunkPass> passes,
+               const std::vector<SegmentPasses>& segments) {
+        std::vector<bool> stays_pending(passes.size());
+        for (const auto& segment : segments) {
+            for (const auto i : segment.release.left) {
+                stays_pending[segment.pending[i]] = true;
+            }
+            if (!segment.release.batches.empty()) {
+                put_until(segment, passes);
+            }
+        }
+        std::vector<ChunkPass> told;
+        std::vector<std::size_t> place(passes.size()); // in `told`
+        for (std::size_t i = 0; i < passes.size(); ++i) {
+            place[i] = told.size();
+            if (!stays_pending[i]) {
+                told.push_back(std::move(passes[i]));
+            }
+        }
+        states_.align_with_each_other(chunk, told);
+        for (const auto& segment : segments) {
+            if (!segment.release.batches.empty()) {
+                write_segment(segment, told, place);
+            }
+        }
+    }
+
+    void put_until(const SegmentPasses& segment, const std::vector<ChunkPass>& passes) {
+        put_until_.run(segment.fid, last_trip_);
+        drop_pending_.run(segment.fid);
+        for (const auto i : segment.release.left) {
+            const auto& input = passes[segment.pending[i]].input;
+            put_pending_.run(
+                segment.fid, trips_.at(input.trip_sha256), std::int64_t{input.pass.occurrence});
+        }
+    }
+
+    void write_segment(const SegmentPasses& segment,
+                       const std::vector<ChunkPass>& told,
+                       const std::vector<std::size_t>& place) {
+        for (const auto& batch : segment.release.batches) {
+            std::vector<FusionInput> inputs;
+            for (const auto i : batch.passes) {
+                inputs.push_back(told[place[segment.pending[i]]].input);
+            }
+            write_figure(segment.fid, batch, state_of(inputs));
+        }
+        std::vector<FusionInput> inputs;
+        for (std::size_t i = place[segment.first]; i < told.size() && told[i].fid == segment.fid;
+             ++i) {
+            inputs.push_back(told[i].input);
+        }
+        write_state(put_state_, segment.fid, state_of(inputs), *work_.classes);
+    }
+
+    SegmentState state_of(const std::vector<FusionInput>& inputs) const {
+        return published(fuse(inputs, states_.config()), inputs, rule_);
+    }
+
+    void write_figure(std::int64_t fid, const ReleaseBatch& batch, const SegmentState& state) {
+        figures_.bind(fid).step();
+        const auto number = figures_.integer(0) + 1;
+        figures_.reset();
+        const auto known = [](const std::optional<IriUm>& um) {
+            return um ? std::optional<std::int64_t>{*um} : std::nullopt;
+        };
+        put_figure_.run(fid,
+                        number,
+                        number_,
+                        batch.from_ms,
+                        batch.until_ms,
+                        state.iri_um,
+                        state.sd_um,
+                        state.low_um,
+                        state.high_um,
+                        known(state.left_um),
+                        known(state.right_um),
+                        state.centre_only,
+                        std::int64_t{state.validity},
+                        state.passes,
+                        state.vehicles);
+    }
+
+    PublicationWork work_;
+    NetworkBlocks blocks_;
+    TripRows trips_;
+    EndPasses ends_;
+    ChunkFusion states_;
+    std::int64_t number_;
+    PublicationReach before_;
+    ReleaseRule rule_;
+    std::vector<std::int64_t> reach_; ///< last trips of so many publications ago; 0: of none
+    std::unordered_map<std::uint64_t, std::int64_t> aged_; ///< by block
+    Statement until_;
+    Statement put_until_;
+    Statement pending_;
+    Statement drop_pending_;
+    Statement put_pending_;
+    Statement figures_;
+    Statement put_figure_;
+    BulkInsert put_state_;
+    std::int64_t last_trip_;
+};
+
+/// Roads that were made anew since are other roads than those that were published.
+constexpr const char* withdraw_roads_that_are_no_more =
+    "DELETE FROM published_state WHERE fid IN (SELECT valid_from.segment FROM valid_from"
+    " WHERE NOT EXISTS (SELECT 1 FROM published_figure AS figure"
+    " WHERE figure.segment = valid_from.segment AND figure.until_ms > valid_from.from_ms))";
+
+} // namespace
+
+std::size_t
+publish_pending(Database& database, const PublicationWork& work, const Progress& progress) {
+    const auto chunks = driven_chunks(database);
+    PublicationMaker maker{database, work};
+    std::size_t changed = 0;
+    for (std::size_t done = 0; done < chunks.size();) {
+        if (progress.stop.stop_requested()) {
+            throw InputError{fmt::format("{}: interrupted; the database is unchanged",
+                                         database.file().string())};
+        }
+        changed += maker.take_chunk(chunks[done]);
+        progress(++done, chunks.size());
+    }
+    maker.flush();
+    database.run(withdraw_roads_that_are_no_more);
+    return changed;
+}
+
+} // namespace macadam

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "storage/geopackage/geopackage.hpp"
+#include "storage/geopackage/geopackage_geometry.hpp"
+#include "storage/sqlite/row_callback.hpp"
+#include "storage/sqlite/sqlite.hpp"
+#include "storage/sqlite/statement_cache.hpp"
+#include "storage/store/publication/publication_rows.hpp"
+#include "storage/store/road_store.hpp"
+#include "storage/store/schema/store_schema.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace macadam {
+
+struct RoadStore::Impl {
+    Impl(const std::filesystem::path& file, Database::Access access, LockWaitPolicy wait_policy)
+        : database{file, access, {}, std::move(wait_policy)} {
+        add_geometry_functions(database);
+        register_row_callback(database);
+        check_store(database);
+        settings = read_settings(database);
+        network_hash = read_network_hash(database);
+        find_key();
+        if (access == Database::Access::write) { // now that it is known to be ours
+            database.enable_wal();
+        }
+    }
+
+    const ClassTable& classes() const { return *class_table(settings.class_table); }
+
+    /// What was worked out for one network, or for one's own cars, cannot be written into another
+    /// or into a crowd's.
+    /// \throws InputError  if that has changed since the store was opened.
+    void expect_same_network();
+
+    /// Takes the key that lies beside the store, if there is one.
+    /// \throws InputError  if it is of another store.
+    void find_key();
+
+    /// See RoadStore::make_missing_key().
+    bool make_missing_key();
+
+    /// Without a key only of "", the car that is not known.
+    std::string pseudonym(const std::string& vehicle_id) const;
+
+    void show_published_alone() {
+        macadam::show_published_alone(database);
+        published_alone = true;
+    }
+
+    Database database;
+    StatementCache statements{database};
+    StoreSettings settings;
+    std::string network_hash; ///< as it was when the store was opened
+    std::optional<PrivacyKey> key;
+    bool published_alone = false; ///< see RoadStore::shows_published_alone()
+};
+
+} // namespace macadam

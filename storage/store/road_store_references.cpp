@@ -1,0 +1,134 @@
+#include "storage/store/road_store_impl.hpp"
+#include "storage/store/rows/segment_row.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+constexpr double ppm = 1e-6;
+
+/// Surveys in their order, and their places in it by the rows of table trip.
+struct Surveys {
+    std::vector<SurveyUse> uses;
+    std::map<std::int64_t, std::size_t> places;
+};
+
+Surveys surveys_in(Database& database) {
+    auto select = database.prepare(
+        "SELECT id, trip_id, file_name, sha256, t0_utc_ms, reference_ppm, reference_row_mm,"
+        " rows_read, rows_used FROM trip WHERE reference_ppm IS NOT NULL"
+        " ORDER BY trip_id, sha256");
+    Surveys surveys;
+    while (select.step()) {
+        surveys.places.emplace(select.integer(0), surveys.uses.size());
+        surveys.uses.push_back({.name = select.text(1),
+                                .file_name = select.text(2),
+                                .sha256 = select.text(3),
+                                .utc_ms = known_utc_ms(select, 4),
+                                .relative_sd = static_cast<double>(select.integer(5)) * ppm,
+                                .row_m = static_cast<double>(select.integer(6)) / 1000,
+                                .rows_read = static_cast<std::size_t>(select.integer(7)),
+                                .rows_used = static_cast<std::size_t>(select.integer(8))});
+    }
+    return surveys;
+}
+
+std::int64_t whole_thousandths(double value) {
+    return std::llround(value * 1000);
+}
+
+} // namespace
+
+std::vector<SurveyUse> RoadStore::surveys() const {
+    auto& database = impl_->database;
+    Transaction one_moment{database, Transaction::Kind::read};
+    auto [uses, places] = surveys_in(database);
+    auto select = database.prepare(
+        "SELECT trip.id, count(*), sum(segment.to_m - segment.from_m) / 1000,"
+        " sum(CASE WHEN state.passes = 0 THEN segment.to_m - segment.from_m ELSE 0 END) / 1000"
+        " FROM trip CROSS JOIN pass ON pass.trip = trip.id"
+        " CROSS JOIN segment ON segment.fid = pass.segment"
+        " LEFT JOIN segment_state AS state ON state.fid = segment.fid"
+        " WHERE trip.reference_ppm IS NOT NULL GROUP BY trip.id");
+    while (select.step()) {
+        auto& use = uses[places.at(select.integer(0))];
+        use.passes = static_cast<std::size_t>(select.integer(1));
+        use.km = select.real(2);
+        use.alone_km = select.real(3);
+    }
+    return uses;
+}
+
+std::vector<ReferenceReading> RoadStore::reference_readings() const {
+    auto& database = impl_->database;
+    Transaction one_moment{database, Transaction::Kind::read};
+    const auto [uses, places] = surveys_in(database);
+    auto select = database.prepare(
+        fmt::format("SELECT segment.way_id, segment.direction, segment.seq, segment.from_m,"
+                    " segment.to_m, way.highway, trip.id, {}"
+                    " FROM trip CROSS JOIN pass ON pass.trip = trip.id"
+                    " CROSS JOIN segment ON segment.fid = pass.segment"
+                    " CROSS JOIN way ON way.way_id = segment.way_id"
+                    " WHERE trip.reference_ppm IS NOT NULL"
+                    " ORDER BY segment.way_id, segment.direction DESC, segment.seq, trip.trip_id,"
+                    " trip.sha256, pass.occurrence",
+                    pass_columns));
+    std::vector<ReferenceReading> readings;
+    while (select.step()) {
+        const SegmentKey key{select.integer(0),
+                             select.text(1) == "forward",
+                             static_cast<std::uint32_t>(select.integer(2))};
+        readings.push_back({.segment = {key, select.real(3), select.real(4), {}},
+                            .highway = select.text(5),
+                            .pass = pass_in(select, 7, key),
+                            .survey = places.at(select.integer(6))});
+    }
+    return readings;
+}
+
+void RoadStore::put_control_sections(std::span<const ControlSection> sections) {
+    auto& database = impl_->database;
+    Transaction all{database, Transaction::Kind::write};
+    auto insert =
+        database.prepare("INSERT OR REPLACE INTO control_section VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    for (const auto& section : sections) {
+        insert.run(section.name,
+                   section.way_id,
+                   section.forward ? "forward" : "backward",
+                   whole_thousandths(section.from_m),
+                   whole_thousandths(section.to_m),
+                   whole_thousandths(section.iri_mm_per_m),
+                   whole_thousandths(section.sd_mm_per_m),
+                   section.utc_ms);
+    }
+    all.commit();
+}
+
+std::vector<ControlSection> RoadStore::control_sections() const {
+    auto select = impl_->database.prepare(
+        "SELECT name, way_id, direction, from_mm, to_mm, iri_um, sd_um, utc_ms"
+        " FROM control_section ORDER BY name");
+    const auto of_thousandths = [&](int column) {
+        return static_cast<double>(select.integer(column)) / 1000;
+    };
+    std::vector<ControlSection> sections;
+    while (select.step()) {
+        sections.push_back({.name = select.text(0),
+                            .way_id = select.integer(1),
+                            .forward = select.text(2) == "forward",
+                            .from_m = of_thousandths(3),
+                            .to_m = of_thousandths(4),
+                            .iri_mm_per_m = of_thousandths(5),
+                            .sd_mm_per_m = of_thousandths(6),
+                            .utc_ms = known_utc_ms(select, 7)});
+    }
+    return sections;
+}
+
+} // namespace macadam

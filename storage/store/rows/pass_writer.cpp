@@ -1,0 +1,84 @@
+#include "storage/store/rows/pass_writer.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+template <typename Integer>
+std::optional<std::int64_t> whole(const std::optional<Integer>& number) {
+    return number ? std::optional<std::int64_t>{*number} : std::nullopt;
+}
+
+std::string_view bytes_of(const std::vector<RoughnessCode>& codes) {
+    return {reinterpret_cast<const char*>(codes.data()), codes.size()};
+}
+
+} // namespace
+
+PassWriter::PassWriter(Database& database, std::int64_t segments_per_chunk, Destination destination)
+    : marks_{destination == Destination::kept}, segments_{database, segments_per_chunk},
+      add_pass_{database, marks_ ? "INSERT INTO pass" : "INSERT INTO staged_pass", 15},
+      add_trace_{database.prepare(marks_
+                                      ? "INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)"
+                                      : "INSERT INTO staged_trace VALUES (?, ?, ?, ?, ?, ?, ?)")},
+      mark_segment_{database, "INSERT OR IGNORE INTO segment_dirty", 1},
+      mark_chunk_{database, "INSERT OR IGNORE INTO strip_dirty", 1} {}
+
+void PassWriter::write(std::int64_t trip,
+                       std::span<const Pass> passes,
+                       std::span<const RoughnessTrace> traces) {
+    for (const auto& pass : passes) {
+        const auto segment = segments_.row_of(pass.segment);
+        write_pass(segment, trip, pass);
+        if (marks_ && marked_segments_.insert(segment).second) {
+            mark_segment_.add(segment);
+        }
+    }
+    for (const auto& trace : traces) {
+        const auto chunk = segments_.row_of(trace.chunk);
+        write_trace(chunk, trip, trace);
+        // A trace may move others also where the trip has no pass.
+        if (marks_ && marked_chunks_.insert(chunk).second) {
+            mark_chunk_.add(chunk);
+        }
+    }
+}
+
+void PassWriter::flush() {
+    add_pass_.flush();
+    mark_segment_.flush();
+    mark_chunk_.flush();
+}
+
+void PassWriter::write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass) {
+    add_pass_.add(segment,
+                  trip,
+                  std::int64_t{pass.occurrence},
+                  whole(pass.iri_left_um),
+                  whole(pass.iri_right_um),
+                  whole(pass.iri_centre_um),
+                  std::int64_t{pass.iri_um},
+                  std::int64_t{pass.sd_um},
+                  pass.centre_only,
+                  std::int64_t{pass.validity},
+                  std::int64_t{pass.speed_mmps},
+                  std::int64_t{pass.covered_mm},
+                  std::int64_t{pass.confidence_ppm},
+                  pass.t_ms,
+                  whole(pass.drive));
+}
+
+void PassWriter::write_trace(std::int64_t chunk, std::int64_t trip, const RoughnessTrace& trace) {
+    add_trace_.run(chunk,
+                   trip,
+                   std::int64_t{trace.drive},
+                   std::int64_t{trace.first_m},
+                   std::int64_t{trace.place_sd_mm},
+                   Blob{bytes_of(trace.iri)},
+                   trace.left.empty() ? std::nullopt : std::optional{Blob{bytes_of(trace.left)}});
+}
+
+} // namespace macadam

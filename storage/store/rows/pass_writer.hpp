@@ -1,0 +1,50 @@
+#pragma once
+
+#include "mapping/passes/chunk_trace.hpp"
+#include "mapping/passes/pass.hpp"
+#include "storage/sqlite/bulk_insert.hpp"
+#include "storage/sqlite/sqlite.hpp"
+#include "storage/store/rows/segment_rowids.hpp"
+
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+
+namespace macadam {
+
+/// Where passes and traces of trips are written.
+enum class Destination {
+    kept,  ///< in the store
+    staged ///< aside, in temporary tables of the connection
+           ///< (storage/store/road_store_reprocess.cpp)
+};
+
+/// Writes passes and traces of trips, and, where they are to be kept, marks their segments and
+/// chunks as not fused yet. For one transaction: what it has looked up may change between two.
+class PassWriter {
+public:
+    PassWriter(Database& database, std::int64_t segments_per_chunk, Destination destination);
+
+    /// \param trip  its row.
+    /// \throws InputError  for a segment or a chunk that the store does not have.
+    void
+    write(std::int64_t trip, std::span<const Pass> passes, std::span<const RoughnessTrace> traces);
+
+    /// To be called before the commit: rows of passes wait to be written together.
+    void flush();
+
+private:
+    void write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass);
+    void write_trace(std::int64_t chunk, std::int64_t trip, const RoughnessTrace& trace);
+
+    bool marks_;
+    SegmentRowids segments_;
+    BulkInsert add_pass_;
+    Statement add_trace_;
+    BulkInsert mark_segment_;
+    BulkInsert mark_chunk_;
+    std::unordered_set<std::int64_t> marked_segments_; ///< rows
+    std::unordered_set<std::int64_t> marked_chunks_;   ///< rows
+};
+
+} // namespace macadam

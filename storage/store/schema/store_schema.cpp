@@ -1,0 +1,257 @@
+#include "storage/store/schema/store_schema.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/geopackage/geopackage.hpp"
+#include "storage/geopackage/qgis_style.hpp"
+#include "storage/store/schema/network_rows.hpp"
+#include "storage/store/schema/schema_check.hpp"
+#include "storage/store/schema/schema_sql.hpp"
+#include "storage/store/schema/store_versions.hpp"
+#include "storage/text/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace macadam {
+namespace {
+
+constexpr const char* format_name = "macadam-store";
+
+// ---------------------------------------------------------------------------------------- meta
+
+constexpr double min_segment_m = 0.1; // far below and above what 'macadam init' takes
+constexpr double max_segment_m = 100'000;
+
+void put(Database& database, std::string_view key, std::string_view value) {
+    database.prepare("INSERT INTO meta VALUES (?, ?)").run(key, value);
+}
+
+void replace(Database& database, std::string_view key, std::string_view value) {
+    database
+        .prepare("INSERT INTO meta VALUES (?, ?)"
+                 " ON CONFLICT (key) DO UPDATE SET value = excluded.value")
+        .run(key, value);
+}
+
+std::string meta(Database& database, std::string_view key) {
+    auto statement = database.prepare("SELECT value FROM meta WHERE key = ?");
+    return statement.bind(key).step() ? statement.text(0) : std::string{};
+}
+
+double real_meta(Database& database, std::string_view key) {
+    const auto text = meta(database, key);
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
+void write_meta(Database& database,
+                const RoadNetwork& roads,
+                const StoreSettings& settings,
+                const std::string& network_hash,
+                const WrittenSegments& written) {
+    put(database, "format", format_name);
+    put(database, "version", fmt::format("{}", store_version));
+    put(database, "segment_length_m", fmt::format("{}", roads.segment_length_m));
+    put(database, "class_table", settings.class_table);
+    put(database, "network_source", settings.network_source);
+    put(database, "attribution", settings.attribution);
+    put(database, "network_sha256", network_hash);
+    put(database, "segments", fmt::format("{}", written.segments));
+    put(database, "network_m", fmt::format("{}", written.length_m));
+    put(database, "generation", "1");
+    put(database, "privacy", name_of(settings.privacy));
+}
+
+/// Those whose rows come first.
+void index_store_tables(Database& database) {
+    database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
+    database.run("CREATE INDEX way_name ON way(name)");
+    index_features(database, "segment");
+}
+
+} // namespace
+
+void make_store_tables(Database& database) {
+    make_geopackage(database);
+    database.run(store_tables);
+    add_style_table(database);
+    index_store_tables(database);
+}
+
+void write_store(Database& database,
+                 const RoadNetwork& roads,
+                 const StoreSettings& settings,
+                 const std::string& key_id,
+                 const Progress& progress) {
+    const auto* classes = class_table(settings.class_table);
+    if (classes == nullptr) {
+        throw InputError{
+            fmt::format("class table '{}', expected fhwa or five", settings.class_table)};
+    }
+    Transaction all{database, Transaction::Kind::write};
+    make_geopackage(database);
+    database.run(store_tables);
+    add_style_table(database);
+    const auto network_hash = write_ways(database, roads);
+    const auto written = write_segments(database, roads, progress);
+    write_meta(database, roads, settings, network_hash, written);
+    put_key_id(database, key_id);
+
+    const auto box = extent_of(roads);
+    list_features(database, {"segment", "segment", "Pieces of road, one for each direction", box});
+    list_features(database,
+                  {"roughness", "roughness", "Roughness (IRI, mm/m) of the segments driven", box});
+    index_store_tables(database); // by far quicker with the rows there
+    add_default_style(database, "roughness", *classes);
+    all.commit();
+}
+
+int expect_store(Database& database, const Schema& found) {
+    const auto refuse = [&](std::string_view what, std::string_view is) {
+        throw InputError{fmt::format(
+            "{}: {}, expected one made by 'macadam init'{}", database.file().string(), what, is)};
+    };
+    if (const auto id = database.number("PRAGMA application_id"); id != geopackage_application_id) {
+        refuse("is not a Macadam database",
+               id == 0 ? "; it is an SQLite database without an application id"
+                       : fmt::format("; it is an SQLite database of another application "
+                                     "({:#010x})",
+                                     static_cast<std::uint32_t>(id)));
+    }
+    const auto table = found.find({"table", "meta"});
+    const bool is_ours =
+        table != found.end() && table->second == own_schema().at({"table", "meta"});
+    if (!is_ours || meta(database, "format") != format_name) {
+        refuse("is a GeoPackage, but not a Macadam database", "");
+    }
+    const auto text = meta(database, "version");
+    int version = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), version);
+    const bool is_number = error == std::errc{} && end == text.data() + text.size();
+    if (!is_number || version < oldest_store_version || version > store_version) {
+        throw InputError{fmt::format("{}: is a database of version {}, expected version {}: {}",
+                                     database.file().string(),
+                                     in_quotes(text),
+                                     store_version,
+                                     version > store_version
+                                         ? "it was made by a newer version of Macadam"
+                                         : "create it again with 'macadam init' and import its "
+                                           "trips again")};
+    }
+    return version;
+}
+
+void check_store(Database& database) {
+    const auto found = read_schema(database);
+    if (const int version = expect_store(database, found); version < store_version) {
+        expect_no_foreign_object(database, found, schema_of_version(version));
+        throw InputError{fmt::format("{0}: is a database of version {1}, expected version {2}: "
+                                     "run 'macadam upgrade {0}', which keeps all content",
+                                     database.file().string(),
+                                     version,
+                                     store_version)};
+    }
+    expect_no_foreign_object(database, found, own_schema());
+    expect_whole_schema(database, found, own_schema());
+}
+
+StoreSettings read_settings(Database& database) {
+    StoreSettings settings{.segment_length_m = real_meta(database, "segment_length_m"),
+                           .class_table = meta(database, "class_table"),
+                           .network_source = meta(database, "network_source"),
+                           .attribution = meta(database, "attribution")};
+    const auto refuse = [&](std::string_view key, std::string_view expected) {
+        throw InputError{fmt::format("{}: {} is {}, expected {}; the database was modified by "
+                                     "another program",
+                                     database.file().string(),
+                                     key,
+                                     in_quotes(meta(database, key)),
+                                     expected)};
+    };
+    if (class_table(settings.class_table) == nullptr) {
+        refuse("class_table", "fhwa or five");
+    }
+    const auto privacy = privacy_profile_named(meta(database, "privacy"));
+    if (!privacy) {
+        refuse("privacy", "own or crowd");
+    }
+    settings.privacy = *privacy;
+    if (!(settings.segment_length_m >= min_segment_m &&
+          settings.segment_length_m <= max_segment_m)) {
+        refuse("segment_length_m", "a length of segments");
+    }
+    return settings;
+}
+
+bool are_rows_in_order(Database& database) {
+    auto select = database.prepare(select_rows_in_order);
+    return are_rows_in_order(select);
+}
+
+bool are_rows_in_order(Statement& select) {
+    return !select.step() || select.text(0) != "0";
+}
+
+void update_network_meta(Database& database, const NetworkMeta& network) {
+    replace(database, "network_source", network.source);
+    replace(database, "attribution", network.attribution);
+    replace(database, "network_sha256", network.hash);
+    replace(database, "segments", fmt::format("{}", network.segments));
+    replace(database, "network_m", fmt::format("{}", network.length_m));
+    replace(database, "rows_in_order", "0");
+}
+
+std::string read_key_id(Database& database) {
+    return meta(database, "key_id");
+}
+
+void put_key_id(Database& database, const std::string& key_id) {
+    replace(database, "key_id", key_id);
+}
+
+std::vector<std::int64_t> read_last_of_keys(Database& database) {
+    const auto text = meta(database, "last_of_keys");
+    const char* const past = text.data() + text.size();
+    std::vector<std::int64_t> rows;
+    for (const char* at = text.data(); at != past;) {
+        std::int64_t row = 0;
+        const auto [end, error] = std::from_chars(at, past, row);
+        if (error != std::errc{} || (!rows.empty() && row < rows.back())) {
+            throw InputError{fmt::format("{}: last_of_keys is {}, expected rows of cars; the "
+                                         "database was modified by another program",
+                                         database.file().string(),
+                                         in_quotes(text))};
+        }
+        rows.push_back(row);
+        at = end == past ? past : end + 1;
+    }
+    return rows;
+}
+
+void add_last_of_key(Database& database) {
+    const auto row = database.number("SELECT coalesce(max(id), 0) FROM vehicle");
+    const auto rows = meta(database, "last_of_keys");
+    replace(database, "last_of_keys", fmt::format("{}{}{}", rows, rows.empty() ? "" : " ", row));
+}
+
+std::string read_network_hash(Database& database) {
+    return meta(database, "network_sha256");
+}
+
+int read_generation(Database& database) {
+    return std::max(1, static_cast<int>(real_meta(database, "generation")));
+}
+
+int begin_generation(Database& database) {
+    const int generation = read_generation(database) + 1;
+    database.prepare("UPDATE meta SET value = ? WHERE key = 'generation'")
+        .run(std::to_string(generation));
+    return generation;
+}
+
+} // namespace macadam

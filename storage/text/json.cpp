@@ -1,0 +1,58 @@
+#include "storage/text/json.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace macadam {
+namespace {
+
+std::string text_of(const JsonNumber& number) {
+    auto text = fmt::format("{:.{}f}", number.value, number.decimals);
+    const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+    return is_zero && text.front() == '-' ? text.substr(1) : text;
+}
+
+struct TextOf {
+    std::string operator()(std::nullptr_t) const { return "null"; }
+    std::string operator()(bool value) const { return value ? "true" : "false"; }
+    std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
+    std::string operator()(const JsonNumber& value) const {
+        return std::isfinite(value.value) ? text_of(value) : "null";
+    }
+    std::string operator()(const std::string& value) const { return json_text(value); }
+    std::string operator()(const JsonRaw& value) const { return value.text; }
+};
+
+} // namespace
+
+JsonValue json_number(std::optional<double> value, int decimals) {
+    return value && std::isfinite(*value) ? JsonValue{JsonNumber{*value, decimals}}
+                                          : JsonValue{nullptr};
+}
+
+std::string json_text(std::string_view value) {
+    return nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+JsonObject& JsonObject::add(std::string_view key, JsonValue value) {
+    members_ += fmt::format(
+        "{}{}:{}", members_.empty() ? "" : ",", json_text(key), std::visit(TextOf{}, value));
+    return *this;
+}
+
+std::string json_array(const std::vector<std::string>& raw_items) {
+    return fmt::format("[{}]", fmt::join(raw_items, ","));
+}
+
+std::string json_string_array(const std::vector<std::string>& strings) {
+    std::vector<std::string> items;
+    items.reserve(strings.size());
+    for (const auto& string : strings) {
+        items.push_back(json_text(string));
+    }
+    return json_array(items);
+}
+
+} // namespace macadam

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "mapping/tiles/tile_grid.hpp"
+#include "storage/atomic/temp_file.hpp"
+#include "storage/tiles/tile_archive.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace macadam {
+
+/// A tile and what it holds, as a place among the contents.
+struct TileEntry {
+    std::uint64_t number; ///< see tile_number
+    TileId tile;
+    std::uint32_t content;
+};
+
+/// Where a tile comes among all tiles: zoom by zoom, each along a Hilbert curve, so that neighbours
+/// lie close together. The whole world at zoom 0 is 0.
+///
+/// Source: PMTiles specification, version 3, 4.1.1; the curve of D. Hilbert as in J. K. Lawder,
+/// "Calculation of mappings between one and n-dimensional values using the Hilbert space-filling
+/// curve", Birkbeck College (2000).
+std::uint64_t tile_number(const TileId& tile);
+
+/// What came so far, each content once, and in the end the tiles in the order of their numbers with
+/// contents numbered as they first appear.
+class TileIndex {
+public:
+    explicit TileIndex(const std::filesystem::path& beside) : spool_{beside} {}
+
+    void add(const TileId& tile, std::string_view bytes);
+
+    /// After the last tile, and before what follows.
+    void sort();
+
+    const std::vector<TileEntry>& entries() const { return entries_; }
+    std::size_t count() const { return places_.size(); }
+    std::uint32_t size_of(std::size_t content) const { return places_[content].size; }
+    std::string bytes_of(std::size_t content) const { return spool_.read(places_[content]); }
+    std::uint64_t bytes() const { return spool_.size(); }
+
+private:
+    std::uint32_t content_of(std::string_view bytes);
+
+    TempFile spool_;
+    std::vector<TileEntry> entries_;
+    std::vector<ByteRange> places_;
+    std::unordered_multimap<std::size_t, std::uint32_t> by_hash_;
+};
+
+void write_mbtiles(const std::filesystem::path& temporary,
+                   const std::filesystem::path& file,
+                   const TileIndex& contents,
+                   const TileSetNote& note,
+                   const Progress& progress);
+
+class AtomicFile;
+void write_pmtiles(AtomicFile& out,
+                   const TileIndex& contents,
+                   const TileSetNote& note,
+                   const Progress& progress);
+
+/// \param temporary  where the folder grows
+/// \param called     how it is called when it is whole
+void write_tile_folder(const std::filesystem::path& temporary,
+                       const std::filesystem::path& called,
+                       const TileIndex& contents,
+                       const TileSetNote& note,
+                       const Progress& progress);
+
+/// The vector layers as a JSON array, as all formats tell them; "" of pictures.
+std::string layers_json(const TileSetNote& note);
+
+/// Where a viewer begins: in the middle, at the last zoom that has it in two tiles' width.
+struct TileSetCentre {
+    GeoPoint place;
+    int zoom;
+};
+TileSetCentre centre_of(const TileSetNote& note);
+
+} // namespace macadam

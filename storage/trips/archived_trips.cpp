@@ -1,0 +1,226 @@
+#include "storage/trips/archived_trips.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/tables/csv_cells.hpp"
+#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/source/phone_export_files.hpp"
+#include "storage/trips/source/trip_contents.hpp"
+#include "storage/trips/trip_file_names.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <new>
+#include <set>
+#include <utility>
+
+namespace macadam {
+
+namespace {
+
+// Files of one export stand together. Where they do not, they are waited for as long as no more
+// than this lies in memory.
+constexpr std::size_t max_waiting_bytes = std::size_t{64} << 20;
+
+using Files = std::vector<TripContents::File>;
+
+/// The file at hand.
+TripContents::File read(ArchiveFiles& files, const std::string& name) {
+    try {
+        return {name, files.content(), ""};
+    } catch (const InputError& error) {
+        return {name, "", error.what()};
+    } catch (const std::bad_alloc&) {
+        return {name, "", name + ": not enough memory"};
+    }
+}
+
+std::shared_ptr<const TripContents> contents_of(Files files) {
+    return std::make_shared<const TripContents>(TripContents{std::move(files)});
+}
+
+/// The file of a mapping's first table beside one of a later table.
+std::string first_beside(const std::string& file, const TableMapping& table, std::string first) {
+    if (const auto star = first.find('*'); star != std::string::npos) {
+        first.replace(star, 1, star_of(file, table.file));
+    }
+    return first;
+}
+
+} // namespace
+
+/// Files of trips of which more are to come.
+struct ArchivedTrips::Shelf {
+    std::map<std::string, Files> exports;            ///< by their folder
+    std::map<std::string, TripContents::File> files; ///< of a mapping, by their path
+    std::set<std::string> firsts;                    ///< of these, those of the first table
+    std::size_t bytes = 0;                           ///< in exports
+};
+
+ArchivedTrips::ArchivedTrips(std::filesystem::path archive, Sought sought)
+    : archive_{std::move(archive)}, sought_{std::move(sought)}, shelf_{std::make_unique<Shelf>()} {}
+
+ArchivedTrips::~ArchivedTrips() = default;
+
+std::optional<TripSource> ArchivedTrips::next() {
+    try {
+        if (!std::exchange(begun_, true)) {
+            files_ = std::make_unique<ArchiveFiles>(archive_, sought_.max_files);
+        }
+        while (ready_.empty() && !ended_) {
+            if (const auto name = files_->next()) {
+                take(*name);
+            } else {
+                end();
+            }
+        }
+    } catch (const InputError& error) {
+        end();
+        refuse("", error.what());
+    }
+    if (ready_.empty()) {
+        return std::nullopt;
+    }
+    auto trip = std::move(ready_.front());
+    ready_.pop_front();
+    return trip;
+}
+
+void ArchivedTrips::take(const std::string& name) {
+    if (sought_.mapping) {
+        take_for_mapping(name);
+    } else if (sought_.is_log != nullptr && sought_.is_log(name)) {
+        take_log(name);
+    } else if (!place_in_export(name).second.empty()) {
+        take_for_export(name);
+    } else if (sought_.is_log != nullptr && is_archive_name(name)) {
+        refuse(name,
+               fmt::format("{}/{}: is an archive within an archive, which is not supported; "
+                           "expected it beside the other",
+                           archive_.string(),
+                           name));
+    } else {
+        ++other_files_;
+    }
+}
+
+void ArchivedTrips::take_log(const std::string& name) {
+    Files files;
+    files.push_back(read(*files_, ""));
+    ready_.push_back({.file = archive_, .member = name, .contents = contents_of(std::move(files))});
+}
+
+/// A second file of one name belongs to another export.
+void ArchivedTrips::take_for_export(const std::string& name) {
+    const auto [folder, file] = place_in_export(name);
+    auto& waiting = shelf_->exports;
+    const auto is_here = [&, &wanted = file](const auto& f) { return f.name == wanted; };
+    if (const auto found = waiting.find(folder);
+        found != waiting.end() && std::ranges::any_of(found->second, is_here)) {
+        hand_out_export(folder);
+    }
+    auto& files = waiting[folder];
+    files.push_back(read(*files_, file));
+    shelf_->bytes += files.back().bytes.size();
+    while (shelf_->bytes > max_waiting_bytes && waiting.size() > 1) {
+        const bool is_at_hand = waiting.begin()->first == folder;
+        hand_out_export((is_at_hand ? std::next(waiting.begin()) : waiting.begin())->first);
+    }
+}
+
+void ArchivedTrips::hand_out_export(const std::string& folder) {
+    const auto place = folder; // what it refers to goes
+    auto files = std::move(shelf_->exports.extract(place).mapped());
+    std::ranges::sort(files, {}, &TripContents::File::name);
+    std::vector<std::string> names;
+    for (const auto& file : files) {
+        names.push_back(file.name);
+        shelf_->bytes -= file.bytes.size();
+    }
+    if (std::ranges::none_of(names, marks_export)) {
+        other_files_ += names.size();
+        return;
+    }
+    ready_.push_back({.file = archive_,
+                      .member = place,
+                      .files = std::move(names),
+                      .contents = contents_of(std::move(files))});
+}
+
+void ArchivedTrips::take_for_mapping(const std::string& name) {
+    const auto& tables = sought_.mapping->tables;
+    const auto [folder, file] = folder_and_file(name);
+    const auto table = std::ranges::find_if(
+        tables, [&, &wanted = file](const TableMapping& t) { return fits(wanted, t.file); });
+    if (table == tables.end()) {
+        ++other_files_;
+        return;
+    }
+    if (table == tables.begin()) {
+        if (shelf_->files.contains(name)) { // two of one name are two
+            hand_out_mapped(name, true);
+        }
+        shelf_->firsts.insert(name);
+    }
+    shelf_->files[name] = read(*files_, file);
+    if (table == tables.begin()) {
+        hand_out_mapped(name, false);
+    } else if (table->file.find('*') != std::string::npos) {
+        const auto first = folder + first_beside(file, *table, tables.front().file);
+        if (shelf_->firsts.contains(first)) {
+            hand_out_mapped(first, false);
+        }
+    } else { // of all trips of the folder
+        auto first = shelf_->firsts.lower_bound(folder);
+        while (first != shelf_->firsts.end() && first->starts_with(folder)) {
+            hand_out_mapped(std::string{*first++}, false);
+        }
+    }
+}
+
+/// A file whose name has no '*' may belong to several trips and stays.
+void ArchivedTrips::hand_out_mapped(const std::string& first, bool even_if_incomplete) {
+    const auto& mapping = *sought_.mapping;
+    const auto [folder, file] = folder_and_file(first);
+    TripSource source{
+        .file = archive_, .member = first, .files = {file}, .mapping = sought_.mapping};
+    for (std::size_t table = 1; table < mapping.tables.size(); ++table) {
+        source.files.push_back(companion(file, mapping, table));
+    }
+    Files files;
+    auto& waiting = shelf_->files;
+    for (const auto& name : source.files) {
+        if (const auto found = waiting.find(folder + name); found != waiting.end()) {
+            files.push_back(found->second);
+        } else if (!even_if_incomplete) {
+            return;
+        }
+    }
+    for (std::size_t table = 0; table < source.files.size(); ++table) {
+        if (table == 0 || mapping.tables[table].file.find('*') != std::string::npos) {
+            waiting.erase(folder + source.files[table]);
+        }
+    }
+    shelf_->firsts.erase(first);
+    source.contents = contents_of(std::move(files));
+    ready_.push_back(std::move(source));
+}
+
+void ArchivedTrips::refuse(const std::string& member, const std::string& words) {
+    ready_.push_back(
+        {.file = archive_, .member = member, .contents = contents_of({{"", "", words}})});
+}
+
+/// Nothing more comes.
+void ArchivedTrips::end() {
+    ended_ = true;
+    while (!shelf_->exports.empty()) {
+        hand_out_export(shelf_->exports.begin()->first);
+    }
+    for (const auto& first : std::set{shelf_->firsts}) {
+        hand_out_mapped(first, true);
+    }
+}
+
+} // namespace macadam

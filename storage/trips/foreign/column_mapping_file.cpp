@@ -1,0 +1,324 @@
+#include "storage/trips/foreign/column_mapping_file.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/common/gravity.hpp"
+#include "storage/tables/toml.hpp"
+#include "storage/trips/foreign/built_in_mappings.hpp"
+#include "storage/trips/log/trip_meta.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace macadam {
+
+namespace {
+
+constexpr double deg_in_rad = 0.017453292519943295; // pi / 180
+constexpr double hour_s = 3600;
+
+// Keys by the table in which they may stand.
+constexpr std::array<std::string_view, 9> meta_keys{"vehicle_id",
+                                                    "frame",
+                                                    "gravity",
+                                                    "mount",
+                                                    "mount_rpy_deg",
+                                                    "gnss_latency_s",
+                                                    "speed_latency_s",
+                                                    "speed_scale",
+                                                    "gnss_antenna_pos_m"};
+constexpr std::array<std::string_view, 13> table_keys{"files",
+                                                      "separator",
+                                                      "decimal",
+                                                      "encoding",
+                                                      "skip_lines",
+                                                      "comment",
+                                                      "header",
+                                                      "header_begins",
+                                                      "rows_under_header",
+                                                      "empty",
+                                                      "axes",
+                                                      "time",
+                                                      "channels"};
+constexpr std::array<std::string_view, 7> time_keys{
+    "column", "columns", "format", "epoch", "utc_offset_h", "fraction_s", "shift_s"};
+constexpr std::array<std::string_view, 6> channel_keys{
+    "column", "unit", "scale", "offset", "sign", "invalid"};
+
+constexpr std::int64_t max_columns = 10000;
+constexpr std::int64_t max_skipped = 1000000;
+
+struct Unit {
+    std::string_view name;
+    TripColumn first; ///< of the channels that come in it
+    TripColumn last;
+    double factor;
+};
+
+// clang-format off
+constexpr Unit units[] = {
+    {"m/s2", TripColumn::acc_x, TripColumn::acc_z, 1},
+    {"m/s^2", TripColumn::acc_x, TripColumn::acc_z, 1},
+    {"g", TripColumn::acc_x, TripColumn::acc_z, standard_gravity_mps2},
+    {"mg", TripColumn::acc_x, TripColumn::acc_z, standard_gravity_mps2 / 1000},
+    {"rad/s", TripColumn::gyro_x, TripColumn::gyro_z, 1},
+    {"deg/s", TripColumn::gyro_x, TripColumn::gyro_z, deg_in_rad},
+    {"m/s", TripColumn::speed, TripColumn::wheel_rr, 1},
+    {"km/h", TripColumn::speed, TripColumn::wheel_rr, 1 / 3.6},
+    {"mph", TripColumn::speed, TripColumn::wheel_rr, 0.44704},
+    {"m/s", TripColumn::gnss_speed, TripColumn::gnss_speed, 1},
+    {"km/h", TripColumn::gnss_speed, TripColumn::gnss_speed, 1 / 3.6},
+    {"mph", TripColumn::gnss_speed, TripColumn::gnss_speed, 0.44704},
+    {"kn", TripColumn::gnss_speed, TripColumn::gnss_speed, 1852.0 / 3600},
+    {"deg", TripColumn::lat, TripColumn::lon, 1},
+    {"deg", TripColumn::course, TripColumn::course, 1},
+    {"m", TripColumn::hacc, TripColumn::hacc, 1},
+    {"ft", TripColumn::hacc, TripColumn::hacc, 0.3048},
+};
+// clang-format on
+
+/// The one of some words that stands under a key.
+template <typename Value, std::size_t count>
+Value one_of(const TomlTable& table,
+             std::string_view key,
+             const std::pair<std::string_view, Value> (&words)[count]) {
+    const auto text = table.text(key);
+    std::string expected;
+    for (const auto& [word, value] : words) {
+        if (word == text) {
+            return value;
+        }
+        expected += fmt::format("{}{}", expected.empty() ? "" : ", ", word);
+    }
+    table.refuse(key, "one of " + expected);
+}
+
+ColumnName column_of(const TomlTable& table) {
+    if (!table.has("column")) {
+        table.miss("column");
+    }
+    if (table.is_text("column")) {
+        return {.pattern = table.text("column")};
+    }
+    return {.pattern = "",
+            .number = static_cast<std::size_t>(table.integer("column", 1, max_columns))};
+}
+
+double unit_of(const TomlTable& table, TripColumn channel) {
+    if (!table.has("unit")) {
+        return 1;
+    }
+    const auto name = table.text("unit");
+    std::string expected;
+    for (const auto& unit : units) {
+        if (channel < unit.first || channel > unit.last) {
+            continue;
+        }
+        if (unit.name == name) {
+            return unit.factor;
+        }
+        expected += fmt::format("{}{}", expected.empty() ? "one of " : ", ", unit.name);
+    }
+    table.refuse("unit", expected.empty() ? "no unit for this channel" : expected);
+}
+
+ChannelMapping channel_of(const TomlTable& channels, const std::string& name) {
+    const auto channel = channel_named(name);
+    if (!channel || *channel == TripColumn::t_s) {
+        channels.refuse_unknown(name, "a column of docs/formats.md");
+    }
+    if (channels.is_text(name)) {
+        channels.refuse(name, fmt::format("{{column = \"{}\"}}", channels.text(name)));
+    }
+    const auto table = channels.table(name);
+    table->expect_only(channel_keys);
+    const double sign = table->has("sign") && table->integer("sign", -1, 1) < 0 ? -1 : 1;
+    return {.channel = *channel,
+            .column = column_of(*table),
+            .scale = sign * unit_of(*table, *channel) * table->maybe_number("scale").value_or(1),
+            .offset = table->maybe_number("offset").value_or(0),
+            .invalid = table->has("invalid") ? table->numbers("invalid") : std::vector<double>{}};
+}
+
+struct TimeWord {
+    TimeFormat format;
+    double unit_s;
+};
+
+TimeMapping time_of(const TomlTable& table) {
+    static constexpr std::pair<std::string_view, TimeWord> formats[] = {
+        {"s", {TimeFormat::number, 1}},
+        {"ms", {TimeFormat::number, 1e-3}},
+        {"us", {TimeFormat::number, 1e-6}},
+        {"ns", {TimeFormat::number, 1e-9}},
+        {"hh:mm:ss", {TimeFormat::clock, 1}},
+        {"hhmmss", {TimeFormat::compact_clock, 1}},
+        {"dd/mm/yyyy hh:mm:ss", {TimeFormat::day_month_year, 1}},
+        {"mm/dd/yyyy hh:mm:ss", {TimeFormat::month_day_year, 1}},
+        {"yyyy-mm-dd hh:mm:ss", {TimeFormat::year_month_day, 1}},
+        {"iso", {TimeFormat::year_month_day, 1}},
+    };
+    static constexpr std::pair<std::string_view, bool> epochs[] = {{"boot", false}, {"unix", true}};
+
+    table.expect_only(time_keys);
+    if (!table.has("format")) {
+        table.miss("format");
+    }
+    const auto [format, unit_s] = one_of(table, "format", formats);
+    TimeMapping time{.columns = {},
+                     .format = format,
+                     .unit_s = unit_s,
+                     .since_1970 = table.has("epoch") && one_of(table, "epoch", epochs),
+                     .utc_offset_s = table.maybe_number("utc_offset_h"),
+                     .fraction_s = table.maybe_number("fraction_s", positive_number),
+                     .shift_s = table.maybe_number("shift_s").value_or(0)};
+    if (time.utc_offset_s) {
+        *time.utc_offset_s *= hour_s;
+    }
+    if (table.has("columns")) {
+        for (auto& name : table.texts("columns")) {
+            time.columns.push_back({.pattern = std::move(name)});
+        }
+    } else {
+        time.columns.push_back(column_of(table));
+    }
+    return time;
+}
+
+std::array<int, 3> axes_of(const TomlTable& table) {
+    constexpr std::string_view expected = "x, y and z in some order, each perhaps with a minus";
+    const auto words = table.texts("axes");
+    std::array<int, 3> axes{};
+    std::array<int, 3> uses{};
+    if (words.size() != axes.size()) {
+        table.refuse("axes", expected);
+    }
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const bool turned = words[i].starts_with('-');
+        const auto letter = std::string_view{words[i]}.substr(turned ? 1 : 0);
+        const auto axis = std::string_view{"xyz"}.find(letter);
+        if (letter.size() != 1 || axis == std::string_view::npos || uses[axis]++ > 0) {
+            table.refuse("axes", expected);
+        }
+        axes[i] = (turned ? -1 : 1) * static_cast<int>(axis + 1);
+    }
+    return axes;
+}
+
+TableMapping with_text_keys(TableMapping mapping, const TomlTable& table) {
+    static constexpr std::pair<std::string_view, char> separators[] = {
+        {",", ','}, {";", ';'}, {"tab", '\t'}, {"blank", ' '}, {"|", '|'}};
+    static constexpr std::pair<std::string_view, char> decimals[] = {{".", '.'}, {",", ','}};
+    static constexpr std::pair<std::string_view, TextEncoding> encodings[] = {
+        {"utf-8", TextEncoding::utf8}, {"utf-16le", TextEncoding::utf16le}};
+
+    if (table.has("separator")) {
+        mapping.separator = one_of(table, "separator", separators);
+    }
+    if (table.has("decimal")) {
+        mapping.decimal = one_of(table, "decimal", decimals);
+    }
+    if (table.has("encoding")) {
+        mapping.encoding = one_of(table, "encoding", encodings);
+    }
+    if (mapping.separator == ',' && mapping.decimal == ',') {
+        table.refuse("decimal", "a character other than the separator");
+    }
+    return mapping;
+}
+
+std::size_t count_of(const TomlTable& table, std::string_view key) {
+    return table.has(key) ? static_cast<std::size_t>(table.integer(key, 0, max_skipped)) : 0;
+}
+
+TableMapping table_of(const TomlTable& table) {
+    const auto time = table.table("time");
+    const auto channels = table.table("channels");
+    if (!time || !channels) {
+        table.miss(time ? "channels" : "time");
+    }
+    TableMapping mapping;
+    mapping.file = table.maybe_text("files").value_or("*.csv");
+    mapping = with_text_keys(std::move(mapping), table);
+    mapping.skip_lines = count_of(table, "skip_lines");
+    mapping.rows_under_header = count_of(table, "rows_under_header");
+    mapping.comment = table.maybe_text("comment").value_or("");
+    mapping.header_begins = table.maybe_text("header_begins").value_or("");
+    mapping.has_header = table.maybe_flag("header").value_or(true);
+    mapping.empty = table.has("empty") ? table.texts("empty") : std::vector<std::string>{};
+    mapping.axes = table.has("axes") ? axes_of(table) : mapping.axes;
+    mapping.time = time_of(*time);
+    for (const auto& name : channels->keys()) {
+        mapping.channels.push_back(channel_of(*channels, name));
+        if (!mapping.has_header && mapping.channels.back().column.number == 0) {
+            channels->table(name)->refuse("column", "a number, as there is no header");
+        }
+    }
+    return mapping;
+}
+
+/// The value of a key as the head of a log of ours would have it.
+std::string value_text(const TomlTable& table, std::string_view key) {
+    if (table.is_text(key)) {
+        return table.text_or_empty(key);
+    }
+    if (table.is_number(key)) {
+        return fmt::format("{}", table.number(key));
+    }
+    return fmt::format("{}", fmt::join(table.numbers(key), " "));
+}
+
+TripMeta meta_of(const TomlTable& top) {
+    std::vector<MetaLine> lines;
+    for (const auto key : meta_keys) {
+        if (top.has(key)) {
+            lines.push_back({top.where(key), std::string{key}, value_text(top, key)});
+        }
+    }
+    return parse_meta(lines);
+}
+
+TripMapping mapping_of(const TomlTable& top, const std::string& name) {
+    std::vector<std::string_view> known{table_keys.begin(), table_keys.end()};
+    known.insert(known.end(), meta_keys.begin(), meta_keys.end());
+    known.push_back("file");
+    top.expect_only(known);
+
+    TripMapping mapping{.where = name,
+                        .tables = {table_of(top)},
+                        .meta = meta_of(top),
+                        .clock = {},
+                        .clock_zero_utc_s = {}};
+    for (const auto& file : top.tables("file")) {
+        file.expect_only(table_keys);
+        if (!file.has("files")) {
+            file.miss("files");
+        }
+        mapping.tables.push_back(table_of(file));
+    }
+    return mapping;
+}
+
+} // namespace
+
+TripMapping read_mapping(const std::string& name_or_file) {
+    for (const auto& [name, toml] : built_in_mappings()) {
+        if (name == name_or_file) {
+            return mapping_of(parse_toml(toml, name_or_file), name_or_file);
+        }
+    }
+    return mapping_of(read_toml(name_or_file, "a mapping"), name_or_file);
+}
+
+std::vector<std::string_view> built_in_mapping_names() {
+    std::vector<std::string_view> names;
+    for (const auto& mapping : built_in_mappings()) {
+        names.push_back(mapping.name);
+    }
+    return names;
+}
+
+} // namespace macadam

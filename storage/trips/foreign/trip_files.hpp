@@ -1,0 +1,17 @@
+#pragma once
+
+#include "storage/files/byte_stream.hpp"
+#include "storage/trips/source/trip_source.hpp"
+
+#include <memory>
+#include <string>
+
+namespace macadam {
+
+/// What messages call one of the files of a trip.
+std::string name_of_file(const TripSource& source, const std::string& file);
+
+/// One of the files of a trip, `source.files`, from its folder or archive, decompressed.
+std::unique_ptr<ByteStream> bytes_of_file(const TripSource& source, const std::string& file);
+
+} // namespace macadam

@@ -1,0 +1,196 @@
+#include "storage/trips/trip_search.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/tables/csv_cells.hpp"
+#include "storage/trips/archived_trips.hpp"
+#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/foreign/gpx_reader.hpp"
+#include "storage/trips/trip_file_names.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace macadam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_track_name(std::string_view name) {
+    return is_trip_name(name) || is_gpx_name(name);
+}
+
+/// Which names of files are those of trips.
+using NameTest = bool (*)(std::string_view);
+
+NameTest name_test(const TripWalkConfig& config) {
+    return config.tracks ? is_track_name : is_trip_name;
+}
+
+std::vector<std::string> files_under(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator{folder}) {
+        if (!entry.is_directory()) {
+            names.push_back(entry.path().lexically_relative(folder).generic_string());
+        }
+    }
+    return names;
+}
+
+/// A trip of a mapping: the file of its first table and those beside it.
+TripSource mapped_trip(const fs::path& path, const std::shared_ptr<const TripMapping>& mapping) {
+    const auto file = path.filename().string();
+    TripSource source{.file = path, .member = {}, .files = {file}, .mapping = mapping};
+    for (std::size_t table = 1; table < mapping->tables.size(); ++table) {
+        source.files.push_back(companion(file, *mapping, table));
+        const auto beside = path.parent_path() / source.files.back();
+        if (!fs::exists(beside)) {
+            throw InputError{fmt::format("{}: no such file, expected it beside {}",
+                                         beside.string(),
+                                         path.filename().string())};
+        }
+    }
+    return source;
+}
+
+/// A folder's path without a slash at its end, so that it has a name.
+fs::path named(const fs::path& path) {
+    return path.has_filename() ? path : path.parent_path();
+}
+
+} // namespace
+
+TripWalk::TripWalk(const fs::path& path, TripWalkConfig config) : config_{std::move(config)} {
+    try {
+        const auto kind = fs::status(path);
+        if (!fs::exists(kind)) {
+            throw InputError{fmt::format("{}: no such file or folder", path.string())};
+        }
+        const bool is_folder = fs::is_directory(kind);
+        if (!is_folder && is_archive_name(path.filename().string())) {
+            items_.push_back(
+                {.source = {.file = path, .member = {}}, .is_archive = true, .is_log = true});
+        } else if (config_.mapping) {
+            find_mapped(path);
+        } else if (is_folder) {
+            find_in_folder(named(path));
+        } else {
+            items_.push_back({.source = {.file = path, .member = {}}});
+        }
+    } catch (const fs::filesystem_error& error) {
+        throw InputError{
+            fmt::format("{}: cannot be read: {}", error.path1().string(), error.code().message())};
+    }
+    archives_ = static_cast<std::size_t>(std::ranges::count(items_, true, &Item::is_archive));
+}
+
+TripWalk::TripWalk(TripWalk&&) noexcept = default;
+TripWalk::~TripWalk() = default;
+
+/// In the order of their names.
+void TripWalk::take(NamedItems items) {
+    std::ranges::stable_sort(
+        items, {}, [](const auto& item) -> const auto& { return item.first; });
+    for (auto& [name, item] : items) {
+        items_.push_back(std::move(item));
+    }
+}
+
+void TripWalk::find_in_folder(const fs::path& folder) {
+    NamedItems items;
+    const auto names = files_under(folder);
+    other_files_ = names.size();
+    for (const auto& name : names) {
+        const bool dangles = !fs::exists(folder / name); // a link; the reader says so
+        if (!fs::is_regular_file(folder / name) && !dangles) {
+            continue;
+        }
+        const TripSource source{.file = folder / name, .member = {}};
+        if (name_test(config_)(name)) {
+            items.emplace_back(name, Item{.source = source});
+            --other_files_;
+        } else if (name.ends_with(".zip") && !dangles) { // told when it was looked at
+            items.emplace_back(name, Item{.source = source, .is_archive = true});
+            --other_files_;
+        }
+    }
+    for (auto& [inside, files] : exports_in(names)) {
+        const auto place = inside.empty() ? folder : folder / inside.substr(0, inside.size() - 1);
+        other_files_ -= files.size();
+        items.emplace_back(inside, Item{.source = {.file = place, .member = {}, .files = files}});
+    }
+    take(std::move(items));
+}
+
+void TripWalk::find_mapped(const fs::path& path) {
+    if (!fs::is_directory(path)) {
+        items_.push_back({.source = mapped_trip(path, config_.mapping)});
+        return;
+    }
+    const auto names = files_under(path);
+    NamedItems items;
+    for (const auto& name : names) {
+        if (fits(folder_and_file(name).second, config_.mapping->tables.front().file)) {
+            items.emplace_back(name, Item{.source = mapped_trip(path / name, config_.mapping)});
+        }
+    }
+    const auto read = items.size() * config_.mapping->tables.size();
+    other_files_ = names.size() - std::min(names.size(), read);
+    take(std::move(items));
+}
+
+std::optional<TripSource> TripWalk::next() {
+    for (;;) {
+        if (archive_) {
+            if (auto trip = archive_->next()) {
+                ++given_;
+                return trip;
+            }
+            const bool gave_none = given_ == given_before_archive_;
+            other_files_ += items_[next_ - 1].is_log ? archive_->other_files() : gave_none ? 1 : 0;
+            archive_.reset();
+            --archives_;
+        }
+        if (next_ == items_.size()) {
+            return std::nullopt;
+        }
+        const auto& item = items_[next_++];
+        if (!item.is_archive) {
+            ++given_;
+            return item.source;
+        }
+        given_before_archive_ = given_;
+        archive_ = std::make_unique<ArchivedTrips>(
+            item.source.file,
+            ArchivedTrips::Sought{.is_log = item.is_log ? name_test(config_) : nullptr,
+                                  .mapping = item.is_log ? config_.mapping : nullptr,
+                                  .max_files = config_.max_files});
+    }
+}
+
+std::optional<std::size_t> TripWalk::count() const {
+    return archives_ > 0 ? std::nullopt : std::optional{given_ + items_.size() - next_};
+}
+
+std::vector<fs::path> TripWalk::files() const {
+    std::vector<fs::path> files;
+    for (const auto& item : items_) {
+        files.push_back(item.source.file);
+    }
+    return files;
+}
+
+FirstTrip first_trip(const fs::path& path, const TripWalkConfig& config) {
+    TripWalk walk{path, config};
+    FirstTrip first{.trip = walk.next()};
+    first.count = first.trip ? 1 : 0;
+    while (!walk.count() && walk.next()) {
+        ++first.count;
+    }
+    return {std::move(first.trip), walk.count().value_or(first.count)};
+}
+
+} // namespace macadam

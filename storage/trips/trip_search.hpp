@@ -1,0 +1,79 @@
+#pragma once
+
+#include "storage/files/archive.hpp"
+#include "storage/trips/source/trip_source.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+class ArchivedTrips;
+
+struct TripWalkConfig {
+    /// If given, the path is foreign: itself, or every file under it that fits the mapping's first
+    /// table, is a trip.
+    std::shared_ptr<const TripMapping> mapping{};
+
+    bool tracks = false; ///< every *.gpx[.gz|.zst] is a trip, too: positions are enough
+    std::size_t max_files = max_archive_files; ///< of an archive
+};
+
+/// The trips that a path stands for, one after the other: itself, every *.trip.csv[.gz|.zst] under
+/// a folder in byte order of their relative paths, or every such file of a .zip, .tar, .tar.gz or
+/// .tar.zst archive in the archive's order; and every export of phyphox or Sensor Logger, which is
+/// a folder, under a folder, in an archive, or in a .zip under a folder.
+///
+/// An archive is read once, as far as trips are asked for; its trips come with their contents.
+class TripWalk {
+public:
+    /// \throws InputError  if there is no such file or folder, or a trip under a folder lacks one
+    ///                     of the mapping's files.
+    explicit TripWalk(const std::filesystem::path& path, TripWalkConfig config = {});
+    TripWalk(TripWalk&&) noexcept;
+    ~TripWalk();
+
+    /// Nothing at the end. A trip that cannot be had is there, too: reading it says why.
+    std::optional<TripSource> next();
+
+    std::size_t other_files() const { return other_files_; } ///< seen and not read, so far
+
+    /// Number of trips; std::nullopt while an archive may hold more.
+    std::optional<std::size_t> count() const;
+    std::size_t given() const { return given_; } ///< trips so far
+
+    std::vector<std::filesystem::path> files() const; ///< all that are or will be read
+
+private:
+    struct Item {
+        TripSource source;
+        bool is_archive = false;
+        bool is_log = false; ///< of an archive: it may hold logs; otherwise exports alone
+    };
+    using NamedItems = std::vector<std::pair<std::string, Item>>;
+
+    void find_in_folder(const std::filesystem::path& folder);
+    void find_mapped(const std::filesystem::path& path);
+    void take(NamedItems items);
+
+    TripWalkConfig config_;
+    std::vector<Item> items_;
+    std::size_t next_ = 0;
+    std::size_t archives_ = 0; ///< among those that are to come, and the one at hand
+    std::unique_ptr<ArchivedTrips> archive_;
+    std::size_t other_files_ = 0;
+    std::size_t given_ = 0;
+    std::size_t given_before_archive_ = 0;
+};
+
+/// The first trip of a path, and how many there are.
+struct FirstTrip {
+    std::optional<TripSource> trip;
+    std::size_t count = 0;
+};
+FirstTrip first_trip(const std::filesystem::path& path, const TripWalkConfig& config);
+
+} // namespace macadam

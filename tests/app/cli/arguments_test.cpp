@@ -1,0 +1,123 @@
+#include "app/cli/arguments.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace macadam {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr std::array options{Option{"--length", "METRES", "How long."},
+                             Option{"-o,--output", "FILE", "Where to."},
+                             Option{"--bbox", "W,S,E,N", "What."},
+                             Option{"--trace", "TRIP", "From these.", "", true},
+                             Option{"--json", "", "As JSON."}};
+constexpr std::array operands{Operand{"STORE", "The store."}};
+
+Arguments parse(std::vector<std::string> words) {
+    return {options, operands, std::move(words)};
+}
+
+std::string refusal(std::vector<std::string> words) {
+    try {
+        parse(std::move(words));
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Arguments, AreSortedByTheTableWhateverTheirOrder) {
+    const auto arguments = parse({"--length", "20", "a.gpkg", "-o", "b.csv", "--json"});
+    EXPECT_EQ(arguments.operand("STORE"), "a.gpkg");
+    EXPECT_EQ(arguments.number("--length"), 20);
+    EXPECT_EQ(arguments.value("--output"), "b.csv");
+    EXPECT_TRUE(arguments.flag("--json"));
+}
+
+TEST(Arguments, NotGivenAreNothing) {
+    const auto arguments = parse({"a.gpkg"});
+    EXPECT_EQ(arguments.number("--length"), std::nullopt);
+    EXPECT_EQ(arguments.number("--length", 7), 7);
+    EXPECT_FALSE(arguments.flag("--json"));
+}
+
+TEST(Arguments, AskedForWhatTheTableDoesNotHaveAreAMistakeOfTheProgram) {
+    EXPECT_THROW(parse({"a.gpkg"}).value("--lenght"), std::logic_error);
+    EXPECT_THROW(parse({"a.gpkg"}).operand("TRIP"), std::logic_error);
+}
+
+TEST(Arguments, TakeNumbersThatBeginWithAMinus) {
+    const auto box = parse({"a.gpkg", "--bbox", "-122.5,37.7,-122.4,37.8"}).numbers("--bbox", 4);
+    EXPECT_THAT(*box, ElementsAre(-122.5, 37.7, -122.4, 37.8));
+}
+
+TEST(Arguments, LeaveTheOperandToItselfAfterAListOfValues) {
+    const auto arguments = parse({"--trace", "a", "b", "store.gpkg"});
+    EXPECT_THAT(arguments.values("--trace"), ElementsAre("a", "b"));
+    EXPECT_EQ(arguments.operand("STORE"), "store.gpkg");
+}
+
+TEST(Arguments, RefuseWhatTheTableDoesNotKnow) {
+    EXPECT_THAT(refusal({"a.gpkg", "--fast"}), HasSubstr("--fast"));
+    EXPECT_THAT(refusal({"a.gpkg", "b.gpkg"}), HasSubstr("b.gpkg"));
+}
+
+TEST(Arguments, NameTheOperandThatIsMissing) {
+    EXPECT_EQ(refusal({"--json"}), "STORE is missing");
+}
+
+TEST(Arguments, GiveTheLastOperandAllWordsThatAreLeft) {
+    constexpr std::array two{Operand{"STORE", "The store."}, Operand{"PATH", "Trips.", true}};
+    const Arguments arguments{options, two, {"a.gpkg", "b", "--json", "c"}};
+    EXPECT_EQ(arguments.operand("STORE"), "a.gpkg");
+    EXPECT_THAT(arguments.operands("PATH"), ElementsAre("b", "c"));
+    try {
+        Arguments(options, two, {"a.gpkg"});
+        FAIL() << "did without PATH";
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(), "PATH is missing");
+    }
+}
+
+TEST(Arguments, RefuseAnOptionWithoutItsValue) {
+    EXPECT_THAT(refusal({"a.gpkg", "--length"}), HasSubstr("--length"));
+}
+
+TEST(Arguments, RefuseAValueForAFlag) {
+    EXPECT_THAT(refusal({"a.gpkg", "--json=k"}), HasSubstr("--json"));
+    EXPECT_THAT(refusal({"a.gpkg", "--json=2"}), HasSubstr("--json"));
+}
+
+TEST(Arguments, QuoteAWordThatIsNoNumber) {
+    const auto arguments = parse({"a.gpkg", "--length", "20m"});
+    try {
+        arguments.number("--length");
+        FAIL() << "took '20m' as a number";
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(), "--length is '20m', expected a number");
+    }
+}
+
+TEST(Arguments, RefuseABoxOfThreeNumbers) {
+    const auto arguments = parse({"a.gpkg", "--bbox", "1,2,3"});
+    EXPECT_THROW(arguments.numbers("--bbox", 4), UsageError);
+}
+
+TEST(Arguments, RefuseAWordThatIsNoneOfTheChoices) {
+    constexpr std::array<std::string_view, 2> choices{"here", "there"};
+    const auto arguments = parse({"a.gpkg", "--output", "nowhere"});
+    try {
+        arguments.choice("--output", choices);
+        FAIL() << "took 'nowhere'";
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(), "--output is 'nowhere', expected here or there");
+    }
+}
+
+} // namespace
+} // namespace macadam

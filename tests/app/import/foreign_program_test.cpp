@@ -1,0 +1,111 @@
+// Logs of other makers as users hand them to the program.
+
+#include "support/program/program.hpp"
+#include "support/roads/drive.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const auto loggers = fs::path{MACADAM_SOURCE_DIR} / "tests/data/loggers";
+
+/// A drive of 1,000 m as phyphox exports it from a phone that lies flat.
+fs::path phyphox_export(const fs::path& folder) {
+    const auto road = patched_road([](double) { return false; }, 1);
+    const auto trip = drive_over(road, {.gnss_hz = 1}, *built_in_vehicle("golden-car"));
+    std::string acc = "\"Time (s)\",\"X (m/s^2)\",\"Y (m/s^2)\",\"Z (m/s^2)\"\n";
+    for (std::size_t i = 0; i < trip.acc.t_s.size(); ++i) {
+        acc += fmt::format("{:.9E},0.0E0,0.0E0,{:.9E}\n", trip.acc.t_s[i], trip.acc.z[i]);
+    }
+    std::string places = "\"Time (s)\",\"Latitude (°)\",\"Longitude (°)\",\"Height (m)\","
+                         "\"Velocity (m/s)\",\"Direction (°)\",\"Horizontal Accuracy (m)\"\n";
+    for (const auto& fix : trip.fixes) {
+        places += fmt::format("{:.9E},{:.9E},{:.9E},1.0E2,{:.9E},9.0E1,5.0E0\n",
+                              fix.t_s,
+                              fix.at.lat_deg,
+                              fix.at.lon_deg,
+                              fix.speed_mps);
+    }
+    fs::create_directories(folder);
+    write_file(folder / "Accelerometer.csv", acc);
+    write_file(folder / "Location.csv", places);
+    return folder;
+}
+
+TEST(ForeignLogs, GoThroughEveryCommandThatTakesTrips) {
+    const auto folder = fresh_folder();
+    const auto phone = phyphox_export(folder / "phone").string();
+    const auto store = (folder / "roads.gpkg").string();
+    EXPECT_EQ(run_macadam({"init", store, "--trace", phone}).exit_status, 0);
+    EXPECT_THAT(run_macadam({"trace", phone, "--vehicle", "golden-car", "--method", "kf"}).out,
+                HasSubstr(",HRI,ok"));
+    EXPECT_THAT(run_macadam({"match", phone, "--network", store}).out, HasSubstr(",road,"));
+    const auto import = run_macadam({"import", store, phone, "--json", "--method", "kf"});
+    EXPECT_EQ(import.exit_status, 0) << import.err;
+    EXPECT_THAT(import.out, HasSubstr("\"trip_id\":\"phone\""));
+    EXPECT_THAT(import.out, HasSubstr("\"rows_read\":5052,")); // 5,001 of 100 Hz, 51 of 1 Hz
+}
+
+TEST(ForeignLogs, LoseTheirEndsByTrimAndSaySo) {
+    const auto folder = fresh_folder();
+    const auto phone = phyphox_export(folder / "phone").string();
+    const auto store = (folder / "roads.gpkg").string();
+    run_macadam({"init", store, "--trace", phone});
+    const auto import = run_macadam({"import", store, phone, "--trim", "300", "--method", "kf"});
+    EXPECT_THAT(import.out, HasSubstr(" trimmed"));
+    EXPECT_THAT(import.out, HasSubstr("note: the first and last 300 m were removed"));
+}
+
+TEST(ForeignLogs, ThatAreKnownKeepTheirEndsInSpiteOfTrimWhichIsSaid) {
+    const auto folder = fresh_folder();
+    const auto phone = phyphox_export(folder / "phone").string();
+    const auto store = (folder / "roads.gpkg").string();
+    run_macadam({"init", store, "--trace", phone});
+    run_macadam({"import", store, phone, "--method", "kf"});
+    const auto again = run_macadam({"import", store, phone, "--trim", "300", "--method", "kf"});
+    EXPECT_THAT(again.out, HasSubstr("known "));
+    EXPECT_THAT(again.out, HasSubstr("note: stays as it was imported"));
+    EXPECT_THAT(run_macadam({"import", store, phone, "--method", "kf"}).out,
+                Not(HasSubstr("note:")));
+}
+
+TEST(ForeignLogs, AreReadByAMapping) {
+    const auto folder = fresh_folder();
+    const auto store = (folder / "roads.gpkg").string();
+    const auto phone = phyphox_export(folder / "phone").string();
+    run_macadam({"init", store, "--trace", phone});
+    const auto match = run_macadam({"match",
+                                    (loggers / "racechrono.csv").string(),
+                                    "--mapping",
+                                    "racechrono",
+                                    "--network",
+                                    store});
+    EXPECT_EQ(match.exit_status, 0) << match.err;
+    EXPECT_THAT(match.out, HasSubstr("off_network")); // a circuit far from there
+}
+
+TEST(ForeignLogs, TooSlowForRoughnessAreRefused) {
+    const auto trace =
+        run_macadam({"trace", (loggers / "trackaddict.csv").string(), "--mapping", "trackaddict"});
+    EXPECT_EQ(trace.exit_status, 1);
+    EXPECT_THAT(trace.err, HasSubstr("Hz, expected at least 40"));
+}
+
+TEST(ForeignLogs, AreMisusedByAWrongTrimOrMapping) {
+    const auto trim = run_macadam({"import", "roads.gpkg", "x.zip", "--trim", "-1"});
+    EXPECT_EQ(trim.exit_status, 2);
+    EXPECT_THAT(trim.err, HasSubstr("--trim is -1, expected 0 to 100000 m"));
+    const auto mapping = run_macadam({"trace", "x.csv", "--mapping", "harrys"});
+    EXPECT_EQ(mapping.exit_status, 2);
+    EXPECT_THAT(mapping.err, HasSubstr("--mapping is 'harrys', expected a TOML file or one of"));
+}
+
+} // namespace
+} // namespace macadam::testing

@@ -1,0 +1,176 @@
+// `identify`, by the program itself, on a drive of a simulated two-axle car.
+
+#include "estimator/identification/rides.hpp"
+#include "estimator/simulation/linear_ride.hpp"
+#include "storage/settings/vehicle_file.hpp"
+#include "storage/settings/vehicle_writer.hpp"
+#include "support/program/program.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr double first_station_m = 1000; // of the profile; the trip starts there
+
+std::string trip_text(const Stretch& stretch) {
+    std::string text = "# macadam-trip 1\n# frame: FLU\n# gravity: included\n# vehicle_id: mine\n"
+                       "t_s,acc_y_mps2,acc_z_mps2,speed_mps\n";
+    auto out = std::back_inserter(text);
+    for (std::size_t i = 0; i < stretch.travel_m.size(); ++i) {
+        fmt::format_to(out,
+                       "{:.3f},{:.5f},{:.5f},{:.4f}\n",
+                       static_cast<double>(i) * stretch.step_s,
+                       stretch.lateral_mps2[i],
+                       stretch.vertical_mps2[i] + 9.80665F,
+                       stretch.speed_mps[i]);
+    }
+    fmt::format_to(out, "# end rows: {}\n", stretch.travel_m.size());
+    return text;
+}
+
+std::string profile_text(const RoadProfile& profile) {
+    std::string text = "station_m,left_m,right_m\n";
+    auto out = std::back_inserter(text);
+    for (std::size_t i = 0; i < profile.station_m.size(); i += 2) {
+        fmt::format_to(out,
+                       "{:.2f},{:.6f},{:.6f}\n",
+                       first_station_m + profile.station_m[i],
+                       profile.left_m[i],
+                       profile.right_m[i]);
+    }
+    return text;
+}
+
+class Identify : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fresh_folder();
+        auto car = linear_car();
+        car.vehicle.name = "mine";
+        car.vehicle.axles = Axles{.wheelbase_m = 2.65, .cg_to_front_m = 1.325};
+        const auto surface = make_surface({.iri_mm_per_m = 4}, 560, 5);
+        write_file(folder_ / "drive.trip.csv",
+                   trip_text(two_axle_ride(car, surface, steady_motion(15, 36), 50)));
+        write_file(folder_ / "road.csv", profile_text(profile_of(surface)));
+        write_file(folder_ / "mine.toml", vehicle_text(car.vehicle));
+    }
+
+    std::string at(const char* name) const { return (folder_ / name).string(); }
+
+    testing::Run identify(std::vector<std::string> more) const {
+        std::vector<std::string> words{"identify",
+                                       at("drive.trip.csv"),
+                                       "--profile",
+                                       at("road.csv"),
+                                       "--vehicle",
+                                       at("mine.toml")};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_macadam(words);
+    }
+
+    std::filesystem::path folder_;
+};
+
+TEST_F(Identify, SaysWhatItFoundAndWhatTheGainMeans) {
+    const auto run = identify({});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("(found: the estimated and the measured profile correlate"));
+    EXPECT_THAT(run.out, HasSubstr("ks_n_per_m         15825"));
+    EXPECT_THAT(run.out,
+                HasSubstr("The rms of that comb is 0.71, whatever the wheelbase. So this "
+                          "gain\nspeaks of the wheelbase, not of a modern suspension"));
+    EXPECT_EQ(run.err, "");
+}
+
+TEST_F(Identify, FindsThePlaceWithinAMetre) {
+    const auto run = identify({"--json"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto found = run.out.find("\"at_m\":");
+    ASSERT_NE(found, std::string::npos);
+    EXPECT_NEAR(std::stod(run.out.substr(found + 7)), first_station_m, 1);
+}
+
+TEST_F(Identify, TakesThePlaceThatItIsTold) {
+    const auto run = identify({"--at", "1000"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(run.out, StartsWith("travel 0 is at station 1000.00 m (as given)\n"));
+}
+
+TEST_F(Identify, LeavesAVehicleThatReadsBack) {
+    const auto run = identify({"-o", at("found.toml")});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto found = read_vehicle(folder_ / "found.toml");
+    EXPECT_EQ(found.name, "mine");
+    EXPECT_EQ(found.half_car.ms_kg, 1600);
+    EXPECT_EQ(found.gain, 1);
+    ASSERT_TRUE(found.one_axle_gain);
+    EXPECT_GT(*found.one_axle_gain, 0.65);
+    EXPECT_LT(*found.one_axle_gain, 0.9);
+    EXPECT_TRUE(found.uncertainty.contains("ks_n_per_m"));
+}
+
+TEST_F(Identify, LeavesAFigureOfBothChannelsThatNeedsNothingElse) {
+    const auto run = identify({"-o", at("found.toml"), at("spectra.svg")});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto svg = read_file(folder_ / "spectra.svg");
+    EXPECT_THAT(svg, StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\""));
+    EXPECT_THAT(svg, HasSubstr("Vertical acceleration of the body"));
+    EXPECT_THAT(svg, HasSubstr("Lateral acceleration of the body"));
+    EXPECT_THAT(svg, HasSubstr("frequency, Hz"));
+    EXPECT_THAT(svg, HasSubstr("model, found"));
+    EXPECT_THAT(svg, Not(HasSubstr("href")));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "found.toml"));
+}
+
+TEST_F(Identify, RefusesARoadThatTheTripWasNotOn) {
+    write_file(folder_ / "road.csv", profile_text(profile_of(make_surface({}, 900, 99))));
+    const auto run = identify({});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("drive.trip.csv: is not found on "));
+    EXPECT_THAT(run.err, HasSubstr("expected 0.50, or --at METRE"));
+}
+
+TEST_F(Identify, RefusesAPlaceWhereNothingOfTheProfileLies) {
+    const auto run = identify({"--at", "5000"});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("has no driving on "));
+    EXPECT_THAT(run.err, HasSubstr("whose stations go from 1000.0 to 1560.0 m"));
+}
+
+TEST_F(Identify, RefusesToReplaceWhatItReads) {
+    const auto profile = at("road.csv");
+    std::filesystem::rename(profile, folder_ / "road.svg");
+    const auto run = run_macadam(
+        {"identify", at("drive.trip.csv"), "--profile", at("road.svg"), "-o", at("road.svg")});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("road.svg"));
+    EXPECT_THAT(read_file(folder_ / "road.svg"), StartsWith("station_m"));
+}
+
+TEST_F(Identify, AsksForTheProfileInWords) {
+    const auto run = run_macadam({"identify", at("drive.trip.csv")});
+    EXPECT_EQ(run.exit_status, 2);
+    EXPECT_THAT(run.err, HasSubstr("--profile FILE is missing: the measured profile of the road"));
+}
+
+TEST_F(Identify, TellsWhatItCanWrite) {
+    const auto run = identify({"-o", "spectra.png"});
+    EXPECT_EQ(run.exit_status, 2);
+    EXPECT_THAT(run.err,
+                HasSubstr("-o is 'spectra.png', expected a name that ends in .toml or .svg"));
+}
+
+} // namespace
+} // namespace macadam::testing

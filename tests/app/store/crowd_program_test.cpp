@@ -1,0 +1,165 @@
+// A database of other people's cars, from `init --privacy crowd` to what is handed on.
+
+#include "support/program/program.hpp"
+#include "support/roads/drive.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr int cars = 6;
+constexpr int blocks = 13; // of 200 m, one way each
+constexpr double block_m = 200;
+
+/// A straight road of 2.6 km that six cars drive from end to end.
+class Crowd : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fresh_folder();
+        store_ = (folder_ / "crowd.gpkg").string();
+        write_file(folder_ / "road.osm", road_osm());
+        fs::create_directories(folder_ / "trips");
+        const auto text = text_of(
+            drive_over(patched_road([](double) { return false; }, 1), drive_, car()), drive_);
+        for (int number = 0; number < cars; ++number) {
+            auto of_car = text;
+            const std::string name{"golden-car"};
+            of_car.replace(of_car.find(name), name.size(), fmt::format("car-{}", number));
+            write_file(folder_ / "trips" / fmt::format("{}.trip.csv", number), of_car);
+        }
+    }
+
+    void make(const std::string& privacy) const {
+        run({"init", store_, "--network", at("road.osm"), "--privacy", privacy});
+        run({"import", store_, at("trips"), "--method", "kf", "--vehicle", "golden-car"});
+    }
+
+    std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+    static testing::Run run(const std::vector<std::string>& words, int expected = 0) {
+        auto done = run_macadam(words);
+        EXPECT_EQ(done.exit_status, expected) << words.front() << ": " << done.err;
+        return done;
+    }
+
+    std::set<int> exported_ways() const {
+        run({"export", store_, "-o", at("out.geojson")});
+        const auto text = read_file(folder_ / "out.geojson");
+        fs::remove(folder_ / "out.geojson");
+        std::set<int> ways;
+        const std::regex way{"\"way_id\": ?([0-9]+)"};
+        for (std::sregex_iterator it{text.begin(), text.end(), way}, end; it != end; ++it) {
+            ways.insert(std::stoi((*it)[1]));
+        }
+        return ways;
+    }
+
+    void lose_key() const { fs::rename(store_ + ".key", at("kept.key")); }
+
+    fs::path folder_;
+    std::string store_;
+
+private:
+    static const Vehicle& car() { return *built_in_vehicle("golden-car"); }
+
+    std::string road_osm() const {
+        std::string osm{"<osm version=\"0.6\">\n"};
+        for (int i = 0; i <= blocks; ++i) {
+            const auto place = place_of(drive_, block_m * i);
+            osm += fmt::format("<node id=\"{}\" lat=\"{:.7f}\" lon=\"{:.7f}\"/>\n",
+                               i + 1,
+                               place.lat_deg,
+                               place.lon_deg);
+        }
+        for (int i = 1; i <= blocks; ++i) {
+            osm += fmt::format("<way id=\"{}\"><nd ref=\"{}\"/><nd ref=\"{}\"/>"
+                               "<tag k=\"highway\" v=\"primary\"/></way>\n",
+                               i,
+                               i,
+                               i + 1);
+        }
+        return osm + "</osm>\n";
+    }
+
+    Drive drive_{.length_m = blocks * block_m};
+};
+
+TEST_F(Crowd, HandsOnWhatIsPublishedAndNothingElse) {
+    make("crowd");
+    EXPECT_THAT(exported_ways(), IsEmpty());
+    EXPECT_THAT(run({"export", store_, "-o", at("none.csv")}).err,
+                HasSubstr("nothing of them was published yet"));
+
+    EXPECT_THAT(run({"publish", store_}).out,
+                AllOf(HasSubstr("from at least 5 trips of 5 cars"), HasSubstr("left out: up to")));
+    const auto ways = exported_ways();
+    EXPECT_THAT(ways, Not(IsEmpty()));
+    for (const int way : ways) { // 300 m and the block in which a drive's end lies
+        EXPECT_GE(way, 3);
+        EXPECT_LE(way, blocks - 2);
+    }
+    EXPECT_THAT(run({"publish", store_}, 1).err, HasSubstr("which is once a month"));
+    run({"report", store_, "-o", at("report.html")});
+    const auto report = read_file(folder_ / "report.html");
+    EXPECT_THAT(report, HasSubstr("rest on five cars or more"));
+    EXPECT_THAT(report, Not(HasSubstr("not anonymised")));
+    run({"render", store_, "-o", at("map.png"), "--size", "400x300"});
+}
+
+TEST_F(Crowd, ShowsMoreToWhoHoldsTheKey) {
+    make("crowd");
+    run({"publish", store_});
+    EXPECT_THAT(run({"query", store_, "--segment", "6+0003", "--passes"}).err,
+                HasSubstr("not to be handed on"));
+    lose_key();
+    EXPECT_THAT(run({"query", store_, "--segment", "6+0003", "--passes"}, 1).err,
+                HasSubstr("for its operator alone"));
+    EXPECT_THAT(run({"query", store_, "--segment", "6+0003", "--changes"}, 1).err,
+                HasSubstr("for its operator alone"));
+    EXPECT_THAT(run({"calibrate", store_, "--dry-run"}, 1).err,
+                HasSubstr("for its operator alone"));
+    EXPECT_THAT(run({"publish", store_}, 1).err, HasSubstr("who holds the key publishes"));
+    EXPECT_THAT(run({"query", store_, "--worst", "3", "--since", "2026-03-15"}, 1).err,
+                HasSubstr("told by whole months"));
+    const auto info = run({"info", store_, "--json"}).out;
+    EXPECT_THAT(info, AllOf(HasSubstr("\"published_alone\""), Not(HasSubstr("\"v-"))));
+    EXPECT_THAT(run({"info", store_}).out, HasSubstr("at least 5 of 5 cars"));
+}
+
+TEST_F(Crowd, IsNeverMadeOfRoadsTracedFromTrips) {
+    EXPECT_THAT(
+        run({"init", store_, "--trace", at("trips/0.trip.csv"), "--privacy", "crowd"}, 2).err,
+        HasSubstr("--trace does not go with --privacy crowd"));
+}
+
+TEST_F(Crowd, ComesOfOnesOwnCarsByTrimmingThem) {
+    make("own");
+    const auto before = exported_ways();
+    EXPECT_TRUE(before.contains(2));
+    EXPECT_THAT(run({"privacy", store_, "crowd"}).out, HasSubstr("6 trips trimmed"));
+    EXPECT_THAT(exported_ways(), IsEmpty());
+    EXPECT_THAT(run({"query", store_, "--way", "1", "--format", "csv"}).out,
+                Not(HasSubstr("\n1+")));
+    EXPECT_THAT(run({"query", store_, "--way", "6", "--format", "csv"}).out, HasSubstr("6+0003"));
+    EXPECT_THAT(run({"privacy", store_, "own"}, 1).err, HasSubstr("does not come back"));
+    EXPECT_THAT(run({"privacy", store_, "crowd"}, 1).err,
+                HasSubstr("is already a crowd "
+                          "database"));
+    run({"publish", store_});
+    EXPECT_THAT(exported_ways(), Not(IsEmpty()));
+}
+
+} // namespace
+} // namespace macadam::testing

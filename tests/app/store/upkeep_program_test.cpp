@@ -1,0 +1,193 @@
+// `macadam calibrate`, `reprocess`, `valid-from` and `forget` as users run them.
+
+#include "storage/networks/network_file.hpp"
+#include "storage/store/road_store.hpp"
+#include "support/program/program.hpp"
+#include "support/roads/store_world.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace macadam::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+class UpkeepProgram : public ::testing::Test {
+protected:
+    void SetUp() override {
+        store_ = (fresh_folder() / "roads.gpkg").string();
+        auto store = new_store(store_);
+        import_trips(store, 12);
+        cache_network(store, small_country());
+    }
+
+    macadam::testing::Run run(const std::string& command, std::vector<std::string> words) const {
+        words.insert(words.begin(), {command, store_});
+        return run_macadam(words);
+    }
+
+    std::string digest() const { return run("info", {"--digest"}).out; }
+
+    std::string store_;
+};
+
+TEST_F(UpkeepProgram, ForgetsATripAndSaysWhatItTookOut) {
+    const auto done = run("forget", {"--trip", "trip-2", "trip-5", "--json"});
+    EXPECT_EQ(done.exit_status, 0) << done.err;
+    const auto json = Json::parse(done.out);
+    EXPECT_EQ(json["trips"], 2);
+    EXPECT_EQ(json["passes"], 40);
+    EXPECT_EQ(json["segments"], 20);
+    EXPECT_EQ(json["calibrated_anew"], false);
+    EXPECT_EQ(json["log_is_clean"], true);
+    EXPECT_EQ(run("forget", {"--vehicle", "car-1"}).out,
+              "4 trips forgotten: 80 passes over 20 segments\n");
+}
+
+TEST_F(UpkeepProgram, RefusesToForgetNobodyOrWhomItDoesNotKnow) {
+    const auto nobody = run("forget", {});
+    EXPECT_EQ(nobody.exit_status, 2);
+    EXPECT_THAT(nobody.err, HasSubstr("expected --trip or --vehicle: what to delete"));
+    const auto stranger = run("forget", {"--trip", "trip-99"});
+    EXPECT_EQ(stranger.exit_status, 1);
+    EXPECT_THAT(stranger.err, HasSubstr("roads.gpkg: has no trip 'trip-99', expected a trip_id"));
+}
+
+TEST_F(UpkeepProgram, SetsListsAndTakesBackADayFromWhichOnPassesCount) {
+    const auto before = digest();
+    const auto set = run("valid-from", {"--from", "2026-05-01", "--way", "1", "--reason", "new"});
+    EXPECT_EQ(set.exit_status, 0) << set.err;
+    EXPECT_THAT(set.err, HasSubstr("20 segments: only passes from 2026-05-01T00:00:00Z on count"));
+    EXPECT_NE(digest(), before);
+    EXPECT_THAT(run("valid-from", {}).out, StartsWith("1+0000                   2026-05-01T00:"));
+    const auto list = Json::parse(run("valid-from", {"--json"}).out);
+    ASSERT_THAT(list, SizeIs(20));
+    EXPECT_EQ(list[0]["segment"], "1+0000");
+    EXPECT_EQ(list[0]["valid_from"], "2026-05-01T00:00:00Z");
+
+    EXPECT_EQ(run("valid-from", {"--any-day", "--way", "1"}).exit_status, 0);
+    EXPECT_EQ(digest(), before);
+    EXPECT_EQ(run("valid-from", {}).out, "no segment has a start date: all passes count\n");
+}
+
+TEST_F(UpkeepProgram, RefusesADayThatIsNoneAndARoadThatIsNone) {
+    const auto words_of = [&](std::vector<std::string> words, int status) {
+        const auto done = run("valid-from", std::move(words));
+        EXPECT_EQ(done.exit_status, status);
+        return done.err;
+    };
+    EXPECT_THAT(words_of({"--from", "tomorrow", "--way", "1"}, 2),
+                HasSubstr("--from is 'tomorrow', expected a time such as 2026-03"));
+    EXPECT_THAT(words_of({"--from", "2026-05-01"}, 2),
+                HasSubstr("expected a selection of roads: --segment, --way, --name, --highway "
+                          "or --bbox"));
+    EXPECT_THAT(words_of({"--from", "2026-05-01", "--any-day", "--way", "1"}, 2),
+                HasSubstr("--from and --any-day cannot be combined"));
+    EXPECT_THAT(words_of({"--from", "2026-05-01", "--way", "77"}, 1),
+                HasSubstr("roads.gpkg: has no segment that meets these conditions"));
+}
+
+TEST_F(UpkeepProgram, CalibratesTheCarsAndTellsThem) {
+    const auto before = digest();
+    const auto asked = run("calibrate", {"--dry-run", "--json"});
+    EXPECT_EQ(asked.exit_status, 0) << asked.err;
+    EXPECT_EQ(Json::parse(asked.out)["generation"], 1);
+    EXPECT_EQ(digest(), before);
+
+    const auto done = run("calibrate", {"--json"});
+    const auto json = Json::parse(done.out);
+    EXPECT_EQ(json["generation"], 2);
+    ASSERT_THAT(json["cars"], SizeIs(3));
+    EXPECT_EQ(json["cars"][0]["trips"], 4);
+    EXPECT_GT(json["cars"][0]["gain"], 0.5);
+    EXPECT_NE(digest(), before);
+
+    const auto info = Json::parse(run("info", {"--json"}).out);
+    EXPECT_EQ(info["generation"], 2);
+    EXPECT_TRUE(info["cars"][0]["gain"].is_number());
+    EXPECT_THAT(run("info", {}).out, HasSubstr(" IRI "));
+}
+
+TEST_F(UpkeepProgram, LeavesAStoreAsItWasWhereNoCarCanBeCalibrated) {
+    run("forget", {"--vehicle", "car-1", "car-2"});
+    const auto before = digest();
+    const auto done = run("calibrate", {});
+    EXPECT_EQ(done.exit_status, 1);
+    EXPECT_THAT(done.err, HasSubstr("no car could be calibrated: each needs 50 segments"));
+    EXPECT_THAT(done.err, HasSubstr("the store is as it was"));
+    EXPECT_THAT(done.out, ::testing::Not(HasSubstr("cars differ by")));
+    EXPECT_EQ(digest(), before);
+    EXPECT_EQ(Json::parse(run("info", {"--json"}).out)["generation"], 1);
+}
+
+TEST_F(UpkeepProgram, TellsWhatWasDoneAndWhatItDidToANumber) {
+    run("valid-from", {"--from", "2026-05", "--segment", "1+0003", "--reason", "resurfaced"});
+    EXPECT_THAT(run("info", {"--audit"}).out,
+                HasSubstr("1  valid-from: 1 segments from 2026-05-01T00:00:00.000Z: resurfaced"));
+    const auto audit = Json::parse(run("info", {"--audit", "--json"}).out);
+    ASSERT_THAT(audit, SizeIs(2));
+    EXPECT_EQ(audit[0]["what"], "import");
+    EXPECT_EQ(audit[0]["segments"], 20);
+
+    const auto changes = run("query", {"--segment", "1+0003", "--changes", "--json"});
+    const auto json = Json::parse(changes.out);
+    ASSERT_THAT(json, SizeIs(2));
+    EXPECT_EQ(json[0]["passes"], 12);
+    EXPECT_LT(json[1]["passes"], 12);
+    EXPECT_EQ(json[1]["detail"], "1 segments from 2026-05-01T00:00:00.000Z: resurfaced");
+    EXPECT_THAT(run("query", {"--segment", "1+0003", "--changes", "--format", "csv"}).out,
+                StartsWith("at,generation,iri,iri_sd,passes,what,detail\n20"));
+    const auto misuse = run("query", {"--way", "1", "--changes"});
+    EXPECT_EQ(misuse.exit_status, 2);
+    EXPECT_THAT(misuse.err, HasSubstr("--changes goes with --segment KEY alone"));
+}
+
+TEST_F(UpkeepProgram, ReprocessesNothingOfTripsThatAreNotThere) {
+    const auto before = digest();
+    const auto log = std::string{MACADAM_SOURCE_DIR} + "/sample_data/gyor/gyor_q3_00.trip.csv";
+    const auto done = run("reprocess", {log});
+    EXPECT_EQ(done.exit_status, 1);
+    EXPECT_THAT(done.out, HasSubstr("is not in the database: import it with 'macadam import'"));
+    EXPECT_THAT(done.err,
+                HasSubstr("no trip of 1 trip was reprocessed: the database is unchanged"));
+    EXPECT_EQ(digest(), before);
+}
+
+TEST(Maintenance, OfARecordedTripForgetsTakesBackAndReprocesses) {
+    const auto folder = fresh_folder();
+    const auto log = std::string{MACADAM_SOURCE_DIR} + "/sample_data/gyor/gyor_q3_00.trip.csv";
+    const auto store_by = [&](const std::string& name, const std::string& method) {
+        const auto store = (folder / name).string();
+        EXPECT_EQ(run_macadam({"init", store, "--trace", log}).exit_status, 0);
+        EXPECT_EQ(run_macadam({"import", store, log, "--method", method}).exit_status, 0);
+        return store;
+    };
+    const auto digest_of = [](const std::string& store) {
+        return run_macadam({"info", store, "--digest"}).out;
+    };
+    const auto store = store_by("a.gpkg", "kf");
+    const auto by_kf = digest_of(store);
+    EXPECT_EQ(run_macadam({"forget", store, "--trip", "gyor_q3_00.trip.csv"}).exit_status, 0);
+    EXPECT_NE(digest_of(store), by_kf);
+    const auto known = run_macadam({"import", store, log, "--method", "kf"});
+    EXPECT_EQ(known.exit_status, 0);
+    EXPECT_THAT(known.out, HasSubstr("was forgotten on request and stays out"));
+    const auto back = run_macadam({"import", store, log, "--method", "kf", "--take-back"});
+    EXPECT_THAT(back.out, StartsWith("imported"));
+    EXPECT_EQ(digest_of(store), by_kf);
+
+    const auto anew = run_macadam({"reprocess", store, log, "--method", "smoother"});
+    EXPECT_EQ(anew.exit_status, 0) << anew.err;
+    EXPECT_THAT(anew.out, StartsWith("reprocessed"));
+    EXPECT_THAT(anew.err, HasSubstr("generation 2: 1 trip reprocessed, 0 unchanged"));
+    EXPECT_EQ(digest_of(store), digest_of(store_by("b.gpkg", "smoother")));
+}
+
+} // namespace
+} // namespace macadam::testing

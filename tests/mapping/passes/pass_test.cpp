@@ -1,0 +1,207 @@
+#include "estimator/roughness/roughness_mean.hpp"
+#include "mapping/passes/pass.hpp"
+
+#include "support/roads/road_art.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+
+namespace macadam {
+namespace {
+
+using ::testing::Each;
+using ::testing::Field;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const Vehicle& car() {
+    return *built_in_vehicle("golden-car");
+}
+
+/// A hundred metres of road, 5 segments each way.
+testing::RoadArt straight() {
+    return testing::road_art("A---------B", 10, {"AB"});
+}
+
+IriRun empty_run() {
+    IriRun run{};
+    run.cell_m = 0.25;
+    return run;
+}
+
+IriTrace trace_of(IriRun run) {
+    IriTrace trace;
+    trace.runs.push_back(std::move(run));
+    return trace;
+}
+
+/// Roughness along travel [0, length_m), with nothing lost to a lead-in.
+IriTrace trace_of(double length_m,
+                  const std::function<float(double travel_m)>& left,
+                  const std::function<float(double travel_m)>& right) {
+    auto run = empty_run();
+    for (double at_m = 0.125; at_m < length_m; at_m += run.cell_m) {
+        run.left_mm_per_m.push_back(left(at_m));
+        run.right_mm_per_m.push_back(right(at_m));
+        run.centre_mm_per_m.push_back(0.9F * (left(at_m) + right(at_m)) / 2);
+        run.speed_mps.push_back(15);
+    }
+    return trace_of(std::move(run));
+}
+
+IriTrace even_trace(double length_m, float iri) {
+    const auto even = [iri](double) { return iri; };
+    return trace_of(length_m, even, even);
+}
+
+/// Driven at 10 m/s.
+MatchedInterval piece(EdgeId edge,
+                      double from_travel_m,
+                      double from_offset_m,
+                      double length_m,
+                      double confidence = 1) {
+    return {IntervalKind::road,
+            edge,
+            from_travel_m,
+            from_travel_m + length_m,
+            from_offset_m,
+            from_offset_m + length_m,
+            from_travel_m / 10,
+            (from_travel_m + length_m) / 10,
+            confidence,
+            ""};
+}
+
+MatchedInterval silence(double from_travel_m, double length_m) {
+    auto gap = piece(EdgeId{0}, from_travel_m, 0, length_m, 0);
+    gap.kind = IntervalKind::gap;
+    return gap;
+}
+
+constexpr auto there = EdgeId{0};
+constexpr auto back = EdgeId{1};
+
+TEST(Passes, PutTheRoughnessOfTheTripIntoTheSegmentsItDrove) {
+    const auto art = straight();
+    // Each 20 m rougher than the last: 1, 2, ... mm/m; the right track always 1 more.
+    const auto step = [](double at_m) {
+        return static_cast<float>(1 + std::floor((at_m - 50) / 20));
+    };
+    const auto trace = trace_of(150, step, [&](double at_m) { return step(at_m) + 1; });
+    const auto length = length_m(art.roads, there);
+    const auto passes = extract_passes(trace, {piece(there, 50, 0, length)}, art.roads, car(), {});
+    ASSERT_THAT(passes, SizeIs(5));
+    for (int i = 0; i < 5; ++i) {
+        const auto& pass = passes[static_cast<std::size_t>(i)];
+        EXPECT_EQ(pass.segment, (SegmentKey{1, true, static_cast<std::uint32_t>(i)}));
+        // The road is a few mm off 100 m, and cells of 0.25 m fall to one side of a border.
+        EXPECT_NEAR(*pass.iri_left_um, 1000 * (1 + i), 20);
+        EXPECT_NEAR(*pass.iri_right_um, 1000 * (2 + i), 20);
+        EXPECT_NEAR(pass.iri_um, 1000 * (1.5 + i), 20);
+        EXPECT_NEAR(static_cast<double>(pass.t_ms), 1000 * (6 + 2 * i), 10);
+        EXPECT_NEAR(pass.covered_mm, 20000, 300);
+        EXPECT_EQ(pass.speed_mmps, 15000);
+        EXPECT_EQ(pass.confidence_ppm, 1'000'000);
+        EXPECT_FALSE(pass.centre_only);
+    }
+}
+
+TEST(Passes, OfTheOtherDirectionCountDown) {
+    const auto art = straight();
+    const auto passes = extract_passes(
+        even_trace(100, 2), {piece(back, 0, 0, length_m(art.roads, back))}, art.roads, car(), {});
+    ASSERT_THAT(passes, SizeIs(5));
+    EXPECT_EQ(passes.front().segment, (SegmentKey{1, false, 4}));
+    EXPECT_EQ(passes.back().segment, (SegmentKey{1, false, 0}));
+}
+
+TEST(Passes, OfPiecesOfOnePassageAddUp) {
+    const auto art = straight();
+    const auto trace = trace_of(
+        40,
+        [](double at_m) { return at_m < 25 ? 1.F : 3.F; },
+        [](double at_m) { return at_m < 25 ? 1.F : 3.F; });
+    const auto whole = extract_passes(trace, {piece(there, 0, 0, 40)}, art.roads, car(), {});
+    const auto pieces = extract_passes(
+        trace, {piece(there, 0, 0, 25), piece(there, 25, 25, 15)}, art.roads, car(), {});
+    ASSERT_THAT(pieces, SizeIs(2));
+    EXPECT_EQ(pieces[1].iri_um, whole[1].iri_um);
+    EXPECT_NEAR(pieces[1].iri_um, 2500, 30); // 5 m of 1 and 15 m of 3; a cell on either side
+}
+
+TEST(Passes, GoOnAfterAShortSilence) {
+    const auto art = straight();
+    const auto passes =
+        extract_passes(even_trace(40, 2),
+                       {piece(there, 0, 0, 28), silence(28, 4), piece(there, 32, 32, 8)},
+                       art.roads,
+                       car(),
+                       {});
+    ASSERT_THAT(passes, SizeIs(2));
+    EXPECT_NEAR(passes[1].covered_mm, 16000, 300);
+}
+
+TEST(Passes, CountEachReturn) {
+    const auto art = straight();
+    const double length = length_m(art.roads, there);
+    const auto passes = extract_passes(even_trace(400, 2),
+                                       {piece(there, 0, 0, length),
+                                        piece(back, length, 0, length),
+                                        piece(there, 2 * length, 0, length)},
+                                       art.roads,
+                                       car(),
+                                       {});
+    ASSERT_THAT(passes, SizeIs(15));
+    EXPECT_EQ(passes[2].occurrence, 0U);
+    EXPECT_EQ(passes[7].occurrence, 0U); // the other direction is another segment
+    EXPECT_EQ(passes[12].occurrence, 1U);
+    EXPECT_EQ(passes[12].segment, passes[2].segment);
+}
+
+TEST(Passes, AreLeftOutWhereLessThanHalfOfTheSegmentIsCovered) {
+    const auto art = straight();
+    EXPECT_THAT(extract_passes(even_trace(100, 2), {piece(there, 0, 0, 29)}, art.roads, car(), {}),
+                SizeIs(1));
+    EXPECT_THAT(extract_passes(even_trace(100, 2), {piece(there, 0, 0, 31)}, art.roads, car(), {}),
+                SizeIs(2));
+}
+
+TEST(Passes, AreLeftOutWhereTheMatchIsInDoubt) {
+    const auto art = straight();
+    EXPECT_THAT(
+        extract_passes(even_trace(100, 2), {piece(there, 0, 0, 100, 0.19)}, art.roads, car(), {}),
+        IsEmpty());
+    EXPECT_THAT(
+        extract_passes(even_trace(100, 2), {piece(there, 0, 0, 100, 0.21)}, art.roads, car(), {}),
+        SizeIs(5));
+}
+
+TEST(Passes, AreLeftOutWhereNothingWasReadOfTheRoad) {
+    const auto art = straight();
+    EXPECT_THAT(extract_passes({}, {piece(there, 0, 0, 100)}, art.roads, car(), {}), IsEmpty());
+    EXPECT_THAT(extract_passes(even_trace(100, 2), {silence(0, 100)}, art.roads, car(), {}),
+                IsEmpty());
+}
+
+TEST(Passes, SayWhatTheCentreAloneTellsOfBothTracks) {
+    const auto art = straight();
+    auto run = empty_run();
+    run.centre_mm_per_m.assign(400, 1.82F);
+    run.speed_mps.assign(400, 15);
+    const auto trace = trace_of(std::move(run));
+    const auto passes = extract_passes(trace, {piece(there, 0, 0, 99)}, art.roads, car(), {});
+    ASSERT_THAT(passes, SizeIs(5));
+    EXPECT_THAT(passes, Each(Field(&Pass::centre_only, true)));
+    EXPECT_THAT(passes, Each(Field(&Pass::iri_left_um, std::nullopt)));
+    EXPECT_EQ(passes[0].iri_centre_um, 1820);
+    EXPECT_EQ(passes[0].iri_um, 2000); // 1.82 / 0.91
+    EXPECT_TRUE(passes[0].validity & validity::indicative);
+    const auto mean = mean_over(trace, 0, passes[0].covered_mm / 1000.0, car());
+    const double relative = std::hypot(mean.sd_mm_per_m / 1.82, 0.055 / 0.91);
+    EXPECT_NEAR(passes[0].sd_um, 2000 * relative, 1);
+}
+
+} // namespace
+} // namespace macadam

@@ -1,0 +1,338 @@
+#include "render/report/report.hpp"
+
+#include "render/report/document/html.hpp"
+#include "render/report/figures.hpp"
+#include "support/program/html_text.hpp"
+#include "support/roads/sample_report.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using testing::between;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using testing::fhwa;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::nothing_measured;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+using testing::stretch_named;
+using testing::town;
+
+/// Whether every element that is opened is closed in order; what is wrong first, or nothing. Knows
+/// the elements without content that a report uses.
+std::string flaw_in(const std::string& html) {
+    constexpr std::array<std::string_view, 5> empty{"meta", "img", "br", "wbr", "!DOCTYPE"};
+    std::vector<std::string> open;
+    for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
+        const auto end = html.find('>', at);
+        if (end == std::string::npos) {
+            return "a tag that does not end";
+        }
+        const auto tag = html.substr(at + 1, end - at - 1);
+        const auto name = tag.substr(0, tag.find_first_of(" /\n", tag.front() == '/' ? 1 : 0));
+        if (std::ranges::count(tag, '"') % 2 != 0) {
+            return "odd quotes in <" + tag + ">";
+        }
+        if (name.front() == '/') {
+            if (open.empty() || open.back() != name.substr(1)) {
+                return "<" + name + "> closes " + (open.empty() ? "nothing" : open.back());
+            }
+            open.pop_back();
+        } else if (tag.back() != '/' && std::ranges::find(empty, name) == empty.end()) {
+            open.push_back(name);
+        }
+        if (name == "style") {
+            at = html.find("</style>", end) - 1;
+        }
+    }
+    return open.empty() ? "" : "<" + open.back() + "> stays open";
+}
+
+TEST(Report, ClosesEveryElementThatItOpens) {
+    EXPECT_EQ(flaw_in(report_html(town())), "");
+    EXPECT_EQ(flaw_in(report_html(nothing_measured())), "");
+}
+
+TEST(Report, SaysTheNumbersItWasGiven) {
+    const auto html = report_html(town());
+    EXPECT_THAT(html, HasSubstr("<b>8.00 km</b>"));
+    EXPECT_THAT(html, HasSubstr("40.0 % of the network of 20.0 km"));
+    EXPECT_THAT(html, HasSubstr("<b>2.50 mm/m</b>"));
+    EXPECT_THAT(html, HasSubstr("2.10 – 2.90</span>; 158 in/mi")); // 2.5 * 63.36
+    EXPECT_THAT(html, HasSubstr("<b>62.5 %</b>"));                 // 5 of 8 km
+    EXPECT_THAT(html, HasSubstr(">Living street</th>"));
+    EXPECT_THAT(html, HasSubstr("12\u202F345 passes over segments"));
+    EXPECT_THAT(html, HasSubstr("Way 123456 from 100 to 240 m<br>"));
+    EXPECT_THAT(html, HasSubstr("Residential road without a name"));
+    EXPECT_THAT(html, HasSubstr(">2026-03-01 to 2026-04-02</span>."));
+}
+
+TEST(Report, HasATableRowForEachStretchThatLeadsToItsMap) {
+    const auto html = report_html(town());
+    for (const auto* id : {"stretch-1", "stretch-2"}) {
+        EXPECT_THAT(html, HasSubstr(fmt::format("href=\"#{}\"", id)));
+        EXPECT_THAT(html, HasSubstr(fmt::format("id=\"{}\"", id)));
+    }
+}
+
+TEST(Report, AsksForNothingFromOutside) {
+    const auto html = report_html(town());
+    EXPECT_THAT(html, Not(HasSubstr("://")));
+    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(html, Not(HasSubstr("<link")));
+    EXPECT_THAT(html, Not(HasSubstr("@import")));
+    EXPECT_THAT(html, Not(HasSubstr("url(")));
+    for (const auto& address : between(html, " src=\"", "\"")) {
+        EXPECT_THAT(address, StartsWith("data:image/png;base64,"));
+    }
+    for (const auto& address : between(html, " href=\"", "\"")) {
+        EXPECT_THAT(address, StartsWith("#stretch-"));
+    }
+}
+
+TEST(Report, TakesNoNameForMarkup) {
+    const std::string hostile = "\"><script>alert('x')</script>&amp;\x01\xff";
+    auto report = town();
+    report.title = report.network_source = report.attribution = hostile;
+    report.period = {hostile, hostile};
+    report.worst = {stretch_named(hostile)};
+    report.worst[0].heading = hostile;
+    report.worst[0].seen = {hostile, hostile};
+    report.vehicles[0].name = report.vehicles[0].model = report.vehicles[0].method = hostile;
+    report.summary.kinds[0].kind = hostile;
+    const auto html = report_html(report);
+    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(html, Not(HasSubstr("\xff")));
+    EXPECT_THAT(html, HasSubstr("&quot;&gt;&lt;script&gt;alert(&#39;x&#39;)"));
+    EXPECT_EQ(flaw_in(html), "");
+}
+
+TEST(Report, DescribesEveryPictureAndNamesEveryTable) {
+    const auto html = report_html(town());
+    for (const auto& image : between(html, "<img ", ">")) {
+        EXPECT_THAT(between(image, " alt=\"Map of ", "\""), SizeIs(1));
+    }
+    const auto tables = between(html, "<table", "</table>");
+    EXPECT_THAT(tables, SizeIs(8));
+    for (const auto& table : tables) {
+        EXPECT_THAT(table, HasSubstr(">\n<caption>"));
+        EXPECT_THAT(between(table, "<th scope=\"", "\""),
+                    SizeIs(between(table, "<th ", ">").size()));
+        EXPECT_THAT(table, Not(HasSubstr("<th>")));
+    }
+    for (const auto& figure : between(html, "<svg ", ">")) {
+        EXPECT_THAT(figure, AnyOf(HasSubstr("role=\"img\""), HasSubstr("aria-hidden=\"true\"")));
+    }
+}
+
+TEST(Report, OfNothingMeasuredSaysSo) {
+    const auto html = report_html(nothing_measured());
+    EXPECT_THAT(html, HasSubstr("No measurements yet."));
+    EXPECT_THAT(html, HasSubstr("No trips imported yet."));
+    EXPECT_THAT(html, HasSubstr("0 % of the network of 20.0 km"));
+    EXPECT_THAT(html, Not(HasSubstr("Mean IRI")));
+    EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(Report, BreaksNoNameButOneThatIsLongerThanAColumn) {
+    auto report = town();
+    report.worst = {stretch_named(std::string(50, 'X')), stretch_named("Rue de la République")};
+    const auto html = report_html(report);
+    const std::string part(24, 'X');
+    EXPECT_THAT(html, HasSubstr("<td>" + part + "<wbr>" + part + "<wbr>XX</td>"));
+    EXPECT_THAT(html, HasSubstr("<td>Rue de la République</td>"));
+    EXPECT_EQ(flaw_in(html), "");
+}
+
+TEST(Report, HasAScaleThatGrowsWithItsMap) {
+    // The longest round length within 30 % of 4 km is 1 km, a quarter of the width.
+    EXPECT_THAT(report_html(town()),
+                HasSubstr("<span style=\"width:25.00%\"></span>1 km, north up"));
+}
+
+TEST(Report, LetsOnlyLongTablesGoOverAPage) {
+    auto report = town();
+    EXPECT_THAT(report_html(report), Not(HasSubstr("\"wide long\"")));
+    report.vehicles.assign(20, report.vehicles[0]);
+    EXPECT_THAT(between(report_html(report), "<div class=\"", "\" role"), Contains("wide long"));
+}
+
+TEST(Report, SaysOnTheMapsOfStretchesWhatItsTableLeavesOutOnPhones) {
+    const auto html = report_html(town());
+    EXPECT_THAT(between(html, "<th scope=\"col\" class=\"n else\">", "</th>"),
+                ElementsAre("in/mi", "90\u00A0% interval", "Worst segment", "Passes", "Cars"));
+    EXPECT_THAT(html,
+                HasSubstr("(3.74 – 5.38) over 140 m<span class=\"phone\">, at worst 7.89<br>2 – 5 "
+                          "passes by 3 cars</span>"));
+}
+
+TEST(Report, NamesEachValueOfACarWherePhonesHaveNoRoomForItsTitles) {
+    EXPECT_THAT(report_html(town()),
+                AllOf(HasSubstr("<td data-t=\"Model used\">built-in suv</td>"),
+                      HasSubstr("<td class=\"n\" data-t=\"Trips\">12</td>")));
+}
+
+TEST(Report, SetsOffTheSumsOfItsTables) {
+    const auto sums = between(report_html(town()), "<tr class=\"all\"><th scope=\"row\">", "<");
+    EXPECT_THAT(sums,
+                SizeIs(5)); // kinds of road twice, coverage, basis, reasons; of one car none
+    EXPECT_THAT(sums, Each(std::string{"All"}));
+}
+
+TEST(Report, DescribesTheMethodsThatWereUsedAndNoOthers) {
+    auto report = town();
+    EXPECT_THAT(report_html(report),
+                AllOf(HasSubstr("(kf) with a model"), Not(HasSubstr("(smoother)"))));
+    report.vehicles[0].method = "smoother";
+    EXPECT_THAT(report_html(report),
+                AllOf(HasSubstr("the method (smoother) finds"), Not(HasSubstr("(kf)"))));
+}
+
+TEST(Report, SaysWhatItsValuesRestOn) {
+    const auto html = report_html(town());
+    EXPECT_THAT(html, HasSubstr("Both wheel tracks: MRI observed</th><td class=\"n\">100</td>"));
+    EXPECT_THAT(html,
+                HasSubstr("Centre of the car: MRI estimated from HRI</th><td "
+                          "class=\"n\">290</td><td class=\"n\">5.80</td><td class=\"n\">72.5 "
+                          "%</td>"));
+    EXPECT_THAT(html, HasSubstr("MRI = HRI / 0.91"));
+    EXPECT_THAT(html, HasSubstr("37 passes are from lateral vibration alone"));
+}
+
+TEST(Report, SaysWhyRowsEnteredNoEstimateTheMostFrequentReasonFirst) {
+    const auto html = report_html(town());
+    const auto frequent = html.find("Repeated fix</th><td class=\"n\">70</td>");
+    const auto rare = html.find("Too slow</th><td class=\"n\">20</td><td class=\"n\">2.0 %</td>");
+    ASSERT_NE(frequent, std::string::npos);
+    ASSERT_NE(rare, std::string::npos);
+    EXPECT_LT(frequent, rare);
+    EXPECT_THAT(html, HasSubstr("Not recorded by an earlier version</th><td class=\"n\">10</td>"));
+}
+
+TEST(Report, OfGoodRoadsHasNoWorstStretch) {
+    auto report = town();
+    report.worst.clear();
+    report.stretches = 0;
+    EXPECT_THAT(report_html(report),
+                HasSubstr("No section of 100 m or more has a mean IRI above 2.68 mm/m."));
+}
+
+TEST(Report, AddsUpTheCarsThatItDoesNotList) {
+    auto report = town();
+    report.vehicles.assign(100, report.vehicles[0]);
+    for (std::size_t i = 0; i < report.vehicles.size(); ++i) {
+        report.vehicles[i].name = fmt::format("{}", i / 2 + 1); // each car with two methods
+    }
+    const auto html = report_html(report);
+    EXPECT_THAT(html, HasSubstr("<b>50 cars</b>"));
+    EXPECT_THAT(html, HasSubstr(">70 more rows</th>"));
+    EXPECT_THAT(html, HasSubstr("1200 trips"));
+}
+
+TEST(Html, EscapesWhatMarkupIsMadeOf) {
+    EXPECT_EQ(escaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
+    EXPECT_EQ(escaped("Épée 漢字 😀"), "Épée 漢字 😀");
+    EXPECT_EQ(escaped("a\nb\x7f"), "a b ");
+}
+
+TEST(Html, ReplacesWhatIsNoUtf8) {
+    const std::string sign = "\xEF\xBF\xBD";
+    EXPECT_EQ(escaped("a\xC0\xAF"), "a" + sign + sign);                // '/' in two bytes
+    EXPECT_EQ(escaped("\xED\xA0\x80"), sign + sign + sign);            // half of a surrogate pair
+    EXPECT_EQ(escaped("\xF4\x90\x80\x80"), sign + sign + sign + sign); // above U+10FFFF
+    EXPECT_EQ(escaped("\xE2\x82"), sign + sign);                       // cut off
+}
+
+TEST(Html, EncodesTheVectorsOfRfc4648) {
+    const auto encoded = [](std::string_view text) {
+        return base64({reinterpret_cast<const std::uint8_t*>(text.data()), // NOLINT(*-cast)
+                       text.size()});
+    };
+    EXPECT_EQ(encoded(""), "");
+    EXPECT_EQ(encoded("f"), "Zg==");
+    EXPECT_EQ(encoded("fo"), "Zm8=");
+    EXPECT_EQ(encoded("foo"), "Zm9v");
+    EXPECT_EQ(encoded("foob"), "Zm9vYg==");
+    EXPECT_EQ(encoded("fooba"), "Zm9vYmE=");
+    EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+TEST(ReportNumbers, HaveTheDecimalsThatFit) {
+    const Localisation say;
+    EXPECT_EQ(say.km(1234, 9999), "1.23");
+    EXPECT_EQ(say.km(1234, 50000), "1.2");
+    EXPECT_EQ(say.km(1234567, 2e6), "1235");
+    EXPECT_EQ(say.count(9999), "9999");
+    EXPECT_EQ(say.count(1234567), "1\u202F234\u202F567");
+    EXPECT_EQ(say.percent(0, 5), "0 %");
+    EXPECT_EQ(say.percent(1, 2000), "< 0.1 %");
+    EXPECT_EQ(say.percent(1, 3), "33.3 %");
+    EXPECT_EQ(say.percent(0, 0), "–");
+    EXPECT_EQ(say.iri_change(-0.516), "\u22120.52");
+    EXPECT_EQ(say.iri_change(0.004), "±0.00"); // no sign of what rounds to nothing
+}
+
+TEST(ReportNumbers, SayTheBordersOfTheClassesInBothUnits) {
+    const Localisation metric{.unit = IriUnit::mm_per_m};
+    const Localisation inches{.unit = IriUnit::in_per_mi};
+    EXPECT_EQ(inches.range(fhwa, 0), "below 95");
+    EXPECT_EQ(metric.range(fhwa, 1), "1.50 – 2.68");
+    EXPECT_EQ(inches.range(fhwa, 2), "above 170");
+    EXPECT_EQ(metric.range(*class_table("five"), 0), "up to 1.50");
+}
+
+TEST(ReportNumbers, AreWrittenAsTheLanguageDoes) {
+    const Localisation german{.language = language("de")};
+    EXPECT_EQ(german.number(1234.5, 1), "1234,5");
+    EXPECT_EQ(german.percent(1, 3), "33,3 %");
+    EXPECT_EQ(german.day("2026-03-01"), "01.03.2026");
+    EXPECT_EQ(german.period("2026-03-01", "2026-04-02"), "01.03.2026 bis 02.04.2026");
+    EXPECT_EQ(german.counted("cars", 1), "1 Fahrzeug");
+    EXPECT_EQ(german.counted("cars", 12), "12 Fahrzeuge");
+}
+
+/// The attribute's values of all bars, in their order.
+std::vector<double> bars(const std::string& svg, const std::string& attribute) {
+    std::vector<double> values;
+    for (const auto& bar : between(svg, "<rect class=\"bar\"", "/>")) {
+        values.push_back(std::stod(between(bar, " " + attribute + "=\"", "\"").at(0)));
+    }
+    return values;
+}
+
+TEST(Histogram, DrawsBarsAsHighAsTheRoadIsLong) {
+    const auto html = report_html(town());
+    const auto svg = between(html, "<svg class=\"histogram\"", "</svg>").at(0);
+    const auto heights = bars(svg, "height");
+    ASSERT_EQ(heights.size(), 4U); // 1000, 2000 with 500 on top, 4500 m
+    EXPECT_NEAR(heights[1] / heights[0], 2, 0.01);
+    EXPECT_NEAR(heights[2] / heights[0], 0.5, 0.01);
+    EXPECT_NEAR(heights[3] / heights[0], 4.5, 0.01);
+    const auto y = bars(svg, "y");
+    EXPECT_NEAR(y[2] + heights[2], y[1], 0.02); // on top of the other
+}
+
+TEST(ShareBar, IsPartedAsTheRoadIs) {
+    const auto bar = share_bar(town(), town().summary.all);
+    ASSERT_THAT(bar.shares, SizeIs(3));
+    EXPECT_DOUBLE_EQ(bar.shares[1].percent, 25);
+    EXPECT_DOUBLE_EQ(bar.shares[2].percent, 62.5);
+    EXPECT_THAT(report_html(town()), HasSubstr("x=\"37.50\" width=\"62.50\""));
+    EXPECT_THAT(share_bar(town(), nothing_measured().summary.all).shares, IsEmpty());
+}
+
+} // namespace
+} // namespace macadam

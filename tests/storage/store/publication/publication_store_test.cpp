@@ -1,0 +1,242 @@
+#include "mapping/network/build_network.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/store_world.hpp"
+
+#include "storage/sqlite/sqlite.hpp"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::refusal_of;
+using testing::test_folder;
+
+constexpr std::int64_t january_ms = 1'767'225'600'000; // 2026-01-01
+constexpr std::int64_t day_ms = 86'400'000;
+constexpr std::int64_t february_ms = january_ms + 31 * day_ms;
+constexpr std::int64_t march_ms = february_ms + 28 * day_ms;
+
+/// Three roads in a row, of 200 m each; who drives them all is told of on the middle one.
+RoadNetwork three_roads() {
+    std::vector<Way> ways;
+    for (int way = 1; way <= 3; ++way) {
+        ways.push_back({.id = way,
+                        .name = "",
+                        .highway = "primary",
+                        .node_ids = {way, way + 1},
+                        .line = {{45.0, 5.0 + 0.00254 * (way - 1)}, {45.0, 5.0 + 0.00254 * way}}});
+    }
+    return build_network(std::move(ways));
+}
+
+struct Crowd {
+    std::filesystem::path file;
+    RoadStore store;
+
+    explicit Crowd(PrivacyProfile privacy = PrivacyProfile::crowd)
+        : file{test_folder() / "crowd.gpkg"}, store{RoadStore::create(file,
+                                                                      three_roads(),
+                                                                      {.network_source = "map",
+                                                                       .attribution = "",
+                                                                       .privacy = privacy})} {}
+
+    void drive(int car, std::int64_t utc_ms, IriUm iri_um = 2000) {
+        auto record = testing::trip_record(1000 + trips_++);
+        record.vehicle_id = "car " + std::to_string(car);
+        record.t0_utc_ms = utc_ms;
+        std::vector<Pass> passes;
+        for (std::int64_t way = 1; way <= 3; ++way) {
+            for (std::uint32_t index = 0; index < 10; ++index) {
+                auto pass = testing::passes_of(1).front();
+                pass.segment = {way, true, index};
+                pass.iri_left_um = pass.iri_right_um = std::nullopt;
+                pass.iri_um = iri_um;
+                pass.sd_um = 100;
+                pass.t_ms = 1000 * (10 * way + index);
+                passes.push_back(pass);
+            }
+        }
+        store.add_trip(record, passes);
+    }
+    void drive_all(int cars, std::int64_t utc_ms, IriUm iri_um = 2000) {
+        for (int car = 0; car < cars; ++car) {
+            drive(car, utc_ms, iri_um);
+        }
+        store.refresh();
+    }
+    Published publish(std::int64_t now_ms) { return store.publish(three_roads(), now_ms); }
+
+    std::vector<SegmentRecord> seen(const std::optional<Period>& period = {},
+                                    Reader reader = Reader::anyone) const {
+        SegmentFilter filter;
+        filter.period = period;
+        std::vector<SegmentRecord> records;
+        RoadStore::open(file, RoadStore::Access::read, {}, reader)
+            .visit(filter, [&](const SegmentRecord& record) {
+                if (record.state) {
+                    records.push_back(record);
+                }
+            });
+        return records;
+    }
+
+private:
+    int trips_ = 0;
+};
+
+TEST(Publication, ComesBeforeAnythingLeavesACrowd) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    EXPECT_THAT(crowd.seen(), IsEmpty());
+    crowd.publish(february_ms);
+    const auto seen = crowd.seen();
+    ASSERT_EQ(seen.size(), 10U); // the roads at the ends of all trips are left out
+    EXPECT_EQ(seen.front().segment.key.way_id, 2);
+    EXPECT_EQ(seen.front().state->vehicles, 5);
+    EXPECT_EQ(seen.front().state->first_seen_ms, january_ms);
+}
+
+TEST(Publication, ShowsTheOperatorMore) {
+    Crowd crowd;
+    crowd.drive_all(2, january_ms);
+    EXPECT_EQ(crowd.seen({}, Reader::operator_).size(), 30U);
+    std::filesystem::remove(key_file_of(crowd.file));
+    EXPECT_THAT(crowd.seen({}, Reader::operator_), IsEmpty());
+}
+
+TEST(Publication, HidesAllThatTellsOfCars) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    crowd.publish(february_ms);
+    const auto store = RoadStore::open(crowd.file, RoadStore::Access::read);
+    EXPECT_THAT(store.history({2, true, 3}), IsEmpty());
+    EXPECT_THAT(store.changes({2, true, 3}), IsEmpty());
+    EXPECT_THAT(store.vehicle_uses(), IsEmpty());
+    EXPECT_THAT(store.day_uses(), IsEmpty());
+    EXPECT_THAT(store.audit(), IsEmpty());
+    EXPECT_THAT(store.calibrated_cars(), IsEmpty());
+    const auto info = store.info();
+    EXPECT_THAT(info.vehicles, IsEmpty());
+    EXPECT_EQ(info.trips, 5U); // at least
+    EXPECT_EQ(info.segments_with_passes, 10U);
+    ASSERT_TRUE(info.publication);
+    EXPECT_EQ(info.publication->month, "2026-02");
+    EXPECT_EQ(info.publication->left_out, 20U);
+}
+
+TEST(Publication, IsMadeOnceAMonth) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    crowd.publish(february_ms);
+    EXPECT_THAT(refusal_of([&] { crowd.publish(march_ms - 1); }),
+                HasSubstr("was already published in 2026-02, and can be published once a "
+                          "month; the next publication is possible from 2026-03 on"));
+    crowd.publish(march_ms);
+    EXPECT_EQ(crowd.store.latest_publication()->number, 2);
+}
+
+TEST(Publication, StaysAsItIsWhateverComesIn) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    crowd.publish(february_ms);
+    const auto before = crowd.seen();
+    crowd.drive_all(6, february_ms, 5000);
+    ASSERT_EQ(crowd.seen().size(), before.size());
+    EXPECT_EQ(crowd.seen().front().state, before.front().state);
+}
+
+TEST(Publication, ChangesOnlyByFiveCarsAtOnce) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    crowd.publish(february_ms);
+    const auto before = crowd.seen();
+    crowd.drive_all(4, february_ms, 5000);
+    EXPECT_EQ(crowd.publish(march_ms).changed, 0U);
+    EXPECT_EQ(crowd.seen().front().state, before.front().state);
+}
+
+TEST(Publication, TellsMonthsOfFiveCarsAlone) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms, 2000);
+    crowd.drive_all(3, february_ms, 9000);
+    crowd.publish(march_ms);
+    const auto january = crowd.seen(Period{january_ms, february_ms});
+    ASSERT_EQ(january.size(), 10U);
+    EXPECT_EQ(january.front().state->iri_um, 2000);
+    EXPECT_THAT(crowd.seen(Period{february_ms, march_ms}), IsEmpty());
+    EXPECT_EQ(crowd.seen().front().state->iri_um, 2000); // nor does the whole tell of it
+}
+
+TEST(Publication, IsAskedForWholeMonths) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    crowd.publish(february_ms);
+    EXPECT_THAT(refusal_of([&] {
+                    crowd.seen(Period{january_ms + day_ms, std::nullopt});
+                }),
+                HasSubstr("told by whole months"));
+}
+
+TEST(Publication, KeepsItsFiguresWhenACarIsForgottenUntilOthersDrove) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    crowd.drive(7, january_ms, 9000);
+    crowd.store.refresh();
+    crowd.publish(february_ms);
+    const auto before = crowd.seen().front().state;
+    ForgetRequest request;
+    request.vehicles = {"car 7"};
+    crowd.store.forget(request);
+    crowd.publish(march_ms);
+    EXPECT_EQ(crowd.seen().front().state, before);
+    crowd.drive_all(6, march_ms, 2000);
+    crowd.publish(march_ms + 40 * day_ms);
+    EXPECT_EQ(crowd.seen().front().state->iri_um, 2000);
+}
+
+TEST(Publication, NeedsACrowdAndItsKey) {
+    Crowd own{PrivacyProfile::own};
+    EXPECT_THAT(refusal_of([&] { own.publish(february_ms); }), HasSubstr("privacy: own"));
+}
+
+// ------------------------------------------------------------------------------- own -> crowd
+
+TEST(BecomingACrowd, TakesTheEndsOfTripsOut) {
+    Crowd crowd{PrivacyProfile::own};
+    crowd.drive_all(6, january_ms);
+    ASSERT_EQ(crowd.store.info().passes, 180U);
+    const auto made = crowd.store.make_crowd();
+    EXPECT_EQ(made.trips, 6U);
+    EXPECT_EQ(made.passes, 180U); // 600 m: all is within 300 m of an end
+    EXPECT_EQ(crowd.store.info().passes, 0U);
+    EXPECT_EQ(crowd.store.settings().privacy, PrivacyProfile::crowd);
+    EXPECT_THAT(crowd.seen({}, Reader::operator_), IsEmpty());
+    Database database{crowd.file, Database::Access::read};
+    EXPECT_EQ(database.number("SELECT count(*) FROM trip WHERE t0_utc_ms IS NOT NULL"), 0);
+    EXPECT_EQ(database.number("SELECT sum(distance_mm + matched_mm) FROM trip"), 0);
+    EXPECT_EQ(database.number("SELECT count(*) FROM state_change WHERE iri_um IS NOT NULL"), 0);
+}
+
+TEST(BecomingACrowd, IsForGood) {
+    Crowd crowd;
+    EXPECT_THAT(refusal_of([&] { crowd.store.make_crowd(); }),
+                HasSubstr("is already a crowd "
+                          "database"));
+}
+
+TEST(BecomingACrowd, KeepsOutWhatAnImportOfBeforeBrings) {
+    Crowd crowd{PrivacyProfile::own};
+    auto importer = RoadStore::open(crowd.file, RoadStore::Access::write);
+    crowd.store.make_crowd();
+    EXPECT_THAT(refusal_of([&] { importer.add_trip(testing::trip_record(1), {}); }),
+                HasSubstr("became a crowd's meanwhile"));
+}
+
+} // namespace
+} // namespace macadam

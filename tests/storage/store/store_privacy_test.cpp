@@ -1,0 +1,201 @@
+// Profile and key of a store: whose cars it holds, and under what names.
+
+#include "fleet_passes.hpp"
+#include "storage/store/road_store.hpp"
+#include "support/files/files.hpp"
+#include "support/roads/store_world.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream in{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+RoadStore opened(const fs::path& file) {
+    return RoadStore::open(file, RoadStore::Access::write);
+}
+
+TEST(PrivacyProfile, IsKeptAsItWasChosen) {
+    const auto folder = test_folder();
+    EXPECT_EQ(new_store(folder / "own.gpkg").settings().privacy, PrivacyProfile::own);
+    auto crowd = settings();
+    crowd.privacy = PrivacyProfile::crowd;
+    RoadStore::create(folder / "crowd.gpkg", small_country(), crowd);
+    EXPECT_EQ(RoadStore::open(folder / "crowd.gpkg", RoadStore::Access::read).settings().privacy,
+              PrivacyProfile::crowd);
+}
+
+TEST(StoreKey, IsMadeWithTheStoreAndMakesItsHolderTheOperator) {
+    const auto file = test_folder() / "a.gpkg";
+    {
+        const auto store = new_store(file);
+        EXPECT_TRUE(store.is_operator());
+        EXPECT_EQ(store.key()->hex(), read_key(key_file_of(file))->hex());
+        EXPECT_THAT(bytes_of(file), Not(HasSubstr(store.key()->hex())));
+    }
+    fs::rename(key_file_of(file), file.string() + ".away");
+    EXPECT_FALSE(RoadStore::open(file, RoadStore::Access::read).is_operator());
+}
+
+TEST(StoreKey, ThatLiesThereAlreadyIsTaken) {
+    const auto file = test_folder() / "a.gpkg";
+    new_store(file);
+    const auto key = bytes_of(key_file_of(file));
+    fs::remove(file);
+    EXPECT_TRUE(new_store(file).is_operator());
+    EXPECT_EQ(bytes_of(key_file_of(file)), key);
+}
+
+TEST(StoreKey, GoesAgainWithAStoreThatCouldNotBeMade) {
+    const auto folder = test_folder();
+    auto wrong = settings();
+    wrong.class_table = "seven";
+    EXPECT_THAT(refusal_of([&] { RoadStore::create(folder / "a.gpkg", small_country(), wrong); }),
+                HasSubstr("seven"));
+    EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(StoreKey, OfAnotherStoreIsRefusedWithWhatToDo) {
+    const auto folder = test_folder();
+    new_store(folder / "a.gpkg");
+    new_store(folder / "b.gpkg");
+    fs::copy_file(key_file_of(folder / "b.gpkg"),
+                  key_file_of(folder / "a.gpkg"),
+                  fs::copy_options::overwrite_existing);
+    for (const auto access : {RoadStore::Access::read, RoadStore::Access::write}) {
+        EXPECT_THAT(refusal_of([&] { RoadStore::open(folder / "a.gpkg", access); }),
+                    HasSubstr("a.gpkg.key: is the key of another database"));
+    }
+}
+
+TEST(StoreKey, ThatIsGoneIsMadeAnewAndOldCarsAreNotJoined) {
+    const auto file = test_folder() / "a.gpkg";
+    {
+        auto store = new_store(file);
+        import_trips(store, 3); // cars 0 to 2
+        EXPECT_FALSE(store.make_missing_key());
+    }
+    fs::remove(key_file_of(file));
+    auto store = opened(file);
+    EXPECT_FALSE(store.is_operator());
+    EXPECT_TRUE(store.make_missing_key());
+    EXPECT_TRUE(store.is_operator());
+    store.add_trip(trip_record(3), passes_of(3)); // car 0 again
+    EXPECT_THAT(store.cars(), SizeIs(4));
+    EXPECT_TRUE(opened(file).is_operator());
+}
+
+TEST(StoreKey, IsMissedOnlyWhereACarHasToBeNamed) {
+    const auto file = test_folder() / "a.gpkg";
+    new_store(file);
+    fs::remove(key_file_of(file));
+    auto store = opened(file);
+    auto nobody = trip_record(0);
+    nobody.vehicle_id = "";
+    store.add_trip(nobody, passes_of(0));
+    EXPECT_FALSE(store.is_operator());
+    store.add_trip(trip_record(1), passes_of(1));
+    EXPECT_TRUE(store.is_operator());
+    EXPECT_TRUE(fs::exists(key_file_of(file)));
+}
+
+TEST(Cars, AreNamedUnderTheKeyAndComeInTheOrderOfTheirFirstTripWhateverTheKey) {
+    const auto folder = test_folder();
+    std::set<std::string> names;
+    for (const auto* const name : {"a.gpkg", "b.gpkg", "c.gpkg"}) {
+        auto store = new_store(folder / name);
+        std::vector<int> order{0, 1, 2, 3, 4, 5, 6};
+        if (*name == 'b') {
+            std::ranges::reverse(order);
+        }
+        for (const int number : order) {
+            store.add_trip(trip_record(number), passes_of(number));
+        }
+        auto nobody = trip_record(7);
+        nobody.vehicle_id = "";
+        store.add_trip(nobody, passes_of(7));
+        const auto& key = *store.key();
+        EXPECT_THAT(
+            store.cars(),
+            ElementsAre(
+                key.pseudonym("car-0"), key.pseudonym("car-1"), key.pseudonym("car-2"), "unknown"));
+        EXPECT_EQ(store.info().vehicles, store.cars());
+        names.insert(store.cars().front());
+    }
+    EXPECT_EQ(names.size(), 3U);
+}
+
+TEST(Cars, OfAnyKeyGiveOneDigestAlsoWhenTheyAreCalibrated) {
+    const auto folder = test_folder();
+    std::set<std::string> digests;
+    for (int i = 0; i < 6; ++i) {
+        auto store = fleet_store(folder / (std::to_string(i) + ".gpkg"), 24);
+        EXPECT_THAT(store.calibrate(true).cars, SizeIs(3));
+        digests.insert(store.digest());
+    }
+    EXPECT_THAT(digests, SizeIs(1));
+}
+
+TEST(VehicleIds, StandNowhereInTheStoreNorBesideIt) {
+    const auto folder = test_folder();
+    const std::string id = "WVWZZZ1JZXW000001";
+    auto trip = trip_record(0);
+    trip.vehicle_id = id;
+    trip.trip_id = id + "-0001";
+    trip.file_name = "log of " + id + " (" + id + ").trip.csv";
+    {
+        auto store = new_store(folder / "a.gpkg");
+        store.add_trip(trip, passes_of(0));
+        store.refresh();
+        for (const auto& file : fs::directory_iterator{folder}) { // the log among them
+            EXPECT_THAT(bytes_of(file), Not(HasSubstr(id))) << file.path();
+        }
+    }
+    for (const auto& file : fs::directory_iterator{folder}) {
+        EXPECT_THAT(bytes_of(file), Not(HasSubstr(id))) << file.path();
+    }
+}
+
+TEST(Forget, FindsATripByANameWithTheIdOfItsCarForWhoHasTheKey) {
+    const auto folder = test_folder();
+    auto store = new_store(folder / "a.gpkg");
+    for (int number = 0; number < 6; ++number) {
+        auto trip = trip_record(number);
+        trip.trip_id = trip.vehicle_id + "-" + std::to_string(number / 3);
+        trip.file_name = trip.trip_id + ".trip.csv.gz";
+        store.add_trip(trip, passes_of(number));
+    }
+    EXPECT_EQ(store.forget({.trips = {"car-1-0"}, .vehicles = {}}).trips, 1U);
+    EXPECT_EQ(store.forget({.trips = {"car-2-1.trip.csv.gz"}, .vehicles = {}}).trips, 1U);
+    EXPECT_FALSE(store.contains_trip(trip_record(1).sha256));
+    EXPECT_FALSE(store.contains_trip(trip_record(5).sha256));
+    EXPECT_EQ(store.info().trips, 4U);
+    EXPECT_THAT(refusal_of([&] { store.forget({.trips = {"car-1-0"}, .vehicles = {}}); }),
+                HasSubstr("has no trip 'car-1-0'"));
+
+    fs::remove(key_file_of(store.file()));
+    auto other = opened(store.file());
+    EXPECT_THAT(refusal_of([&] { other.forget({.trips = {}, .vehicles = {"car-0"}}); }),
+                HasSubstr("the key of the store is not beside it"));
+    EXPECT_EQ(other.forget({.trips = {}, .vehicles = {other.cars().front()}}).trips, 2U);
+}
+
+} // namespace
+} // namespace macadam::testing

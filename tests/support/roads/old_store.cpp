@@ -1,0 +1,17 @@
+#include "old_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace macadam::testing {
+
+std::filesystem::path put_store_of_version_2(const std::filesystem::path& folder,
+                                             const std::string& name) {
+    const auto file = folder / name;
+    const std::string packed = MACADAM_SOURCE_DIR "/tests/data/stores/version-2.gpkg.gz";
+    EXPECT_EQ(std::system(("gzip -dc '" + packed + "' > '" + file.string() + "'").c_str()), 0);
+    return file;
+}
+
+} // namespace macadam::testing
