@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -47,8 +49,94 @@ void add_options(CLI::App& parser,
     }
 }
 
+/// Edits that turn one word into the other: a letter more, less or another, or two in exchange
+/// (optimal string alignment distance).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before_last;
+    std::vector<std::size_t> last(b.size() + 1);
+    std::iota(last.begin(), last.end(), 0U);
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::vector<std::size_t> row{i};
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t changed = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row.push_back(std::min({changed, last[j] + 1, row[j - 1] + 1}));
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                row[j] = std::min(row[j], before_last[j - 2] + 1);
+            }
+        }
+        before_last = std::exchange(last, std::move(row));
+    }
+    return last.back();
+}
+
+/// "; did you mean --vehicle?" if an option is spelled much like the word.
+std::string suggestion(std::span<const Option> options, std::string_view word) {
+    const std::size_t max_edits = word.size() > 6 ? 2 : 1;
+    std::size_t fewest = max_edits + 1;
+    std::string nearest;
+    for (const auto& option : options) {
+        auto name = long_name(option.name);
+        if (const auto edits = edit_distance(word, name); edits < fewest) {
+            fewest = edits;
+            nearest = std::move(name);
+        }
+    }
+    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
+/// The option with one value whose value stands right before a word; nullptr if none does.
+const Option* option_before(std::span<const Option> options,
+                            std::span<const std::string> words,
+                            std::size_t word) {
+    if (word < 2) {
+        return nullptr;
+    }
+    const auto found = std::ranges::find_if(options, [&](const Option& option) {
+        const auto end = option.name.find(',');
+        return !option.value.empty() && !option.value.starts_with('[') && !option.many &&
+               (words[word - 2] == long_name(option.name) ||
+                words[word - 2] == option.name.substr(0, end));
+    });
+    return found == options.end() ? nullptr : &*found;
+}
+
+/// Of a command line with more words than operands. Blanks within a list of numbers are likelier
+/// than an operand too many.
+[[noreturn]] void refuse_surplus(std::span<const Option> options,
+                                 std::span<const std::string> words,
+                                 const std::string& surplus) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const auto* const option = option_before(options, words, i);
+        const bool splits_list = option != nullptr &&
+                                 option->value.find(',') != std::string_view::npos &&
+                                 words[i].find_first_not_of("+-.,0123456789") == std::string::npos;
+        if (splits_list || (option != nullptr && words[i] == surplus)) {
+            throw UsageError{fmt::format("unexpected '{}'; {} takes one value, {}",
+                                         words[i],
+                                         long_name(option->name),
+                                         option->value)};
+        }
+    }
+    throw UsageError{fmt::format("unexpected '{}'", surplus)};
+}
+
+/// Of the words that CLI11 had no use for.
+[[noreturn]] void refuse_extras(std::span<const Option> options,
+                                std::span<const std::string> words,
+                                const std::vector<std::string>& extras) {
+    for (const auto& extra : extras) {
+        if (extra.size() > 1 && extra.front() == '-') {
+            const auto name = std::string_view{extra}.substr(0, extra.find('='));
+            throw UsageError{fmt::format("unknown option {}{}", name, suggestion(options, name))};
+        }
+    }
+    refuse_surplus(options, words, extras.empty() ? "" : extras.front());
+}
+
 /// Gives each operand its word, and the last one all that are left if it takes many.
-void distribute(std::span<const Operand> operands,
+void distribute(std::span<const Option> options,
+                std::span<const Operand> operands,
+                std::span<const std::string> all,
                 const std::vector<std::string>& given,
                 std::map<std::string, std::vector<std::string>, std::less<>>& words) {
     for (std::size_t i = 0; i < operands.size(); ++i) {
@@ -67,7 +155,7 @@ void distribute(std::span<const Operand> operands,
     }
     if (given.size() > operands.size()) {
         if (!operands.back().many) {
-            throw UsageError{fmt::format("'{}' is one word too many", given[operands.size()])};
+            refuse_surplus(options, all, given[operands.size()]);
         }
         words[std::string{operands.back().name}].assign(
             given.begin() + static_cast<std::ptrdiff_t>(operands.size()) - 1, given.end());
@@ -102,16 +190,16 @@ Arguments::Arguments(std::span<const Option> options,
         parser.add_option("operands", given)->required()->expected(1, -1);
     }
     try {
-        std::ranges::reverse(words); // CLI11 takes them from the back
-        parser.parse(std::move(words));
+        parser.parse(std::vector<std::string>{words.rbegin(),
+                                              words.rend()}); // CLI11 takes them from the back
     } catch (const CLI::RequiredError&) {
         given.clear(); // distribute() says which is missing
-    } catch (const CLI::ExtrasError& error) {
-        throw UsageError{fmt::format("not understood: {}", error.what())};
+    } catch (const CLI::ExtrasError&) {
+        refuse_extras(options, words, parser.remaining());
     } catch (const CLI::ParseError& error) {
         throw UsageError{error.what()};
     }
-    distribute(operands, given, words_);
+    distribute(options, operands, words, given, words_);
 }
 
 bool Arguments::flag(std::string_view name) const {

@@ -47,7 +47,7 @@ RoadStore open_for_operator(const std::filesystem::path& file, const Console& co
 
 void expect_operator(const RoadStore& store, std::string_view what) {
     if (store.shows_published_alone()) {
-        throw InputError{fmt::format("{}: {} in a crowd database are for its operator only, "
+        throw InputError{fmt::format("{}: {} in a crowd database are for their operator only, "
                                      "expected the key at {}",
                                      store.file().string(),
                                      what,

@@ -138,8 +138,8 @@ constexpr std::array operands{store_operand};
 constexpr std::array options{
     Option{"-o,--output",
            "FILE",
-           "The suffix selects the format: .geojson, .geojsonl, .csv, .gpkg, .fgb, .shp, .kml, "
-           ".mbtiles, .pmtiles; DIR/: tiles."},
+           "Output: .geojson, .geojsonl, .csv, .gpkg, .fgb, .shp, .kml, .mbtiles, .pmtiles; "
+           "DIR/ for tiles."},
     zoom_option,
     tile_jobs_option,
     tiles_option,
@@ -171,10 +171,10 @@ const Command export_command{
     .about =
         "One feature for each segment and direction: a line in driving direction with IRI, its "
         "90 % interval,\n"
-        "class, passes and linear reference (docs/outputs.md describes every column). Trips "
-        "and cars are not\n"
+        "class, passes and linear reference (docs/reference/exports.md describes every "
+        "column). Trips and cars are not\n"
         "exported. With --sections: one mean for each of your own sections instead "
-        "(docs/sections.md). The file\n"
+        "(docs/reference/sections.md). The file\n"
         "appears only when it is complete.",
     .example =
         "  macadam export roads.gpkg -o roads.geojson\n"

@@ -31,7 +31,7 @@ parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const Segm
 /// \throws UsageError  if an option of picture tiles is there.
 void expect_no_picture_options(const Arguments& arguments);
 
-/// Draws a store's picture tiles into an archive (docs/maps.md) and says how many.
+/// Draws a store's picture tiles into an archive (docs/reference/pictures.md) and says how many.
 /// \param box  nothing: all that was driven
 void export_picture_tiles(const std::filesystem::path& store,
                           const std::optional<GeoBox>& box,

@@ -30,7 +30,7 @@ TilePlan parse_tile_plan(const Arguments& arguments);
 void expect_no_tile_options(const Arguments& arguments);
 
 /// Writes vector tiles of the store's measured segments into an archive or a folder
-/// (docs/outputs.md) and says how many.
+/// (docs/reference/vector-tiles.md) and says how many.
 void export_tiles(const RoadStore& store,
                   const SegmentFilter& filter,
                   const std::filesystem::path& file,

@@ -259,11 +259,11 @@ const Command import_command{
              "reason and does not stop the others; the exit status is then 1.\n"
              "--reference and --control import surveys and control sections instead of trips; PATH "
              "may be omitted.",
-    .example =
-        "  macadam import roads.gpkg trips/                     every log under trips/\n"
-        "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"
-        "  macadam import roads.gpkg trips/ --jobs 2 --json > import.jsonl\n"
-        "  macadam import roads.gpkg --reference laser.csv --date 2026-03-01   (docs/reference.md)",
+    .example = "  macadam import roads.gpkg trips/                     every log under trips/\n"
+               "  macadam import roads.gpkg a.trip.csv.gz --vehicle generic\n"
+               "  macadam import roads.gpkg trips/ --jobs 2 --json > import.jsonl\n"
+               "  macadam import roads.gpkg --reference laser.csv --date 2026-03-01   "
+               "(docs/reference/reference-surveys.md)",
     .operands = operands,
     .options = options,
     .run = run_import};

@@ -61,8 +61,8 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
                             done.others,
                             done.calibrated ? "; the cars were recalibrated" : ""));
     if (totals.rejected > 0) {
-        throw InputError{fmt::format("{} rejected: these remain unchanged if they are in the "
-                                     "store",
+        throw InputError{fmt::format("{} rejected: they stay unchanged if they are in the "
+                                     "database",
                                      counted(totals.rejected, "trip"))};
     }
 }

@@ -140,7 +140,7 @@ import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& 
 std::string text_lines(const SurveyOutcome& outcome) {
     std::string lines;
     if (outcome.known) {
-        lines = fmt::format("known     {}\n", printable_name(outcome.file));
+        lines = fmt::format("skipped   {}: already imported\n", printable_name(outcome.file));
     } else {
         lines = fmt::format("imported  {}: reference '{}', {} of {:.2f} km, accurate to {:g} "
                             "%\n          {} rows, {} used",
@@ -152,7 +152,7 @@ std::string text_lines(const SurveyOutcome& outcome) {
                             outcome.rows,
                             outcome.found.used);
         const auto reasons = reasons_text(outcome.found.reasons);
-        lines += (reasons.empty() ? "" : ", rejected: " + reasons) + "\n";
+        lines += (reasons.empty() ? "" : ", skipped: " + reasons) + "\n";
     }
     for (const auto& warning : outcome.warnings) {
         lines += fmt::format("          note: {}\n", warning);

@@ -85,9 +85,12 @@ void AskedTrips::tell(const Path& path, const Console& console) {
             "and no export of phyphox or Sensor Logger",
             path.path.string()));
     }
-    if (walk.other_files() > 0) {
-        console.say(fmt::format(
-            "{}: {} other files were not read", path.path.string(), walk.other_files()));
+    if (const auto others = walk.other_files(); others > 0) {
+        console.say(fmt::format("{}: {} ignored: {}{}",
+                                path.path.string(),
+                                counted(others, "file"),
+                                walk.first_other_file(),
+                                others > 1 ? fmt::format(" and {} more", others - 1) : ""));
     }
 }
 

@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -43,11 +46,26 @@ std::string json_line(const TripOutcome& outcome) {
     return line.text() + "\n";
 }
 
+/// Name of a reason in words for people; files and JSON keep the name.
+std::string words_for(std::string_view reason) {
+    static constexpr std::pair<std::string_view, std::string_view> own_words[] = {
+        {"wrong_cell_count", "wrong number of cells"},
+        {"bad_number", "not a number"},
+        {"unused_channel", "sensor not needed"},
+        {"short_stretch", "continuous drive too short"},
+        {"repeated_fix", "repeated position"}};
+    const auto* const found =
+        std::ranges::find(own_words, reason, &std::pair<std::string_view, std::string_view>::first);
+    std::string words{found == std::end(own_words) ? reason : found->second};
+    std::ranges::replace(words, '_', ' ');
+    return words;
+}
+
 std::string spoken(const RowCount& rows) {
     auto words = fmt::format("{} rows, {} used", rows.read, rows.used);
-    std::string_view before = ", rejected: ";
+    std::string_view before = ", skipped: ";
     for (const auto& [reason, count] : rows.reasons) {
-        words += fmt::format("{}{} {}", before, count, reason);
+        words += fmt::format("{}{} {}", before, count, words_for(reason));
         before = ", ";
     }
     return words;
@@ -69,7 +87,11 @@ std::string text_lines(const TripOutcome& outcome) {
     const auto& trip = outcome.trip;
     if (outcome.result == TripOutcome::Result::known ||
         outcome.result == TripOutcome::Result::unknown) {
-        return fmt::format("{:<9} {}\n", result, printable_name(outcome.file)) +
+        const bool is_explained =
+            outcome.result == TripOutcome::Result::unknown || !trip.warnings.empty();
+        return fmt::format("skipped   {}{}\n",
+                           printable_name(outcome.file),
+                           is_explained ? "" : ": already imported") +
                notes(trip.warnings);
     }
     const auto lines =

@@ -14,8 +14,7 @@ inline constexpr Option method_option{"--method",
 inline constexpr Option channels_option{
     "--channels",
     "LIST",
-    "Sensors to use: any of vertical,lateral (acceleration),roll,pitch,yaw (rate); both; or "
-    "automatic.",
+    "Sensors: any of vertical,lateral (acceleration),roll,pitch,yaw (rate); both; or automatic.",
     "automatic"};
 inline constexpr Option no_filters_option{
     "--no-filters", "", "Disable the method's own filters, for noise-free simulated logs."};

@@ -207,7 +207,7 @@ const Command query_command{
              "passes at other times\n"
              "and undated ones from all values. --route, --along and --sections give means "
              "over road sections\n"
-             "(docs/sections.md).",
+             "(docs/reference/sections.md).",
     .example =
         "  macadam query roads.gpkg --worst 10\n"
         "  macadam query roads.gpkg --near 37.7258,-122.4720 --radius 100\n"

@@ -9,8 +9,10 @@
 
 namespace macadam {
 
-inline constexpr Option style_option{
-    "--style", "FILE", "TOML file with classes, colours, widths and texts (docs/maps.md)."};
+inline constexpr Option style_option{"--style",
+                                     "FILE",
+                                     "TOML file with classes, colours, widths and texts "
+                                     "(docs/reference/pictures.md)."};
 
 inline constexpr Option grey_below_option{
     "--min-passes", "N", "Draw roads with fewer passes of cars in grey.", "1"};

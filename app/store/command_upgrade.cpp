@@ -65,11 +65,11 @@ constexpr std::array options{Option{"--json", "", "Print the result as one JSON 
 const Command upgrade_command{
     .name = "upgrade",
     .summary = "Upgrade a database of an earlier version",
-    .about = "Keeps all content and verifies this with the digest ('macadam info --digest'), which "
-             "is computed before and\n"
-             "after. All is one transaction: on any failure the database is unchanged. Cars get "
-             "pseudonyms under a key,\n"
-             "which is written beside the database (docs/store.md).",
+    .about = "Keeps all content and verifies this with the digest ('macadam info --digest'), "
+             "which is computed before and\n"
+             "after. All is one transaction: on any failure the database is unchanged. Cars "
+             "get pseudonyms under a key,\n"
+             "which is written beside the database (docs/reference/database.md).",
     .example = "  macadam upgrade roads.gpkg",
     .operands = operands,
     .options = options,

@@ -13,7 +13,7 @@ namespace macadam {
 struct ErrorAlongRoad {
     double common_share = common_share_along_road; ///< of the variance: one error all along
     double correlation_m = 20; ///< the correlation of the rest falls to 1/e over this distance: 16
-                               ///< m in the simulated fleet of docs/sections.md
+                               ///< m in the simulated fleet of docs/decisions/07
 };
 
 /// A piece of a measured segment on the ruler of a road that is followed.

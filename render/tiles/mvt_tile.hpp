@@ -27,7 +27,8 @@ struct VectorTileContext {
     const ClassTable* classes;
 };
 
-/// Of all zooms: what segments have, and then what parts have beside it (docs/outputs.md).
+/// Of all zooms: what segments have, and then what parts have beside it
+/// (docs/reference/vector-tiles.md).
 std::vector<VectorField> vector_fields(const ClassTable& classes);
 
 /// How much a tile says of a segment.

@@ -13,7 +13,7 @@
 
 namespace macadam {
 
-/// One property of a segment as every output names it, in the order of docs/formats.md.
+/// One property of a segment as every output names it, in the order of docs/reference/exports.md.
 struct Field {
     enum class Type { text, integer, real };
     std::string_view name;

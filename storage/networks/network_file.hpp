@@ -10,8 +10,8 @@
 
 namespace macadam {
 
-// A network as a file that is mapped into memory and read in place (docs/network.md). It is a
-// cache: whatever it holds can be made again from the map or from the store.
+// A network as a file that is mapped into memory and read in place (docs/reference/road-maps.md).
+// It is a cache: whatever it holds can be made again from the map or from the store.
 
 /// \param source  64 hex digits that say what the network was made of
 /// \throws InputError  if the file cannot be written; then nothing is left.

@@ -40,7 +40,7 @@ public:
 std::unique_ptr<ProfileRows> open_profile(const std::filesystem::path& file,
                                           std::optional<double> step_m);
 
-// One for each form; see docs/formats.md.
+// One for each form; see docs/reference/profiles.md.
 std::unique_ptr<ProfileRows> open_csv_profile(const std::filesystem::path& file,
                                               std::optional<double> step_m);
 std::unique_ptr<ProfileRows> open_txt_profile(const std::filesystem::path& file,

@@ -7,8 +7,8 @@
 #include <string_view>
 
 namespace macadam {
-/// A fleet's recipe from its TOML file (docs/simulation.md). Without [[car]] or [[road]] those of
-/// sample_recipe() are taken.
+/// A fleet's recipe from its TOML file (docs/reference/simulation.md). Without [[car]] or [[road]]
+/// those of sample_recipe() are taken.
 ///
 /// \throws InputError  "file:line: ..." for a key that is not known or a value out of its range.
 FleetScenario read_recipe(const std::filesystem::path& file);

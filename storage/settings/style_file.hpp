@@ -9,7 +9,7 @@ namespace macadam {
 inline constexpr std::size_t max_own_classes = 12; ///< more colours nobody tells apart
 
 /// Reads how a map is to look: a TOML file with classes, colours, widths and words of the legend.
-/// docs/maps.md lists the keys.
+/// docs/reference/pictures.md lists the keys.
 ///
 /// \throws InputError  "file:line: ..." for a key that is not known, a colour that is none, borders
 ///                     that do not rise, more than max_own_classes, or words without their {}.

@@ -77,7 +77,7 @@ template <typename Known>
 void expect_only(const TomlTable& table, Known is_known) {
     for (const auto& key : table.keys()) {
         if (!is_known(key)) {
-            table.refuse_unknown(key, "one of docs/formats.md");
+            table.refuse_unknown(key, "one of docs/reference/vehicles.md");
         }
     }
 }

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// A vehicle from its TOML file (docs/formats.md).
+/// A vehicle from its TOML file (docs/reference/vehicles.md).
 ///
 /// \throws InputError  "file:line: ..." for a key that is not known, is missing, or has a value out
 ///                     of its range.

@@ -29,9 +29,9 @@
 
 namespace macadam {
 
-/// Where the passes of many cars meet: one GeoPackage file (docs/store.md). Each call that writes
-/// is one transaction, all of it or nothing, on disk when it returns; only refresh() takes several,
-/// so that others get their turn, and goes on where it was cut off.
+/// Where the passes of many cars meet: one GeoPackage file (docs/reference/database.md). Each call
+/// that writes is one transaction, all of it or nothing, on disk when it returns; only refresh()
+/// takes several, so that others get their turn, and goes on where it was cut off.
 ///
 /// Readers see the last commit and neither wait for a writer nor make it wait.
 ///
@@ -171,7 +171,7 @@ public:
     /// Takes trips and all that came of them out, in one transaction: passes, states, notes of
     /// numbers that they changed. What is left is what a store holds that never saw them; if cars
     /// were calibrated from them, they are calibrated anew from the others. Of each trip a mark is
-    /// left by which it is known again (docs/store.md). Bytes are overwritten.
+    /// left by which it is known again (docs/reference/database.md). Bytes are overwritten.
     ///
     /// \throws InputError  if there is no trip or vehicle of a name; nothing is changed.
     Forgotten forget(const ForgetRequest& request, const Progress& progress = {});
@@ -257,7 +257,7 @@ public:
     AlignmentSummary laid() const;
 
     /// SHA-256 over passes and states as text: the same content gives the same digest on any
-    /// machine (docs/store.md says how the text is made).
+    /// machine (docs/reference/database.md says how the text is made).
     std::string digest() const;
 
 private:

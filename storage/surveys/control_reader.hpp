@@ -11,8 +11,9 @@ namespace macadam {
 /// What is known of a control section whose sd is not told: that of a reference survey.
 inline constexpr double usual_control_relative_sd = 0.03;
 
-/// A table of control sections (docs/reference.md): `name`, `way_id`, `direction`, `from_m`,
-/// `to_m`, `iri`, and perhaps `iri_sd` and `date`. The file may be compressed.
+/// A table of control sections (docs/reference/reference-surveys.md): `name`, `way_id`,
+/// `direction`, `from_m`, `to_m`, `iri`, and perhaps `iri_sd` and `date`. The file may be
+/// compressed.
 ///
 /// \param roads            on whose ways they must lie.
 /// \param mm_per_m_of_one  what an IRI of 1 in the file is; 1 / 63.36 for in/mi.

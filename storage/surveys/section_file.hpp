@@ -22,8 +22,8 @@ struct SectionReference {
     std::vector<GeoPoint> line{};
 };
 
-/// Sections of a table (.csv), a GPX track, or a line layer that GDAL reads (docs/sections.md says
-/// which columns).
+/// Sections of a table (.csv), a GPX track, or a line layer that GDAL reads
+/// (docs/reference/sections.md says which columns).
 ///
 /// \throws InputError  "file:line: ..." for columns or cells that are not what is expected, or if
 ///                     there is no section.

@@ -17,8 +17,8 @@ inline constexpr std::string_view truth_header =
 /// Rows of a truth file: metres to the millimetre, IRI in mm/m to three decimals.
 std::string truth_rows(std::span<const SegmentTruth> truth);
 
-/// A truth file (docs/simulation.md) in the order of its segments' keys. Each row needs a segment
-/// and its mri; of the other three IRI an empty cell is NaN.
+/// A truth file (docs/reference/simulation.md) in the order of its segments' keys. Each row needs a
+/// segment and its mri; of the other three IRI an empty cell is NaN.
 ///
 /// \throws InputError  "file:line: ..." for another header, a cell that is not what its column
 ///                     says, or a segment that stands there twice.

@@ -101,7 +101,13 @@ void ArchivedTrips::take(const std::string& name) {
                            archive_.string(),
                            name));
     } else {
-        ++other_files_;
+        pass_over(name);
+    }
+}
+
+void ArchivedTrips::pass_over(const std::string& name) {
+    if (other_files_++ == 0) {
+        first_other_file_ = name;
     }
 }
 
@@ -139,7 +145,9 @@ void ArchivedTrips::hand_out_export(const std::string& folder) {
         shelf_->bytes -= file.bytes.size();
     }
     if (std::ranges::none_of(names, marks_export)) {
-        other_files_ += names.size();
+        for (const auto& name : names) {
+            pass_over(place + name);
+        }
         return;
     }
     ready_.push_back({.file = archive_,
@@ -154,7 +162,7 @@ void ArchivedTrips::take_for_mapping(const std::string& name) {
     const auto table = std::ranges::find_if(
         tables, [&, &wanted = file](const TableMapping& t) { return fits(wanted, t.file); });
     if (table == tables.end()) {
-        ++other_files_;
+        pass_over(name);
         return;
     }
     if (table == tables.begin()) {

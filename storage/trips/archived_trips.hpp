@@ -35,6 +35,7 @@ public:
     std::optional<TripSource> next();
 
     std::size_t other_files() const { return other_files_; } ///< passed over so far
+    const std::string& first_other_file() const { return first_other_file_; } ///< "" = none
 
 private:
     struct Shelf;
@@ -46,6 +47,7 @@ private:
     void hand_out_export(const std::string& folder);
     void hand_out_mapped(const std::string& first, bool even_if_incomplete);
     void refuse(const std::string& member, const std::string& words);
+    void pass_over(const std::string& name);
     void end();
 
     std::filesystem::path archive_;
@@ -54,6 +56,7 @@ private:
     std::unique_ptr<Shelf> shelf_;
     std::deque<TripSource> ready_;
     std::size_t other_files_ = 0;
+    std::string first_other_file_;
     bool begun_ = false;
     bool ended_ = false;
 };

@@ -8,16 +8,6 @@
 
 namespace macadam {
 
-//< of a foreign trip, by their names in its folder
-std::shared_ptr<const TripMapping> mapping{}; ///< with it files[i] belongs to its tables[i]
-
-/// What an archive held of it; null for what is read from disk. A trip that could not be had is
-/// a source, too, whose reading says why.
-std::shared_ptr<const TripContents> contents{};
-
-std::string name() const; ///< as messages call it
-};
-
 /// SHA-256 of the decompressed content of a trip, without reading it as one: to know quickly
 /// whether it is known.
 std::string content_sha256(const TripSource& source);

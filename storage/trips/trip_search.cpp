@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -99,10 +100,18 @@ void TripWalk::take(NamedItems items) {
     }
 }
 
+/// Counts files that are not read.
+void TripWalk::take_others(std::size_t count, const std::string& first) {
+    if (first_other_file_.empty() && count > 0) {
+        first_other_file_ = first;
+    }
+    other_files_ += count;
+}
+
 void TripWalk::find_in_folder(const fs::path& folder) {
     NamedItems items;
     const auto names = files_under(folder);
-    other_files_ = names.size();
+    std::set<std::string> others{names.begin(), names.end()};
     for (const auto& name : names) {
         const bool dangles = !fs::exists(folder / name); // a link; the reader says so
         if (!fs::is_regular_file(folder / name) && !dangles) {
@@ -111,17 +120,20 @@ void TripWalk::find_in_folder(const fs::path& folder) {
         const TripSource source{.file = folder / name, .member = {}};
         if (name_test(config_)(name)) {
             items.emplace_back(name, Item{.source = source});
-            --other_files_;
+            others.erase(name);
         } else if (name.ends_with(".zip") && !dangles) { // told when it was looked at
             items.emplace_back(name, Item{.source = source, .is_archive = true});
-            --other_files_;
+            others.erase(name);
         }
     }
     for (auto& [inside, files] : exports_in(names)) {
         const auto place = inside.empty() ? folder : folder / inside.substr(0, inside.size() - 1);
-        other_files_ -= files.size();
+        for (const auto& file : files) {
+            others.erase(inside + file);
+        }
         items.emplace_back(inside, Item{.source = {.file = place, .member = {}, .files = files}});
     }
+    take_others(others.size(), others.empty() ? "" : *others.begin());
     take(std::move(items));
 }
 
@@ -131,14 +143,17 @@ void TripWalk::find_mapped(const fs::path& path) {
         return;
     }
     const auto names = files_under(path);
+    std::set<std::string> others{names.begin(), names.end()};
     NamedItems items;
     for (const auto& name : names) {
         if (fits(folder_and_file(name).second, config_.mapping->tables.front().file)) {
             items.emplace_back(name, Item{.source = mapped_trip(path / name, config_.mapping)});
+            for (const auto& file : items.back().second.source.files) {
+                others.erase((fs::path{name}.parent_path() / file).generic_string());
+            }
         }
     }
-    const auto read = items.size() * config_.mapping->tables.size();
-    other_files_ = names.size() - std::min(names.size(), read);
+    take_others(others.size(), others.empty() ? "" : *others.begin());
     take(std::move(items));
 }
 
@@ -150,7 +165,12 @@ std::optional<TripSource> TripWalk::next() {
                 return trip;
             }
             const bool gave_none = given_ == given_before_archive_;
-            other_files_ += items_[next_ - 1].is_log ? archive_->other_files() : gave_none ? 1 : 0;
+            const auto& item = items_[next_ - 1];
+            if (item.is_log) {
+                take_others(archive_->other_files(), archive_->first_other_file());
+            } else if (gave_none) {
+                take_others(1, item.source.file.filename().string());
+            }
             archive_.reset();
             --archives_;
         }

@@ -40,6 +40,7 @@ public:
     std::optional<TripSource> next();
 
     std::size_t other_files() const { return other_files_; } ///< seen and not read, so far
+    const std::string& first_other_file() const { return first_other_file_; } ///< "" = none
 
     /// Number of trips; std::nullopt while an archive may hold more.
     std::optional<std::size_t> count() const;
@@ -58,6 +59,7 @@ private:
     void find_in_folder(const std::filesystem::path& folder);
     void find_mapped(const std::filesystem::path& path);
     void take(NamedItems items);
+    void take_others(std::size_t count, const std::string& first);
 
     TripWalkConfig config_;
     std::vector<Item> items_;
@@ -65,6 +67,7 @@ private:
     std::size_t archives_ = 0; ///< among those that are to come, and the one at hand
     std::unique_ptr<ArchivedTrips> archive_;
     std::size_t other_files_ = 0;
+    std::string first_other_file_;
     std::size_t given_ = 0;
     std::size_t given_before_archive_ = 0;
 };

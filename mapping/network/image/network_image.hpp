@@ -12,7 +12,8 @@
 namespace macadam {
 
 // A network as bytes that are read in place: a head, then the arrays of a RoadNetwork as they lie
-// in memory, each from a multiple of image_alignment on. What docs/network.md says of the file.
+// in memory, each from a multiple of image_alignment on. What docs/reference/road-maps.md says of
+// the file.
 
 inline constexpr std::size_t image_alignment = 64;
 

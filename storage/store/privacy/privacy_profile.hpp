@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// Whose cars a database holds, and with it what may leave it (docs/store.md).
+/// Whose cars a database holds, and with it what may leave it (docs/privacy.md).
 enum class PrivacyProfile : std::uint8_t {
     own,   ///< one's own cars: nothing is anonymised
     crowd, ///< cars of others

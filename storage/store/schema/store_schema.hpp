@@ -12,7 +12,7 @@
 
 namespace macadam {
 
-/// Makes all tables of a store and fills those that hold the network (docs/store.md).
+/// Makes all tables of a store and fills those that hold the network (docs/reference/database.md).
 /// \param key_id  PrivacyKey::id()
 void write_store(Database& database,
                  const RoadNetwork& roads,

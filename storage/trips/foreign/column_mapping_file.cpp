@@ -128,7 +128,7 @@ double unit_of(const TomlTable& table, TripColumn channel) {
 ChannelMapping channel_of(const TomlTable& channels, const std::string& name) {
     const auto channel = channel_named(name);
     if (!channel || *channel == TripColumn::t_s) {
-        channels.refuse_unknown(name, "a column of docs/formats.md");
+        channels.refuse_unknown(name, "a column of docs/reference/trip-logs.md");
     }
     if (channels.is_text(name)) {
         channels.refuse(name, fmt::format("{{column = \"{}\"}}", channels.text(name)));

@@ -9,7 +9,7 @@
 namespace macadam {
 
 /// Reads how the files of some logger become trips: a TOML file, or one of the built-in mappings by
-/// its name. docs/formats.md lists the keys.
+/// its name. docs/reference/other-loggers.md lists the keys.
 ///
 /// \throws InputError  "file:line: ..." for a key that is not known or lacks, or a value that does
 ///                     not fit.

@@ -34,7 +34,7 @@ void expect_first_line(TextLines& lines, const TripSource& source) {
     if (*line != first_line) {
         expect_no_export(source);
         throw InputError{
-            fmt::format("{}: not a Macadam log: {}, expected '{}'; for other CSV files see the "
+            fmt::format("{}: {}, expected '{}': not a Macadam log; for other CSV files see the "
                         "option --mapping",
                         lines.where(),
                         in_quotes(*line),

@@ -31,8 +31,8 @@ struct RawlogSource {
 /// Reads a rawlog of MRPT: CObservationIMU, CObservationGPS (NMEA GGA and RMC) and
 /// CObservationOdometry become samples, a CObservationComment that begins with "# macadam-trip 1"
 /// is the head of the trip. Every object is a row; those of other classes, and of all but the most
-/// frequent sensor of a kind, give `unused_channel`. docs/formats.md says what becomes of each
-/// field.
+/// frequent sensor of a kind, give `unused_channel`. docs/reference/other-loggers.md says what
+/// becomes of each field.
 ///
 /// \throws InputError  "file: object N at byte B: ..." if it is no rawlog, is cut off or damaged,
 ///                     or lacks the sensors of a needed column.

@@ -32,5 +32,14 @@ TripNeeds needs_of_import();
 struct TripSource {
     std::filesystem::path file;
     std::string member; ///< of the archive; "" for a file of its own; a folder's ends in '/'
-    std::vector<std::string> files{};
+    std::vector<std::string> files{}; ///< of a foreign trip, by their names in its folder
+    std::shared_ptr<const TripMapping> mapping{}; ///< its tables[i] belongs to files[i]
+
+    /// What an archive held of the trip; null for a trip on disk. A trip that could not be
+    /// extracted is a source as well: reading it throws the reason.
+    std::shared_ptr<const TripContents> contents{};
+
+    std::string name() const; ///< as messages call it
+};
+
 } // namespace macadam

@@ -67,6 +67,26 @@ TEST(Arguments, RefuseWhatTheTableDoesNotKnow) {
     EXPECT_THAT(refusal({"a.gpkg", "b.gpkg"}), HasSubstr("b.gpkg"));
 }
 
+TEST(Arguments, SuggestTheOptionThatIsSpelledAlike) {
+    EXPECT_EQ(refusal({"a.gpkg", "--lenght", "20"}),
+              "unknown option --lenght; did you mean --length?");
+    EXPECT_EQ(refusal({"a.gpkg", "--bbx=1,2,3,4"}), "unknown option --bbx; did you mean --bbox?");
+    EXPECT_EQ(refusal({"a.gpkg", "--outputs", "b"}),
+              "unknown option --outputs; did you mean --output?");
+    EXPECT_EQ(refusal({"a.gpkg", "--fast"}), "unknown option --fast");
+}
+
+TEST(Arguments, NameTheOptionWhoseValueIsSplit) {
+    const std::string split = "unexpected '48.40'; --bbox takes one value, W,S,E,N";
+    EXPECT_EQ(refusal({"a.gpkg", "--bbox", "15.5", "48.40", "15.6", "48.5"}), split);
+    EXPECT_EQ(refusal({"--bbox", "15.5", "48.40", "a.gpkg"}), split);
+    EXPECT_EQ(refusal({"a.gpkg", "--length", "20", "m"}),
+              "unexpected 'm'; --length takes one value, METRES");
+    EXPECT_EQ(refusal({"--length", "20", "a.gpkg", "b.gpkg"}), "unexpected 'b.gpkg'");
+    EXPECT_EQ(refusal({"a.gpkg", "-o", "a.csv", "b.csv"}),
+              "unexpected 'b.csv'; --output takes one value, FILE");
+}
+
 TEST(Arguments, NameTheOperandThatIsMissing) {
     EXPECT_EQ(refusal({"--json"}), "STORE is missing");
 }

@@ -248,8 +248,9 @@ TEST(KilledOutput, IsNamedByTheNextRun) {
         run_macadam({"export", store.string(), "--all", "-o", (out / "a.gpkg").string()});
     EXPECT_EQ(next.exit_status, 0);
     EXPECT_THAT(next.err,
-                ::testing::ContainsRegex("out/a.gpkg.part-[0-9a-z]+: left of a run that was killed "
-                                         "\\([0-9.]+ MB\\); it is not needed, remove it"));
+                ::testing::ContainsRegex("out/a.gpkg.part-[0-9a-z]+: left behind by a run that "
+                                         "was killed \\([0-9.]+ MB\\); it is not needed and "
+                                         "can be deleted"));
 }
 
 TEST(Output, OfTwoProcessesOfOneNumberIsWholeAndOfOneOfThem) {

@@ -164,7 +164,7 @@ TEST_F(Refusals, NameTheTripAndLeaveTheOthersBe) {
                                   file("cut.zip", "PK\x03\x04 and no more"),
                                   other_trip()});
     EXPECT_EQ(run.exit_status, 1);
-    EXPECT_THAT(run.out, HasSubstr("slow.trip.csv: vibration was sampled at 20.0 Hz"));
+    EXPECT_THAT(run.out, HasSubstr("slow.trip.csv: acceleration was sampled at 20.0 Hz"));
     EXPECT_THAT(run.out, HasSubstr("nowhere.trip.csv: "));
     EXPECT_THAT(run.out, HasSubstr("cut.zip: "));
     EXPECT_THAT(run.out, HasSubstr("imported  "));

@@ -292,7 +292,7 @@ TEST(Program, MatchesATripToTheRoadsOfAStoreButMakesNoStoreOfOne) {
     EXPECT_THAT(pieces, HasSubstr("\n1,1,")); // way 1 from its node 1: one road, as it was traced
     const auto again = run_macadam({"init", (folder / "b.gpkg").string(), "--network", store});
     EXPECT_EQ(again.exit_status, 1);
-    EXPECT_THAT(again.err, HasSubstr("is a store, expected the map"));
+    EXPECT_THAT(again.err, HasSubstr("is a road database, expected the map"));
 }
 
 } // namespace

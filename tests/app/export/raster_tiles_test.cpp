@@ -199,7 +199,7 @@ TEST(PictureTiles, EndWithWordsWhenADrawingProcessIsKilled) {
 }
 
 TEST(PictureTiles, EndWithWordsWhenADrawingProcessStandsStill) {
-    EXPECT_THAT(failure_after(SIGSTOP), ::testing::HasSubstr("has done nothing for 8 s"));
+    EXPECT_THAT(failure_after(SIGSTOP), ::testing::HasSubstr("has made no progress for 8 s"));
     EXPECT_TRUE(children().empty());
 }
 

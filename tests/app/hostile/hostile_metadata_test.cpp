@@ -248,10 +248,10 @@ TEST(StoreOfAnotherVersion, IsRefusedWithWhatToDo) {
         EXPECT_EQ(run.exit_status, 1);
         return run.err;
     };
-    EXPECT_THAT(refusal_of_version("1"), HasSubstr("is a store of version '1', "));
-    EXPECT_THAT(refusal_of_version("2"), HasSubstr("that is not of this program")); // but of 3
-    EXPECT_THAT(refusal_of_version("1"), HasSubstr("make it anew with 'macadam init'"));
-    EXPECT_THAT(refusal_of_version("99"), HasSubstr("made by a newer macadam"));
+    EXPECT_THAT(refusal_of_version("1"), HasSubstr("is a database of version '1', "));
+    EXPECT_THAT(refusal_of_version("2"), HasSubstr("that does not belong to Macadam")); // but of 3
+    EXPECT_THAT(refusal_of_version("1"), HasSubstr("create it again with 'macadam init'"));
+    EXPECT_THAT(refusal_of_version("99"), HasSubstr("made by a newer version of Macadam"));
 }
 
 } // namespace

@@ -86,7 +86,7 @@ TEST(HostileNetwork, GivenByItselfIsRefusedInWords) {
     const auto bad = run_macadam({"match", trip, "--network", image.string()});
     EXPECT_EQ(bad.exit_status, 1);
     EXPECT_THAT(bad.err,
-                AllOf(HasSubstr("roads-network: is not a valid network: link 0 is none"),
+                AllOf(HasSubstr("roads-network: is not a valid network: link 0 is invalid"),
                       Not(HasSubstr("Sanitizer"))));
 }
 
@@ -101,8 +101,7 @@ TEST(HostileNetwork, BesideAStoreIsMadeAgainFromItAndSaid) {
     const auto run = run_macadam({"match", trip, "--network", store});
     EXPECT_EQ(run.exit_status, 0);
     EXPECT_THAT(run.err,
-                HasSubstr("link 0 is none; its roads are read from the database "
-                          "instead"));
+                HasSubstr("link 0 is invalid; its roads are read from the database instead"));
     EXPECT_EQ(read_file(store + "-network"), right);
 }
 
@@ -162,7 +161,7 @@ TEST(HostileNetwork, WithPointsFarApartIsReadWithoutThemAndSaid) {
         {"init", (folder / "a.gpkg").string(), "--network", (folder / "far.geojson").string()});
     EXPECT_EQ(run.exit_status, 0) << run.err;
     EXPECT_THAT(run.err,
-                AllOf(HasSubstr("left out: 1 way with points more than 50 km apart"),
+                AllOf(HasSubstr("skipped: 1 way with points more than 50 km apart"),
                       HasSubstr("1 way, 1 link")));
 }
 

@@ -1,5 +1,5 @@
 // What roads of other people's files take of memory, by the program itself. The figures that hold
-// here stand in docs/network.md.
+// here stand in docs/reference/road-maps.md.
 
 #include "support/files/pbf_map.hpp"
 #include "support/program/piped_program.hpp"

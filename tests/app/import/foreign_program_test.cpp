@@ -71,7 +71,7 @@ TEST(ForeignLogs, ThatAreKnownKeepTheirEndsInSpiteOfTrimWhichIsSaid) {
     run_macadam({"import", store, phone, "--method", "kf"});
     const auto again = run_macadam({"import", store, phone, "--trim", "300", "--method", "kf"});
     EXPECT_THAT(again.out, HasSubstr("known "));
-    EXPECT_THAT(again.out, HasSubstr("note: stays as it was imported"));
+    EXPECT_THAT(again.out, HasSubstr("note: was imported before and stays unchanged"));
     EXPECT_THAT(run_macadam({"import", store, phone, "--method", "kf"}).out,
                 Not(HasSubstr("note:")));
 }

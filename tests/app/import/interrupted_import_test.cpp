@@ -68,7 +68,7 @@ TEST(InterruptedImport, EndsInOrderWhenAskedToStop) {
     const auto stopped = import_until(made, SIGINT);
     EXPECT_EQ(stopped.exit_status, 1);
     EXPECT_THAT(stopped.err, HasSubstr("macadam import: interrupted: "));
-    EXPECT_THAT(stopped.err, HasSubstr(" of 6 trips were not looked at"));
+    EXPECT_THAT(stopped.err, HasSubstr(" of 6 trips were not read"));
     // What came in is fused already: nothing waits.
     EXPECT_THAT(run_macadam({"query", made.store.string(), "--worst", "1"}).err,
                 Not(HasSubstr("waiting")));
@@ -80,14 +80,16 @@ TEST(InterruptedImport, GoesOnWithTheRestAndSaysSo) {
     const auto resumed =
         run_macadam({"import", made.store.string(), made.trips.string(), "--method", "kf"});
     EXPECT_EQ(resumed.exit_status, 0);
-    EXPECT_THAT(resumed.err, HasSubstr("an earlier import of these paths (6 trips) did not end"));
-    EXPECT_THAT(resumed.out, HasSubstr("known     "));
+    EXPECT_THAT(resumed.err,
+                HasSubstr("an earlier import of these paths (6 trips) was "
+                          "interrupted"));
+    EXPECT_THAT(resumed.out, HasSubstr("skipped   "));
     EXPECT_EQ(digest_of(made.store), whole_digest(made));
 
     const auto again =
         run_macadam({"import", made.store.string(), made.trips.string(), "--method", "kf"});
-    EXPECT_THAT(again.err, Not(HasSubstr("did not end")));
-    EXPECT_THAT(again.err, HasSubstr("0 trips imported, 6 known"));
+    EXPECT_THAT(again.err, Not(HasSubstr("was interrupted")));
+    EXPECT_THAT(again.err, HasSubstr("0 trips imported, 6 already imported"));
 }
 
 TEST(InterruptedImport, LosesNothingThatItReportedWhenKilled) {
@@ -97,8 +99,8 @@ TEST(InterruptedImport, LosesNothingThatItReportedWhenKilled) {
     const auto resumed =
         run_macadam({"import", made.store.string(), made.trips.string(), "--method", "kf"});
     EXPECT_EQ(resumed.exit_status, 0);
-    EXPECT_THAT(resumed.err, HasSubstr("did not end"));
-    EXPECT_THAT(resumed.out, HasSubstr("known     " + (made.trips / "trip-0.trip.csv").string()));
+    EXPECT_THAT(resumed.err, HasSubstr("was interrupted"));
+    EXPECT_THAT(resumed.out, HasSubstr("skipped   " + (made.trips / "trip-0.trip.csv").string()));
     EXPECT_EQ(digest_of(made.store), whole_digest(made));
 }
 

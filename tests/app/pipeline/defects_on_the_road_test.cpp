@@ -209,7 +209,7 @@ TEST(Defect17PhoneMoved, ShowsInTheStrengthOfGravity) {
     for (auto& z : trip.acc.z) {
         z *= 0.85F;
     }
-    EXPECT_THAT(trace_of(trip, car(), {}).warnings, Contains(HasSubstr("gravity was felt as 8.3")));
+    EXPECT_THAT(trace_of(trip, car(), {}).warnings, Contains(HasSubstr("gravity measures 8.3")));
 }
 
 TEST(Defect20LowRates, AreRefusedBelow40HzAndWarnedOfBelow80) {

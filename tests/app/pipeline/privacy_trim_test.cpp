@@ -111,7 +111,7 @@ TEST_F(TrimmedTrip, GivesNothingIfItIsTooShort) {
     EXPECT_EQ(trimmed.rows.used, 0U);
     EXPECT_EQ(trimmed.rows.reasons.size(), 1U);
     EXPECT_THAT(trimmed.warnings,
-                Contains(HasSubstr("m, which is all within 620 m of its ends: no pass")));
+                Contains(HasSubstr("m long, all of it within 620 m of its ends: no pass")));
 }
 
 } // namespace

@@ -86,11 +86,11 @@ protected:
 TEST_F(Identify, SaysWhatItFoundAndWhatTheGainMeans) {
     const auto run = identify({});
     ASSERT_EQ(run.exit_status, 0) << run.err;
-    EXPECT_THAT(run.out, HasSubstr("(found: the estimated and the measured profile correlate"));
+    EXPECT_THAT(run.out, HasSubstr("(located: the correlation of estimated and measured profile"));
     EXPECT_THAT(run.out, HasSubstr("ks_n_per_m         15825"));
     EXPECT_THAT(run.out,
-                HasSubstr("The rms of that comb is 0.71, whatever the wheelbase. So this "
-                          "gain\nspeaks of the wheelbase, not of a modern suspension"));
+                HasSubstr("The rms of this comb filter is 0.71, whatever the wheelbase. The "
+                          "gain therefore reflects the wheelbase,\nnot a modern suspension"));
     EXPECT_EQ(run.err, "");
 }
 
@@ -129,7 +129,7 @@ TEST_F(Identify, LeavesAFigureOfBothChannelsThatNeedsNothingElse) {
     EXPECT_THAT(svg, HasSubstr("Vertical acceleration of the body"));
     EXPECT_THAT(svg, HasSubstr("Lateral acceleration of the body"));
     EXPECT_THAT(svg, HasSubstr("frequency, Hz"));
-    EXPECT_THAT(svg, HasSubstr("model, found"));
+    EXPECT_THAT(svg, HasSubstr("model, fitted"));
     EXPECT_THAT(svg, Not(HasSubstr("href")));
     EXPECT_TRUE(std::filesystem::exists(folder_ / "found.toml"));
 }
@@ -138,7 +138,7 @@ TEST_F(Identify, RefusesARoadThatTheTripWasNotOn) {
     write_file(folder_ / "road.csv", profile_text(profile_of(make_surface({}, 900, 99))));
     const auto run = identify({});
     EXPECT_EQ(run.exit_status, 1);
-    EXPECT_THAT(run.err, HasSubstr("drive.trip.csv: is not found on "));
+    EXPECT_THAT(run.err, HasSubstr("drive.trip.csv: cannot be located on "));
     EXPECT_THAT(run.err, HasSubstr("expected 0.50, or --at METRE"));
 }
 

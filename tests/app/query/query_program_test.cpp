@@ -111,7 +111,7 @@ TEST_F(QueryProgram, FindsNothingInWordsOnStandardErrorAlone) {
         const auto run = query({"--name", "nowhere", "--format", format});
         EXPECT_EQ(run.exit_status, 0);
         EXPECT_EQ(run.out, out);
-        EXPECT_THAT(run.err, HasSubstr("nothing found"));
+        EXPECT_THAT(run.err, HasSubstr("no segment with a pass meets these conditions"));
     }
 }
 
@@ -253,7 +253,7 @@ TEST_F(QueryProgram, RefusesSectionsInWords) {
     EXPECT_THAT(refused("name,from_m,to_m\n"),
                 HasSubstr("s.csv:1: the header has no column route or way_id"));
     EXPECT_THAT(refused("way_id,from,to\n1,0,1\n"),
-                HasSubstr("s.csv:1: columns from and to do not say their unit"));
+                HasSubstr("s.csv:1: columns from and to have no unit"));
     EXPECT_THAT(refused("way_id,from_m\n1,0\n"), HasSubstr("s.csv:1: the header has from_m alone"));
     EXPECT_THAT(refused("way_id,from_m,to_m,from_km,to_km\n"),
                 HasSubstr("s.csv:1: the header has both from_m and from_km"));
@@ -263,9 +263,9 @@ TEST_F(QueryProgram, RefusesSectionsInWords) {
     EXPECT_THAT(refused("way_id,from_m,to_m\n1,x,9\n"),
                 HasSubstr("s.csv:2: from_m is 'x', expected a station"));
     EXPECT_THAT(refused("way_id,from_m,to_m\n1,5,5\n"),
-                HasSubstr("s.csv:2: begins and ends at one station"));
+                HasSubstr("s.csv:2: begins and ends at the same station"));
     EXPECT_THAT(refused("way_id,from_m,to_m\n1,500,600\n"),
-                HasSubstr("s.csv:2: lies from 500 to 600 m, expected a part of the road"));
+                HasSubstr("s.csv:2: extends from 500 to 600 m, expected a part of the road"));
     EXPECT_THAT(refused("way_id\n77\n"), HasSubstr("s.csv:2: the network has no way '77'"));
     EXPECT_THAT(refused("way_id\n7.5\n"),
                 HasSubstr("s.csv:2: way_id is '7.5', expected a whole number"));
@@ -284,7 +284,7 @@ TEST_F(QueryProgram, RefusesSectionsInWords) {
                 HasSubstr("x.csv:1: the header has no columns lat_deg and lon_deg"));
     EXPECT_THAT(
         query({"--sections", table, "--exclude", file("x.csv", "lat_deg,lon_deg\n1,\n")}).err,
-        HasSubstr("x.csv:2: has no place"));
+        HasSubstr("x.csv:2: has no position"));
     EXPECT_THAT(run_macadam({"export", store_, "-o", table, "--sections", table}).err,
                 HasSubstr("t.csv"));
     EXPECT_EQ(read_file(table), "way_id\n1\n"); // and it is still there
@@ -306,12 +306,12 @@ TEST_F(QueryProgram, SaysWhatDoesNotGoTogether) {
              {{"--way", "1", "--history", "--format", "geojson"},
               "--history has no --format geojson"},
              {{"--worst", "1", "--history"}, "--history cannot be combined with --worst"},
-             {{"--route", "1,2"}, "--route has 1 places, expected two"},
+             {{"--route", "1,2"}, "--route has 1 points, expected two"},
              {{"--route", "1,2", "north"}, "--route has 'north', expected LAT,LON"},
              {{"--route", "1,2", "91,0"}, "--route is 91,0, expected latitude,longitude"},
-             {{"--route", "1,2", "1,3", "--way", "1"}, "not with what looks for segments"},
-             {{"--route", "1,2", "1,3", "--along", "x"}, "do not go together, expected one"},
-             {{"--along", "x", "--shortest"}, "--shortest goes with --route"},
+             {{"--route", "1,2", "1,3", "--way", "1"}, "not with options that select segments"},
+             {{"--route", "1,2", "1,3", "--along", "x"}, "cannot be combined, expected one"},
+             {{"--along", "x", "--shortest"}, "--shortest requires --route"},
              {{"--along", "x", "--section-length", "0.1ft"},
               "--section-length is '0.1ft', expected 1 m"},
              {{"--along", "x", "--section-length", "9", "--homogeneous"}, "expected one"},

@@ -166,7 +166,7 @@ TEST_F(Reference, IsKnownTheSecondTime) {
     const auto digest = ran({"info", store_, "--digest"}).out;
     const auto again = ran({"import", store_, "--reference", truth_, "--accuracy", "9"});
     EXPECT_THAT(again.out, HasSubstr("known"));
-    EXPECT_THAT(again.out, HasSubstr("stays as it was imported"));
+    EXPECT_THAT(again.out, HasSubstr("was imported before and stays unchanged"));
     EXPECT_EQ(ran({"info", store_, "--digest"}).out, digest);
 }
 
@@ -178,7 +178,7 @@ TEST_F(Reference, ReportsForPeopleWithPictures) {
     ran({"report", store_, "--against-reference", "-o", page, "--title", "A <survey>"});
     const auto html = read_file(page);
     EXPECT_THAT(html, HasSubstr("A &lt;survey&gt;"));
-    EXPECT_THAT(html, HasSubstr("aria-label=\"IRI of the cars over IRI of the reference"));
+    EXPECT_THAT(html, HasSubstr("aria-label=\"IRI of the cars against IRI of the reference"));
     EXPECT_THAT(html, HasSubstr("aria-label=\"Histograms of the cars"));
     EXPECT_THAT(html, Not(HasSubstr("<script")));
     EXPECT_THAT(html, Not(HasSubstr("nan")));
@@ -284,7 +284,7 @@ TEST_F(Reference, WatchesControlSections) {
 
 TEST_F(Reference, RefusesWithWords) {
     EXPECT_THAT(refusal_of({"--reference", written("a.csv", "way_id,mri\n1,2\n")}),
-                HasSubstr("a.csv:1: the header does not say where its rows are"));
+                HasSubstr("a.csv:1: the header does not locate its rows"));
     EXPECT_THAT(
         refusal_of({"--reference", written("b.csv", "way_id,from_m,to_m,mri\n99,0,20,2\n")}),
         EndsWith("b.csv: none of its 1 row can be used: 1 no_such_way\n"));
@@ -297,7 +297,7 @@ TEST_F(Reference, RefusesWithWords) {
                 HasSubstr("--date is 'May', expected a day such as 2026-03-01"));
     const auto report = run_macadam({"report", store_, "--against-reference"});
     EXPECT_EQ(report.exit_status, 1);
-    EXPECT_THAT(report.err, HasSubstr("holds no reference survey and no control section"));
+    EXPECT_THAT(report.err, HasSubstr("contains no reference survey and no control section"));
     const auto picture = run_macadam({"report", store_, "--against-reference", "-o", "a.png"});
     EXPECT_EQ(picture.exit_status, 2);
     EXPECT_THAT(picture.err, HasSubstr("expected a name that ends in .html, .pdf, .json or .csv"));

@@ -215,7 +215,7 @@ TEST_F(ReportProgram, LetsOtherConditionsLeaveSegmentsFirst) {
     const auto run = run_macadam(
         {"query", store_, "--worst", "3", "--bbox", "10,10,11,11", "--format", "geojson"});
     EXPECT_EQ(run.out, "{\"type\":\"FeatureCollection\",\"features\":[]}\n");
-    EXPECT_THAT(run.err, HasSubstr("no stretch of 100 m or more with a mean IRI above 2.68 mm/m"));
+    EXPECT_THAT(run.err, HasSubstr("no section of 100 m or more has a mean IRI above 2.68 mm/m"));
 }
 
 TEST_F(ReportProgram, TakesAnotherBorderOfPoorAndAnotherLeastLength) {

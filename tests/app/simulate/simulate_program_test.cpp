@@ -354,7 +354,7 @@ TEST_F(Simulate, TruthOfOtherRoadsIsRefused) {
                "99+0000,99,forward,0,20,1,1,1,1\n");
     const auto run = run_macadam({"info", store, "--truth", at("truth.csv")});
     EXPECT_EQ(run.exit_status, 1);
-    EXPECT_THAT(run.err, HasSubstr("expected the truth of this store's network"));
+    EXPECT_THAT(run.err, HasSubstr("expected true values of this network"));
 }
 
 } // namespace

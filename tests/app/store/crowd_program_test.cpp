@@ -100,7 +100,7 @@ TEST_F(Crowd, HandsOnWhatIsPublishedAndNothingElse) {
     make("crowd");
     EXPECT_THAT(exported_ways(), IsEmpty());
     EXPECT_THAT(run({"export", store_, "-o", at("none.csv")}).err,
-                HasSubstr("nothing of them was published yet"));
+                HasSubstr("crowd database without a publication"));
 
     EXPECT_THAT(run({"publish", store_}).out,
                 AllOf(HasSubstr("from at least 5 trips of 5 cars"), HasSubstr("left out: up to")));
@@ -110,10 +110,10 @@ TEST_F(Crowd, HandsOnWhatIsPublishedAndNothingElse) {
         EXPECT_GE(way, 3);
         EXPECT_LE(way, blocks - 2);
     }
-    EXPECT_THAT(run({"publish", store_}, 1).err, HasSubstr("which is once a month"));
+    EXPECT_THAT(run({"publish", store_}, 1).err, HasSubstr("can be published once a month"));
     run({"report", store_, "-o", at("report.html")});
     const auto report = read_file(folder_ / "report.html");
-    EXPECT_THAT(report, HasSubstr("rest on five cars or more"));
+    EXPECT_THAT(report, HasSubstr("are based on five cars or more"));
     EXPECT_THAT(report, Not(HasSubstr("not anonymised")));
     run({"render", store_, "-o", at("map.png"), "--size", "400x300"});
 }
@@ -122,17 +122,17 @@ TEST_F(Crowd, ShowsMoreToWhoHoldsTheKey) {
     make("crowd");
     run({"publish", store_});
     EXPECT_THAT(run({"query", store_, "--segment", "6+0003", "--passes"}).err,
-                HasSubstr("not to be handed on"));
+                HasSubstr("do not pass it on"));
     lose_key();
     EXPECT_THAT(run({"query", store_, "--segment", "6+0003", "--passes"}, 1).err,
-                HasSubstr("for its operator alone"));
+                HasSubstr("for their operator only"));
     EXPECT_THAT(run({"query", store_, "--segment", "6+0003", "--changes"}, 1).err,
-                HasSubstr("for its operator alone"));
+                HasSubstr("for their operator only"));
     EXPECT_THAT(run({"calibrate", store_, "--dry-run"}, 1).err,
-                HasSubstr("for its operator alone"));
+                HasSubstr("for their operator only"));
     EXPECT_THAT(run({"publish", store_}, 1).err, HasSubstr("who holds the key publishes"));
     EXPECT_THAT(run({"query", store_, "--worst", "3", "--since", "2026-03-15"}, 1).err,
-                HasSubstr("told by whole months"));
+                HasSubstr("given by whole months"));
     const auto info = run({"info", store_, "--json"}).out;
     EXPECT_THAT(info, AllOf(HasSubstr("\"published_alone\""), Not(HasSubstr("\"v-"))));
     EXPECT_THAT(run({"info", store_}).out, HasSubstr("at least 5 of 5 cars"));
@@ -141,7 +141,7 @@ TEST_F(Crowd, ShowsMoreToWhoHoldsTheKey) {
 TEST_F(Crowd, IsNeverMadeOfRoadsTracedFromTrips) {
     EXPECT_THAT(
         run({"init", store_, "--trace", at("trips/0.trip.csv"), "--privacy", "crowd"}, 2).err,
-        HasSubstr("--trace does not go with --privacy crowd"));
+        HasSubstr("--trace cannot be combined with --privacy crowd"));
 }
 
 TEST_F(Crowd, ComesOfOnesOwnCarsByTrimmingThem) {
@@ -153,7 +153,7 @@ TEST_F(Crowd, ComesOfOnesOwnCarsByTrimmingThem) {
     EXPECT_THAT(run({"query", store_, "--way", "1", "--format", "csv"}).out,
                 Not(HasSubstr("\n1+")));
     EXPECT_THAT(run({"query", store_, "--way", "6", "--format", "csv"}).out, HasSubstr("6+0003"));
-    EXPECT_THAT(run({"privacy", store_, "own"}, 1).err, HasSubstr("does not come back"));
+    EXPECT_THAT(run({"privacy", store_, "own"}, 1).err, HasSubstr("cannot be restored"));
     EXPECT_THAT(run({"privacy", store_, "crowd"}, 1).err,
                 HasSubstr("is already a crowd "
                           "database"));

@@ -171,20 +171,20 @@ TEST_F(PrivacyProgram, SaysThatOldCarsAreNotJoinedWhereTheKeyIsGone) {
     const auto run = import(trips_[0]);
     EXPECT_EQ(run.exit_status, 0);
     EXPECT_THAT(run.err,
-                HasSubstr("roads.gpkg.key: was not there, and a new key was made; cars "
-                          "that come from now on cannot be joined"));
+                HasSubstr("roads.gpkg.key: was missing, so a new key was made; cars imported "
+                          "from now on cannot be linked"));
     EXPECT_EQ(Json::parse(out_of({"info", "--json"}))["operator"], true);
 }
 
 TEST_F(PrivacyProgram, WarnsOfAKeyThatOthersCanRead) {
     fs::permissions(store_ + ".key", fs::perms::others_read, fs::perm_options::add);
-    EXPECT_THAT(out_of({"info"}), HasSubstr("roads.gpkg.key: others can read it"));
+    EXPECT_THAT(out_of({"info"}), HasSubstr("roads.gpkg.key: other users can read this key"));
 }
 
 TEST_F(PrivacyProgram, ForgetsACarByItsIdAndATripByItsFullName) {
-    EXPECT_THAT(out_of({"forget", "--vehicle", ids[0]}), HasSubstr("1 trip forgotten"));
+    EXPECT_THAT(out_of({"forget", "--vehicle", ids[0]}), HasSubstr("1 trip permanently deleted"));
     EXPECT_THAT(out_of({"forget", "--trip", ids[1] + "-0001.trip.csv"}),
-                HasSubstr("1 trip forgotten"));
+                HasSubstr("1 trip permanently deleted"));
 }
 
 } // namespace

@@ -53,7 +53,7 @@ TEST(UpdateProgram, CarriesPassesAndReports) {
     EXPECT_THAT(query.out, HasSubstr("100+0003"));
     const auto again = run_macadam({"init", file, "--update", newer_map(folder)});
     EXPECT_EQ(again.exit_status, 0) << again.err;
-    EXPECT_THAT(again.out, HasSubstr("as they were"));
+    EXPECT_THAT(again.out, HasSubstr("unchanged"));
     EXPECT_THAT(again.out, HasSubstr("passes lost                          0"));
 }
 
@@ -75,7 +75,7 @@ TEST(UpdateProgram, RefusesWhatItCannotDo) {
                 HasSubstr("expected either --network FILE, --trace TRIP... or --update FILE"));
     const auto json = run_macadam({"init", file, "--network", map, "--json"});
     EXPECT_EQ(json.exit_status, 2);
-    EXPECT_THAT(json.err, HasSubstr("--json is only for --update"));
+    EXPECT_THAT(json.err, HasSubstr("--json requires --update"));
 }
 
 } // namespace

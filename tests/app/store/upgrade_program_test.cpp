@@ -54,7 +54,7 @@ TEST_F(UpgradeProgram, IsWhatEveryOtherCommandAsksFor) {
         EXPECT_THAT(refused.err,
                     HasSubstr("is a database of version 2, expected version 3: run 'macadam "
                               "upgrade " +
-                              store_ + "', which keeps all that is in it"));
+                              store_ + "', which keeps all content"));
     }
     EXPECT_EQ(read_file(store_), content);
 }
@@ -110,14 +110,16 @@ TEST_F(UpgradeProgram, RefusesAStoreOfANewerProgramOrWithViewsOfOthers) {
         Database{store_, Database::Access::write}.run(sql);
     };
     change("CREATE VIEW x AS SELECT 1");
-    EXPECT_THAT(run("upgrade").err, HasSubstr("holds a view 'x' that is not of this program"));
-    EXPECT_THAT(run("info").err, HasSubstr("holds a view 'x' that is not of this program"));
+    EXPECT_THAT(run("upgrade").err,
+                HasSubstr("contains a view 'x' that does not belong to "
+                          "Macadam"));
+    EXPECT_THAT(run("info").err, HasSubstr("contains a view 'x' that does not belong to Macadam"));
     change("DROP VIEW x; UPDATE meta SET value = '4' WHERE key = 'version'");
     const auto newer = run("upgrade");
     EXPECT_EQ(newer.exit_status, 1);
     EXPECT_THAT(newer.err,
                 HasSubstr("is a database of version '4', expected version 3: it was made by a "
-                          "newer macadam"));
+                          "newer version of Macadam"));
     EXPECT_FALSE(fs::exists(store_ + ".key"));
 }
 

@@ -312,8 +312,8 @@ TEST_P(UpkeepBesideALock, SaysForWhomItWaitsAndGoesOn) {
     EXPECT_EQ(ended.exit_status, 0) << ended.err;
     EXPECT_THAT(ended.err,
                 AllOf(HasSubstr("roads.gpkg: waiting for '"),
-                      HasSubstr(fmt::format("(process {}), which is using the database; Ctrl-C "
-                                            "ends the wait\n",
+                      HasSubstr(fmt::format("(process {}), which is using the database; press "
+                                            "Ctrl-C to stop waiting\n",
                                             ::getpid()))));
     EXPECT_EQ(digest_of(deed.world.store), deed.after);
 }
@@ -325,7 +325,7 @@ TEST_P(UpkeepBesideALock, EndsTheWaitWhenItIsInterrupted) {
     const auto run = run_macadam_signalled(
         deed.words, [] { return was_said("waiting for '"); }, SIGINT);
     EXPECT_EQ(run.exit_status, 1);
-    EXPECT_THAT(run.err, HasSubstr("roads.gpkg: interrupted while it waited for '"));
+    EXPECT_THAT(run.err, HasSubstr("roads.gpkg: interrupted while waiting for '"));
     lock.reset();
     EXPECT_EQ(digest_of(deed.world.store), deed.before);
 }

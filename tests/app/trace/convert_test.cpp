@@ -185,7 +185,7 @@ TEST(Convert, RefusesToWriteTwoTripsIntoOneFile) {
                             "-o",
                             (folder / "out").string()});
     EXPECT_EQ(run.exit_status, 1);
-    EXPECT_THAT(run.err, HasSubstr("tiny.trip.csv.gz: would be written twice, of "));
+    EXPECT_THAT(run.err, HasSubstr("tiny.trip.csv.gz: would be written twice, from "));
     EXPECT_THAT(run.err, HasSubstr("1 of 2 trips could not be converted"));
     EXPECT_TRUE(std::filesystem::exists(folder / "out" / "tiny.trip.csv.gz"));
     std::filesystem::remove_all(folder / "out");

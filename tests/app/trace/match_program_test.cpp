@@ -157,7 +157,7 @@ TEST(MatchProgram, SaysInFeaturesHowSureThePlaceIs) {
 
 TEST(MatchProgram, TakesAGpxTrackWithoutTimesAndSaysSo) {
     const auto run = expect_done({"match", tour, "--network", andorra});
-    EXPECT_THAT(run.err, HasSubstr("its points have no times that rise; made up at 10 m/s"));
+    EXPECT_THAT(run.err, HasSubstr("its points have no increasing times; made up at 10 m/s"));
     EXPECT_THAT(run.err, HasSubstr("0.00 km off the network, 0.00 km in gaps"));
     EXPECT_THAT(run.out, StartsWith(columns));
 }
@@ -167,15 +167,15 @@ TEST(MatchProgram, RefusesAGpxFileWithoutATrack) {
         {"match", (source / "tests/data/gpx/no_trkpt.gpx").string(), "--network", andorra});
     EXPECT_EQ(run.exit_status, 1);
     EXPECT_THAT(run.err,
-                HasSubstr("no_trkpt.gpx:7: holds 1 track, 1 segment only, expected a track (trk) "
-                          "with points (trkpt)"));
+                HasSubstr("no_trkpt.gpx:7: contains 1 track, 1 segment only, expected a track "
+                          "(trk) with points (trkpt)"));
     EXPECT_EQ(run.out, "");
 }
 
 TEST(MatchProgram, LeavesGpxTracksToThoseWhoNeedPositionsAlone) {
     const auto run = run_macadam({"trace", tour});
     EXPECT_EQ(run.exit_status, 1);
-    EXPECT_THAT(run.err, HasSubstr("is a GPX track, which gives positions alone"));
+    EXPECT_THAT(run.err, HasSubstr("is a GPX track, which has positions only"));
 }
 
 TEST(MatchProgram, ReadsAConvertedGpxTrackAsTheTrack) {

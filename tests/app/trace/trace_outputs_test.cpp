@@ -160,8 +160,8 @@ TEST_F(TraceOutputs, RefusesProfilesThatCannotBe) {
     const auto lateral = trace({"--channels", "lateral", "--profile", at("road.erd")});
     EXPECT_EQ(lateral.exit_status, 1);
     EXPECT_THAT(lateral.err,
-                HasSubstr("was estimated from lateral vibration alone, which does not "
-                          "show how high the road lies"));
+                HasSubstr("was estimated from lateral acceleration only, which does not give "
+                          "elevations"));
     EXPECT_FALSE(fs::exists(at("road.erd")));
 }
 

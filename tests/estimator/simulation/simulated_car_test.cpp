@@ -130,8 +130,8 @@ TEST(SimulatedCar, DampsReboundMoreThanBump) {
     EXPECT_NEAR(wheel_acc(-0.1), 1.5 * 2500 * 0.1 / 45, 1e-9);
 }
 
-/// The signs of docs/formats.md: gyro_x > 0 lifts the left side, and gravity then pulls to the
-/// right, which an accelerometer feels as a push to the left.
+/// The signs of docs/reference/vehicles.md: gyro_x > 0 lifts the left side, and gravity then pulls
+/// to the right, which an accelerometer feels as a push to the left.
 TEST(SimulatedCar, ABumpUnderTheLeftWheelsLiftsTheLeftSide) {
     CarRecipe car = linear_car();
     car.antiroll_n_per_m = 0;

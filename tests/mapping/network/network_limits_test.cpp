@@ -92,7 +92,7 @@ TEST(NetworkLimits, RefuseWhatIsNoPlace) {
     }
     auto way = straight(1, 3, 1e-4);
     way.line[1].lon_deg = std::nan("");
-    EXPECT_THAT(refusal_of({way}), HasSubstr("which is no place"));
+    EXPECT_THAT(refusal_of({way}), HasSubstr("has the invalid position"));
 }
 
 TEST(NetworkLimits, KeepTurnRestrictionsOfANodeWithThousandsOfWaysFromGrowingBySquares) {

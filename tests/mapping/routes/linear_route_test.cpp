@@ -250,7 +250,7 @@ TEST(RoadRoute, SaysWhereThereIsNoRoadAndWhereNoWay) {
                 HasSubstr("no road within 500 m of 10.00000,10.00000"));
     EXPECT_THAT(
         refusal_of([&] { route_between(art.roads, art.places.at('A'), art.places.at('D')); }),
-        HasSubstr("no way leads from "));
+        HasSubstr("no route from "));
 }
 
 } // namespace

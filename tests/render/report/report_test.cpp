@@ -75,7 +75,7 @@ TEST(Report, SaysTheNumbersItWasGiven) {
     EXPECT_THAT(html, HasSubstr("<b>62.5 %</b>"));                 // 5 of 8 km
     EXPECT_THAT(html, HasSubstr(">Living street</th>"));
     EXPECT_THAT(html, HasSubstr("12\u202F345 passes over segments"));
-    EXPECT_THAT(html, HasSubstr("Way 123456 from 100 to 240 m<br>"));
+    EXPECT_THAT(html, HasSubstr("OSM way 123456, chainage 100–240 m<br>"));
     EXPECT_THAT(html, HasSubstr("Residential road without a name"));
     EXPECT_THAT(html, HasSubstr(">2026-03-01 to 2026-04-02</span>."));
 }
@@ -195,10 +195,10 @@ TEST(Report, SetsOffTheSumsOfItsTables) {
 TEST(Report, DescribesTheMethodsThatWereUsedAndNoOthers) {
     auto report = town();
     EXPECT_THAT(report_html(report),
-                AllOf(HasSubstr("(kf) with a model"), Not(HasSubstr("(smoother)"))));
+                AllOf(HasSubstr("(kf) with a car model"), Not(HasSubstr("(smoother)"))));
     report.vehicles[0].method = "smoother";
     EXPECT_THAT(report_html(report),
-                AllOf(HasSubstr("the method (smoother) finds"), Not(HasSubstr("(kf)"))));
+                AllOf(HasSubstr("The method (smoother) finds"), Not(HasSubstr("(kf)"))));
 }
 
 TEST(Report, SaysWhatItsValuesRestOn) {
@@ -209,12 +209,12 @@ TEST(Report, SaysWhatItsValuesRestOn) {
                           "class=\"n\">290</td><td class=\"n\">5.80</td><td class=\"n\">72.5 "
                           "%</td>"));
     EXPECT_THAT(html, HasSubstr("MRI = HRI / 0.91"));
-    EXPECT_THAT(html, HasSubstr("37 passes are from lateral vibration alone"));
+    EXPECT_THAT(html, HasSubstr("37 passes are from lateral acceleration only"));
 }
 
 TEST(Report, SaysWhyRowsEnteredNoEstimateTheMostFrequentReasonFirst) {
     const auto html = report_html(town());
-    const auto frequent = html.find("Repeated fix</th><td class=\"n\">70</td>");
+    const auto frequent = html.find("Repeated position</th><td class=\"n\">70</td>");
     const auto rare = html.find("Too slow</th><td class=\"n\">20</td><td class=\"n\">2.0 %</td>");
     ASSERT_NE(frequent, std::string::npos);
     ASSERT_NE(rare, std::string::npos);

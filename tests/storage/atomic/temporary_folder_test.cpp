@@ -187,7 +187,7 @@ TEST(AtomicFileSet, OfANewFileTakesThePlaceOfNoOther) {
     written(files.folder(), "a.gpkg", "new");
     written(folder, "a.gpkg", "of another program");
     EXPECT_THAT(refusal_of([&] { files.commit_new(); }),
-                HasSubstr("a.gpkg: was made by another program meanwhile"));
+                HasSubstr("a.gpkg: was created by another program in the meantime"));
     EXPECT_EQ(content_of(folder / "a.gpkg"), "of another program");
 }
 

@@ -69,7 +69,7 @@ RoadStore store_of_names(const fs::path& file) {
 
 using Values = std::map<std::string, std::optional<std::string>>;
 
-/// What a kind of file says of each field, by its own limits (docs/outputs.md).
+/// What a kind of file says of each field, by its own limits (docs/reference/exports.md).
 using Limits = std::function<Values(Values)>;
 
 Values values_of(const SegmentRecord& record) {

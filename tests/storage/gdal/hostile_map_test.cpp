@@ -104,7 +104,7 @@ TEST(HostileMap, WithARoadOverTheSameNodesAgainAndAgainIsReadWithoutIt) {
     const auto told = told_of(map);
     ASSERT_THAT(told.ways, SizeIs(1));
     EXPECT_EQ(told.ways[0].id, 10);
-    EXPECT_THAT(told.words, EndsWith("a.osm.pbf: left out: 1 way repeating the same few nodes"));
+    EXPECT_THAT(told.words, EndsWith("a.osm.pbf: skipped: 1 way repeating the same few nodes"));
     EXPECT_THAT(told_of("a.osm", xml_of(xml_road(7, "<nd ref='1'/><nd ref='2'/>"))).words,
                 IsEmpty());
 }
@@ -114,12 +114,12 @@ TEST(HostileMap, WithPointsOfARoadFarApartIsReadWithoutIt) {
     map.nodes({{4, 50 * e7, 15 * e7}, {5, -48 * e7, -165 * e7}}).way(11, {1, 4}).way(12, {3, 5});
     const auto told = told_of(map);
     EXPECT_THAT(told.ways, SizeIs(1));
-    EXPECT_THAT(told.words, EndsWith("left out: 2 ways with points more than 50 km apart"));
+    EXPECT_THAT(told.words, EndsWith("skipped: 2 ways with points more than 50 km apart"));
 
     const std::string line = R"({"type":"LineString","coordinates":[[15,0],[-165,0]]})";
     EXPECT_THAT(refusal_of_map("a.geojson",
                                R"({"type":"Feature","properties":{},"geometry":)" + line + "}"),
-                EndsWith("left out: 1 way with points more than 50 km apart; it contains no "
+                EndsWith("skipped: 1 way with points more than 50 km apart; it contains no "
                          "other drivable road"));
 }
 

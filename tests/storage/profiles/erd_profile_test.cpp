@@ -212,8 +212,8 @@ TEST(ErdProfile, SaysWhatItsHeadLacks) {
                 EndsWith("a.erd: no channel is an elevation: UNITSNAM has 'g' 'deg', expected m, "
                          "cm, mm, um, ft, in or mil"));
     EXPECT_THAT(refusal_of_text(erd("1,2,-1,1,5,.1", "UNITSNAMm\nXUNITS  s\n", "")),
-                EndsWith("a.erd: has no step in a unit of length, expected XUNITS m, cm, mm, um, "
-                         "ft, in or mil, or the option --step"));
+                EndsWith("a.erd: has no step in a unit of length, expected XUNITS m, cm, mm, "
+                         "um, ft, in or mil or the option --step"));
 }
 
 TEST(ErdProfile, SaysWhichLineOfNumbersIsWrong) {

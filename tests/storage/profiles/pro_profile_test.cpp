@@ -88,7 +88,7 @@ TEST(ProProfile, SaysWhatIsWrong) {
                 EndsWith("a.pro: has no points after its five header "
                          "lines"));
     EXPECT_THAT(refusal_of_text(head + "1,2,\n1,bump,\n"),
-                EndsWith("a.pro:7: '1,bump,', expected two elevations at its begin"));
+                EndsWith("a.pro:7: '1,bump,', expected two elevations at its beginning"));
     EXPECT_THAT(refusal_of_text(head + "1,2,3,4\n"),
                 EndsWith("a.pro:6: '1,2,3,4' has 4 cells, expected 2 or 3 (one or two elevations "
                          "and a comment), or five more with a position"));

@@ -175,6 +175,5 @@ TEST(TruthFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(refusal_of_rows(header + "12+0000,12,forward,20,20,1,1,1,1\n"),
                 HasSubstr("truth.csv:2: to_m is '20', expected more than from_m, '20'"));
     const std::string row = "12+0000,12,forward,0,20,1,1,1,1\n";
-    EXPECT_THAT(refusal_of_rows(header + row + row),
-                HasSubstr("segment '12+0000' stands there twice"));
+    EXPECT_THAT(refusal_of_rows(header + row + row), HasSubstr("segment '12+0000' occurs twice"));
 }

@@ -171,10 +171,10 @@ TEST_F(ForeignSchema, OfHundredsOfKindsIsRefusedBeforeAnythingOfItRuns) {
             ++tried;
             const auto access = tried % 2 == 0 ? RoadStore::Access::read : RoadStore::Access::write;
             EXPECT_THAT(refusal_of([&] { RoadStore::open(file, access); }),
-                        AnyOf(HasSubstr(" that is not of this program"),
-                              HasSubstr(": lacks its "),
+                        AnyOf(HasSubstr(" that does not belong to Macadam"),
+                              HasSubstr(": lacks the "),
                               HasSubstr(": is damaged: "),
-                              HasSubstr("no Macadam store")))
+                              HasSubstr("not a Macadam database")))
                 << sql;
         }
     }
@@ -186,8 +186,9 @@ TEST_F(ForeignSchema, IsNamedInTheRefusal) {
     const auto plain = plain_store(folder);
     ASSERT_TRUE(change(plain, "CREATE VIEW \"x\x1b[2J\" AS SELECT 1"));
     EXPECT_EQ(refusal_of([&] { RoadStore::open(plain, RoadStore::Access::read); }),
-              plain.string() + ": holds a view 'x\\x1b[2J' that is not of this program, expected a "
-                               "store as 'macadam init' makes it; nothing of it was run");
+              plain.string() + ": contains a view 'x\\x1b[2J' that does not belong to Macadam, "
+                               "expected a database as made by 'macadam init'; none of it was "
+                               "executed");
 }
 
 TEST_F(ForeignSchema, OfAViewWithoutEndIsRefusedAtOnce) {
@@ -202,9 +203,10 @@ TEST_F(ForeignSchema, OfAViewWithoutEndIsRefusedAtOnce) {
                                        table,
                                        endless)));
         const auto begin = std::chrono::steady_clock::now();
-        EXPECT_THAT(
-            refusal_of([&] { RoadStore::open(file, RoadStore::Access::read); }),
-            AnyOf(HasSubstr(" that is not of this program"), HasSubstr("no Macadam store")));
+        EXPECT_THAT(refusal_of([&] { RoadStore::open(file, RoadStore::Access::read); }),
+                    AnyOf(HasSubstr(" that does not belong to Macadam"),
+                          HasSubstr("not a Macadam "
+                                    "database")));
         EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds{1});
     }
 }
@@ -219,7 +221,7 @@ TEST_F(ForeignSchema, OfSqliteItselfAndOfQgisIsLetIn) {
     EXPECT_EQ(RoadStore::open(plain, RoadStore::Access::write).info().trips, 2U);
     ASSERT_TRUE(change(plain, "ALTER TABLE qgis_projects ADD COLUMN other AS (1)"));
     EXPECT_THAT(refusal_of([&] { RoadStore::open(plain, RoadStore::Access::read); }),
-                HasSubstr("a table 'qgis_projects' that is not of this program"));
+                HasSubstr("a table 'qgis_projects' that does not belong to Macadam"));
 }
 
 TEST(GuardedDatabase, RunsNoViewOrTriggerOfTheFileButItsOwnInTemp) {

@@ -431,7 +431,7 @@ TEST(Reprocess, RefusesToGoOnFromAnotherGeneration) {
     RoadStore::open(folder / "a.gpkg", RoadStore::Access::write).calibrate(true);
     const auto before = store.digest();
     EXPECT_THAT(refusal_of([&] { store.commit_staged("anew"); }),
-                HasSubstr("a.gpkg: another command began a new generation meanwhile"));
+                HasSubstr("a.gpkg: another command wrote a new generation in the meantime"));
     EXPECT_EQ(store.digest(), before);
 }
 

@@ -404,7 +404,7 @@ TEST(RoadStore, RefusesWhatIsNoStore) {
     };
     EXPECT_THAT(open(folder / "none.gpkg"),
                 HasSubstr("none.gpkg: no such file, expected a database made by 'macadam init'"));
-    EXPECT_THAT(open(folder), HasSubstr("is not a file, expected a store"));
+    EXPECT_THAT(open(folder), HasSubstr("is not a file, expected a database"));
     for (const auto* content : {"", "# a text\n", "SQLite format 3"}) {
         EXPECT_THAT(open(testing::written(folder, "text.gpkg", content)),
                     HasSubstr("text.gpkg: is not a Macadam database, expected one made by "

@@ -346,7 +346,7 @@ TEST(StoreFaults, OfOtherGeoPackagesAndVersionsAreNamed) {
     new_store(folder / "a.gpkg");
     Database{folder / "a.gpkg", Database::Access::write}.run(
         "UPDATE meta SET value = '1' WHERE key = 'version'");
-    EXPECT_THAT(refusal(), HasSubstr("is a store of version '1', expected version 3"));
+    EXPECT_THAT(refusal(), HasSubstr("is a database of version '1', expected version 3"));
 }
 
 /// What any tool for SQLite can do to a store.
@@ -388,7 +388,7 @@ TEST(StoreFaults, OfASegmentWithoutALineAreNamed) {
     const auto file = changed_store("UPDATE segment SET geom = x'4750' WHERE seq = 3");
     const auto store = RoadStore::open(file, RoadStore::Access::read);
     EXPECT_THAT(refusal_of([&] { store.visit({}, [](const SegmentRecord&) {}); }),
-                HasSubstr("segment '1+0003' has no line"));
+                HasSubstr("segment '1+0003' has no valid line"));
 }
 
 TEST(StoreFaults, OfATimeBeyondAllYearsLeaveItUnknown) {

@@ -280,7 +280,7 @@ TEST(LockWait, LastsAsLongAsTheHolderWorks) {
     EXPECT_THAT(told,
                 AllOf(HasSubstr("waiting for '"),
                       HasSubstr("(process " + std::to_string(holder.process()) +
-                                "), which is using the database; Ctrl-C ends the wait")));
+                                "), which is using the database; press Ctrl-C to stop waiting")));
 }
 
 TEST(LockWait, EndsWithWordsWhereTheHolderStandsStill) {
@@ -293,8 +293,8 @@ TEST(LockWait, EndsWithWordsWhereTheHolderStandsStill) {
                 }),
                 AllOf(HasSubstr("a.db: is locked by '"),
                       HasSubstr("(process " + std::to_string(holder.process()) +
-                                "), which has stood still for 1 s; nothing more was written, end "
-                                "it and run this again")));
+                                "), which has made no progress for 1 s; nothing more was "
+                                "written, end that program and run this command again")));
 }
 
 TEST(LockWait, EndsWhenAStopIsAskedFor) {
@@ -309,7 +309,7 @@ TEST(LockWait, EndsWhenAStopIsAskedFor) {
     EXPECT_THAT(refusal_of([&] {
                     Transaction{database, Transaction::Kind::write};
                 }),
-                AllOf(HasSubstr("a.db: interrupted while it waited for '"),
+                AllOf(HasSubstr("a.db: interrupted while waiting for '"),
                       HasSubstr("(process " + std::to_string(holder.process()) +
                                 "); nothing more was written")));
 }

@@ -81,7 +81,7 @@ TEST(StoreKey, OfAnotherStoreIsRefusedWithWhatToDo) {
                   fs::copy_options::overwrite_existing);
     for (const auto access : {RoadStore::Access::read, RoadStore::Access::write}) {
         EXPECT_THAT(refusal_of([&] { RoadStore::open(folder / "a.gpkg", access); }),
-                    HasSubstr("a.gpkg.key: is the key of another database"));
+                    HasSubstr("a.gpkg.key: is not the key of "));
     }
 }
 
@@ -193,7 +193,7 @@ TEST(Forget, FindsATripByANameWithTheIdOfItsCarForWhoHasTheKey) {
     fs::remove(key_file_of(store.file()));
     auto other = opened(store.file());
     EXPECT_THAT(refusal_of([&] { other.forget({.trips = {}, .vehicles = {"car-0"}}); }),
-                HasSubstr("the key of the store is not beside it"));
+                HasSubstr("the key of the database is not beside it"));
     EXPECT_EQ(other.forget({.trips = {}, .vehicles = {other.cars().front()}}).trips, 2U);
 }
 

@@ -119,7 +119,7 @@ TEST(ControlReader, RefusesWhatIsNoSectionOfTheNetwork) {
     EXPECT_THAT(refusal_of_sections("a,99,forward,0,60,2,,\n"),
                 EndsWith("control.csv:2: the database has no way '99'"));
     EXPECT_THAT(refusal_of_sections("a,1,forward,0,9000,2,,\n"),
-                HasSubstr("control.csv:2: reaches from 0 to 9000 m, expected a part of the way"));
+                HasSubstr("control.csv:2: extends from 0 to 9000 m, expected a part of the way"));
     EXPECT_THAT(refusal_of_sections("a,2,backward,0,20,2,,\n"),
                 EndsWith("control.csv:2: direction is 'backward', which may not be driven there"));
     EXPECT_THAT(refusal_of_sections("a,1,forward,20,20,2,,\n"),

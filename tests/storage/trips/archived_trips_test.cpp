@@ -105,7 +105,7 @@ TEST(ArchivedTrips, AreRefusedWhereManyFilesTogetherGrowTooMuch) {
         members.emplace_back(fmt::format("{}.trip.csv", i), "# macadam-trip 1\n" + part);
     }
     const auto file = written(test_folder(), "a.zip", archive_of("zip", members));
-    EXPECT_THAT(told(file).back(), HasSubstr("grows more than 100-fold when it is decompressed"));
+    EXPECT_THAT(told(file).back(), HasSubstr("grows more than 100-fold when decompressed"));
 }
 
 TEST(ArchivedTrips, WithinAnArchiveOfTheirOwnAreNotRead) {

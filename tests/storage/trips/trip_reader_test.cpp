@@ -294,7 +294,8 @@ TEST(TripReader, RefusesMoreAfterTheEnd) {
 TEST(TripReader, ShowsTheBytesOfWhatIsNoText) {
     EXPECT_THAT(
         refusal_of_text("PK\x03\x04 and more of it"),
-        EndsWith("a.trip.csv:1: 'PK\\x03\\x04 and more of it', expected '# macadam-trip 1'"));
+        EndsWith("a.trip.csv:1: 'PK\\x03\\x04 and more of it', expected '# macadam-trip 1': "
+                 "not a Macadam log; for other CSV files see the option --mapping"));
     EXPECT_THAT(refusal_of_text(std::string_view{"# macadam-trip 1\nt_s\n0\0\n", 23}),
                 EndsWith("a.trip.csv:3: '0\\x00', expected text"));
     EXPECT_THAT(refusal_of_text(std::string(3 << 20, 'x')), HasSubstr("expected lines shorter"));
@@ -332,8 +333,10 @@ TEST(TripReader, ReadsPiecesOfGzipThatFollowEachOther) {
 TEST(TripReader, RefusesCompressedDataThatIsCutOff) {
     const auto gz = gzipped(small);
     const auto zst = zstd_compressed(small);
-    EXPECT_THAT(refusal_of_text(gz.substr(0, gz.size() - 4)), HasSubstr("gzip data is cut off"));
-    EXPECT_THAT(refusal_of_text(zst.substr(0, zst.size() - 4)), HasSubstr("zstd data is cut off"));
+    EXPECT_THAT(refusal_of_text(gz.substr(0, gz.size() - 4)), HasSubstr("gzip data is truncated"));
+    EXPECT_THAT(refusal_of_text(zst.substr(0, zst.size() - 4)),
+                HasSubstr("zstd data is "
+                          "truncated"));
 }
 
 TEST(TripReader, RefusesCompressedDataThatIsDamaged) {
@@ -345,7 +348,7 @@ TEST(TripReader, RefusesCompressedDataThatIsDamaged) {
 TEST(TripReader, RefusesABomb) {
     const std::string zeros(20 << 20, '\n'); // beyond the 16 MiB that may grow at will
     EXPECT_THAT(refusal_of_text(gzipped("# macadam-trip 1\n" + zeros)),
-                HasSubstr("grows more than 100-fold when it is decompressed"));
+                HasSubstr("grows more than 100-fold when decompressed"));
 }
 
 TEST(TripReader, HashesTheContentItself) {

@@ -41,6 +41,7 @@ TEST(TripWalk, FindsTheTripsUnderAFolderInByteOrder) {
     EXPECT_THAT(names_of(search, folder),
                 ElementsAre("B.trip.csv", "a-1.trip.csv.zst", "a/z.trip.csv.gz", "b.trip.csv"));
     EXPECT_EQ(search.other_files, 2U);
+    EXPECT_EQ(search.first_other_file, "a/notes.txt");
 }
 
 TEST(TripWalk, CountsALinkToNothingAsATripThatCannotBeRead) {
@@ -86,6 +87,7 @@ TEST(TripWalk, FindsTheTripsInAnArchiveInItsOwnOrder) {
         EXPECT_THAT(names_of(search, folder), ElementsAre("d/b.trip.csv.gz", "d/a.trip.csv"))
             << format;
         EXPECT_EQ(search.other_files, 1U) << format;
+        EXPECT_EQ(search.first_other_file, "d/notes.txt") << format;
         for (const auto& trip : search.trips) {
             EXPECT_EQ(read_trip(trip, {}).rows.size(), 1U) << trip.name();
             EXPECT_EQ(content_sha256(trip), read_trip(trip, {}).sha256) << trip.name();
@@ -110,7 +112,8 @@ TEST(TripWalk, NamesTheMemberInWhatIsWrongWithIt) {
     const auto file =
         written(test_folder(), "a.zip", archive_of("zip", {{"bad.trip.csv", "bumps\n"}}));
     EXPECT_THAT(refusal_of([&] { read_trip(find_trips(file).trips.at(0), {}); }),
-                EndsWith("a.zip/bad.trip.csv:1: 'bumps', expected '# macadam-trip 1'"));
+                EndsWith("a.zip/bad.trip.csv:1: 'bumps', expected '# macadam-trip 1': not a "
+                         "Macadam log; for other CSV files see the option --mapping"));
 }
 
 TEST(TripWalk, RefusesAnArchiveThatIsCutOff) {

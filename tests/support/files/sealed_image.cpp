@@ -22,7 +22,7 @@
 namespace macadam::testing {
 namespace {
 
-// The head, as docs/network.md and mapping/network/image/network_image.cpp have it.
+// The head, as docs/reference/road-maps.md and mapping/network/image/network_image.cpp have it.
 constexpr std::size_t bytes_at = 16;
 constexpr std::size_t sections_at = 96;
 constexpr std::size_t sum_at = sections_at + 14 * 16;

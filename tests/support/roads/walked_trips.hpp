@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace macadam::testing {
@@ -12,6 +13,7 @@ namespace macadam::testing {
 struct WalkedTrips {
     std::vector<TripSource> trips;
     std::size_t other_files = 0; ///< seen and not read
+    std::string first_other_file;
 };
 
 inline WalkedTrips walked(const std::filesystem::path& path, const TripWalkConfig& config) {
@@ -21,6 +23,7 @@ inline WalkedTrips walked(const std::filesystem::path& path, const TripWalkConfi
         all.trips.push_back(std::move(*trip));
     }
     all.other_files = walk.other_files();
+    all.first_other_file = walk.first_other_file();
     return all;
 }
 

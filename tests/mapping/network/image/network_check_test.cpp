@@ -94,19 +94,19 @@ TEST(NetworkCheck, RefusesValuesThatStandForNothing) {
     EXPECT_THAT(refusal_with(ways, sizeof(PackedWay), 0, 30, std::uint8_t{3}),
                 HasSubstr("way '1' is invalid")); // oneway
     EXPECT_THAT(refusal_with(links, sizeof(PackedLink), 0, 24, std::uint16_t{0}),
-                HasSubstr("link 0 is none")); // its speed limit
+                HasSubstr("link 0 is invalid")); // its speed limit
     EXPECT_THAT(refusal_with(links, sizeof(PackedLink), 0, 26, std::uint16_t{64}),
-                HasSubstr("link 0 is none")); // its flags
+                HasSubstr("link 0 is invalid")); // its flags
     EXPECT_THAT(refusal_with(turns, sizeof(TurnRule), 0, 16, std::int64_t{2}),
                 HasSubstr("a turn restriction is invalid"));
-    EXPECT_THAT(refusal_with(boxes, 16, 0, 0, -1'000'000'000), HasSubstr("a box that is none"));
+    EXPECT_THAT(refusal_with(boxes, 16, 0, 0, -1'000'000'000), HasSubstr("an invalid box"));
 }
 
 TEST(NetworkCheck, RefusesWhatIsOutOfOrder) {
     EXPECT_THAT(refusal_with(ways, sizeof(PackedWay), 1, 0, std::int64_t{0}),
                 HasSubstr("its ways are not in order"));
     EXPECT_THAT(refusal_with(along_mm, 4, 1, 0, std::uint32_t{4'000'000'000}),
-                HasSubstr("the lengths along way '1' fall"));
+                HasSubstr("the lengths along way '1' decrease"));
     EXPECT_THAT(refusal_with(node_point, 4, 1, 0, std::uint32_t{0}),
                 HasSubstr("its nodes are not in order"));
 }

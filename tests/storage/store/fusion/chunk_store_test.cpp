@@ -268,7 +268,7 @@ TEST(ChunkStore, SaysThatATraceWasChanged) {
         again.traces[0].drive = 7;
         store.add_trip(trip_record(9), again.passes, again.traces);
         Database{file, Database::Access::write}.run(std::string{"UPDATE trace SET "} + change);
-        EXPECT_THAT(refusal_of([&] { store.refresh(); }), HasSubstr("the store was changed"))
+        EXPECT_THAT(refusal_of([&] { store.refresh(); }), HasSubstr("the database was modified"))
             << change;
     }
 }

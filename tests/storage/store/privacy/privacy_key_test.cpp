@@ -102,7 +102,9 @@ TEST(PrivacyKey, OfAnotherLengthOrFormIsRefusedWithWords) {
                              key.hex() + "\n",
                              std::string(100'000, '\0')}) {
         const auto file = written(folder, "a.key", text);
-        EXPECT_THAT(refusal_of([&] { read_key(file); }), HasSubstr("a.key: is no key, expected"));
+        EXPECT_THAT(refusal_of([&] { read_key(file); }),
+                    HasSubstr("a.key: is not a key file, "
+                              "expected"));
     }
     EXPECT_EQ(read_key(written(folder, "a.key", line + key.hex() + "\r\n"))->hex(), key.hex());
 }

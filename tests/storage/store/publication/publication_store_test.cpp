@@ -180,7 +180,7 @@ TEST(Publication, IsAskedForWholeMonths) {
     EXPECT_THAT(refusal_of([&] {
                     crowd.seen(Period{january_ms + day_ms, std::nullopt});
                 }),
-                HasSubstr("told by whole months"));
+                HasSubstr("given by whole months"));
 }
 
 TEST(Publication, KeepsItsFiguresWhenACarIsForgottenUntilOthersDrove) {
@@ -235,7 +235,7 @@ TEST(BecomingACrowd, KeepsOutWhatAnImportOfBeforeBrings) {
     auto importer = RoadStore::open(crowd.file, RoadStore::Access::write);
     crowd.store.make_crowd();
     EXPECT_THAT(refusal_of([&] { importer.add_trip(testing::trip_record(1), {}); }),
-                HasSubstr("became a crowd's meanwhile"));
+                HasSubstr("became a crowd database in the meantime"));
 }
 
 } // namespace

@@ -144,6 +144,7 @@ TEST(PhyphoxExport, IsFoundAmongOthersUnderAFolder) {
     }
     EXPECT_THAT(names, ElementsAre("x", "monday", "tuesday"));
     EXPECT_EQ(search.other_files, 1U);
+    EXPECT_EQ(search.first_other_file, "week/notes.txt");
 }
 
 TEST(PhyphoxExport, ReadsSemicolonsAndDecimalCommas) {
@@ -203,6 +204,7 @@ TEST(Mapping, TakesEveryFittingFileUnderAFolder) {
     const auto search = find_trips(folder, of);
     ASSERT_THAT(search.trips, SizeIs(2));
     EXPECT_EQ(search.other_files, 1U);
+    EXPECT_EQ(search.first_other_file, "b_gps.csv");
     EXPECT_EQ(read_trip(search.trips[0], everything).meta.trip_id, "b_acc");
     EXPECT_EQ(content_sha256(search.trips[0]), read_trip(search.trips[0], everything).sha256);
 }

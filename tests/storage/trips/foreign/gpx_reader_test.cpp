@@ -136,11 +136,11 @@ TEST(Gpx, TakesNoTrackFromWithinAPoint) {
 
 TEST(Gpx, WithoutATrackIsRefusedWithWhatItHolds) {
     EXPECT_THAT(refusal(head + "<wpt lat=\"1\" lon=\"1\"/><rte/>\n</gpx>"),
-                HasSubstr("tour.gpx:4: holds 1 route, 1 way point only, expected a track (trk) "
-                          "with points (trkpt)"));
+                HasSubstr("tour.gpx:4: contains 1 route, 1 way point only, expected a track "
+                          "(trk) with points (trkpt)"));
     EXPECT_THAT(refusal(head + "<trk><trkseg/><trkseg/></trk></gpx>"),
-                HasSubstr("holds 1 track, 2 segments only"));
-    EXPECT_THAT(refusal(head + "</gpx>"), HasSubstr("holds nothing"));
+                HasSubstr("contains 1 track, 2 segments only"));
+    EXPECT_THAT(refusal(head + "</gpx>"), HasSubstr("contains nothing"));
 }
 
 TEST(Gpx, OfAnotherRootIsRefused) {
