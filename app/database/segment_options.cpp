@@ -3,6 +3,7 @@
 #include "app/database/period_options.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/style/iri_class.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

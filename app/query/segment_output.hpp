@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/style/iri_class.hpp"
 #include "storage/store/road_store.hpp"
 
 #include <cstddef>

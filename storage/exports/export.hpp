@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/common/progress.hpp"
+#include "mapping/style/iri_class.hpp"
 #include "storage/store/road_store.hpp"
 
 #include <cstddef>

@@ -6,10 +6,10 @@
 #include "mapping/network/segment.hpp"
 #include "mapping/passes/chunk_trace.hpp"
 #include "mapping/passes/pass.hpp"
-#include "storage/store/schema/usage_records.hpp"
 #include "mapping/transfer/network_change_summary.hpp"
 #include "storage/store/privacy/privacy_profile.hpp"
 #include "storage/store/privacy/publication.hpp"
+#include "storage/store/schema/usage_records.hpp"
 
 #include <cstdint>
 #include <map>

@@ -2,21 +2,7 @@
 
 #include "storage/tables/csv_cells.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 namespace macadam {
-
-namespace {
-
-template <std::size_t count>
-bool is_one_of(std::string_view file, const std::string_view (&names)[count]) {
-    return std::any_of(std::begin(names), std::end(names), [&](std::string_view name) {
-        return fits(file, name);
-    });
-}
-
-} // namespace
 
 bool marks_export(std::string_view file) {
     return is_one_of(file, total_files) || is_one_of(file, acc_files) ||

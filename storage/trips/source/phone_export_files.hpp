@@ -1,5 +1,10 @@
 #pragma once
 
+#include "storage/tables/csv_cells.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <string_view>
 
 namespace macadam {
@@ -16,6 +21,14 @@ inline constexpr std::string_view gyro_files[] = {"Gyroscope.csv"};
 inline constexpr std::string_view location_files[] = {"Location.csv"};
 inline constexpr std::string_view time_file = "meta/time.csv";
 inline constexpr std::string_view metadata_file = "Metadata.csv";
+
+/// Whether a file goes by one of these names, whatever its case.
+template <std::size_t count>
+bool is_one_of(std::string_view file, const std::string_view (&names)[count]) {
+    return std::any_of(std::begin(names), std::end(names), [&](std::string_view name) {
+        return fits(file, name);
+    });
+}
 
 /// Whether a folder that holds a file of this name is an export of phyphox or Sensor Logger.
 bool marks_export(std::string_view file);

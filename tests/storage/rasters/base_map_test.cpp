@@ -5,11 +5,15 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 namespace macadam::testing {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
 
 struct Projected {
     std::string plane;
@@ -199,6 +203,18 @@ TEST(BaseMapFile, IsTheSameWhicheverPartIsAskedFor) {
     for (const auto& plane : planes) {
         expect_parts_are_the_whole(open_base_map(file), plane);
     }
+}
+
+TEST(BaseMapFile, ThatClaimsATrillionPixelsTakesAsLongAsThePictureIsLarge) {
+    const auto file = test_folder() / "claims.vrt";
+    std::ofstream{file} << R"(<VRTDataset rasterXSize="2000000" rasterYSize="2000000">
+<SRS>EPSG:3857</SRS><GeoTransform>1736000,0.0128,0,6176000,0,-0.0128</GeoTransform>
+<VRTRasterBand dataType="Byte" band="1"><ColorInterp>Gray</ColorInterp></VRTRasterBand>
+</VRTDataset>)";
+    const auto map = open_base_map(file);
+    const auto rgba = whole(map, {"", 1'736'000, 6'176'000, 512, 50, 50});
+    ASSERT_THAT(rgba, SizeIs(4 * 50 * 50));
+    EXPECT_THAT(pixel(rgba, 50, 25, 25), ElementsAre(0, 0, 0, 255)); // no source: the band is 0
 }
 
 TEST(BaseMapFile, IsTransparentWhereItDoesNotReach) {

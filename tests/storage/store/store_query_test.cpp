@@ -1,5 +1,6 @@
 // What a store answers, against all that it holds.
 
+#include "mapping/style/iri_class.hpp"
 #include "storage/store/road_store.hpp"
 #include "storage/text/case_folding.hpp"
 #include "support/files/files.hpp"
