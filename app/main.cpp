@@ -14,20 +14,20 @@
 
 namespace {
 
-/// To standard error. If even that cannot be written there is nobody left to tell.
+/// Writes to standard error; a failure there cannot be reported.
 void say(const std::string& words) {
     std::fputs(macadam::printable(words).c_str(), stderr);
 }
 
 enum ExitStatus { done = 0, failed = 1, misused = 2 };
 
-/// Help and the like, to standard output.
+/// Writes help and similar texts to standard output.
 int tell(const std::string& words) {
     const bool told = std::fputs(words.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
     return told ? done : failed;
 }
 
-/// Runs a command and turns what it throws into words and an exit status: the only place that does.
+/// Runs a command and converts exceptions to a message and an exit status; the only place to do so.
 int run_command(const macadam::Command& command, std::vector<std::string> words) {
     try {
         macadam::run(command, std::move(words));
@@ -51,13 +51,13 @@ int run_command(const macadam::Command& command, std::vector<std::string> words)
 } // namespace
 
 int main(int argc, char** argv) {
-    // The samples of a long trip are a few large blocks. Kept out of the heap, each goes back to
-    // the system when it is let go, instead of leaving a hole: a fifth of the memory of a ten-hour
-    // trip.
+    // The samples of a long trip are a few large blocks. Outside the heap, each returns to the
+    // system when it is freed instead of leaving a hole. This saves a fifth of the memory of a
+    // ten-hour trip.
     constexpr int large_block_bytes = 1 << 20;
     mallopt(M_MMAP_THRESHOLD, large_block_bytes);
 
-    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of a write, with words
+    std::signal(SIGXFSZ, SIG_IGN); // the file size limit becomes a write error
 
     std::vector<std::string> words{argv + 1, argv + argc};
     if (words.empty()) {

@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-/// "--output" of "-o,--output".
+/// Returns "--output" for "-o,--output".
 std::string long_name(std::string_view name) {
     return std::string{name.substr(name.rfind(',') + 1)};
 }
@@ -49,7 +49,7 @@ void add_options(CLI::App& parser,
     }
 }
 
-/// Edits that turn one word into the other: a letter more, less or another, or two in exchange
+/// Counts the edits between two words: insertions, deletions, substitutions and transpositions
 /// (optimal string alignment distance).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before_last;
@@ -69,7 +69,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return last.back();
 }
 
-/// "; did you mean --vehicle?" if an option is spelled much like the word.
+/// Suggests an option of similar spelling: "; did you mean --vehicle?"
 std::string suggestion(std::span<const Option> options, std::string_view word) {
     const std::size_t max_edits = word.size() > 6 ? 2 : 1;
     std::size_t fewest = max_edits + 1;
@@ -84,7 +84,8 @@ std::string suggestion(std::span<const Option> options, std::string_view word) {
     return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
 }
 
-/// The option with one value whose value stands right before a word; nullptr if none does.
+/// Returns the option with one value whose value directly precedes a word; nullptr if there is
+/// none.
 const Option* option_before(std::span<const Option> options,
                             std::span<const std::string> words,
                             std::size_t word) {
@@ -100,8 +101,8 @@ const Option* option_before(std::span<const Option> options,
     return found == options.end() ? nullptr : &*found;
 }
 
-/// Of a command line with more words than operands. Blanks within a list of numbers are likelier
-/// than an operand too many.
+/// Rejects a command line with surplus words. Spaces within a list of numbers are likelier than a
+/// surplus operand.
 [[noreturn]] void refuse_surplus(std::span<const Option> options,
                                  std::span<const std::string> words,
                                  const std::string& surplus) {
@@ -120,7 +121,7 @@ const Option* option_before(std::span<const Option> options,
     throw UsageError{fmt::format("unexpected '{}'", surplus)};
 }
 
-/// Of the words that CLI11 had no use for.
+/// Rejects the words that CLI11 did not use.
 [[noreturn]] void refuse_extras(std::span<const Option> options,
                                 std::span<const std::string> words,
                                 const std::vector<std::string>& extras) {
@@ -133,7 +134,7 @@ const Option* option_before(std::span<const Option> options,
     refuse_surplus(options, words, extras.empty() ? "" : extras.front());
 }
 
-/// Gives each operand its word, and the last one all that are left if it takes many.
+/// Assigns each operand its word, and the last one all remaining words if it takes many.
 void distribute(std::span<const Option> options,
                 std::span<const Operand> operands,
                 std::span<const std::string> all,
@@ -162,7 +163,7 @@ void distribute(std::span<const Option> options,
     }
 }
 
-/// CLI11 would name the flag without its dashes.
+/// Rejects flags with a value; CLI11 would name the flag without its dashes.
 void expect_flags_alone(std::span<const Option> options, const std::vector<std::string>& words) {
     for (const auto& word : words) {
         const auto name = word.substr(0, word.find('='));
@@ -184,16 +185,16 @@ Arguments::Arguments(std::span<const Option> options,
     CLI::App parser;
     parser.set_help_flag();
     add_options(parser, options, words_);
-    // One list for all operands: CLI11 would let the first of several take every word.
+    // A single list holds all operands: CLI11 would let the first of several take every word.
     std::vector<std::string> given;
     if (!operands.empty()) {
         parser.add_option("operands", given)->required()->expected(1, -1);
     }
     try {
         parser.parse(std::vector<std::string>{words.rbegin(),
-                                              words.rend()}); // CLI11 takes them from the back
+                                              words.rend()}); // CLI11 takes words from the back
     } catch (const CLI::RequiredError&) {
-        given.clear(); // distribute() says which is missing
+        given.clear(); // distribute() reports the missing operand
     } catch (const CLI::ExtrasError&) {
         refuse_extras(options, words, parser.remaining());
     } catch (const CLI::ParseError& error) {

@@ -11,34 +11,34 @@
 
 namespace macadam {
 
-/// The command line was wrong; main() answers with the command's usage and exit status 2.
+/// Error in the command line; main() answers with the command's usage and exit status 2.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// An option as the table of a command lists it: enough to parse it, and to explain it.
+/// Option in a command's table, with all that the parser and the help need.
 struct Option {
     std::string_view name;       ///< "--length", or "-o,--output"
     std::string_view value;      ///< "METRES", "[METRES]" if it may be left out, "" for a flag
     std::string_view help;       ///< one sentence
-    std::string_view fallback{}; ///< the value without the option, as help shows it; "" = none
-    bool many = false;           ///< takes all the words up to the next option
+    std::string_view fallback{}; ///< value without the option, as help shows it; "" = none
+    bool many = false;           ///< takes all words up to the next option
 };
 
-/// A word that is not an option.
+/// Positional argument.
 struct Operand {
     std::string_view name; ///< "STORE"
     std::string_view help;
     bool many = false;           ///< one or more; only the last operand may be
-    std::string_view fallback{}; ///< the word where it may be left out, as the last operand may
-    bool optional = false;       ///< may be left out: then there is none
+    std::string_view fallback{}; ///< value if omitted; last operand only
+    bool optional = false;       ///< may be omitted; there is no value then
 };
 
-/// The words after the command's name, sorted by a command's table. Values are text until a command
-/// asks for what it needs; a word that does not fit is a UsageError that quotes it.
+/// Words after the command's name, parsed by the command's tables. Values stay text until the
+/// command asks for a type; a word that does not fit causes a UsageError that quotes it.
 class Arguments {
 public:
-    /// \throws UsageError  for an unknown option, a missing value or operand, or a word too many.
+    /// \throws UsageError  for an unknown option, a missing value or operand, or a surplus word.
     Arguments(std::span<const Option> options,
               std::span<const Operand> operands,
               std::vector<std::string> words);
@@ -50,10 +50,11 @@ public:
     double number(std::string_view name, double fallback) const;
     std::optional<std::int64_t> integer(std::string_view name) const;
 
-    /// Comma-separated numbers: `--bbox W,S,E,N`. \throws UsageError if there are not `count`.
+    /// Parses comma-separated numbers: `--bbox W,S,E,N`.
+    /// \throws UsageError  if there are not `count`.
     std::optional<std::vector<double>> numbers(std::string_view name, std::size_t count) const;
 
-    /// One of a few words; the first is the fallback.
+    /// Parses a value from a list of words; the first is the default.
     std::string choice(std::string_view name, std::span<const std::string_view> words) const;
 
     const std::string& operand(std::string_view name) const;

@@ -40,7 +40,7 @@ std::string described(const Option& option) {
     return described(term, text);
 }
 
-/// Programs that were killed leave unfinished files beside what they were to make.
+/// Reports unfinished files that killed programs left beside their outputs.
 void say_what_was_left(const Command& command, const Arguments& arguments, const Console& console) {
     std::vector<std::string> made;
     if (command.name == init_command.name) {

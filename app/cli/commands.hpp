@@ -9,33 +9,33 @@
 
 namespace macadam {
 
-/// A command of the program. One table of them feeds the parser, the help and the tests.
+/// Command of the program. The same table of commands feeds the parser, the help and the tests.
 struct Command {
     std::string_view name;
     std::string_view summary; ///< one line, for the list of commands
-    std::string_view about;   ///< what it does and what comes out
-    std::string_view example; ///< command lines that work, and what they are good for
+    std::string_view about;   ///< purpose and results
+    std::string_view example; ///< working command lines, with their purpose
     std::span<const Operand> operands;
     std::span<const Option> options;
     void (*run)(const Arguments&, const Console&);
 };
 
-/// Every command, in the order of the work.
+/// Returns all commands, in the order of a typical workflow.
 std::span<const Command> commands();
 
-/// Null if there is none of that name.
+/// Returns the command of that name; null if there is none.
 const Command* command_named(std::string_view name);
 
-/// "macadam iri PROFILE [OPTION...]"
+/// Returns the usage line: "macadam iri PROFILE [OPTION...]".
 std::string usage_of(const Command& command);
 
-/// What `macadam COMMAND --help` prints.
+/// Returns the output of `macadam COMMAND --help`.
 std::string help_of(const Command& command);
 
-/// What `macadam --help` prints.
+/// Returns the output of `macadam --help`.
 std::string help_of_all();
 
-/// Splits the words by the command's table (and --quiet, which every command takes) and runs it.
+/// Parses the words with the command's tables (and --quiet, common to all commands) and runs it.
 void run(const Command& command, std::vector<std::string> words);
 
 extern const Command init_command;       // app/store/command_init.cpp

@@ -22,7 +22,7 @@ constexpr int bar_width = 30;
 
 using Clock = std::chrono::steady_clock;
 
-/// At the pace so far: ", 40 s left"; "" as long as that says little.
+/// Estimates the remaining time at the pace so far: ", 40 s left"; "" while that is too uncertain.
 std::string time_left(Clock::duration passed, std::size_t done, std::size_t whole) {
     constexpr double enough_s = 3;
     constexpr double s_per_min = 60;

@@ -9,19 +9,19 @@
 
 namespace macadam {
 
-/// How a command speaks to people: talk and progress on standard error, never on standard output,
-/// which holds results alone.
+/// Messages and progress for people, on standard error only; standard output is reserved for
+/// results.
 class Console {
 public:
-    /// \param quiet  only warnings and errors.
-    /// \param stop   when the user wants the command to end
+    /// \param quiet  suppresses all but warnings and errors
+    /// \param stop   requested when the user wants the command to end
     explicit Console(bool quiet, std::stop_token stop = {});
 
-    void say(std::string_view line) const;  ///< left out when quiet
+    void say(std::string_view line) const;  ///< suppressed when quiet
     void warn(std::string_view line) const; ///< "macadam: warning: ..."
 
-    /// A bar on a terminal, nothing elsewhere or when quiet. It goes when it is full. With the
-    /// user's wish to stop.
+    /// Returns a progress bar on a terminal; silent elsewhere and when quiet. The bar disappears
+    /// when it is full. The result carries the user's stop token.
     Progress progress(std::string label) const;
 
     const std::stop_token& stop() const { return stop_; }
@@ -32,15 +32,15 @@ private:
     bool terminal_;
 };
 
-/// "1 trip", "2 trips".
+/// Formats a count with its noun: "1 trip", "2 trips".
 std::string counted(std::size_t count, std::string_view one);
 
-/// Results go out through here.
-/// \throws InputError  if standard output cannot take them (a full disk, a closed file).
+/// Writes results to standard output.
+/// \throws InputError  if standard output fails (a full disk, a closed file).
 void print(std::string_view text);
 
-/// The same for results that people read, such as tables: what names in them would do to a terminal
-/// is spelled out (app/cli/terminal_escape.hpp).
+/// Writes results for people, such as tables; characters that would control a terminal are escaped
+/// (app/cli/terminal_escape.hpp).
 void print_words(std::string_view text);
 
 void flush_results();

@@ -19,24 +19,24 @@ namespace macadam {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int slowness = 10; // of a program under sanitizers
+constexpr int slowness = 10; // factor under sanitizers
 #else
 constexpr int slowness = 1;
 #endif
 
-// Within which a command comes to an end of its own. All of it, with what is removed then, is to
-// stay below 2 s. Who only reads has little to bring to an end.
+// Time limits for a command to end by itself. Together with the removal of files, the total must
+// stay below 2 s. A command that only reads has little to finish.
 constexpr int wait_policy_ms = 1500 * slowness;
 constexpr int reader_wait_ms = 300 * slowness;
 
 constexpr std::array interrupting{SIGINT, SIGTERM, SIGHUP};
 
-/// What the handlers of signals use. They may run at any moment, in any thread.
+/// State of the signal handlers, which may run at any moment, in any thread.
 struct Wish {
-    /// A request takes no lock as long as nobody registers a std::stop_callback.
+    /// A stop request takes no lock as long as no std::stop_callback is registered.
     std::optional<std::stop_source> stop;
     std::string last_words;
-    pid_t process = 0; ///< a forked one answers for itself
+    pid_t process = 0; ///< forked processes handle signals themselves
     std::atomic<bool> is_known = false;
 };
 Wish wish;
@@ -50,11 +50,11 @@ void wake_after(int time_ms) {
     ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-/// Ends the process as if nobody had waited for the signal.
+/// Removes unfinished files and ends the process by the signal's default action.
 void cut_off(int signal) {
     remove_unfinished();
     std::signal(signal, SIG_DFL);
-    ::raise(signal); // comes when the handler returns
+    ::raise(signal); // delivered when the handler returns
 }
 
 void interrupted(int signal) {
@@ -75,7 +75,7 @@ void end_of_wait(int /*signal*/) {
     ::_exit(1);
 }
 
-/// While one is handled, the others wait.
+/// Installs a handler that blocks the other signals while it runs.
 void handle(int signal, void (*handler)(int), struct sigaction* replaced) {
     struct sigaction action {};
     action.sa_handler = handler;
@@ -92,7 +92,7 @@ void handle(int signal, void (*handler)(int), struct sigaction* replaced) {
 Interruption::Interruption(std::string_view command) {
     wish.stop.emplace();
     wish.last_words = fmt::format("{}macadam {}: interrupted; unfinished work was discarded\n",
-                                  ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", // of a bar
+                                  ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", // clears a bar
                                   command);
     wish.process = ::getpid();
     wish.is_known = false;
@@ -122,7 +122,7 @@ std::chrono::milliseconds Interruption::wait_policy() {
     return std::chrono::milliseconds{wait_policy_ms};
 }
 
-// Of all that are alive, but there is one at a time.
+// Refers to global state, but only one object exists at a time.
 std::stop_token Interruption::stop() const { // NOLINT(*-convert-member-functions-to-static)
     return wish.stop->get_token();
 }

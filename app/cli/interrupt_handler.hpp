@@ -6,19 +6,19 @@
 
 namespace macadam {
 
-/// While it lives, Ctrl-C, `kill` and a terminal that closes (INT, TERM, HUP) ask the command to
-/// come to an end of its own: `stop()` says so. Where it has not within 1.5 s (0.3 s
-/// if it writes to no database), it is ended with words and exit status 1; what it had begun is
-/// removed (storage/atomic/unfinished_files.hpp), and what it had not committed to a database is
-/// undone by who opens that next. A second signal cuts off at once. A signal that was ignored when
-/// the program began, as under `nohup`, stays so.
+/// Signal handling for as long as the object lives. Ctrl-C, `kill` and a closing terminal (INT,
+/// TERM, HUP) request a stop through `stop()`. A command that has not ended within 1.5 s (0.3 s if
+/// it writes to no database) is terminated with a message and exit status 1. Its unfinished files
+/// are removed (storage/atomic/unfinished_files.hpp), and its uncommitted database changes are
+/// rolled back when the database is opened next. A second signal terminates at once. Signals
+/// ignored at program start, as under `nohup`, stay ignored.
 ///
-/// SIGPIPE, when the reader of the output has gone, removes what was begun likewise.
+/// SIGPIPE also removes unfinished files when the reader of the output has gone.
 ///
-/// It needs no thread, and processes may be forked beside it. One at a time.
+/// Uses no thread, so processes may be forked beside it. Only one object may exist at a time.
 class Interruption {
 public:
-    /// \param command  whose words these are
+    /// \param command  name of the command in messages
     explicit Interruption(std::string_view command);
     Interruption(const Interruption&) = delete;
     Interruption& operator=(const Interruption&) = delete;
@@ -26,7 +26,7 @@ public:
 
     std::stop_token stop() const;
 
-    /// Time that a command may take to end by itself: 1.5 s; more under sanitizers.
+    /// Time limit for a command to end by itself: 1.5 s; longer under sanitizers.
     static std::chrono::milliseconds wait_policy();
 };
 

@@ -26,19 +26,19 @@ std::string last_words;
 } // namespace
 
 void bear_memory_limit(std::string_view command) {
-#if !defined(__SANITIZE_ADDRESS__) // which has its own allocator and handlers
+#if !defined(__SANITIZE_ADDRESS__) // it has its own allocator and handlers
     rlimit limit{};
     if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
         return;
     }
-    ::mallopt(M_ARENA_MAX, 1); // each further one takes 64 MB of addresses, used or not
+    ::mallopt(M_ARENA_MAX, 1); // each further arena takes 64 MB of addresses, used or not
 
     constexpr rlim_t megabyte = 1'000'000;
     last_words = fmt::format("macadam {}: not enough memory: the address space is limited to "
                              "{} MB (ulimit -v), expected more\n",
                              command,
                              limit.rlim_cur / megabyte);
-    static std::array<char, 65536> stack; // the other one may be what cannot grow
+    static std::array<char, 65536> stack; // the regular stack may be unable to grow
     stack_t other{};
     other.ss_sp = stack.data();
     other.ss_size = stack.size();

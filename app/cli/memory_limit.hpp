@@ -4,12 +4,12 @@
 
 namespace macadam {
 
-/// Where the address space of this process is limited (`ulimit -v`): makes the allocator spare of
-/// it, and lets a library that crashes for lack of memory (SIGSEGV, SIGBUS, SIGABRT) end the
-/// program with words and exit status 1 instead; what was begun is removed. Our own code throws
-/// std::bad_alloc. To be called before any thread is started.
+/// Prepares the process for a limited address space (`ulimit -v`), if it has one. The allocator
+/// becomes sparing with addresses, and the crash of a library for lack of memory (SIGSEGV, SIGBUS,
+/// SIGABRT) removes unfinished files and ends the program with a message and exit status 1.
+/// Macadam's own code throws std::bad_alloc. Call before any thread starts.
 ///
-/// \param command  whose words these are
+/// \param command  name of the command in the message
 void bear_memory_limit(std::string_view command);
 
 } // namespace macadam

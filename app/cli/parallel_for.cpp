@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-/// What the threads share.
+/// State shared by the threads.
 struct WorkQueue {
     std::mutex mutex;
     std::size_t next = 0;

@@ -10,13 +10,14 @@
 namespace macadam {
 namespace {
 
-/// Those of the Unicode Bidirectional Algorithm (UAX 9, 2), and the ends of lines and paragraphs.
+/// Tests for the controls of the Unicode Bidirectional Algorithm (UAX 9, 2) and for line and
+/// paragraph separators.
 bool steers_writing(std::uint32_t letter) {
     return letter == 0x061C || (0x200E <= letter && letter <= 0x200F) ||
            (0x2028 <= letter && letter <= 0x202E) || (0x2066 <= letter && letter <= 0x2069);
 }
 
-/// C0, DEL and C1 of ECMA-48.
+/// Tests for C0, DEL and C1 of ECMA-48.
 bool steers_a_terminal(std::uint32_t letter) {
     return letter < 0x20 || (0x7F <= letter && letter <= 0x9F);
 }

@@ -5,12 +5,11 @@
 
 namespace macadam {
 
-/// Text as a terminal may be given it, whatever names stand in it: bytes that steer a terminal,
-/// marks that turn the direction of writing, and bytes that are no UTF-8 are spelled out ("\x1b",
-/// "\u202e"). Ends of lines stay.
+/// Escapes text for a terminal. Control characters, marks that change the writing direction and
+/// bytes that are not UTF-8 are spelled out ("\x1b", "\u202e"). Line ends stay.
 std::string printable(std::string_view text);
 
-/// The same of a name within a line: ends of lines are spelled out, too.
+/// Escapes a name within a line; line ends are spelled out, too.
 std::string printable_name(std::string_view name);
 
 } // namespace macadam

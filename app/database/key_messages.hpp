@@ -5,10 +5,10 @@
 
 namespace macadam {
 
-/// Says so if others than its owner can read the key that lies beside the store.
+/// Warns if users other than its owner can read the key beside the database.
 void warn_of_open_key(const RoadStore& store, const Console& console);
 
-/// Before cars are named: makes a key if none lies there, and says what it cannot do.
+/// Creates a missing key before cars get pseudonyms, and warns of its limits.
 void make_missing_key(RoadStore& store, const Console& console);
 
 } // namespace macadam

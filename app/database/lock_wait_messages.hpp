@@ -8,11 +8,11 @@
 
 namespace macadam {
 
-/// How a command waits while another one writes the store: it says once for whom, and Ctrl-C ends
-/// the wait.
+/// Returns the wait policy of a command while another one writes to the database: it names the
+/// other process once, and Ctrl-C ends the wait.
 LockWaitPolicy wait_policy_for(const std::filesystem::path& store, const Console& console);
 
-/// Opens a store for a command, which waits so.
+/// Opens a database for a command, with that wait policy.
 RoadStore opened_store(const std::filesystem::path& file,
                        RoadStore::Access access,
                        const Console& console,

@@ -23,7 +23,7 @@ std::optional<std::int64_t> begin_of_day_ms(const std::string& day) {
     return time_ms(day + "T00:00:00Z");
 }
 
-/// The month after one that is "2026-03".
+/// Returns the month after a month such as "2026-03".
 std::string month_after(const std::string& month) {
     const int year = std::stoi(month.substr(0, 4));
     const int number = std::stoi(month.substr(5));
@@ -31,7 +31,7 @@ std::string month_after(const std::string& month) {
                         : fmt::format("{:04}-{:02}", year, number + 1);
 }
 
-/// The beginning of what the text names, or its end.
+/// Returns the beginning or the end of the named month, day or time.
 std::optional<std::int64_t> border_ms(const std::string& text, bool end) {
     if (text.size() == month_letters) {
         const auto begin = begin_of_day_ms(text + "-01");

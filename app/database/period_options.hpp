@@ -16,12 +16,13 @@ inline constexpr Option since_option{
 inline constexpr Option until_option{
     "--until", "TIME", "Use only passes up to this time; a day or month is included to its end."};
 
-/// Of --since and --until; nothing if neither is there.
-/// \throws UsageError  for what is no time, and for an end that is not after the beginning.
+/// Parses --since and --until; returns `std::nullopt` if neither is given.
+/// \throws UsageError  for an invalid time, and for an end that is not after the beginning.
 std::optional<Period> parse_period(const Arguments& arguments);
 
-/// The beginning of the day, month or time that an option names, ms since 1970 UTC; nothing if it
-/// is not there. \throws UsageError  for what is no time.
+/// Returns the beginning of an option's day, month or time, ms since 1970 UTC; `std::nullopt`
+/// without the option.
+/// \throws UsageError  for an invalid time.
 std::optional<std::int64_t> parse_begin(const Arguments& arguments, std::string_view name);
 
 } // namespace macadam

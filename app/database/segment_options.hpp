@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-// What commands that read a store have in common.
+// Operands and options shared by commands that read a database.
 inline constexpr Operand store_operand{"STORE",
                                        "The road database, a .gpkg file made by 'macadam init'."};
 inline constexpr Option bbox_option{"--bbox", "W,S,E,N", "Only segments in this box, in degrees."};
@@ -20,10 +20,12 @@ inline constexpr Option name_option{
     "same."};
 inline constexpr Option all_option{"--all", "", "Also segments without any pass."};
 
-/// The STORE operand. \throws UsageError for the address of a server: a store is a file.
+/// Returns the STORE operand.
+/// \throws UsageError  for the address of a server: a database is a file.
 std::filesystem::path store_file(const Arguments& arguments);
 
-/// A box from degrees W,S,E,N. \throws UsageError if it is not one.
+/// Converts degrees W,S,E,N to a box.
+/// \throws UsageError  if they form no box.
 GeoBox box_of(const std::vector<double>& degrees);
 
 inline constexpr Option highway_option{
@@ -33,17 +35,19 @@ inline constexpr Option class_option{
 inline constexpr Option min_passes_option{
     "--min-passes", "N", "Only segments with at least this many passes."};
 
-/// Of --bbox, --way, --name, --highway, --class, --min-passes, --since, --until and --all.
-/// \throws UsageError for values that do not fit.
+/// Parses --bbox, --way, --name, --highway, --class, --min-passes, --since, --until and --all.
+/// \throws UsageError  for invalid values.
 SegmentFilter parse_filter(const Arguments& arguments);
 
-/// Of --segment. \throws UsageError  for what is no key.
+/// Parses --segment.
+/// \throws UsageError  for an invalid key.
 std::optional<SegmentKey> parse_key(const Arguments& arguments);
 
-/// \throws UsageError  if the store's class table has no class of the filter's name.
+/// Checks the class name of a filter.
+/// \throws UsageError  if the database's class table has no such class.
 void expect_known_class(const SegmentFilter& filter, const RoadStore& store);
 
-/// Says so if an import was cut off before its passes were fused.
+/// Warns if an import was interrupted before its passes were fused.
 void warn_of_waiting(const RoadStore& store,
                      const std::filesystem::path& file,
                      const Console& console);

@@ -33,7 +33,7 @@ struct ExportOptions {
     std::optional<PicturePlan> pictures;
 };
 
-/// Sections are reported whole, whatever lies in them, and as text.
+/// Rejects other filters and formats: sections are reported completely and as text.
 void expect_sections_alone(const ExportOptions& options) {
     const auto& filter = options.filter;
     if (filter.box || filter.way_id || !filter.name_part.empty() || !filter.highway.empty() ||
@@ -81,7 +81,7 @@ ExportOptions parse_export(const Arguments& arguments) {
     return options;
 }
 
-/// Files that the command reads.
+/// Returns the files that the command reads.
 std::vector<std::filesystem::path> inputs_of(const ExportOptions& options) {
     std::vector<std::filesystem::path> inputs{options.store};
     if (options.sections) {

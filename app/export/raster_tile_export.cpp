@@ -67,14 +67,14 @@ TileSetNote note_of(const StoreInfo& info, const std::string& name, const Pictur
             .tile_px = plan.tile_px};
 }
 
-/// Device and inode of the file of a name.
+/// Returns device and inode of a file.
 std::pair<dev_t, ino_t> identity_of(const std::filesystem::path& file) {
     struct stat status {};
     return ::stat(file.c_str(), &status) == 0 ? std::pair{status.st_dev, status.st_ino}
                                               : std::pair{dev_t{}, ino_t{}};
 }
 
-/// Reads what concerns the whole store; it is closed again before processes are made.
+/// Reads the data of the whole database, which is closed again before processes are started.
 StoreInfo info_of(const std::filesystem::path& file, const Console& console) {
     const auto store = opened_store(file, RoadStore::Access::read, console);
     warn_of_waiting(store, file, console);

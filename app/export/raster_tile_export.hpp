@@ -20,19 +20,21 @@ inline constexpr Option tile_left_hand_option{
     "--left-hand", "", "Picture tiles: traffic keeps left."};
 inline constexpr Option tile_no_labels_option{"--no-labels", "", "Picture tiles: omit road names."};
 
-/// How picture tiles are to be drawn, if --tiles asks for them; the box is still to come.
+/// Parses the plan of picture tiles if --tiles asks for them; the box is set later.
 ///
-/// \param tiles  of --zoom and --jobs
-/// \throws UsageError  for values that do not fit, for options of picture tiles without them, and
-///                     for a filter that picture tiles do not know: they show all roads of a box.
+/// \param tiles        values of --zoom and --jobs
+/// \throws UsageError  for invalid values, for options of picture tiles without them, and for
+///                     filters that picture tiles do not support: they show all roads of a box.
 std::optional<PicturePlan>
 parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const SegmentFilter& filter);
 
-/// \throws UsageError  if an option of picture tiles is there.
+/// Rejects options of picture tiles.
+/// \throws UsageError  if one is given.
 void expect_no_picture_options(const Arguments& arguments);
 
-/// Draws a store's picture tiles into an archive (docs/reference/pictures.md) and says how many.
-/// \param box  nothing: all that was driven
+/// Draws picture tiles of a database into an archive (docs/reference/pictures.md) and reports their
+/// number.
+/// \param box  `std::nullopt`: the driven extent
 void export_picture_tiles(const std::filesystem::path& store,
                           const std::optional<GeoBox>& box,
                           const std::filesystem::path& file,

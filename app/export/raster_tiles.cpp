@@ -32,16 +32,16 @@
 namespace macadam {
 namespace {
 
-// A square holds whole cells of labels, and what is drawn around it is a small part of it.
+// A square holds whole label cells, and the margin drawn around it is small in comparison.
 constexpr int square_px = 2048;
 
-/// Tiles that are drawn as one: those of a square that the plan asks for.
+/// Tiles that are drawn together: those of a square that the plan needs.
 struct Square {
-    TileId first; ///< in the north-west, wanted or not
+    TileId first; ///< north-west tile, wanted or not
     TileRange wanted;
 };
 
-/// A town that lies far from all others would cost all tiles between.
+/// Limits the number of tiles: a remote town would add all tiles between.
 void expect_area(const PicturePlan& plan) {
     constexpr std::uint64_t max_tiles = 50'000'000;
     std::uint64_t tiles = 0;
@@ -113,7 +113,7 @@ public:
     }
 
 private:
-    /// All of the cells of labels in which wanted tiles lie. The others are drawn, but not taken.
+    /// Returns the lines of all label cells with wanted tiles. Other tiles are drawn but not taken.
     std::vector<MapLine> lines_of(const Square& square) const {
         const WorldScale scale{square.first.zoom, plan_.tile_px};
         const auto cell = static_cast<std::uint32_t>(label_cell_px / plan_.tile_px);
@@ -143,9 +143,9 @@ private:
     std::vector<std::uint8_t> empty_;
 };
 
-// ------------------------------------------------------------------------ what processes tell
+// ------------------------------------------------------------------------ worker messages
 
-/// Before each thing that a process that draws tells: a tile's bytes, or why it cannot go on.
+/// Header of each message from a drawing process: a tile's bytes, or the reason of a failure.
 struct Head {
     enum class Kind : std::uint32_t { tile, failure } kind;
     TileId tile;
@@ -160,7 +160,7 @@ void write_all(int pipe, const void* data, std::size_t size) {
             continue;
         }
         if (written <= 0) {
-            _exit(1); // nobody listens any more
+            _exit(1); // the reader has gone
         }
         at += written;
         size -= static_cast<std::size_t>(written);
@@ -172,8 +172,8 @@ void tell(int pipe, const Head& head, const void* bytes) {
     write_all(pipe, bytes, head.bytes);
 }
 
-/// Ctrl-C goes to all processes of a terminal. A drawing process leaves it to its parent, which
-/// ends it, and ends when the parent does.
+/// Ignores Ctrl-C in a drawing process, which would receive it with all processes of the terminal.
+/// Its parent ends it, and it ends when the parent does.
 void leave_signals_to_parent() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         std::signal(signal, SIG_IGN);
@@ -183,7 +183,7 @@ void leave_signals_to_parent() {
 
 using TakeTile = std::function<void(const TileId& tile, std::string_view bytes)>;
 
-/// The part of a process that draws every `step`-th square; it never returns.
+/// Draws every `step`-th square in a process of its own; never returns.
 [[noreturn]] void draw_part(const std::filesystem::path& store,
                             const PicturePlan& plan,
                             const LockWaitPolicy& wait_policy,
@@ -207,7 +207,7 @@ using TakeTile = std::function<void(const TileId& tile, std::string_view bytes)>
     _exit(0);
 }
 
-/// A process that draws, and what it has told so far.
+/// Drawing process, with its output so far.
 class Worker {
 public:
     Worker(const std::filesystem::path& store,
@@ -234,7 +234,7 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    /// One that is not done is ended: its tiles are no longer wanted.
+    /// Kills an unfinished process, whose tiles are no longer wanted.
     ~Worker() {
         ::close(pipe_);
         if (!done_) {
@@ -246,7 +246,7 @@ public:
     int pipe() const { return pipe_; }
     bool is_done() const { return done_; }
 
-    /// Takes what is there and hands on what is whole.
+    /// Reads available output and passes on complete messages.
     void listen(const TakeTile& take) {
         constexpr std::size_t at_once = 1 << 16;
         const auto before = told_.size();
@@ -275,8 +275,9 @@ public:
         told_.erase(told_.begin(), told_.begin() + static_cast<std::ptrdiff_t>(begin));
     }
 
-    /// \throws InputError  if the process was stopped, or has neither told nor computed anything
-    /// for longer than any wait for a disk takes.
+    /// Checks that the process is working.
+    /// \throws InputError  if it was stopped, or has neither written output nor used CPU time for
+    ///                     longer than any wait for a disk.
     void expect_working() {
         const auto now = Clock::now();
         if (const auto used = cpu_time(); used != cpu_time_) {
@@ -307,7 +308,7 @@ private:
         }
     }
 
-    /// CPU time that the process has used, ns; what was known before if it cannot be had.
+    /// Returns the CPU time of the process, ns; the last known value if it is unavailable.
     std::int64_t cpu_time() const {
         clockid_t clock{};
         timespec used{};
@@ -331,8 +332,8 @@ void expect_not_stopped(const Progress& progress) {
     }
 }
 
-/// A forked child has this thread alone: a lock that another one held, as that of the allocator,
-/// would stay locked in it for ever.
+/// Requires a single thread. A forked child has only this one: a lock held by another, such as that
+/// of the allocator, would stay locked for ever.
 void expect_one_thread() {
     const std::filesystem::directory_iterator tasks{"/proc/self/task"};
     if (std::distance(begin(tasks), end(tasks)) != 1) {
@@ -377,7 +378,7 @@ PictureCount PicturePainters::collect(const PutTile& put, const Progress& progre
         for (const auto& worker : workers) {
             pipes.push_back({worker->pipe(), POLLIN, 0});
         }
-        constexpr int wait_policy_ms = 200; // with which a wish to stop is noticed
+        constexpr int wait_policy_ms = 200; // time to notice a stop request
         ::poll(pipes.data(), pipes.size(), wait_policy_ms);
         expect_not_stopped(progress);
         for (std::size_t i = 0; i < workers.size(); ++i) {

@@ -10,14 +10,14 @@
 
 namespace macadam {
 
-/// Which picture tiles to draw, and how.
+/// Plan of the picture tiles to draw.
 struct PicturePlan {
     int min_zoom = 6;
     int max_zoom = 16;
     int tile_px = 256;    ///< 256 or 512
-    std::size_t jobs = 1; ///< processes that draw
-    GeoBox box;           ///< of the tiles; what lies around it is drawn on them too
-    MapStyle style;       ///< with its classes
+    std::size_t jobs = 1; ///< number of drawing processes
+    GeoBox box;           ///< extent of the tiles; roads around it are drawn, too
+    MapStyle style;       ///< includes the classes
 };
 
 struct PictureCount {
@@ -25,20 +25,20 @@ struct PictureCount {
     std::uint64_t largest_bytes = 0;
 };
 
-/// Processes that draw every tile of a plan's zooms that touches its box, with all roads of the
-/// database, as PNG (render/tiles/tile_painter.hpp). Tiles are drawn in squares of 2048 px, by
-/// processes that open the database each for itself: where somebody writes to it meanwhile, tiles
-/// can be of different moments.
+/// Pool of processes that draw every tile in the zooms and box of a plan, with all roads of the
+/// database, as PNG (render/tiles/tile_painter.hpp). Tiles are drawn in squares of 2048 px. Each
+/// process opens the database itself: if it is written to meanwhile, tiles can show different
+/// versions.
 ///
-/// A tile is the same whatever the number of jobs. Processes that still draw at the end of this
-/// object are killed.
+/// Tiles do not depend on the number of jobs. The destructor kills processes that are still
+/// drawing.
 class PicturePainters {
 public:
-    /// Starts to draw. To be made before this process has a second thread.
+    /// Starts the processes. Call before this process has a second thread.
     ///
-    /// \param store  its file; this process must not have it open
-    /// \param plan   needed in this constructor alone
-    /// \param patience  how each waits while another program keeps it from the database
+    /// \param store            file of the database; must not be open in this process
+    /// \param plan             used by this constructor only
+    /// \param wait_policy      wait of each process while another program locks the database
     /// \throws InputError        if no process can be started
     /// \throws std::logic_error  if there is another thread
     PicturePainters(const std::filesystem::path& store,
@@ -48,11 +48,9 @@ public:
     PicturePainters& operator=(const PicturePainters&) = delete;
     ~PicturePainters();
 
-    /// Hands on each tile as it is drawn. To be called once.
+    /// Passes on each tile as it is drawn. Call once.
     ///
-    /// \throws InputError  if a stop is wanted, or a process failed, was killed, or has done
-    /// nothing
-    ///                     for 8 s
+    /// \throws InputError  on a stop request, or if a process fails, is killed or is idle for 8 s
     PictureCount collect(const PutTile& put, const Progress& progress);
 
 private:

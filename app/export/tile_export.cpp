@@ -17,7 +17,7 @@ namespace {
 constexpr int farthest_zoom = 18; // a unit of a tile is then 4 cm at the equator
 constexpr std::int64_t max_jobs = 256;
 
-/// "6-16", or "14" alone.
+/// Parses "6-16", or "14" alone.
 std::optional<std::pair<int, int>> zooms_in(const std::string& text) {
     const auto* const end = text.data() + text.size();
     int least = 0;
@@ -75,7 +75,7 @@ bool is_tile_archive(const std::filesystem::path& place) {
     const auto archives = tile_archive_suffixes();
     const auto ends_in = [&](std::string_view suffix) { return place.native().ends_with(suffix); };
     if (std::ranges::any_of(export_suffixes(), ends_in)) {
-        return false; // also where a folder of that name is in the way
+        return false; // also if a folder of that name is in the way
     }
     return is_tile_folder(place) || std::ranges::any_of(archives, ends_in);
 }
@@ -121,7 +121,7 @@ void export_tiles(const RoadStore& store,
         throw UsageError{"--all is for segment files: tiles show measured segments only"};
     }
     if (is_tile_folder(file)) {
-        expect_new_or_empty(file.has_filename() ? file : file.parent_path()); // before long work
+        expect_new_or_empty(file.has_filename() ? file : file.parent_path()); // fails early
     }
     TileSource source{beside_tiles(file)};
     read_tile_source(store, filter, source, console.progress("reading segments"));

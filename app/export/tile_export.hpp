@@ -17,20 +17,22 @@ inline constexpr Option zoom_option{
     "6-16"};
 inline constexpr Option tile_jobs_option{"--jobs", "N", "Tiles: number of parallel jobs.", "1"};
 
-/// Whether tiles are written there: into a file of such a suffix, or a folder.
+/// Returns whether the path is an output for tiles: a file with a suffix of archives, or a folder.
 bool is_tile_archive(const std::filesystem::path& place);
 
-/// How -o says that tiles are wanted: ".mbtiles, .pmtiles or /".
+/// Returns the name endings of tile outputs: ".mbtiles, .pmtiles or /".
 std::string tile_endings();
 
-/// Of --zoom and --jobs. \throws UsageError  for values that do not fit.
+/// Parses --zoom and --jobs.
+/// \throws UsageError  for invalid values.
 TilePlan parse_tile_plan(const Arguments& arguments);
 
-/// \throws UsageError  if one of --zoom and --jobs is there, which go with tiles alone.
+/// Rejects options of tiles.
+/// \throws UsageError  if --zoom or --jobs is given; both apply to tiles only.
 void expect_no_tile_options(const Arguments& arguments);
 
-/// Writes vector tiles of the store's measured segments into an archive or a folder
-/// (docs/reference/vector-tiles.md) and says how many.
+/// Writes vector tiles of the measured segments into an archive or a folder
+/// (docs/reference/vector-tiles.md) and reports their number.
 void export_tiles(const RoadStore& store,
                   const SegmentFilter& filter,
                   const std::filesystem::path& file,

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double line_px = 8;
 constexpr double value_px = 2;
-// An edge is cut into equal parts: of one of 29 m there is one of 29 m.
+// An edge is cut into equal segments: one of 29 m has a single segment of 29 m.
 constexpr double longest_segment = 1.5;
 
 double metres_per_px(const WorldScale& scale) {
-    constexpr double equator_m = 2 * std::numbers::pi * 6378137.0; // of WGS 84
+    constexpr double equator_m = 2 * std::numbers::pi * 6378137.0; // WGS 84
     return equator_m / (scale.tile_px * std::exp2(scale.zoom));
 }
 
@@ -29,29 +29,30 @@ std::uint32_t power_of_two_within(double length_m, double segment_length_m) {
     return std::bit_floor(std::uint32_t(count));
 }
 
-/// A segment, as far as a line needs it.
+/// Segment data that a line needs.
 struct Bit {
     std::uint32_t index;
-    IriUm iri_um; ///< below 0: not measured
+    IriUm iri_um; ///< negative: not measured
     bool certain;
     bool few_passes;
     std::vector<GeoPoint> line;
 };
 
-/// What a line shows.
+/// Value that a line shows.
 struct Value {
     double iri_um = -1;
     bool certain = true;
     bool few_passes = false;
 };
 
-/// A class before the grey of few passes, that before no measurement, and the worse of two classes.
+/// Orders a class before the grey of few passes, that before no measurement, and the worse of two
+/// classes first.
 bool is_worse(const Value& a, const Value& b) {
     return std::pair{a.iri_um >= 0 && !a.few_passes, a.iri_um} >
            std::pair{b.iri_um >= 0 && !b.few_passes, b.iri_um};
 }
 
-/// The segments of one way, on their way to lines.
+/// Merges the segments of one way into lines.
 class WayLines {
 public:
     WayLines(const TileLineRules& rules, const ClassTable& classes, int min_passes)
@@ -98,7 +99,7 @@ private:
         backward.clear();
     }
 
-    /// Of each segment, the same for all of a value's.
+    /// Returns a value for each segment; segments that share a value have the same.
     std::vector<Value> values_of(const Bits& bits) const {
         std::vector<Value> values;
         for (std::size_t first = 0; first < bits.size();) {
@@ -128,7 +129,7 @@ private:
         return values;
     }
 
-    /// One line for both directions, along the way, of the worse.
+    /// Adds one line for both directions, along the way, with the worse value.
     void add_merged() {
         auto& [forward, backward] = bits_;
         auto values = values_of(forward);
@@ -148,8 +149,9 @@ private:
         add_lines(alone, values_of(alone), false, {});
     }
 
-    /// \param bits    whose lines are taken
-    /// \param others  of the other direction, where they are lines of their own
+    /// Adds the lines of one direction.
+    /// \param bits    source of the lines, which are moved
+    /// \param others  segments of the other direction, if they have lines of their own
     void add_lines(Bits& bits, const std::vector<Value>& values, bool forward, const Bits& others) {
         std::optional<Look> last;
         for (std::size_t i = 0, k = 0; i < bits.size(); ++i) {
@@ -185,8 +187,8 @@ private:
         friend bool operator==(const Look&, const Look&) = default;
     };
 
-    /// Lengthens the last line if it and the next segment meet. Segments are numbered along the
-    /// way, so against it the next one is the one before.
+    /// Extends the last line if the next segment meets it. Segments are numbered along the way, so
+    /// against it the next segment comes before the last.
     bool goes_on(const std::vector<GeoPoint>& line, bool forward) {
         auto& last = lines_.back().line;
         if (forward && last.back() == line.front()) {
@@ -206,7 +208,7 @@ private:
     std::int64_t way_id_ = 0;
     int rank_ = 0;
     std::string name_;
-    std::array<Bits, 2> bits_; ///< along the way and against it, in the order of their numbers
+    std::array<Bits, 2> bits_; ///< along the way and against it, by segment number
     std::vector<MapLine> lines_;
 };
 
@@ -219,7 +221,7 @@ TileLineRules tile_line_rules(const WorldScale& scale, double segment_length_m, 
     return {.per_line = per_line,
             .per_value = power_of_two_within(value_px * px_m, segment_length_m),
             .separate_ways = tile_widths(zoom_of_256_px(scale)).separate_ways,
-            // A line on the tile, and if lines are made of several segments all of the next one.
+            // A line on the tile and, if lines consist of several segments, the whole next line.
             .margin_m = (per_line > 1 ? 2 : 1) * longest_m + reach_px * px_m};
 }
 

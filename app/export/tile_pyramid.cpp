@@ -15,8 +15,8 @@
 namespace macadam {
 namespace {
 
-constexpr int base_zoom = segments_from_zoom - 1; // as its tiles segments are laid aside
-constexpr double own_share = 0.8; // of a tile's bytes; the rest is for what comes in from others
+constexpr int base_zoom = segments_from_zoom - 1; // segments are in buckets of this zoom
+constexpr double own_share = 0.8; // share of a tile's bytes; the rest is for other tiles' parts
 
 void expect_not_stopped(const Progress& progress) {
     if (progress.stop.stop_requested()) {
@@ -24,7 +24,7 @@ void expect_not_stopped(const Progress& progress) {
     }
 }
 
-/// Tiles of a zoom that show a place of the box, with their buffer or without.
+/// Visits the tiles of a zoom that show part of the box, with or without their buffer.
 template <typename Visit>
 void each_tile_of(const WorldBox& box, int zoom, bool with_buffer, const Visit& visit) {
     const auto side = std::uint64_t{1} << static_cast<unsigned>(world_bits - zoom);
@@ -74,7 +74,7 @@ struct PartLevel {
     std::set<TileId> shown;
 };
 
-/// A segment with its extent.
+/// Segment with its extent.
 struct Drawn {
     const TileSegment* segment;
     WorldBox box;
@@ -163,7 +163,7 @@ private:
         }
     }
 
-    /// The tile and those within it.
+    /// Draws a tile and those within it.
     void draw_segments(const TileId& tile, const std::vector<Drawn>& near) {
         const auto shown = shown_by(tile), area = area_of(tile);
         std::vector<Drawn> drawn;
@@ -193,7 +193,7 @@ private:
         int steps = 0;
         for (const auto detail : {SegmentDetail::full, SegmentDetail::less}) {
             const auto bytes = vector_tile(tile, segments, detail, context());
-            if (bytes.empty()) { // near, but not there once it is on the tile's units
+            if (bytes.empty()) { // near the tile, but outside of it in tile units
                 return;
             }
             if (const auto packed = gzipped(bytes); packed.size() <= plan_.max_bytes) {
@@ -205,8 +205,7 @@ private:
         draw_own_parts(tile, segments, steps);
     }
 
-    /// What to do where even so many segments are too much: those whose middles the tile holds, as
-    /// parts.
+    /// Draws a tile with too many segments as parts of the segments with a midpoint in it.
     void draw_own_parts(const TileId& tile,
                         const std::vector<const TileSegment*>& segments,
                         int steps_before) {
@@ -231,19 +230,19 @@ private:
 
     bool fits(const TileId& tile, const std::vector<RoadPart>& parts) const {
         const auto limit = own_share * static_cast<double>(plan_.max_bytes);
-        constexpr double bytes_of_part = 100, bytes_of_point = 10; // not compressed, at most
+        constexpr double bytes_of_part = 100, bytes_of_point = 10; // uncompressed, at most
         double most = 0;
         for (const auto& part : parts) {
             most += bytes_of_part + bytes_of_point * static_cast<double>(part.line.size());
         }
-        if (most <= limit) { // which saves making most tiles twice
+        if (most <= limit) { // avoids making most tiles twice
             return true;
         }
         const auto bytes = vector_tile(tile, pointers_to(parts), context());
         return static_cast<double>(gzipped(bytes).size()) <= limit;
     }
 
-    /// The first step of coarsening with which the tile is small enough.
+    /// Returns the parts after the first step of coarsening that makes the tile small enough.
     Fitted fitted(const TileId& tile, std::vector<RoadPart> parts) const {
         constexpr int last_step = 16; // one square holds the tile, and one part is left
         for (int step = 0;; ++step) {
@@ -291,8 +290,8 @@ private:
         }
     }
 
-    /// The parts of the next zoom, in tiles four times as large. \param is_drawn  else it only goes
-    /// on to the zooms above, and has no size to keep.
+    /// Makes the parts of the next zoom, in tiles four times as large.
+    /// \param is_drawn  otherwise the level only leads to the zooms above and has no size limit
     Level level_above(const PartLevel& below, bool is_drawn) {
         std::set<TileId> tiles;
         for (const auto& tile : below.parts.tiles()) {
@@ -336,7 +335,7 @@ private:
         std::ranges::sort(drawn, {}, [](const RoadPart* part) { return part->first; });
         auto packed = packed_tile(tile, drawn);
         int steps = 0;
-        if (packed.size() > plan_.max_bytes) { // own parts fit; those of others are theirs to show
+        if (packed.size() > plan_.max_bytes) { // own parts fit; other tiles show the rest
             packed = packed_tile(tile, pointers_to(own));
             steps = 1;
         }
@@ -356,7 +355,7 @@ private:
     const PutTile& put_;
     const Progress& progress_;
     std::filesystem::path beside_;
-    std::mutex mutex_; ///< of all that follows, of put_, and of levels that are filled
+    std::mutex mutex_; ///< guards all members below, put_, and levels being filled
     TileCount count_;
 };
 

@@ -14,7 +14,7 @@
 
 namespace macadam {
 
-inline constexpr std::uint64_t max_tile_bytes = 300'000; ///< compressed, as they are stored
+inline constexpr std::uint64_t max_tile_bytes = 300'000; ///< compressed, as stored
 
 struct TilePlan {
     int min_zoom = 6;
@@ -23,7 +23,7 @@ struct TilePlan {
     std::uint64_t max_bytes = max_tile_bytes;
 };
 
-/// Segments of one moment of a store, laid aside by the tiles of zoom 13 that show them.
+/// Segments of one version of a database, in buckets for the tiles of zoom 13 that show them.
 struct TileSource {
     explicit TileSource(const std::filesystem::path& beside) : segments{beside} {}
 
@@ -33,35 +33,36 @@ struct TileSource {
     std::size_t count = 0;
 };
 
-/// Lays a segment aside; after the last one `source.segments` is to be settled.
+/// Adds a segment; settle `source.segments` after the last one.
 void add(TileSource& source, const TileSegment& segment);
 
-/// Reads the segments with a state. \param source  a new one.
+/// Reads the segments with a state.
+/// \param source  must be new
 void read_tile_source(const RoadStore& store,
                       const SegmentFilter& filter,
                       TileSource& source,
                       const Progress& progress);
 
-/// What became of them.
+/// Statistics of the tiles made.
 struct TileCount {
     std::size_t tiles = 0;
     std::uint64_t largest_bytes = 0;
-    std::size_t coarsened =
-        0;             ///< tiles that say less than others of their zoom: too much lies there
-    int max_steps = 0; ///< of coarsening (mapping/tiles/tile_generalisation.hpp)
+    std::size_t coarsened = 0; ///< tiles with less detail than others of their zoom
+    int max_steps = 0;         ///< maximum coarsening (mapping/tiles/tile_generalisation.hpp)
 };
 
-/// Called for one tile at a time, from any thread, in any order.
+/// Receives one tile at a time, from any thread, in any order.
 using PutTile = std::function<void(const TileId&, std::string_view bytes)>;
 
-/// Vector tiles of all zooms of the plan, gzipped. From zoom 14 on they are drawn from segments;
-/// below it from parts (mapping/tiles/tile_generalisation.hpp) that are made of those of the four
-/// tiles of the next zoom, so that memory does not grow with the store. A part belongs to the tile
-/// that holds the middles of its segments, and is drawn in every tile that it comes into.
+/// Makes vector tiles of all zooms of the plan, gzipped. From zoom 14 on they are drawn from
+/// segments. Below it they are drawn from generalised parts
+/// (mapping/tiles/tile_generalisation.hpp), which are made from those of the four tiles of the next
+/// zoom, so that memory does not grow with the database. A part belongs to the tile with the
+/// midpoints of its segments and is drawn in every tile it enters.
 ///
-/// A tile is the same whatever the number of jobs.
+/// Tiles do not depend on the number of jobs.
 ///
-/// \throws InputError  if a stop is wanted.
+/// \throws InputError  on a stop request.
 TileCount make_vector_tiles(const TileSource& source,
                             const ClassTable& classes,
                             const TilePlan& plan,

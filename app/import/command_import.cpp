@@ -45,7 +45,7 @@ constexpr double max_trim_m = 100000;
 
 PipelineConfig config_of(const Arguments& arguments) {
     auto config = pipeline_config_of(arguments);
-    config.estimator.tracks = false; // a map lives by its headline
+    config.estimator.tracks = false; // a map needs the headline value only
     config.trim.min_m = arguments.number("--trim", 0);
     if (!(config.trim.min_m >= 0 && config.trim.min_m <= max_trim_m)) {
         throw UsageError{
@@ -75,7 +75,7 @@ ImportOptions parse_import(const Arguments& arguments) {
             .known = std::move(known)};
 }
 
-/// The same paths, asked for from wherever, have the same name.
+/// Returns the name of an import: the same for the same paths, from any working directory.
 std::string name_of_import(const std::vector<std::filesystem::path>& paths) {
     Sha256 hash;
     for (const auto& path : paths) {
@@ -87,7 +87,7 @@ std::string name_of_import(const std::vector<std::filesystem::path>& paths) {
 std::string spoken(const OpenImport& earlier) {
     const auto asked = earlier.trips_asked > 0
                            ? fmt::format(" ({})", counted(earlier.trips_asked, "trip"))
-                           : std::string{}; // archives were among them
+                           : std::string{}; // unknown: archives were included
     return fmt::format("an earlier import of these paths{} was interrupted after importing {}; "
                        "continuing with the rest",
                        asked,
@@ -116,7 +116,7 @@ void import_known(RoadStore& store, const ImportOptions& options, const Console&
     }
 }
 
-/// After an interruption, what came in before it is fused as far as that goes quickly.
+/// Limits fusing after an interruption to a short time.
 Progress until_it_takes_long(Progress fusing) {
     std::stop_source late;
     fusing.stop = late.get_token();
@@ -190,7 +190,7 @@ void run_import(const Arguments& arguments, const Console& console) {
     if (const auto words = alignment_summary_text(store.laid()); fused > 0 && !words.empty()) {
         console.say(words);
     }
-    importing(1, 1); // takes the bar off the line
+    importing(1, 1); // clears the progress bar
     if (totals.interrupted) {
         const auto count = trips.count();
         const auto left =

@@ -30,7 +30,7 @@ std::size_t parse_jobs(const Arguments& arguments) {
 void run_reprocess(const Arguments& arguments, const Console& console) {
     const auto jobs = parse_jobs(arguments);
     auto config = pipeline_config_of(arguments);
-    config.estimator.tracks = false; // as an import
+    config.estimator.tracks = false; // as in an import
     const auto& words = arguments.operands("PATH");
     VehicleChoice vehicles{arguments};
     const auto file = store_file(arguments);
@@ -43,7 +43,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
 
     const auto working = console.progress("reprocessing");
     const auto totals = reprocess_trips(store, trips, vehicles, config, jobs, working, tell);
-    working(1, 1); // takes the bar off the line
+    working(1, 1); // clears the progress bar
     if (totals.interrupted) {
         throw InputError{"interrupted: the database is unchanged"};
     }

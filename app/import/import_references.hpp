@@ -25,27 +25,27 @@ inline constexpr Option control_option{
 inline constexpr Option known_unit_option{
     "--unit", "UNIT", "IRI unit of the --reference and --control files: mm/m or in/mi.", "mm/m"};
 
-/// Files of known roughness that an import is to bring.
+/// Files of known roughness to import.
 struct KnownRoughness {
     std::optional<std::filesystem::path> survey;
     std::optional<std::filesystem::path> control;
-    double relative_sd = usual_reference_accuracy; ///< of the survey
-    std::optional<std::int64_t> utc_ms;            ///< its day
-    std::string name;                              ///< of the survey
-    double mm_per_m_of_one = 1;                    ///< what an IRI of 1 in the files is
-    bool readmit = false; ///< let the survey in again that 'macadam forget' took out
+    double relative_sd = usual_reference_accuracy; ///< relative standard deviation of the survey
+    std::optional<std::int64_t> utc_ms;            ///< date of the survey
+    std::string name;                              ///< name of the survey
+    double mm_per_m_of_one = 1;                    ///< mm/m of an IRI of 1 in the files
+    bool readmit = false; ///< re-admit the survey if 'macadam forget' deleted it
 };
 
-/// Of the options above. \throws UsageError  for a value that does not fit, or goes with a file
-/// that is not there.
+/// Parses the options above.
+/// \throws UsageError  for an invalid value, or one for a file that is not given.
 KnownRoughness parse_known_roughness(const Arguments& arguments);
 
-/// What became of a survey.
+/// Result of one survey's import.
 struct SurveyOutcome {
     std::string file;
     std::string name;
     std::string sha256;
-    bool known = false; ///< it was in the store already
+    bool known = false; ///< already in the database
     std::size_t rows = 0;
     double relative_sd = 0;
     std::optional<std::int64_t> utc_ms;
@@ -53,14 +53,14 @@ struct SurveyOutcome {
     std::vector<std::string> warnings;
 };
 
-/// Brings the survey into the store, in one transaction.
+/// Imports the survey in one transaction.
 ///
-/// \throws InputError  if it cannot be read, none of its rows lies on the store's roads, or it was
-///                     forgotten and is not taken back.
+/// \throws InputError  if it cannot be read, none of its rows lies on the database's roads, or it
+///                     was deleted and is not re-admitted.
 SurveyOutcome
 import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& known);
 
-/// For people, with newlines; and one JSON object with the keys of a trip's.
+/// Formats the result for people, with newlines, or as one JSON object with the keys of a trip's.
 std::string text_lines(const SurveyOutcome& outcome);
 std::string json_line(const SurveyOutcome& outcome);
 

@@ -40,7 +40,7 @@ TripRecord record_of(const TripSource& source,
     if (meta.t0_utc_s && outcome.trip.begin_ms) {
         record.t0_utc_ms = thousandths(*meta.t0_utc_s) + *outcome.trip.begin_ms;
     }
-    // The name of a car's own file is its vehicle_id, which the store does not keep.
+    // A car from a user's file is named after its vehicle_id, which the database does not keep.
     record.vehicle_model = outcome.built_in_vehicle ? outcome.vehicle : std::string{own_file_model};
     record.method = method == Method::kf ? "kf" : "smoother";
     record.distance_mm = thousandths(outcome.trip.distance_m);
@@ -51,7 +51,7 @@ TripRecord record_of(const TripSource& source,
     return record;
 }
 
-/// What to say of a trip that is in the store already.
+/// Returns the messages for a trip that is already in the database.
 std::vector<std::string> known_text(const PipelineConfig& config) {
     if (config.trim.is_active() && !config.trim.hides_places) {
         return {"was imported before and stays unchanged: its ends cannot be removed "
@@ -60,7 +60,7 @@ std::vector<std::string> known_text(const PipelineConfig& config) {
     return {};
 }
 
-/// One trip from file to passes. What is wrong with it becomes part of the outcome.
+/// Processes one trip from file to passes. Errors become part of the outcome.
 TripOutcome process_trip(const TripSource& source,
                          const std::string& sha256,
                          VehicleChoice& vehicles,
@@ -103,10 +103,10 @@ TripOutcome process_trip(const TripSource& source,
 }
 
 using Clock = std::chrono::steady_clock;
-using Deadline = std::optional<Clock::time_point>; ///< nothing: there is none
+using Deadline = std::optional<Clock::time_point>; ///< `std::nullopt`: none
 
-/// Workers take trips in order and hand outcomes back under their number; the writer takes them in
-/// order. Workers stay at most `ahead` trips before the writer, so that memory is bounded.
+/// Worker pool that returns the outcomes in the order of the trips. Workers stay at most `ahead`
+/// trips before the writer, so that memory is bounded.
 class OrderedWorkerPool {
 public:
     using Supply = std::function<std::optional<TripSource>()>;
@@ -120,11 +120,11 @@ public:
     }
 
     struct Taken {
-        std::optional<TripOutcome> outcome; ///< nothing: it is not there yet, or
+        std::optional<TripOutcome> outcome; ///< `std::nullopt`: not ready yet, or over
         bool over = false;                  ///< there is no such trip
     };
 
-    /// Waits for its outcome, but no longer than until then or until a stop is wanted.
+    /// Waits for an outcome, until the deadline or a stop request at the latest.
     Taken take(std::size_t number, const Deadline& until, const std::stop_token& stop) {
         constexpr std::chrono::milliseconds look_every{50};
         std::unique_lock lock{mutex_};
@@ -153,8 +153,8 @@ private:
         TripSource trip;
     };
 
-    /// The next trip, when there is room for it. One worker at a time asks, so that trips come in
-    /// order; the others work on while it is got out of an archive.
+    /// Takes the next trip when there is room for it. Only one worker at a time asks, to keep the
+    /// order; the others continue while it is extracted from an archive.
     std::optional<Task> next_task(const std::stop_token& stop) {
         const std::scoped_lock asking{asking_};
         {
@@ -198,27 +198,29 @@ private:
     std::map<std::size_t, TripOutcome> done_;
     std::size_t given_ = 0;
     std::size_t taken_ = 0;
-    std::optional<std::size_t> count_; ///< of all, once that is known
+    std::optional<std::size_t> count_; ///< total, once known
     std::exception_ptr failure_;
-    std::vector<std::jthread> workers_; // last: they stop before what they use goes
+    // Last member: workers stop before the members they use are destroyed.
+    std::vector<std::jthread> workers_;
 };
 
-/// What a trip is worked out for. Both are called with the store in use by nobody else.
+/// Callbacks of an import or a reprocessing. They have exclusive use of the database.
 struct ImportMode {
     using Result = TripOutcome::Result;
-    /// Why nothing is to be done, if so, with what is to be said of it.
+    /// Returns the result and the messages of a trip that is to be skipped.
     std::function<std::optional<std::pair<Result, std::vector<std::string>>>(const std::string&)>
         leave;
-    std::function<void(std::span<TripOutcome* const>)> take; ///< says what became of each
+    /// Stores the trips and sets their results.
+    std::function<void(std::span<TripOutcome* const>)> take;
 };
 
-// A commit costs the disk the same for one trip as for many. What is not committed has to be worked
-// out again after a kill.
+// A commit takes the same disk time for one trip as for many. Uncommitted trips must be processed
+// again after a kill.
 constexpr std::size_t most_together = 100; // trips
 constexpr std::size_t max_passes_together = 50'000;
 constexpr std::chrono::seconds longest_together{1};
 
-/// Outcomes that wait to be taken together, and then told, in their order.
+/// Outcomes that are committed together and then reported, in their order.
 class CommitBatch {
 public:
     void add(TripOutcome outcome) {
@@ -229,7 +231,7 @@ public:
         outcomes_.push_back(std::move(outcome));
     }
 
-    /// Nothing: there is nothing that waits.
+    /// Time of the next commit; `std::nullopt` if no outcome waits.
     Deadline due() const { return outcomes_.empty() ? Deadline{} : due_; }
 
     bool is_full() const {
@@ -237,7 +239,7 @@ public:
                (!outcomes_.empty() && Clock::now() >= due_);
     }
 
-    /// Those that were worked out.
+    /// Returns the outcomes that gave a result.
     std::vector<TripOutcome*> made() {
         std::vector<TripOutcome*> made;
         for (auto& outcome : outcomes_) {
@@ -321,7 +323,7 @@ ImportTotals process_trips(const ImportMode& purpose,
             break;
         }
         auto taken = workshop.take(i, batch.due(), progress.stop);
-        if (!taken.outcome && !taken.over) { // a long one: what was done before it does not wait
+        if (!taken.outcome && !taken.over) { // a long trip: earlier ones do not wait for it
             commit();
             taken = workshop.take(i, {}, progress.stop);
         }
@@ -333,11 +335,11 @@ ImportTotals process_trips(const ImportMode& purpose,
             break;
         }
         if (progress.stop.stop_requested() && taken.outcome->result == Result::rejected) {
-            totals.interrupted = true; // rejected only for being stopped, it may be
+            totals.interrupted = true; // possibly rejected only because of the stop
             break;
         }
         batch.add(std::move(*taken.outcome));
-        if (batch.is_full() || told == 0) { // the first word comes soon
+        if (batch.is_full() || told == 0) { // the first report comes soon
             commit();
         }
     }
@@ -398,7 +400,7 @@ ImportTotals import_trips(RoadStore& store,
                                         work.readmit});
                 }
                 const auto is_new = store.add_trips(together);
-                for (std::size_t i = 0; i < outcomes.size(); ++i) { // or twice in one call
+                for (std::size_t i = 0; i < outcomes.size(); ++i) { // a call may repeat a trip
                     outcomes[i]->result = is_new[i] ? Result::imported : Result::known;
                 }
             }};

@@ -13,7 +13,7 @@
 
 namespace macadam {
 
-/// What became of one trip.
+/// Result of one trip's import.
 struct TripOutcome {
     enum class Result { imported, known, rejected, reprocessed, unknown };
     std::string file;
@@ -22,8 +22,8 @@ struct TripOutcome {
     Result result = Result::rejected;
     TripResult trip;
     std::string vehicle;
-    bool built_in_vehicle = false; ///< not one of the user's files
-    std::string error;             ///< why it was rejected
+    bool built_in_vehicle = false; ///< not from a user's file
+    std::string error;             ///< reason for rejection
     TripRecord record;
 };
 
@@ -31,25 +31,26 @@ std::string_view name_of(TripOutcome::Result result);
 
 struct ImportTotals {
     std::size_t imported = 0; ///< or reprocessed
-    std::size_t known = 0;    ///< or unknown: left as they are
+    std::size_t known = 0;    ///< or unknown: unchanged
     std::size_t rejected = 0;
     std::size_t passes = 0;
-    bool interrupted = false; ///< the rest was not looked at: progress.stop was requested before
+    bool interrupted = false; ///< progress.stop was requested before the rest was processed
 
     std::size_t looked_at() const { return imported + known + rejected; }
 };
 
 struct ImportWork {
     std::size_t jobs = 1;
-    bool readmit = false;                           ///< also trips that were forgotten
-    std::function<void(const std::string&)> warn{}; ///< of the network beside the store
+    bool readmit = false; ///< include trips that were forgotten
+    /// Receives warnings about the network beside the database.
+    std::function<void(const std::string&)> warn{};
 };
 
-/// Brings trips into a store: read and estimated by `jobs` threads, written by this one in the
-/// order of the trips, those of a second (but no more than 100) in one transaction, and told when
-/// that is on the disk. A trip that cannot be used is an outcome and never stops
-/// the others; an error of the store itself is thrown and leaves the trips before it in place.
-/// When a stop is requested, the trip at hand is finished or dropped and the rest is left.
+/// Imports trips into a database. `jobs` threads read and estimate them; this thread writes them in
+/// order, in commit batches of 1 s (at most 100 trips), and reports each batch once it is on disk.
+/// An unusable trip is reported as an outcome and never stops the others. An error of the database
+/// itself is thrown; trips committed before stay. On a stop request the current trip is finished or
+/// dropped and the rest is skipped.
 ImportTotals import_trips(RoadStore& store,
                           AskedTrips& trips,
                           VehicleChoice& vehicles,
@@ -58,8 +59,8 @@ ImportTotals import_trips(RoadStore& store,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell);
 
-/// Works trips of the store out anew in the same way, and lays them aside in it
-/// (RoadStore::stage_trip). Trips that it does not have are unknown.
+/// Reprocesses trips of the database in the same way and stages them in it (RoadStore::stage_trip).
+/// Trips that are not in the database are unknown.
 ImportTotals reprocess_trips(RoadStore& store,
                              AskedTrips& trips,
                              VehicleChoice& vehicles,

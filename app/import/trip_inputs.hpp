@@ -12,30 +12,31 @@
 
 namespace macadam {
 
-/// For the tables of the commands that read many trips.
+/// Option for commands that read many trips.
 inline constexpr Option max_members_option{
     "--max-members", "N", "Maximum number of files in an archive.", "1000"};
 
-/// \throws UsageError  for what is no such number.
+/// Parses --max-members.
+/// \throws UsageError  for an invalid number.
 std::size_t max_members_of(const Arguments& arguments);
 
-/// The trips of several paths, one after the other, in the order of the paths, for whoever asks:
-/// several threads may.
+/// Thread-safe sequence of the trips of several paths, in the order of the paths.
 class AskedTrips {
 public:
-    /// Says of folders what is not read there; of archives that is known at the end (tell_rest).
+    /// Reports files in folders that are not read; for archives they are known at the end
+    /// (tell_rest).
     AskedTrips(const std::vector<std::filesystem::path>& paths,
                const TripWalkConfig& config,
                const Console& console);
 
-    /// Takes the next trip; std::nullopt at the end. A path that does not exist is given as a trip,
-    /// and reading it says so.
+    /// Takes the next trip; `std::nullopt` at the end. A path that does not exist counts as a trip,
+    /// and reading it throws.
     std::optional<TripSource> next();
 
-    /// Number of trips; std::nullopt while an archive may hold more.
+    /// Number of trips; `std::nullopt` while an archive may hold more.
     std::optional<std::size_t> count() const;
 
-    std::size_t at_least() const; ///< so many there are
+    std::size_t at_least() const; ///< lower bound of the count
 
     /// Reports files in archives that were not read, once all trips were taken.
     void tell_rest(const Console& console) const;
@@ -43,7 +44,7 @@ public:
 private:
     struct Path {
         std::filesystem::path path;
-        std::optional<TripWalk> walk; ///< nothing: `refusal` says why
+        std::optional<TripWalk> walk; ///< `std::nullopt`: `refusal` has the reason
         std::string refusal;
         bool told = false;
     };

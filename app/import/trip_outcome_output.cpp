@@ -46,7 +46,7 @@ std::string json_line(const TripOutcome& outcome) {
     return line.text() + "\n";
 }
 
-/// Name of a reason in words for people; files and JSON keep the name.
+/// Returns a reason in words for people; files and JSON keep its name.
 std::string words_for(std::string_view reason) {
     static constexpr std::pair<std::string_view, std::string_view> own_words[] = {
         {"wrong_cell_count", "wrong number of cells"},

@@ -4,7 +4,7 @@
 
 namespace macadam {
 
-/// Tells what became of a trip on standard output at once: as a line of JSON, or in words.
+/// Prints the outcome of a trip on standard output at once, as a line of JSON or as text.
 void print_outcome(const TripOutcome& outcome, bool json);
 
 } // namespace macadam

@@ -8,17 +8,16 @@ namespace macadam {
 
 struct TripMapping;
 
-/// For the tables of the commands that read trips.
+/// Option for commands that read trips.
 inline constexpr Option mapping_option{
     "--mapping",
     "NAME|FILE",
     "Column mapping for files of another logger: racechrono, trackaddict or a TOML file."};
 
-/// The mapping that --mapping names; null without it.
+/// Returns the mapping of --mapping; null without it.
 ///
-/// \throws UsageError  for a name that is neither built in nor a file. \throws InputError for a
-/// file
-///                     that is no mapping.
+/// \throws UsageError  for a name that is neither built in nor a file.
+/// \throws InputError  for a file that is no mapping.
 std::shared_ptr<const TripMapping> mapping_of(const Arguments& arguments);
 
 } // namespace macadam

@@ -12,7 +12,7 @@ namespace {
 constexpr double min_rate_hz = 40;
 constexpr double max_rate_hz = 2000;
 
-constexpr double smoother_samples_a_metre = 2.6; // waves of 1 m, of which IRI has little left
+constexpr double smoother_samples_a_metre = 2.6; // waves of 1 m, with little effect on IRI
 
 constexpr std::pair<std::string_view, bool SensorSet::*> sensor_names[] = {
     {"vertical", &SensorSet::vertical},
@@ -22,7 +22,7 @@ constexpr std::pair<std::string_view, bool SensorSet::*> sensor_names[] = {
     {"yaw", &SensorSet::yaw},
 };
 
-/// The sensors of a list such as "vertical,pitch".
+/// Parses a list of sensors such as "vertical,pitch".
 SensorSet sensors_named(const std::string& list) {
     SensorSet sensors;
     std::size_t begin = 0;

@@ -5,7 +5,7 @@
 
 namespace macadam {
 
-// The options that steer the estimation, for the tables of trace and import.
+// Estimation options for trace and import.
 inline constexpr Option method_option{"--method",
                                       "NAME",
                                       "Estimator: smoother (two axles, both tracks) or kf, "
@@ -21,7 +21,8 @@ inline constexpr Option no_filters_option{
 inline constexpr Option rate_option{
     "--rate", "HZ", "Sampling rate at which the method runs.", "the log's, at most 200"};
 
-/// \throws UsageError  for a word or a number that does not fit.
+/// Parses the options above.
+/// \throws UsageError  for an invalid word or number.
 PipelineConfig pipeline_config_of(const Arguments& arguments);
 
 } // namespace macadam

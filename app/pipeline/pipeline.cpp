@@ -19,12 +19,12 @@
 namespace macadam {
 namespace {
 
-constexpr double slow_sampling_hz = 80; // below it the shortest waves of IRI begin to be missed
-constexpr double steep_tilt_deg = 15;   // more than a careless mounting
+constexpr double slow_sampling_hz = 80; // below it the shortest waves of IRI are missed
+constexpr double steep_tilt_deg = 15;   // beyond a careless mounting
 constexpr double odd_scale = 0.05;      // wheel speed against GNSS
-constexpr double odd_gravity = 0.1;     // sensors for cars and phones are good to 3 %
+constexpr double odd_gravity = 0.1;     // sensors of cars and phones are accurate to 3 %
 
-/// The typical rate of the vibration, from the middle step of its stamps.
+/// Returns the typical sampling rate of the acceleration, from the median step of its time stamps.
 double rate_hz(const TriaxialSamples& acc) {
     if (acc.t_s.size() < 2) {
         return 0;
@@ -40,7 +40,7 @@ double rate_hz(const TriaxialSamples& acc) {
 
 enum class Axis : int { lateral = 1, vertical = 2 };
 
-/// Whether the sensor's axis nearest to one of the vehicle's gave anything.
+/// Returns whether the sensor axis nearest to an axis of the vehicle has any readings.
 bool was_sampled(const TripLog& trip, const Mounting& mounting, Axis axis) {
     const std::vector<float>* readings[] = {&trip.acc.x, &trip.acc.y, &trip.acc.z};
     Eigen::Index nearest = 0;
@@ -52,7 +52,7 @@ double length_m(const IriRun& run) {
     return run.cell_m * static_cast<double>(run.centre_mm_per_m.size());
 }
 
-/// What to say where the lateral acceleration stood in for the vertical one.
+/// Returns a warning if lateral acceleration replaced the vertical one.
 std::vector<std::string> lateral_text(const IriTrace& roughness, Channels channels) {
     double whole_m = 0;
     double lateral_m = 0;
@@ -76,7 +76,7 @@ std::size_t samples_in(const StretchSpan& span) {
     return span.last - span.first;
 }
 
-/// The samples of a stretch in which the channel in use was not sampled.
+/// Marks the samples of a stretch as unused because the channel in use was not sampled.
 RowAudit without_vibration(RowAudit use, const StretchSpan& span) {
     const auto first = use.acc.begin() + static_cast<std::ptrdiff_t>(span.first);
     std::fill(first,
@@ -85,7 +85,7 @@ RowAudit without_vibration(RowAudit use, const StretchSpan& span) {
     return use;
 }
 
-/// The rates of turn that were sampled in a stretch, used.
+/// Marks the angular rates of a stretch as used.
 RowAudit with_rates(RowAudit use, const TripLog& trip, const StretchSpan& span) {
     const auto& t_s = trip.gyro.t_s;
     const auto from = std::ranges::lower_bound(t_s, trip.acc.t_s[span.first]) - t_s.begin();
@@ -94,8 +94,8 @@ RowAudit with_rates(RowAudit use, const TripLog& trip, const StretchSpan& span) 
     return use;
 }
 
-/// The matched way of the centre of gravity, which reaches a place so much travel after the
-/// antenna.
+/// Shifts a match from the antenna to the centre of gravity, which reaches a position `ahead_m` of
+/// travel later.
 MatchedTrace behind_antenna(MatchedTrace matched, double ahead_m) {
     for (auto& piece : matched) {
         piece.from_travel_m += ahead_m;
@@ -112,7 +112,8 @@ double length_on_roads_m(const MatchedTrace& matched) {
     return length_m;
 }
 
-/// The ends of a silence of the vibration and all that the other sensors said within it, in order.
+/// Returns the ends of a gap in the acceleration and the times of all other readings within it, in
+/// order.
 std::vector<double> times_within(const TripLog& trip, double from_s, double to_s) {
     std::vector<double> times_s{from_s, to_s};
     const auto& speeds_s = trip.speed.t_s;
@@ -130,7 +131,7 @@ std::vector<double> times_within(const TripLog& trip, double from_s, double to_s
     return times_s;
 }
 
-/// Travel in times of which the log holds nothing at all, though its clock went on.
+/// Returns the travel during times without any reading, although the log's clock continued.
 std::vector<TravelSpan>
 silent_parts(const TripLog& trip, const Odometer& odometer, double longest_gap_s) {
     const auto& t_s = trip.acc.t_s;
@@ -149,8 +150,8 @@ silent_parts(const TripLog& trip, const Odometer& odometer, double longest_gap_s
     return parts;
 }
 
-/// Kept travel that nobody recorded, as while a phone was told to pause: the ruler goes on there,
-/// straight from place to place, but no sensor felt the car drive.
+/// Returns the length of kept travel without a recording, such as during a pause of a phone: the
+/// odometer continues straight between positions, but no sensor recorded the drive.
 double unrecorded_m(const TripLog& trip,
                     const Odometer& odometer,
                     const TravelSpan& kept,
@@ -181,8 +182,8 @@ double recorded_m(const TripLog& trip,
     return std::max(0.0, sum_m);
 }
 
-/// When what is kept of a trip begins, since its t0: not where it departed if its ends are left
-/// out. Nothing if nothing is kept.
+/// Returns the start of the kept parts, ms since the trip's t0; `std::nullopt` if there are none.
+/// With trimmed ends it is not the departure.
 std::optional<std::int64_t> begin_of(const KeptParts& kept, const Odometer& odometer) {
     if (kept.is_whole) {
         return 0;
@@ -199,7 +200,7 @@ std::vector<Pass> counting_from(std::int64_t begin_ms, std::vector<Pass> passes)
     return passes;
 }
 
-/// Why a trip gave no pass.
+/// Explains why a trip gave no pass.
 std::string no_pass_reason(const IriTrace& roughness, const MatchedTrace& matched) {
     if (length_on_roads_m(matched) <= 0) {
         return "the trip is outside this map";
@@ -215,7 +216,8 @@ void expect_sensors(const TripLog& trip, const std::optional<SensorSet>& sensors
     }
 }
 
-/// By the speeds if they tell it, else by the ways from fix to fix against wheels and gyro.
+/// Estimates the latency from the speeds if possible, otherwise from the movement between fixes
+/// against wheels and gyro.
 std::optional<FoundLatency> latency_of(const TripLog& trip) {
     if (const auto by_speeds_s = estimate_gnss_latency_s(trip)) {
         return FoundLatency{*by_speeds_s, latency_by_speeds_sd_s};

@@ -23,10 +23,10 @@ struct PipelineConfig {
     EstimatorConfig estimator;
     MatchConfig match;
     PassConfig pass;
-    TrimRule trim; ///< what of a trip enters no pass
+    TrimRule trim; ///< parts of a trip excluded from passes
 };
 
-/// Roughness along one trip, and what it was made of.
+/// Roughness along one trip, with its intermediate results.
 struct TripTrace {
     Odometer odometer;
     Heading heading;
@@ -35,40 +35,42 @@ struct TripTrace {
     std::vector<std::string> warnings;
 };
 
-/// The trip with the receiver's latency filled in where the log does not state it and its speeds
-/// tell. Adds to `warnings` what was found, or that it could not be.
+/// Fills in the receiver's latency if the log does not state it and it can be estimated. Adds the
+/// estimate, or the failure, to `warnings`.
 TripLog with_latency(TripLog trip, std::vector<std::string>& warnings);
 
-/// \throws InputError  if the log lacks the vibration that is asked for.
+/// Checks that the trip has the requested acceleration.
+/// \throws InputError  if the log lacks it.
 void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels);
 
-/// What to say of a log's rate, mounting, wheels and columns.
+/// Returns warnings about a log's sampling rate, mounting, wheel speed and columns.
 std::vector<std::string>
 warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting);
 
-/// How far the antenna sits ahead of the centre of gravity. The log counts from the front axle,
-/// which a car with one axle has under its centre of gravity.
+/// Returns the distance of the antenna ahead of the centre of gravity. The log counts from the
+/// front axle; a car with one axle has it under its centre of gravity.
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle);
 
-/// The engine alone: what one trip says of the road along its own travel. No map.
+/// Estimates the roughness along the trip's own travel. Uses no map.
 TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config);
 
-/// What one trip gives to the store, with every row of its log accounted for.
+/// Result of one trip for the database, with every row of its log accounted for.
 struct TripResult {
-    std::vector<Pass> passes;             ///< their times count from begin_ms on
-    std::vector<RoughnessTrace> traces{}; ///< what the passes were read from, metre by metre
+    std::vector<Pass> passes;             ///< times relative to begin_ms
+    std::vector<RoughnessTrace> traces{}; ///< source of the passes, metre by metre
     RowCount rows;
-    std::optional<std::int64_t> begin_ms{0}; ///< of what is told, since the trip's t0; nothing: too
-                                             ///< short to tell anything
-    double distance_m = 0;                   ///< of what is told
-    double matched_m = 0;                    ///< of it, on roads of the network
+    std::optional<std::int64_t> begin_ms{0}; ///< start of the reported part, since the trip's t0;
+                                             ///< `std::nullopt`: too short to report anything
+    double distance_m = 0;                   ///< length of the reported part
+    double matched_m = 0;                    ///< part of distance_m on roads of the network
     std::vector<std::string> warnings;
 };
 
-/// The whole of the science: one trip in, its passes out. No files, no clock, no globals.
+/// Runs the whole estimation: takes one trip and returns its passes. Uses no files, no clock, no
+/// globals.
 ///
-/// The trip is taken by value: its vibration is let go as soon as it has become roughness, so that
-/// ten hours of it do not stand in memory while they are matched.
+/// The trip is taken by value: its acceleration is released as soon as the roughness is estimated,
+/// so that ten hours of it do not occupy memory during map matching.
 TripResult passes_of(TripLog trip,
                      const Vehicle& vehicle,
                      const RoadNetwork& roads,

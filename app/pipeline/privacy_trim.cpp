@@ -13,13 +13,13 @@
 namespace macadam {
 namespace {
 
-constexpr double rounding_m = 1e-6; // a cut at a border of segments is at it
+constexpr double rounding_m = 1e-6; // tolerance of cuts at a segment border
 
 double share(double value, double from, double to) {
     return to > from ? (value - from) / (to - from) : 0;
 }
 
-/// The part of a piece between two places of its travel.
+/// Returns the part of an interval between two positions of its travel.
 MatchedInterval between_travel(const MatchedInterval& piece, double from_m, double to_m) {
     const double first = share(from_m, piece.from_travel_m, piece.to_travel_m);
     const double last = share(to_m, piece.from_travel_m, piece.to_travel_m);
@@ -33,7 +33,7 @@ MatchedInterval between_travel(const MatchedInterval& piece, double from_m, doub
     return part;
 }
 
-/// The same between two offsets along its edge.
+/// Returns the part of an interval between two offsets along its edge.
 MatchedInterval between_offsets(const MatchedInterval& piece, double from_m, double to_m) {
     const auto travel_at = [&](double offset_m) {
         return std::lerp(piece.from_travel_m,
@@ -48,11 +48,11 @@ double segment_m(const MatchedInterval& piece, const RoadNetwork& roads) {
     return (link.to_m - link.from_m) / link.segments;
 }
 
-/// A trace from one place of its travel on, without the rest of the segment in which that lies.
+/// Returns the trace from one position of its travel on, without the rest of the segment there.
 MatchedTrace cut_before(const MatchedTrace& matched, double from_m, const RoadNetwork& roads) {
     MatchedTrace rest;
-    const MatchedInterval* cut = nullptr; // the piece that was cut, while its segment lasts
-    double border_m = 0;                  // of that segment, along the edge
+    const MatchedInterval* cut = nullptr; // interval with the cut, while its segment lasts
+    double border_m = 0;                  // border of that segment, along the edge
     for (const auto& piece : matched) {
         if (piece.to_travel_m <= from_m) {
             continue;
@@ -77,7 +77,7 @@ MatchedTrace cut_before(const MatchedTrace& matched, double from_m, const RoadNe
     return rest;
 }
 
-/// The same trace driven backward, as far as cutting needs it: travel and offsets change sign.
+/// Reverses a trace as far as cutting needs it: travel and offsets change sign.
 MatchedTrace backward(MatchedTrace matched) {
     std::ranges::reverse(matched);
     for (auto& piece : matched) {
@@ -88,7 +88,7 @@ MatchedTrace backward(MatchedTrace matched) {
     return matched;
 }
 
-/// The trace within one part of its travel.
+/// Returns the trace within one part of its travel.
 MatchedTrace within(const MatchedTrace& matched, const TravelSpan& part, const RoadNetwork& roads) {
     return backward(
         cut_before(backward(cut_before(matched, part.from_m, roads)), -part.to_m, roads));

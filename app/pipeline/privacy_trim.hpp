@@ -11,38 +11,38 @@
 
 namespace macadam {
 
-/// How trips that come into a store are trimmed: those of a crowd as its key draws it, and by what
-/// was asked for where that is more. Makes the key if it is missing.
+/// Returns the trim rule of trips that enter a database. A crowd database draws it from its key,
+/// with the requested length as minimum. Creates the key if it is missing.
 TrimRule trim_in(RoadStore& store, TrimRule asked);
 
-/// Parts of a trip that enter passes, traces, distances and times; nothing of the rest is kept.
+/// Parts of a trip that enter passes, traces, distances and times; the rest is discarded.
 struct KeptParts {
     std::vector<TravelSpan> parts; ///< in order; empty: the trip is too short
-    bool is_whole;                 ///< nothing was left out
+    bool is_whole;                 ///< no part was removed
 };
 
 KeptParts kept_of(const TripLog& trip, const Odometer& odometer, const TrimRule& rule);
 
 double length_m(const KeptParts& kept);
 
-/// The match within these parts. A segment that reaches out of one where it was cut is left out
-/// whole.
+/// Restricts a match to the kept parts. A segment that extends beyond a cut is removed completely.
 MatchedTrace trimmed(const MatchedTrace& matched, const KeptParts& kept, const RoadNetwork& roads);
 
-/// Readings of vibration and rotation outside these parts count as not used, for the reason
+/// Marks samples of acceleration and rotation outside the kept parts as not used, with the reason
 /// `trimmed`.
 RowAudit without_vibration_outside(RowAudit use,
                                    const TripLog& trip,
                                    const Odometer& odometer,
                                    const KeptParts& kept);
 
-/// The same of speeds and fixes.
+/// Marks speeds and fixes outside the kept parts in the same way.
 RowAudit without_places_outside(RowAudit use,
                                 const TripLog& trip,
                                 const Odometer& odometer,
                                 const KeptParts& kept);
 
-/// What to say of it. \param whole_m  of the trip
+/// Describes the trim.
+/// \param whole_m  length of the trip
 std::string trim_text(const KeptParts& kept, double whole_m, const TrimRule& rule);
 
 } // namespace macadam

@@ -12,13 +12,14 @@
 
 namespace macadam {
 
-/// The one trip of a path: a log, a phone's export or, with a mapping, a foreign file.
+/// Finds the only trip of a path: a log, a phone's export or, with a mapping, a foreign file.
 ///
 /// \throws InputError  if it is a folder of logs, or holds several.
 TripSource one_trip(const std::filesystem::path& path,
                     const std::shared_ptr<const TripMapping>& mapping = nullptr);
 
-/// What `work` returns; its refusals get the trip's name before them, for the engine knows no file.
+/// Calls `work` and prefixes the message of any InputError with the trip's name, which the engine
+/// does not know.
 template <typename Work>
 auto with_trip_name(const std::string& trip, Work work) {
     try {
@@ -28,12 +29,12 @@ auto with_trip_name(const std::string& trip, Work work) {
     }
 }
 
-/// Where the car was at a time, straight between its fixes, their latency taken off.
+/// Position of the car at a time, interpolated linearly between fixes and corrected for latency.
 class TripPositions {
 public:
     explicit TripPositions(const TripLog& trip);
 
-    /// Nothing before the first and after the last fix, and in silences of more than ten seconds.
+    /// `std::nullopt` before the first fix, after the last, and in gaps of more than ten seconds.
     std::optional<GeoPoint> operator()(double t_s) const;
 
 private:

@@ -42,8 +42,8 @@ std::vector<fs::path> toml_files(const fs::path& folder) {
     return files;
 }
 
-/// vehicles/ beside the trip's folder, in it, or up to two folders higher: fleets keep a folder for
-/// each car or each day below the folder of trips.
+/// Returns the folders to search: vehicles/ beside the trip's folder, in it, or up to two folders
+/// higher, since fleets keep a folder for each car or day below the folder of trips.
 std::vector<fs::path> vehicle_folders(const fs::path& trip_folder) {
     const auto parent = trip_folder.parent_path();
     return {parent / "vehicles",

@@ -13,7 +13,7 @@
 
 namespace macadam {
 
-/// The options that say which car drove, for the tables of the commands that need one.
+/// Options that select the car, for commands that need one.
 inline constexpr Option vehicle_option{
     "--vehicle", "NAME|FILE", "The car of all trips given: a built-in name or a TOML file."};
 inline constexpr Option vehicles_option{
@@ -24,19 +24,20 @@ inline constexpr Option vehicles_option{
 struct ChosenVehicle {
     Vehicle vehicle;
     bool built_in;       ///< not from a file, which may use the same name
-    std::string warning; ///< "" or that the car is not known
+    std::string warning; ///< "", or that the car is unknown
 };
 
-/// Finds the car of each trip: --vehicle; else by the trip's vehicle_id in --vehicles, or in
-/// vehicles/ beside the trip's folder or in it, or among the built-in ones; else `generic` with a
-/// warning. Folders are read once. May be asked from several threads.
+/// Finds the car of each trip: by --vehicle; else by the trip's vehicle_id in --vehicles, in
+/// vehicles/ beside or in the trip's folder, or among the built-in cars; else `generic` with a
+/// warning. Reads each folder once. Thread-safe.
 class VehicleChoice {
 public:
-    /// Reads --vehicle and --vehicles at once.
-    /// \throws UsageError  if both are given. \throws InputError for a file that is no vehicle.
+    /// Reads --vehicle and --vehicles immediately.
+    /// \throws UsageError  if both are given.
+    /// \throws InputError  for a file that is no vehicle.
     explicit VehicleChoice(const Arguments& arguments);
 
-    /// \throws InputError  if a vehicle file beside the trip cannot be read as one.
+    /// \throws InputError  if a vehicle file beside the trip is invalid.
     ChosenVehicle operator()(const std::filesystem::path& trip_file, const std::string& vehicle_id);
 
 private:

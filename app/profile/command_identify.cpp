@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double sure_correlation = 0.5; // of 300 m; wrong places stay below 0.45
+constexpr double sure_correlation = 0.5; // over 300 m; wrong positions stay below 0.45
 
 struct IdentifyOptions {
     fs::path trip;
@@ -64,7 +64,7 @@ IdentifyOptions parse_identify(const Arguments& arguments) {
     return options;
 }
 
-/// The two tracks: those named left and right, or the only two, or the only one twice.
+/// Returns both tracks: those named left and right, or the only two, or the only one twice.
 RoadProfile road_of(const MeasuredProfile& measured, const fs::path& file) {
     const auto named = [&](std::string_view name) {
         return std::ranges::find(measured.tracks, name, &MeasuredProfile::Track::name);
@@ -97,10 +97,10 @@ std::vector<Stretch> stretches_of(const TripLog& trip) {
     return stretches;
 }
 
-/// Where the trip lies, and how that is known.
+/// Position of the trip on the profile, and its source.
 struct Place {
     double at_m;
-    std::optional<ProfileRegistration> found; ///< nothing: it was told
+    std::optional<ProfileRegistration> found; ///< `std::nullopt`: given by the user
 };
 
 Place place_of(const std::vector<Stretch>& stretches,
@@ -170,9 +170,9 @@ std::vector<Row> rows_of(const SpectrumFit& fit) {
     return rows;
 }
 
-/// What a gain says, in plain words.
+/// Explains a gain in plain words.
 std::string meaning_of(double gain, const Vehicle& vehicle) {
-    constexpr double one_axle = 0.93; // above it a wheelbase cannot be told from errors of the fit
+    constexpr double one_axle = 0.93; // above it fit errors hide the wheelbase
     constexpr double comb_low = 0.6;
     if (gain >= one_axle) {
         return fmt::format("gain {:.2f}: the sensor responds about as a car with one axle "

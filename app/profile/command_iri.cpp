@@ -15,8 +15,8 @@ namespace {
 
 struct IriOptions {
     IriQuestion question;
-    std::optional<double> length_m; ///< nothing: one value for the whole
-    std::optional<double> base_m;   ///< of a moving mean instead
+    std::optional<double> length_m; ///< `std::nullopt`: one value for the whole
+    std::optional<double> base_m;   ///< base of a moving mean instead
     std::optional<double> threshold;
     std::optional<std::filesystem::path> output;
     IriWords words;
@@ -30,7 +30,7 @@ std::optional<double> length_in(const Arguments& arguments, std::string_view nam
     return length_m;
 }
 
-/// --continuous stands alone or with the base.
+/// Parses --continuous; its base is optional.
 std::optional<double> base_in(const Arguments& arguments) {
     const auto word = arguments.value("--continuous");
     return word && word->empty() ? std::optional{localised_base_m}

@@ -25,7 +25,7 @@ borders_of(const Course& course, std::optional<double> length_m, const std::stri
         throw InputError{fmt::format(
             "{}: has a point every {:.3f} m, --length {} is shorter", file, step_m, *length_m)};
     }
-    // A piece that the points cover is whole, though the envelope eats their last 250 mm.
+    // An interval covered by points is complete, although the envelope shortens the last 250 mm.
     std::vector<double> borders_m{course.from_m};
     while (borders_m.back() + *length_m <= course.covered_to_m + rounding_m) {
         borders_m.push_back(course.from_m + static_cast<double>(borders_m.size()) * *length_m);
@@ -42,7 +42,7 @@ borders_of(const Course& course, std::optional<double> length_m, const std::stri
     return borders_m;
 }
 
-/// Means over the pieces between borders, of values that each stand for some length.
+/// Weighted means over the intervals between borders.
 class Pieces {
 public:
     explicit Pieces(std::size_t drives) : sums_(drives), wholes_(drives), means_(drives) {}
@@ -107,10 +107,10 @@ mean_of(std::string name, const IriReport::Channel& a, const IriReport::Channel&
     return mean;
 }
 
-/// How the base moves: steps, and how many of them it has.
+/// Movement of the base: its step, and the number of steps in the base.
 struct Moves {
     double step_m;
-    double steps; ///< need not be whole
+    double steps; ///< need not be an integer
 };
 
 Moves moves_of(const Course& course, double base_m) {
@@ -122,7 +122,7 @@ Moves moves_of(const Course& course, double base_m) {
     return {step_m, std::max(1.0, base_m / step_m)};
 }
 
-/// Where the moves begin, on uneven stations; on even ones the points are there.
+/// Returns the beginnings of the steps on uneven stations; on even ones these are the points.
 std::vector<double> edges_of(const Course& course, const Moves& moves) {
     std::vector<double> edges_m;
     for (std::size_t i = 0;; ++i) {

@@ -10,45 +10,46 @@
 
 namespace macadam {
 
-/// The part that is asked for, in pieces; IRI in mm/m.
+/// IRI of the requested part of a profile, by interval, in mm/m.
 struct IriReport {
     IriMethod method;
-    std::vector<double> borders_m; ///< pieces + 1
+    std::vector<double> borders_m; ///< intervals + 1
     struct Channel {
         std::string name;
-        double whole; ///< over all pieces
+        double whole; ///< over all intervals
         std::vector<double> pieces;
     };
-    std::vector<Channel> channels; ///< as many as tracks
-    std::optional<Channel> mri;    ///< mean of left and right, where both are there
-    std::optional<Channel> hri;    ///< of the mean profile
-    std::vector<bool> lead_in;     ///< the start of the car may still show in the piece
+    std::vector<Channel> channels; ///< one per track
+    std::optional<Channel> mri;    ///< mean of left and right, if both exist
+    std::optional<Channel> hri;    ///< IRI of the mean profile
+    std::vector<bool> lead_in;     ///< start-up transient may still show in the interval
 };
 
-/// Reads the file twice, point by point: its length does not matter to memory.
+/// Computes the IRI by interval. The file is read twice, point by point, so that memory does not
+/// depend on its length.
 ///
-/// \param length_m  of a piece; nothing: all in one.
-/// \throws InputError  if the file cannot be used or holds nothing of the part.
+/// \param length_m     length of an interval; `std::nullopt`: a single one
+/// \throws InputError  if the file cannot be used or does not cover the part.
 IriReport iri_of_pieces(const IriQuestion& question, std::optional<double> length_m);
 
-/// Mean over a base around one place.
+/// Mean over a base length around one position.
 struct MovingIri {
-    double at_m;                 ///< the middle of the base
-    std::span<const double> iri; ///< of each track, mm/m
+    double at_m;                 ///< middle of the base
+    std::span<const double> iri; ///< per track, mm/m
     std::optional<double> mri;
-    bool lead_in; ///< the base begins where the start of the car may still show
+    bool lead_in; ///< base begins where the start-up transient may still show
 };
 
-/// What a moving report begins with.
+/// Header of a moving-mean report.
 struct MovingHead {
     IriMethod method;
-    double base_m; ///< at least a step
+    double base_m; ///< at least one step
     std::vector<std::string> tracks;
     bool has_mri;
 };
 
-/// The mean over a base that moves along the reported part, in steps of the profile (of a thirtieth
-/// of the base on uneven stations). Calls `begin` once and then `take` for every place.
+/// Computes the mean over a base that moves along the reported part in steps of the profile (a
+/// thirtieth of the base on uneven stations). Calls `begin` once, then `take` for every position.
 void moving_iri(const IriQuestion& question,
                 double base_m,
                 const std::function<void(const MovingHead&)>& begin,

@@ -89,7 +89,7 @@ std::string csv_of(const IriReport& report, const IriWords& words) {
     return csv;
 }
 
-/// The members before the list, whose '[' is open.
+/// Formats the members before the list, with its '['.
 std::string json_begin(const MovingHead& head,
                        std::optional<double> threshold,
                        const IriWords& words,
@@ -106,7 +106,7 @@ std::string json_begin(const MovingHead& head,
     return text + fmt::format(",\"{}\":[", list);
 }
 
-/// Prints rows of CSV, or objects in a list of JSON.
+/// Prints rows of CSV, or objects of a JSON list.
 class Rows {
 public:
     explicit Rows(const IriWords& words) : words_{words} {}
@@ -189,7 +189,7 @@ std::string row_of(const std::string& channel, const RoughPlace& place, const Ir
                        place.peak_at_m);
 }
 
-/// What is sought on each track and, last, on the mean of left and right.
+/// Search on each track and, last, on the mean of left and right.
 struct Search {
     std::vector<std::string> names;
     std::vector<RoughPlaces> places;

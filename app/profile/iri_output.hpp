@@ -7,16 +7,17 @@
 
 namespace macadam {
 
-/// In which words a report of `macadam iri` is printed.
+/// Unit and format of a report of `macadam iri`.
 struct IriWords {
     bool in_per_mi = false; ///< otherwise mm/m
     bool json = false;      ///< otherwise CSV
 };
 
-/// CSV or JSON, whole.
+/// Formats a report as CSV or JSON.
 std::string text_of(const IriReport& report, const IriWords& words);
 
-/// Prints the moving mean, or where it exceeds a threshold (in the unit of `words`), as it comes.
+/// Prints the moving mean, or the sections above a threshold (in the unit of `words`), as they are
+/// computed.
 void print_moving_iri(const IriQuestion& question,
                       double base_m,
                       std::optional<double> threshold,

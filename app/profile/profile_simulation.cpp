@@ -16,10 +16,11 @@
 namespace macadam {
 namespace {
 
-constexpr double reliable_after_m = 60; // of lead-in: 0.1 % of the golden car's transient is left
+constexpr double reliable_after_m = 60; // lead-in that leaves 0.1 % of the golden car's transient
 
-/// Where the car starts: at the first point, or in the reported part where less lies before it than
-/// the base of the start slope. On even stations at the last point before, so that none is moved.
+/// Returns the start of the car: the first point, or the reported part if the profile before it is
+/// shorter than the base of the start slope. On even stations it is the last point before, so that
+/// no point moves.
 double start_of(const ProfileExtent& extent, std::optional<double> from_m) {
     const double before_m = from_m.value_or(extent.first_m) - extent.first_m;
     if (before_m < 0 || before_m >= start_up_m) {
@@ -32,7 +33,7 @@ double start_of(const ProfileExtent& extent, std::optional<double> from_m) {
     return extent.first_m + steps * *extent.even_step_m;
 }
 
-/// Where the last value of the rectified stroke ends: the envelope eats the end of the profile.
+/// Returns the end of the last value of the rectified stroke; the envelope shortens the profile.
 double end_of(const ProfileExtent& extent, const IriMethod& method) {
     if (!method.envelope_samples) {
         return extent.last_m;
@@ -48,7 +49,7 @@ void check_step(const ProfileExtent& extent, const std::string& file) {
     }
 }
 
-/// One track on its way through the golden car.
+/// Simulation of the golden car on one track.
 class Drive {
 public:
     explicit Drive(std::variant<RectifiedStroke, ExactIri> iri) : iri_{std::move(iri)} {}
@@ -71,7 +72,7 @@ private:
     std::variant<RectifiedStroke, ExactIri> iri_;
 };
 
-/// The points from where the car starts on; between two stations, one is made there.
+/// Reads the points from the start of the car on; a start between two stations is interpolated.
 class RowsFromStart {
 public:
     RowsFromStart(const IriQuestion& question, const Course& course)

@@ -8,7 +8,7 @@
 namespace macadam {
 namespace {
 
-/// "2026-03-01T06:00:00.000Z" without its fraction.
+/// Removes the fraction of a time such as "2026-03-01T06:00:00.000Z".
 std::string second_of(const std::string& at) {
     return at.size() > 20 ? at.substr(0, 19) + "Z" : at;
 }

@@ -8,11 +8,12 @@
 
 namespace macadam {
 
-/// What was done to a store, oldest first.
+/// Formats the audit log of a database, oldest entry first.
 std::string text_of(const std::vector<AuditEntry>& entries);
 std::string json_of(const std::vector<AuditEntry>& entries);
 
-/// How the number of a segment changed. \param format  table, json or csv.
+/// Formats the changes of a segment's value.
+/// \param format  table, json or csv
 std::string changes_text(const std::vector<NumberChange>& changes, std::string_view format);
 
 } // namespace macadam

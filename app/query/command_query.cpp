@@ -22,7 +22,7 @@
 namespace macadam {
 namespace {
 
-/// Asked for by name, a segment is shown even if nobody drove it.
+/// Returns the filter; a segment requested by key is shown even without passes.
 SegmentFilter filter_of(const QueryOptions& options) {
     auto filter = options.filter;
     filter.with_state_only = filter.with_state_only && !filter.key;

@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-constexpr double far_apart_m = 1e6; // segments of different roads: no part of their errors is near
+constexpr double far_apart_m = 1e6; // between different roads: no local part of errors is shared
 
 std::int64_t begin_ms(const std::string& month) {
     return std::llround(*parse_utc_s(month + "-01T00:00:00Z") * 1000);
@@ -26,7 +26,7 @@ std::string month_after(const std::string& month) {
     return month_of(begin_ms(month) + more_than_a_month_ms);
 }
 
-/// The segments as pieces of one ruler: neighbours along their way lie beside each other.
+/// Arranges the segments along one axis: neighbours on their way are adjacent.
 CorrelatedMean road_of(const std::vector<SegmentRecord>& records) {
     std::vector<MeasuredPiece> pieces;
     double at_m = 0;
@@ -42,7 +42,8 @@ CorrelatedMean road_of(const std::vector<SegmentRecord>& records) {
     return measured_road(pieces, {});
 }
 
-/// From the first pass of any segment to the last; nothing where none is dated.
+/// Returns the period from the first pass of any segment to the last; `std::nullopt` if none is
+/// dated.
 std::optional<Period> period_of(const std::vector<SegmentRecord>& records) {
     std::optional<Period> period;
     for (const auto& record : records) {
@@ -57,7 +58,7 @@ std::optional<Period> period_of(const std::vector<SegmentRecord>& records) {
 }
 
 Period shared_by(const Period& a, const Period& b) {
-    return {std::max(a.from_ms, b.from_ms), // nothing is less than any time
+    return {std::max(a.from_ms, b.from_ms), // `std::nullopt` is less than any time
             a.until_ms && b.until_ms ? std::min(a.until_ms, b.until_ms)
             : a.until_ms             ? a.until_ms
                                      : b.until_ms};
@@ -157,7 +158,7 @@ history_by_month(const std::function<std::vector<SegmentRecord>(const Period&)>&
             month = next;
             continue;
         }
-        // One wrong date must not cost a look at each month of a century.
+        // One wrong date must not cost a query for each month of a century.
         const auto rest = period_of(found(shared_by(whole, {begin_ms(next), std::nullopt})));
         if (!rest) {
             break;

@@ -11,20 +11,21 @@
 
 namespace macadam {
 
-/// What the passes of one month say of some segments.
+/// Roughness of some segments from the passes of one month.
 struct MonthRow {
     std::string month; ///< "2026-03"
     std::size_t segments;
     CorrelatedMean road;
 };
 
-/// Month by month, in UTC, those with passes. \param found  the segments that are meant, in order,
-/// with states of the passes of a period.
+/// Returns the months with passes, in UTC.
+/// \param found  returns the segments, in order, with states from the passes of a period
 std::vector<MonthRow>
 history_by_month(const std::function<std::vector<SegmentRecord>(const Period&)>& found,
                  const Period& whole);
 
-/// \param format  table, json or csv.
+/// Formats the months.
+/// \param format  table, json or csv
 std::string months_text(const std::vector<MonthRow>& months, std::string_view format);
 
 } // namespace macadam

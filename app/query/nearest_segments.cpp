@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-constexpr double heading_within_deg = 45; // tells the arms of a crossing from each other
+constexpr double heading_within_deg = 45; // separates the arms of a crossing
 
 bool is_near(const LineFoot& foot, const NearOptions& near) {
     return foot.distance_m <= near.radius_m &&
@@ -17,7 +17,7 @@ bool is_near(const LineFoot& foot, const NearOptions& near) {
                                                          360)) <= heading_within_deg);
 }
 
-/// What two boxes share; with nothing the other.
+/// Returns the intersection of two boxes; the second one if there is no first.
 GeoBox intersection(const std::optional<GeoBox>& a, const GeoBox& b) {
     return a ? GeoBox{std::max(a->west_deg, b.west_deg),
                       std::max(a->south_deg, b.south_deg),
@@ -32,7 +32,7 @@ std::vector<SegmentRecord>
 segments_near(const RoadStore& store, const SegmentFilter& filter, const NearOptions& near) {
     auto around = filter;
     around.box = intersection(filter.box, grown(including({}, near.at), near.radius_m));
-    around.worst = 0; // of those within the radius, below
+    around.worst = 0; // applied below, within the radius
     std::vector<std::pair<double, SegmentRecord>> by_distance;
     store.visit(around, [&](const SegmentRecord& record) {
         if (const auto foot = foot_on(record.segment.line, near.at); is_near(foot, near)) {

@@ -6,8 +6,8 @@
 
 namespace macadam {
 
-/// Segments within the radius of a place, the nearest first, that meet the filter, too. With a
-/// heading only those that are driven within 45 degrees of it where they are nearest.
+/// Finds the segments within the radius of a position that meet the filter, nearest first. With a
+/// heading, only segments driven within 45 degrees of it at their nearest point.
 std::vector<SegmentRecord>
 segments_near(const RoadStore& store, const SegmentFilter& filter, const NearOptions& near);
 

@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-constexpr double near_m = 50; // about the width of a road with its verges, and a fix's error
+constexpr double near_m = 50; // about the width of a road with its verges, plus the error of a fix
 
 WorstOptions parse_worst(const Arguments& arguments) {
     const auto count = arguments.integer("--worst");
@@ -68,7 +68,7 @@ bool asks_for_segments(const QueryOptions& options) {
            !filter.highway.empty() || !filter.class_name.empty() || options.worst.count > 0;
 }
 
-/// Sections are reported whole, whatever lies in them.
+/// Rejects other filters: sections are reported completely.
 void expect_sections_alone(const QueryOptions& options) {
     if (asks_for_segments(options) || !options.filter.with_state_only || options.history ||
         options.passes || options.changes) {
@@ -77,7 +77,7 @@ void expect_sections_alone(const QueryOptions& options) {
     }
 }
 
-/// What does not go together.
+/// Rejects invalid combinations.
 void expect_sense(const QueryOptions& options) {
     if (options.sections) {
         expect_sections_alone(options);

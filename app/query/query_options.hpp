@@ -11,19 +11,20 @@
 
 namespace macadam {
 
-/// What --worst asks for.
+/// Options of --worst.
 struct WorstOptions {
-    std::size_t count; ///< 0: nothing
+    std::size_t count; ///< 0: none
     bool single_segments;
-    std::optional<double> above_mm_per_m; ///< what is poor; nothing: by the store's classes
+    /// Threshold of poor roughness; `std::nullopt`: by the database's classes.
+    std::optional<double> above_mm_per_m;
     double min_length_m;
 };
 
-/// What --near asks for.
+/// Options of --near.
 struct NearOptions {
     GeoPoint at;
     double radius_m;
-    std::optional<double> heading_deg; ///< of the traffic, clockwise from north
+    std::optional<double> heading_deg; ///< driving direction, clockwise from north
 };
 
 struct QueryOptions {
@@ -33,15 +34,18 @@ struct QueryOptions {
     std::optional<SectionOptions> sections;
     std::string format;
     bool history; ///< by month
-    bool passes;  ///< each of one segment
-    bool changes; ///< of one segment's number
+    bool passes;  ///< passes of one segment
+    bool changes; ///< changes of one segment's value
     WorstOptions worst;
 };
 
-/// \throws UsageError  for words that do not fit, or not together.
+/// Parses the options of `query`.
+/// \throws UsageError  for invalid values or combinations.
 QueryOptions parse_query(const Arguments& arguments);
 
-/// "LAT,LON" in degrees. \throws UsageError  if it is no place; `name` is the option's.
+/// Parses "LAT,LON" in degrees.
+/// \param name         name of the option
+/// \throws UsageError  if it is no position.
 GeoPoint parse_place(std::string_view name, const std::vector<double>& degrees);
 
 } // namespace macadam

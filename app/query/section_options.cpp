@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-constexpr double profile_m = 100; // what road administrations report in
+constexpr double profile_m = 100; // usual reporting length of road administrations
 
 std::optional<std::filesystem::path> file_of(const Arguments& arguments, std::string_view name) {
     const auto file = arguments.value(name);
@@ -44,7 +44,7 @@ std::optional<std::pair<GeoPoint, GeoPoint>> parse_route(const Arguments& argume
     return std::pair{place_in(places[0]), place_in(places[1])};
 }
 
-/// "100", "100m", "0.5km", "0.1mi"
+/// Parses a length: "100", "100m", "0.5km", "0.1mi".
 std::optional<double> parse_length_m(const Arguments& arguments) {
     constexpr double shortest_m = 1, longest_m = 1e6;
     struct Unit {
@@ -72,7 +72,7 @@ std::optional<double> parse_length_m(const Arguments& arguments) {
 }
 
 double parse_radius_m(const Arguments& arguments) {
-    constexpr double usual_m = 20; // a crossing or a bridge's joint, and a fix's error
+    constexpr double usual_m = 20; // a crossing or the joint of a bridge, plus the error of a fix
     const double radius_m = arguments.number("--exclude-radius", usual_m);
     if (!(radius_m >= 0 && radius_m <= 10'000)) {
         throw UsageError{fmt::format("--exclude-radius is {}, expected 0 to 10000 m", radius_m)};
@@ -80,7 +80,7 @@ double parse_radius_m(const Arguments& arguments) {
     return radius_m;
 }
 
-/// Options that shape sections need something to shape.
+/// Rejects options that modify sections if there are none.
 void expect_none(const Arguments& arguments, bool has_routes) {
     for (const auto* const name :
          {"--section-length", "--homogeneous", "--exclude", "--exclude-radius"}) {

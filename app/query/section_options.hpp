@@ -9,13 +9,13 @@
 
 namespace macadam {
 
-/// Which roads are to be reported in sections, and how they are cut.
+/// Roads to report in sections, and the rule that cuts them.
 struct SectionOptions {
     std::optional<std::pair<GeoPoint, GeoPoint>> route;
     RouteConfig::Best best;
     std::optional<std::filesystem::path> along;    ///< lines to follow
-    std::optional<std::filesystem::path> sections; ///< an agency's own
-    std::optional<double> length_m;                ///< nothing: as they are
+    std::optional<std::filesystem::path> sections; ///< an agency's own sections
+    std::optional<double> length_m;                ///< `std::nullopt`: uncut
     bool homogeneous;
     std::optional<std::filesystem::path> exclude;
     double exclude_radius_m;
@@ -41,9 +41,9 @@ inline constexpr Option exclude_option{
 inline constexpr Option exclude_radius_option{
     "--exclude-radius", "METRES", "Radius around places without radius_m.", "20"};
 
-/// Of --sections and what shapes sections, and, where the command has them, of --route and --along.
-/// Nothing if no section is asked for.
-/// \throws UsageError  for words that do not fit, or not together.
+/// Parses --sections with its modifiers and, for commands that have them, --route and --along.
+/// Returns `std::nullopt` if no sections are requested.
+/// \throws UsageError  for invalid values or combinations.
 std::optional<SectionOptions> parse_sections(const Arguments& arguments, bool has_routes);
 
 } // namespace macadam

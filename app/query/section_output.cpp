@@ -71,7 +71,7 @@ std::string table_row(const NamedSection& named, const ClassTable& classes) {
 
 // --------------------------------------------------------------------------------- CSV and JSON
 
-/// What all formats hold, in their order: numbers are written alike.
+/// Field of all formats, in their common order and with the same number format.
 using Value = std::pair<std::string_view, JsonValue>;
 
 JsonValue known(bool is_known, double value) {
@@ -121,7 +121,7 @@ std::string cell_of(const JsonValue& value) {
     return std::visit(Cell{}, value);
 }
 
-/// Parts on ways: each list has one value for each part, parted by semicolons.
+/// Lists of the parts on ways, with one value for each part, separated by semicolons.
 struct PartLists {
     std::vector<std::int64_t> way_ids;
     std::vector<std::string_view> directions;
@@ -193,7 +193,7 @@ std::string geojson_feature(const NamedSection& named, const ClassTable& classes
     return feature.text();
 }
 
-/// What stands before the first section, between two, and after the last.
+/// Text before the first section, between two, and after the last.
 struct Frame {
     std::string head;
     std::string_view separator;

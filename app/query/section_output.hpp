@@ -9,12 +9,13 @@
 
 namespace macadam {
 
-/// Sections as text, one after the other.
+/// Writes sections as text, one after the other.
 class SectionWriter {
 public:
     using Put = std::function<void(std::string_view)>;
 
-    /// \param format  table, json, csv or geojson. \param classes  outlives the writer.
+    /// \param format   table, json, csv or geojson
+    /// \param classes  must outlive the writer
     SectionWriter(std::string_view format, const ClassTable& classes, Put put);
 
     void add(const NamedSection& section);
@@ -29,7 +30,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// "3.42 km, 2.97 km of them measured".
+/// Describes a total: "3.42 km, 2.97 km of them measured".
 std::string spoken(const SectionTotal& total);
 
 } // namespace macadam

@@ -15,7 +15,7 @@
 namespace macadam {
 namespace {
 
-/// A road to be reported: the ruler's beginning has a station, and stations rise or fall.
+/// Requested road; its beginning has a station, and stations rise or fall along it.
 struct AskedRoad {
     std::string name;
     LinearRoute road;
@@ -23,7 +23,7 @@ struct AskedRoad {
     bool rises = true;
 };
 
-/// Finds roads of the network by what files say; each named road is looked up once.
+/// Finds roads of the network from the references in files; looks up each named road once.
 class RoadFinder {
 public:
     explicit RoadFinder(const RoadNetwork& roads) : roads_{roads} {}
@@ -57,7 +57,7 @@ private:
         return part(reference, known->second);
     }
 
-    /// Stations of the reference on a whole road.
+    /// Cuts a road to the stations of a reference.
     AskedRoad part(const SectionReference& reference, const LinearRoute& whole) const {
         const double whole_m = length_m(whole);
         const bool rises = reference.forward.value_or(reference.from_m.value_or(0) <=

@@ -10,26 +10,26 @@
 
 namespace macadam {
 
-/// A section with the name of its road or line, and its place by the stations of that.
+/// Section with the name of its road or line, and its position as stations on that.
 struct NamedSection {
     std::string name;
-    double from_m; ///< station; from_m > to_m where it is followed against its stations
+    double from_m; ///< station; from_m > to_m against the stations
     double to_m;
     RoadSection section;
 };
 
-/// What all sections come to.
+/// Totals of all sections.
 struct SectionTotal {
     double length_m = 0;
     double measured_m = 0;
     double excluded_m = 0;
 };
 
-/// Finds the roads that are asked for, cuts them, and hands over what the store knows of each
-/// section, road by road in their order.
+/// Finds the requested roads, cuts them and passes on the data of each section, road by road in
+/// their order.
 ///
-/// \param filter  only its period and min_passes are heeded.
-/// \throws InputError  for files that are not what is expected, and roads that are not found.
+/// \param filter       only its period and min_passes apply
+/// \throws InputError  for invalid files, and for roads that are not found.
 SectionTotal each_section(const RoadStore& store,
                           const SectionOptions& options,
                           const SegmentFilter& filter,

@@ -169,7 +169,7 @@ std::string passes_csv(const std::vector<HistoricPass>& passes) {
     return csv;
 }
 
-/// What stands before the first segment, between two, and after the last.
+/// Text before the first segment, between two, and after the last.
 struct Frame {
     std::string head;
     std::string_view separator;

@@ -10,10 +10,11 @@
 
 namespace macadam {
 
-/// Segments as `query` prints them, one after the other: however many there are, one is held.
+/// Prints segments for `query`, one after the other; only one is held in memory.
 class SegmentPrinter {
 public:
-    /// \param format  table, json, csv or geojson. \param classes  outlives the printer.
+    /// \param format   table, json, csv or geojson
+    /// \param classes  must outlive the printer
     SegmentPrinter(std::string_view format, const ClassTable& classes);
 
     void add(const SegmentRecord& record);
@@ -27,10 +28,11 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The passes over one segment. \param format  table, json or csv.
+/// Formats the passes over one segment.
+/// \param format  table, json or csv
 std::string passes_text(const std::vector<HistoricPass>& passes, std::string_view format);
 
-/// Prints results: a table is for people, the other formats are for programs.
+/// Prints results: a table for people, the other formats for programs.
 void print_in(std::string_view format, std::string_view text);
 
 } // namespace macadam

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int place_decimals = 7; // 1 cm
 
-/// One value for each way of a stretch, parted by semicolons.
+/// Lists one value for each way of a section, separated by semicolons.
 std::string list_of(const WorstSection& stretch,
                     const std::function<std::string(const StretchPart&)>& text) {
     std::vector<std::string> values;
@@ -28,7 +28,8 @@ std::string list_of(const WorstSection& stretch,
 
 // --------------------------------------------------------------------------------------- table
 
-/// "123456+ 100.0-240.0": + along the way's own direction, - against it.
+/// Formats a linear reference: "123456+ 100.0-240.0", + along the way's own direction, - against
+/// it.
 std::string linear_reference(const WorstSection& stretch) {
     std::vector<std::string> parts;
     for (const auto& part : stretch.parts) {

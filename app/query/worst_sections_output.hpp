@@ -8,11 +8,11 @@
 
 namespace macadam {
 
-/// Stretches as `query --worst` prints them, the first with rank 1.
-/// \param format  table, json, csv or geojson.
+/// Formats the sections of `query --worst`, the first with rank 1.
+/// \param format  table, json, csv or geojson
 std::string stretches_text(std::span<const WorstSection> stretches, std::string_view format);
 
-/// "N", "NE", ...: from the first place of a stretch to its last.
+/// Returns the direction from the first to the last position of a section: "N", "NE", ...
 std::string_view heading_of(const WorstSection& stretch);
 
 } // namespace macadam

@@ -10,27 +10,28 @@
 
 namespace macadam {
 
-/// A base map that was asked for, and how much of it is to be seen.
+/// Requested base map and its opacity.
 struct BaseMapChoice {
     std::filesystem::path file;
     std::optional<double> opacity; ///< 0 to 1
 };
 
-/// Nothing without --base.
+/// Parses --base; `std::nullopt` without it.
 ///
-/// \throws UsageError  for an opacity out of its range, or one of nothing.
+/// \throws UsageError  for an opacity out of its range, or without a base map.
 std::optional<BaseMapChoice> parse_base_map(const Arguments& arguments);
 
-/// A base map that knows whether any of it has come to be on the picture.
+/// Base map that records whether any of it appeared in the picture.
 struct WatchedBaseMap {
     std::shared_ptr<const BaseMap> map;
     std::shared_ptr<const bool> is_seen;
 };
 
+/// Opens a base map.
 /// \throws InputError  if the file is no base map.
 WatchedBaseMap opened_base_map(const std::filesystem::path& file);
 
-/// Whose data a map shows: that of the roads, and that of the base map where it says whose it is.
+/// Combines the attribution of the roads with that of the base map, if it states one.
 std::string attribution_with(const std::string& of_roads, const BaseMap& base);
 
 inline constexpr Option base_option{

@@ -34,7 +34,7 @@ void visit_box(const RoadStore& store,
                const GeoBox& box,
                const std::function<void(const SegmentRecord&)>& visitor) {
     const double middle_deg = (box.west_deg + box.east_deg) / 2;
-    std::set<std::string> seen; // of a box in two parts
+    std::set<std::string> seen; // for a box in two parts
     const auto parts = parts_on_globe(box);
     for (const auto& part : parts) {
         filter.box = part;

@@ -8,14 +8,14 @@
 
 namespace macadam {
 
-/// The box of a map: `--bbox W,S,E,N`. Where W > E it goes over the antimeridian, and its east lies
-/// beyond 180 degrees. Nothing without the option.
+/// Parses the box of a map: `--bbox W,S,E,N`. If W > E it crosses the antimeridian, and its east
+/// lies beyond 180 degrees. Returns `std::nullopt` without the option.
 ///
 /// \throws UsageError  for a box that is empty or not on the globe.
 std::optional<GeoBox> map_box(const Arguments& arguments);
 
-/// RoadStore::visit for a box whose east may lie beyond 180 degrees: each segment once, and its
-/// line in longitudes that fit the box.
+/// Calls RoadStore::visit for a box whose east may lie beyond 180 degrees. Visits each segment
+/// once, with longitudes that fit the box.
 void visit_box(const RoadStore& store,
                SegmentFilter filter,
                const GeoBox& box,

@@ -75,7 +75,7 @@ RenderOptions parse_render(const Arguments& arguments) {
             .base = parse_base_map(arguments)};
 }
 
-/// What is read is neither written to nor taken for something else.
+/// Checks that no input is overwritten and that the base map is not the road database.
 void expect_files_apart(const RenderOptions& options) {
     std::vector<std::filesystem::path> inputs{options.store};
     if (options.base) {

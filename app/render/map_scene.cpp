@@ -17,10 +17,10 @@
 namespace macadam {
 namespace {
 
-constexpr double margin_share = 0.05; // of the driven extent, so that nothing touches the frame
+constexpr double margin_share = 0.05; // of the driven extent, to keep roads off the frame
 constexpr double min_margin_m = 50;
-constexpr double edge_share = 0.02; // of a picture's diagonal
-constexpr double certain_sd = 0.5; // of the value; beyond it the line is drawn with a narrower core
+constexpr double edge_share = 0.02; // share of a picture's diagonal
+constexpr double certain_sd = 0.5;  // relative; above it the line has a narrower core
 
 GeoBox box_with_margin(const GeoBox& box) {
     const double diagonal_m =
@@ -28,7 +28,7 @@ GeoBox box_with_margin(const GeoBox& box) {
     return grown(box, std::max(min_margin_m, margin_share * diagonal_m));
 }
 
-/// More than the box by far: for planes on which nobody knows what else comes into sight.
+/// Grows a box by far, for projections whose visible extent is unknown.
 GeoBox shown_around(const GeoBox& box) {
     return grown_over(
         box, 1.5 * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
@@ -51,7 +51,7 @@ std::string subtitle_of(const StoreInfo& info) {
                        counted(info.vehicles.size(), "car"));
 }
 
-/// Of all the store's segments with enough passes.
+/// Returns the length of each class over all segments with enough passes.
 std::vector<double> class_km_of(const RoadStore& store, const ClassTable& classes, int min_passes) {
     std::vector<double> km(classes.classes.size());
     store.visit({}, [&](const SegmentRecord& record) {
@@ -68,7 +68,7 @@ const ClassTable& classes_of(const MapRequest& request) {
     return *request.style.classes;
 }
 
-/// The words of a scene without its lines.
+/// Builds a scene with its texts, but without lines.
 MapScene scene_around(const RoadStore& store, const MapRequest& request) {
     MapScene scene;
     scene.title = request.title;
@@ -96,7 +96,7 @@ MapScene scene_around(const RoadStore& store, const MapRequest& request) {
     return scene;
 }
 
-/// With what reaches over the picture's edges, thick lines and the ends of names.
+/// Returns the visible ground with a margin for thick lines and labels that cross the edges.
 GeoBox ground_of(const MapScene& scene, const MapRequest& request) {
     const auto box = ground_shown(scene, request.style, request.width_px, request.height_px);
     return grown_over(
@@ -129,8 +129,8 @@ struct Place {
     std::size_t line;
 };
 
-/// Each direction is a segment of its own; what was driven one way only is still a road of two
-/// sides where the map lets cars go both ways.
+/// Marks roads with segments in both directions. A road driven one way only is still two-way if the
+/// map allows both.
 void pair_directions(std::vector<MapLine>& lines, std::vector<Place> places) {
     const auto key = [](const Place& place) { return std::pair{place.way_id, place.index}; };
     std::ranges::sort(places, {}, key);
@@ -203,7 +203,7 @@ MapScene map_scene(const RoadStore& store, const MapRequest& request) {
     if (scene.projection) {
         scene.lines = lines_in(shown_around(scene.box));
     } else {
-        // Where the legend finds no corner without roads, the map makes room for it and shows more
+        // If the legend finds no corner without roads, the map makes room for it and shows more
         // ground.
         auto shown = ground_of(scene, request);
         scene.lines = lines_in(shown);

@@ -12,35 +12,36 @@
 
 namespace macadam {
 
-/// Motorway 0 to service 5: what OSM's classes mean for the width of a line.
+/// Returns the rank of an OSM class for the width of lines, from motorway 0 to service 5.
 int rank_of(std::string_view highway);
 
-/// Whether it is drawn in grey. References alone have no passes of cars and need none.
+/// Returns whether a segment is drawn in grey. Segments known from references only have no passes
+/// of cars and need none.
 bool has_few_passes(std::int32_t passes, int min_passes);
 
-/// Whether a line shows it in full width: its standard deviation is at most half of it.
+/// Returns whether a line is drawn in full width: its standard deviation is at most half its value.
 bool is_certain(IriUm iri_um, IriUm sd_um);
 
-/// The segments of a store that touch a box, in the order of their keys, with their classes; those
-/// without a pass as roads without a measurement, those with fewer than `min_passes` marked so. A
-/// segment that references alone tell of has enough.
+/// Returns the segments of a database that touch a box, in key order, with their classes. Segments
+/// without a pass are roads without a measurement; those with fewer than `min_passes` are marked.
+/// Segments known from references only are not marked.
 std::vector<MapLine>
 map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, int min_passes = 1);
 
-/// What a picture shows.
+/// Request for a picture.
 struct MapRequest {
-    std::optional<GeoBox> box{}; ///< nothing: all that was driven
+    std::optional<GeoBox> box{}; ///< `std::nullopt`: the driven extent
     std::string title{};
-    MapStyle style{};                                            ///< with its class table
+    MapStyle style{};                                            ///< includes the class table
     std::shared_ptr<const PlaneProjection> projection = nullptr; ///< null: spherical Mercator
     std::shared_ptr<const BaseMap> base = nullptr;               ///< null: none
     int width_px = 0, height_px = 0;
 };
 
-/// What a picture of a store shows: the segments that come to lie on it, with their classes, the
-/// roads without a measurement, and the words around them.
+/// Builds the scene of a picture: the segments on it with their classes, the roads without a
+/// measurement, and the text around them.
 ///
-/// \throws InputError  if the store has no segment in the box.
+/// \throws InputError  if the database has no segment in the box.
 MapScene map_scene(const RoadStore& store, const MapRequest& request);
 
 } // namespace macadam

@@ -20,7 +20,7 @@ namespace {
 
 using Kind = PictureOutput::Kind;
 
-constexpr double px_per_inch = 150; // letters of a map of 1240 px, on A4, can be read
+constexpr double px_per_inch = 150; // text of a map of 1240 px on A4 is readable
 constexpr double mm_per_inch = 25.4;
 constexpr std::string_view web_mercator = "EPSG:3857";
 
@@ -106,7 +106,7 @@ void expect_fitting(const Arguments& arguments, Kind kind) {
     }
 }
 
-/// The box's own shape, within the size that was asked for.
+/// Returns the largest size with the box's own shape within the requested size.
 std::pair<int, int> bare_size(const MapScene& scene, const PictureOutput& output) {
     const auto plane = plane_extent(scene.box, scene.projection.get());
     const double scale = std::min(output.width_px / std::max(1e-12, plane.width_rad),
@@ -151,7 +151,7 @@ void expect_not_stopped(const Progress& progress) {
     }
 }
 
-/// A map that is drawn as pixels, how large, and what is looked at when all of it is drawn.
+/// Map that is drawn as pixels, with its size and the check after drawing.
 struct PixelMap {
     const MapScene& scene;
     const MapStyle& style;

@@ -10,21 +10,22 @@
 
 namespace macadam {
 
-/// How a map is handed on: the suffix of its name says as what.
+/// Output of a map; the suffix of the file selects the format.
 struct PictureOutput {
     enum class Kind : std::uint8_t { png, geotiff, pdf };
     std::filesystem::path file;
     Kind kind = Kind::png;
-    int width_px = 0, height_px = 0; ///< of the picture, or of the sheet of paper
-    bool world_file = false;         ///< beside a .png: where its pixels lie
-    bool bare = false;               ///< the map alone, to its edges
+    int width_px = 0, height_px = 0; ///< size of the picture or the sheet of paper
+    bool world_file = false;         ///< georeference beside a .png
+    bool bare = false;               ///< map only, up to the edges
     std::string crs;                 ///< "" = spherical Mercator
 };
 
-/// \throws UsageError  for an unknown suffix, size or paper, or options that do not go together.
+/// Parses the output options.
+/// \throws UsageError  for an unknown suffix, size or paper, or for an invalid combination.
 PictureOutput parse_picture_output(const Arguments& arguments);
 
-/// All that is written.
+/// Returns all files that are written.
 std::vector<std::filesystem::path> files_of(const PictureOutput& output);
 
 inline constexpr std::string_view default_picture_size = "1600x1200";
@@ -52,15 +53,15 @@ inline constexpr Option paper_option{
     "--paper", "NAME", "Paper size of a .pdf: A0 to A5, letter, legal or tabloid.", default_paper};
 inline constexpr Option landscape_option{"--landscape", "", "Landscape paper."};
 
-/// The projection that was asked for; null: spherical Mercator.
+/// Returns the requested projection; null: spherical Mercator.
 std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output);
 
-/// Draws the scene and writes it. The file appears when it is whole, or not at all.
+/// Draws the scene and writes it. The file appears complete or not at all.
 ///
-/// \param made  when, ISO 8601 in UTC, as a PDF says it; "" = not known
-/// \returns     what was written, for people: "1600 x 1200 pixels".
-/// \param expect_valid  throws where what was drawn must not be written after all
-/// \throws InputError   also when `progress`, which counts rows of pixels, is told to stop.
+/// \param made          creation time in PDF metadata, ISO 8601 in UTC; "" = not known
+/// \param expect_valid  throws if the picture must not be written after all
+/// \returns             size of the picture, for people: "1600 x 1200 pixels"
+/// \throws InputError   also if `progress`, which counts rows of pixels, requests a stop
 std::string write_picture(MapScene scene,
                           MapStyle style,
                           const PictureOutput& output,

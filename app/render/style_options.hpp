@@ -17,18 +17,20 @@ inline constexpr Option style_option{"--style",
 inline constexpr Option grey_below_option{
     "--min-passes", "N", "Draw roads with fewer passes of cars in grey.", "1"};
 
-/// Of --style, or as the program has it. What other options say comes on top.
+/// Reads the style of --style, or returns the default one. Other options override it.
 ///
 /// \throws InputError  for a file that is no style.
 MapStyle parse_style_file(const Arguments& arguments);
 
-/// Of --min-passes. \throws UsageError  for less than 1.
+/// Parses --min-passes.
+/// \throws UsageError  for less than 1.
 std::optional<int> grey_below(const Arguments& arguments);
 
-/// The table of that name. \throws UsageError  naming --classes, if there is none.
+/// Returns the class table of that name.
+/// \throws UsageError  with --classes in its message, if there is none.
 const ClassTable* class_table_option(std::string_view name);
 
-/// Says so where readers could take the look of a map for something else.
+/// Warns if readers could misinterpret the look of a map.
 void warn_of_look(const MapStyle& style, const Console& console);
 
 } // namespace macadam

@@ -49,7 +49,8 @@ MapStyle parse_style(const Arguments& arguments) {
     return style;
 }
 
-/// \param by_default  where --unit says nothing
+/// Parses --language and --unit.
+/// \param by_default  unit without --unit
 Localisation parse_wording(const Arguments& arguments, IriUnit by_default) {
     Localisation wording{.unit = by_default};
     if (const auto code = arguments.value("--language")) {
@@ -67,7 +68,8 @@ Localisation parse_wording(const Arguments& arguments, IriUnit by_default) {
     return wording;
 }
 
-/// \param ending  of the output's name
+/// Parses the paper options.
+/// \param ending  suffix of the output
 PdfConfig parse_paper(const Arguments& arguments, std::string_view ending) {
     PdfConfig config;
     if (const auto name = arguments.value("--paper")) {
@@ -105,7 +107,7 @@ ReportOptions parse_report(const Arguments& arguments) {
             .pdf = parse_paper(arguments, ending)};
 }
 
-/// What the options of the report for people say nothing of.
+/// Rejects options that the reference report does not support.
 void refuse_beside_references(const Arguments& arguments) {
     for (const auto* const option :
          {"--worst", "--sections", "--classes", "--since", "--style", "--min-passes"}) {
@@ -115,7 +117,7 @@ void refuse_beside_references(const Arguments& arguments) {
     }
 }
 
-/// Words and units of pages. What programs read is in mm/m whatever is asked for.
+/// Rejects --unit and --language for data formats, which are always in English and mm/m.
 void refuse_for_programs(const Arguments& arguments) {
     for (const auto* const option : {"--unit", "--language"}) {
         if (arguments.value(option)) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double z_of_90_percent = 1.645;
 
-/// "2026-03": its middle, in years.
+/// Returns the middle of a month such as "2026-03", in years.
 double years_of(const std::string& month) {
     return std::stod(month.substr(0, 4)) + (std::stod(month.substr(5, 2)) - 0.5) / 12;
 }
@@ -29,7 +29,7 @@ std::vector<ControlReading> readings_of(const WatchedSection& watched) {
     return readings;
 }
 
-/// The segments of the section, cut to it, as some of the cars' passes have them.
+/// Returns the segments of the section, cut to it, with states from the cars' passes of a period.
 std::vector<SegmentRecord> records_of(const RoadStore& store,
                                       const ControlSection& section,
                                       const std::optional<Period>& period) {

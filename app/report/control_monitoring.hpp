@@ -11,27 +11,28 @@
 
 namespace macadam {
 
-/// A control section, what is known of it and what the cars say.
+/// Control section with its known IRI and the cars' estimate.
 struct WatchedSection {
     ControlSection section;
     RoadMean cars;                  ///< on the day of the newest pass; length_m 0: no pass yet
-    double off = 0;                 ///< cars less known, mm/m
-    double off_sd = 0;              ///< of both together
-    std::vector<MonthRow> months{}; ///< of cars alone
-    std::optional<Drift> drift{};   ///< nothing: too few months to tell
+    double off = 0;                 ///< cars minus known, mm/m
+    double off_sd = 0;              ///< standard deviation of both combined
+    std::vector<MonthRow> months{}; ///< cars only
+    std::optional<Drift> drift{};   ///< `std::nullopt`: too few months
 };
 
-/// All control sections of a store, in the order of their names. References are left out of what
-/// the cars say. None of a crowd whose published figures are read: months of some days are watched.
+/// Returns all control sections of a database, sorted by name. References do not count towards the
+/// cars' estimate. Empty if only published values of a crowd database are readable, since
+/// monitoring selects passes by day.
 std::vector<WatchedSection> watched_sections(const RoadStore& store);
 
-/// A table for people, "" where there is none.
+/// Formats a table for people; "" if there are no sections.
 std::string text_of(const std::vector<WatchedSection>& sections);
 
-/// An array of objects.
+/// Formats an array of objects.
 std::string json_of(const std::vector<WatchedSection>& sections);
 
-/// The reference surveys of a store, likewise.
+/// Formats the reference surveys of a database in the same way.
 std::string text_of(const std::vector<SurveyUse>& surveys);
 std::string json_of(const std::vector<SurveyUse>& surveys);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double z_of_90_percent = 1.645;
 
-/// "2026-01-03 to 2026-05-11", "" = not dated.
+/// Formats a period: "2026-01-03 to 2026-05-11"; "" = not dated.
 std::string span_of(const ComparedDays& days) {
     return Localisation{}.period(days.first, days.last);
 }

@@ -4,13 +4,13 @@
 
 namespace macadam {
 
-/// All scores, as one JSON object.
+/// Formats all scores as one JSON object.
 std::string reference_json(const ReferenceReport& report);
 
-/// A row for each piece that was compared: first segments, then pieces of 100 m.
+/// Formats a row for each comparison: first segments, then sections of 100 m.
 std::string reference_csv(const ReferenceReport& report);
 
-/// Tables for people.
+/// Formats tables for people.
 std::string reference_text(const ReferenceReport& report);
 
 } // namespace macadam

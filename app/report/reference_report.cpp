@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-/// A survey whose rows are longer than this many segments says nothing of single ones.
+/// Maximum row length, in segments, of a survey that is compared with single segments.
 constexpr double max_segments_in_row = 1.5;
 
 struct Span {
@@ -33,7 +33,7 @@ ComparedDays days_of(const Span& span) {
     return span.first_ms ? ComparedDays{day(*span.first_ms), day(*span.last_ms)} : ComparedDays{};
 }
 
-/// Neighbours as one range.
+/// Joins neighbours into ranges.
 std::vector<SegmentRange> ranges_of(const std::vector<ReferenceReading>& readings) {
     std::vector<SegmentRange> ranges;
     for (const auto& reading : readings) {
@@ -96,7 +96,7 @@ SurveyScore score_of_survey(const std::vector<ReferencePair>& pairs, std::size_t
     return score_of(pairs_of(its, ComparedSide::headline));
 }
 
-/// From the reference to the newest pass of each segment.
+/// Summarises the days from the reference to the newest pass of each segment.
 std::optional<DaysAfter> days_after_of(const std::vector<ReferencePair>& pairs) {
     std::vector<double> days;
     for (const auto& pair : pairs) {

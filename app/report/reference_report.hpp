@@ -7,10 +7,10 @@
 
 namespace macadam {
 
-/// The cars of a store, alone, beside its references and control sections.
+/// Compares the cars of a database, on their own, with its references and control sections.
 ///
-/// \param wording      of pages; JSON, CSV and the tables are in English and mm/m
-/// \throws InputError  if it holds neither.
+/// \param wording      for pages; JSON, CSV and the tables are in English and mm/m
+/// \throws InputError  if the database has neither.
 ReferenceReport
 reference_report(const RoadStore& store, const std::string& title, const Localisation& wording);
 

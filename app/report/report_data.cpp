@@ -24,9 +24,9 @@ constexpr double histogram_step_mm_per_m = 0.25;
 constexpr double min_histogram_mm_per_m = 4;
 constexpr double max_histogram_mm_per_m = 12;
 
-constexpr std::size_t max_changed = 10; // stretches of each kind
+constexpr std::size_t max_changed = 10; // sections of each kind
 
-/// What the store says of its network: the measured segments, and how long all of it is.
+/// Measured segments of a database, and the length of its whole network.
 struct Survey {
     std::vector<SegmentRecord> measured;
     std::map<std::string, double> network_m; ///< by highway tag
@@ -45,7 +45,7 @@ Survey survey_of(const RoadStore& store) {
     return survey;
 }
 
-/// As long as all but the roughest percent need.
+/// Returns the number of bins for all but the roughest percent.
 std::size_t histogram_bins(const std::vector<SegmentRecord>& measured) {
     std::vector<RatedLength> pieces;
     pieces.reserve(measured.size());
@@ -68,7 +68,7 @@ ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int6
 
 // --------------------------------------------------------------------------------------- values
 
-/// Cars from 1 on, as RoadStore::cars(); "" for trips that name none.
+/// Returns the numbers of cars from 1 on, as in RoadStore::cars(); "" for trips that name none.
 std::map<std::string, std::string> numbers_of_cars(const RoadStore& store) {
     std::map<std::string, std::string> numbers;
     for (const auto& car : store.cars()) {
@@ -136,7 +136,7 @@ std::vector<SegmentRecord> states_in(const RoadStore& store, const Period& perio
     return records;
 }
 
-/// What a road has become, as classes of a map, from blue to red.
+/// Returns the kinds of change as classes of a map, from blue to red.
 const ClassTable& verdicts() {
     constexpr double none = std::numeric_limits<double>::infinity();
     static constexpr std::array classes{IriClass{"improved", 0, false},
@@ -146,9 +146,9 @@ const ClassTable& verdicts() {
     return table;
 }
 
-constexpr int middle_rank = 3; // a width that suits town streets and main roads
+constexpr int middle_rank = 3; // line width for town streets and main roads
 
-/// The compared segments over a scene whose roads are made quiet.
+/// Draws the compared segments over a scene with muted roads.
 void colour_change(MapScene& scene,
                    std::span<const ComparedSegment> segments,
                    std::span<const SegmentRecord> since) {
@@ -198,7 +198,7 @@ std::size_t pictures_of(const ChangeSince& change) {
            std::min(change.better.size(), max_changed);
 }
 
-/// States before and since, and what they say together.
+/// States before and since a day, and their comparison.
 struct Compared {
     std::vector<SegmentRecord> since;
     ChangeSince change;
@@ -239,7 +239,7 @@ ReportChange change_of(const RoadStore& store,
     return values;
 }
 
-/// What the maps draw in grey, if anything.
+/// Describes the roads that the maps draw in grey, if any.
 std::optional<ReportFewPasses> few_passes_of(const MapScene& map, const ReportConfig& config) {
     const auto is_grey = [](const MapLine& line) { return line.iri_class >= 0 && line.few_passes; };
     if (std::ranges::none_of(map.lines, is_grey)) {

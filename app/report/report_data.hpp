@@ -14,16 +14,17 @@ namespace macadam {
 
 struct ReportConfig {
     std::string title;
-    std::size_t worst = 20;                   ///< stretches to list
-    std::optional<SectionOptions> sections{}; ///< to list
-    std::optional<std::int64_t> since_ms{};   ///< day from which on changes are looked for
+    std::size_t worst = 20;                   ///< number of sections to list
+    std::optional<SectionOptions> sections{}; ///< sections to list
+    std::optional<std::int64_t> since_ms{};   ///< first day of the period checked for changes
     Localisation wording{};
     PictureUse pictures = PictureUse::screen;
-    MapStyle style; ///< of the maps, with its classes; their colours are those of tables, too
+    MapStyle style; ///< style of the maps, with its classes; tables use the same colours
 };
 
-/// All that a report of a store says, with its pictures.
-/// \param progress  is told of pictures drawn; a stop ends it. \throws InputError if stopped.
+/// Collects the data of a database report, with its pictures.
+/// \param progress     counts the pictures drawn
+/// \throws InputError  on a stop request.
 Report report_of(const RoadStore& store, const ReportConfig& config, const Progress& progress = {});
 
 } // namespace macadam

@@ -16,22 +16,21 @@ struct PictureSizes {
     int stretch_width_px;
 };
 constexpr PictureSizes on_screen{1400, 480};
-constexpr PictureSizes on_paper{2100, 700}; // 300 dots an inch on A4, of which three stretches
-                                            // share the width
-constexpr double min_map_shape = 0.625;     // height by width
+constexpr PictureSizes on_paper{2100, 700}; // 300 dpi on A4, with three sections side by side
+constexpr double min_map_shape = 0.625;     // height / width
 constexpr double max_map_shape = 0.893;
 
-// A picture of the highest shape shows at least what lower ones show of the same box.
+// A picture of maximum height shows at least as much as lower ones of the same box.
 constexpr int max_width_px = 1120, max_height_px = 1000;
 constexpr double stretch_shape = 0.75;
-constexpr double min_margin_m = 60;   // around a stretch: the next side streets
-constexpr double margin_share = 0.25; // of its extent
+constexpr double min_margin_m = 60;   // around a section: the next side streets
+constexpr double margin_share = 0.25; // share of its extent
 
 const PictureSizes& sizes_for(PictureUse use) {
     return use == PictureUse::paper ? on_paper : on_screen;
 }
 
-/// As high as a box needs at the map's width, within what suits a page.
+/// Returns the height that a box needs at the map's width, within the limits of a page.
 int map_height_px(const GeoBox& box, int width_px) {
     const double middle_deg = (box.south_deg + box.north_deg) / 2;
     const double width_m = distance_m({middle_deg, box.west_deg}, {middle_deg, box.east_deg});
@@ -53,7 +52,7 @@ GeoBox box_around(const WorstSection& stretch) {
 }
 
 MapStyle unadorned(MapStyle style) {
-    style.legend = false; // the page has it
+    style.legend = false; // on the page
     return style;
 }
 
@@ -110,16 +109,16 @@ double ReportPictures::map_width_m(const MapScene& scene) const {
 MapScene whole_scene(const RoadStore& store, const MapStyle& style) {
     auto scene = map_scene(
         store, {.style = unadorned(style), .width_px = max_width_px, .height_px = max_height_px});
-    scene.subtitle.clear();    // the page says it
+    scene.subtitle.clear();    // on the page
     scene.attribution.clear(); // likewise
-    scene.scale_bar = false;   // likewise, in letters that a phone shows as large as all others
+    scene.scale_bar = false;   // likewise, in letters as large as all others on a phone
     return scene;
 }
 
 MapScene
 quiet_scene(const RoadStore& store, const WorstSection& stretch, const ClassTable& classes) {
     MapScene scene;
-    scene.scale_bar = false; // too small to read on a phone; the page says how long the stretch is
+    scene.scale_bar = false; // too small to read on a phone; the page states the length
     scene.box = box_around(stretch);
     const auto around = grown(scene.box,
                               distance_m({scene.box.south_deg, scene.box.west_deg},
@@ -127,7 +126,7 @@ quiet_scene(const RoadStore& store, const WorstSection& stretch, const ClassTabl
     scene.lines = map_lines(store, around, classes);
     for (auto& line : scene.lines) {
         line.iri_class = -1;
-        line.name.clear(); // too small to read, and the words beside say where it is
+        line.name.clear(); // too small to read; the text beside states the road
     }
     return scene;
 }

@@ -11,28 +11,29 @@
 
 namespace macadam {
 
-/// What pictures are for: screens, light and dark, or print.
+/// Medium of the pictures: screens (light and dark) or print.
 enum class PictureUse { screen, paper };
 
-/// The look of a report's maps in one of its themes. A style's own colours are for pages as dark as
-/// its theme; the others have the theme's.
+/// Returns the style of a report's maps in one of its themes. A style's own colours apply to pages
+/// as dark as its theme; other pages use the colours of the theme.
 MapStyle in_theme(MapStyle style, MapStyle::Theme theme);
 
-/// Draws pictures of a report, and tells how far it is.
+/// Draws the pictures of a report and reports progress.
 class ReportPictures {
 public:
-    /// \param count  how many there will be
+    /// \param count  total number of pictures
     ReportPictures(const MapStyle& style,
                    PictureUse use,
                    const Progress& progress,
                    std::size_t count);
 
-    /// \param classes      how many classes the scene's lines have: null as the report's.
-    /// \throws InputError  if it is told to stop.
+    /// Draws a picture of the size for maps or for sections.
+    /// \param classes      class table of the scene's lines; null: that of the report
+    /// \throws InputError  on a stop request.
     ReportPicture map(const MapScene& scene, const ClassTable* classes = nullptr);
     ReportPicture stretch(const MapScene& scene, const ClassTable* classes = nullptr);
 
-    /// Of the ground, from side to side of a map.
+    /// Returns the width of a map on the ground.
     double map_width_m(const MapScene& scene) const;
 
 private:
@@ -46,15 +47,15 @@ private:
     std::size_t drawn_ = 0;
 };
 
-/// All roads of a store, without what the page says itself.
+/// Builds a scene of all roads, without the text that the page has itself.
 MapScene whole_scene(const RoadStore& store, const MapStyle& style);
 
-/// Around a stretch, with all roads quiet.
+/// Builds a scene around a section, with all roads muted.
 MapScene
 quiet_scene(const RoadStore& store, const WorstSection& stretch, const ClassTable& classes);
 
-/// The stretch alone in the colours of its segments, however few passes they have, all other roads
-/// quiet: what is meant is seen at a glance.
+/// Builds a scene of one section in the colours of its segments, however few passes they have, with
+/// all other roads muted.
 MapScene stretch_scene(const RoadStore& store,
                        const WorstSection& stretch,
                        const std::vector<SegmentRecord>& measured,

@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t max_jobs = 256;
 constexpr std::int64_t max_trips = 1'000'000;
 constexpr std::size_t max_lane_bytes = std::size_t{1} << 30; // about 1,000 km
-constexpr int quick_compression = 1; // noise hardly gets smaller by more, only slower
+constexpr int quick_compression = 1; // more hardly shrinks noise and is slower
 
 struct SimulateOptions {
     fs::path folder;
@@ -104,7 +104,7 @@ void stop_if_wanted(const Console& console) {
     }
 }
 
-/// The network as whoever reads network.osm.pbf has it: places are on that format's grid.
+/// Returns the network as read back from network.osm.pbf, with positions on that format's grid.
 RoadNetwork
 written_network(const fs::path& network, const fs::path& folder, const Console& console) {
     const auto file = folder / "network.osm.pbf";
@@ -155,7 +155,8 @@ double driven_km(const TripLog& trip) {
     return sum_m / 1000;
 }
 
-/// \returns km driven.
+/// Writes all trips.
+/// \returns  km driven
 double write_trips(const Fleet& fleet,
                    const RoadNetwork& roads,
                    LaneStore& surfaces,

@@ -22,7 +22,7 @@ std::shared_ptr<const RoadSurface> LaneStore::operator()(const Lane& lane) {
             return found->second;
         }
     }
-    // Two threads may make the same one: cheaper than to wait for each other.
+    // Two threads may generate the same surface: that is cheaper than waiting for each other.
     auto made = std::make_shared<const RoadSurface>(make_(lane));
     const std::scoped_lock lock{mutex_};
     const auto [at, fresh] = kept_.emplace(lane, std::move(made));

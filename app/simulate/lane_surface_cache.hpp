@@ -11,8 +11,8 @@
 
 namespace macadam {
 
-/// Surfaces of lanes for several threads at once: made when first asked for, and kept until they
-/// take more than `max_bytes` in all; then the oldest go. What is gone is made anew, the same.
+/// Thread-safe cache of lane surfaces. A surface is generated on first use. When all surfaces take
+/// more than `max_bytes`, the oldest are discarded and generated again, identically, on demand.
 class LaneStore {
 public:
     using Make = std::function<RoadSurface(const Lane&)>;

@@ -32,7 +32,7 @@ std::string text_of(const CalibrationReport& report) {
     for (const auto& car : report.cars) {
         text += row_of(car);
     }
-    if (report.places == 0) { // nothing was found of the rest
+    if (report.places == 0) { // the error components are not known
         return text;
     }
     const auto& components = report.components;

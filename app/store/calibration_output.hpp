@@ -6,7 +6,8 @@
 
 namespace macadam {
 
-/// How cars read and what their errors are made of: for people, and as one JSON object.
+/// Formats the calibration of cars and the components of their errors, for people or as one JSON
+/// object.
 std::string text_of(const CalibrationReport& report);
 std::string json_of(const CalibrationReport& report);
 

@@ -36,13 +36,14 @@ std::string json_of(const AlignmentSummary& laid) {
     return object.text();
 }
 
-/// What a store knows of its roads from elsewhere.
+/// Reference surveys and control sections of a database.
 struct KnownRoads {
     std::vector<SurveyUse> surveys;
     std::vector<WatchedSection> controls;
 };
 
-/// \param truth  JSON; "" = not asked for
+/// Formats the report as JSON.
+/// \param truth  JSON; "" = not requested
 std::string json_of(const StoreInfo& info,
                     const InfoTables& tables,
                     const KnownRoads& known,

@@ -30,13 +30,13 @@ constexpr double max_segment_m = 1000;
 struct InitOptions {
     std::filesystem::path store;
     std::optional<std::filesystem::path> network;
-    std::optional<std::filesystem::path> update; ///< a newer network for a store that is there
-    std::vector<std::filesystem::path> trips;    ///< to trace a network from
+    std::optional<std::filesystem::path> update; ///< newer network for an existing database
+    std::vector<std::filesystem::path> trips;    ///< source of a network
     LayerColumns columns;
     std::string attribution;
     double segment_length_m;
     PrivacyProfile privacy;
-    std::size_t max_members; ///< of an archive of trips
+    std::size_t max_members; ///< limit for archives of trips
     bool json;
 };
 
@@ -102,7 +102,7 @@ bool is_osm(const std::filesystem::path& file) {
     return name.find(".osm") != std::string::npos || name.ends_with(".pbf");
 }
 
-/// Trips are read one by one, and only what they drew is kept.
+/// Derives ways from trips. Reads them one by one and keeps only their drawings.
 std::vector<Way> traced_ways(const InitOptions& options, const Console& console) {
     const TraceConfig config;
     std::vector<TripDrawing> trips;

@@ -35,7 +35,7 @@ std::string json_of(const std::vector<ValidSince>& all) {
     return json_array(entries) + "\n";
 }
 
-/// All that the options name, driven or not.
+/// Returns all segments that the options name, driven or not.
 std::vector<SegmentKey> segments_named(const RoadStore& store, const Arguments& arguments) {
     SegmentFilter filter;
     filter.with_state_only = false;

@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t max_rows = 20; // of months and of cars, in the text; JSON has them all
+constexpr std::size_t max_rows = 20; // months or cars in the text; JSON has all
 
 double share(double part, double whole) {
     return whole > 0 ? part / whole : 0;
@@ -130,7 +130,7 @@ std::string month_lines(const std::map<std::string, DailyUsage>& months) {
     std::size_t left_out = months.size() - std::min(months.size(), max_rows);
     for (const auto& [month, use] : months) {
         if (left_out > 0) {
-            --left_out; // the last ones are shown
+            --left_out; // the last months are shown
             continue;
         }
         text += fmt::format("{:<18} {:>6} {:>9}\n", month, use.trips, use.passes);

@@ -6,10 +6,10 @@
 
 namespace macadam {
 
-/// What an update of a store's network did, as a table for people.
+/// Formats the result of a network update as a table for people.
 std::string text_of(const NetworkUpdate& update);
 
-/// The same as one JSON object.
+/// Formats the result as one JSON object.
 std::string json_of(const NetworkUpdate& update);
 
 } // namespace macadam

@@ -8,15 +8,15 @@
 
 namespace macadam {
 
-/// The states of a store against a truth file.
+/// Compares the states of a database with a truth file.
 ///
-/// \throws InputError  if the file is no truth, or not of this store's segments.
+/// \throws InputError  if the file is no truth, or not of this database's segments.
 TruthComparison compared(const RoadStore& store, const std::filesystem::path& truth);
 
-/// A small table by class of road.
+/// Formats a small table by class of road.
 std::string text_of(const TruthComparison& comparison);
 
-/// One JSON object.
+/// Formats one JSON object.
 std::string json_of(const TruthComparison& comparison);
 
 } // namespace macadam

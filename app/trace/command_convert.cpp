@@ -31,7 +31,7 @@ constexpr std::int64_t usual_level = 6;
 struct ConvertOptions {
     std::vector<fs::path> trips;
     fs::path output;
-    std::string suffix; ///< of the files in a folder
+    std::string suffix; ///< suffix of the files in a folder
     int level;
     TripWalkConfig walk;
 };
@@ -41,7 +41,7 @@ bool names_a_file(const fs::path& output) {
     return std::ranges::any_of(suffixes, [&](auto suffix) { return name.ends_with(suffix); });
 }
 
-/// A name with another ending may be meant as a file: a folder of that name would surprise.
+/// Rejects other suffixes unless the folder exists: the user may have meant a file.
 void expect_file_or_folder(const fs::path& output) {
     if (!names_a_file(output) && output.has_extension() && output.has_filename() &&
         !fs::is_directory(output)) {
@@ -75,7 +75,7 @@ ConvertOptions parse_convert(const Arguments& arguments) {
                      .max_files = max_members_of(arguments)}};
 }
 
-/// A trip and where it goes.
+/// Trip and its output file.
 struct Task {
     TripSource trip;
     fs::path output;
@@ -98,7 +98,7 @@ std::string without_suffix(const std::string& name) {
     return name;
 }
 
-/// Where a trip lies below the path that was asked for, without suffixes: folders and archives
+/// Returns the path of a trip below the requested path, without suffixes; folders and archives
 /// become folders.
 fs::path place_below(const fs::path& asked, const TripSource& trip) {
     const auto name = fs::path{trip.name()}.lexically_normal();
@@ -115,12 +115,12 @@ fs::path place_below(const fs::path& asked, const TripSource& trip) {
     return place;
 }
 
-/// The paths that were asked for, with their trips, and why others have none.
+/// Requested paths with their trips, and the reasons why others have none.
 struct Found {
     std::vector<std::pair<fs::path, TripWalk>> paths;
     std::vector<std::string> refused;
 
-    /// Nothing as long as an archive may hold more.
+    /// Returns the number of trips; `std::nullopt` while an archive may hold more.
     std::optional<std::size_t> count() const {
         std::size_t sum = 0;
         for (const auto& [path, walk] : paths) {
@@ -162,7 +162,7 @@ Found found_for(const ConvertOptions& options) {
     return found;
 }
 
-/// What there is to do, trip by trip: of archives it is known when it is there.
+/// Tasks in the order of the trips; those of archives become known as they are read.
 class Tasks {
 public:
     Tasks(const ConvertOptions& options, const Console& console)
@@ -173,9 +173,9 @@ public:
         }
     }
 
-    /// Nothing at the end.
+    /// Returns the next task; `std::nullopt` at the end.
     ///
-    /// \throws InputError  if there is one file to write and not just one trip.
+    /// \throws InputError  if the output is one file and there is not exactly one trip.
     std::optional<Task> next() {
         if (!names_a_file(options_.output)) {
             return next_of_any();
@@ -183,10 +183,11 @@ public:
         return std::exchange(gave_only_, true) ? std::nullopt : std::optional{only()};
     }
 
-    std::optional<std::size_t> count() const { return found_.count(); } ///< nothing: not known
-    std::size_t tasks() const { return tasks_; }                        ///< so far
+    /// Number of trips; `std::nullopt`: not known.
+    std::optional<std::size_t> count() const { return found_.count(); }
+    std::size_t tasks() const { return tasks_; } ///< so far
     std::size_t refused() const { return refused_; }
-    const std::vector<fs::path>& inputs() const { return inputs_; } ///< what is read
+    const std::vector<fs::path>& inputs() const { return inputs_; } ///< files that are read
 
 private:
     std::optional<Task> next_of_any() {
@@ -305,7 +306,8 @@ void convert(const Task& task, const ConvertOptions& options, const Console& con
     }
 }
 
-/// \returns how many could not be converted.
+/// Converts all trips.
+/// \returns  number of trips that could not be converted
 std::size_t convert_all(Tasks& tasks, const ConvertOptions& options, const Console& console) {
     std::size_t failed = 0;
     while (const auto task = tasks.next()) {

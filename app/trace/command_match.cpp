@@ -60,7 +60,7 @@ MatchOptions parse_match(const Arguments& arguments) {
     return options;
 }
 
-/// Of a map, of a store that was made from one, or of the file beside such a store.
+/// Loads the network of a map, of a database made from one, or of the file beside such a database.
 RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
     const auto warn = [&](const std::string& words) { console.say(words); };
     if (options.network.extension() == ".gpkg" && is_store(options.network)) {
@@ -76,7 +76,7 @@ RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
         read_network(options.network, options.columns, console.progress("reading roads"), warn));
 }
 
-/// The trip with its receiver's latency; made-up times have none.
+/// Returns the trip with its receiver's latency; invented times have none.
 TripLog timed(TripLog trip, std::vector<std::string>& warnings) {
     const auto made_up = trip.meta.other.find(times_key);
     if (made_up == trip.meta.other.end()) {

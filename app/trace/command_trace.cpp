@@ -31,10 +31,10 @@ struct TraceOptions {
     std::filesystem::path trip;
     double length_m;
     bool json;
-    std::optional<std::filesystem::path> profile; ///< to write
-    std::optional<std::filesystem::path> survey;  ///< to hold the trip against
-    std::optional<std::filesystem::path> figure;  ///< of both, to write
-    double mm_per_m_of_one;                       ///< of the survey's IRI
+    std::optional<std::filesystem::path> profile; ///< file to write
+    std::optional<std::filesystem::path> survey;  ///< reference for the trip
+    std::optional<std::filesystem::path> figure;  ///< chart of both, to write
+    double mm_per_m_of_one;                       ///< mm/m of a survey IRI of 1
     SurveyMatchConfig match;
     PipelineConfig pipeline;
 };
@@ -57,7 +57,7 @@ double number_within(
     return value;
 }
 
-/// The options of --against, which mean nothing without it.
+/// Parses the options of --against and rejects them without it.
 TraceOptions with_survey(TraceOptions options, const Arguments& arguments) {
     constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
     options.survey = arguments.value("--against");
@@ -136,7 +136,7 @@ void print_against(const std::vector<SurveyRow>& survey,
     print(options.json ? against_json(against) : against_csv(against));
 }
 
-/// Row by row: of a long trip they are more than the trip is.
+/// Prints row by row: the rows of a long trip take more memory than the trip.
 void print_rows(const TripLog& trip,
                 const TripTrace& trace,
                 const Vehicle& vehicle,
@@ -157,7 +157,7 @@ void print_rows(const TripLog& trip,
     print(options.json ? "]\n" : "");
 }
 
-/// What needs the whole of a trip, or another reader.
+/// Rejects options that need the whole trip or another reader.
 void expect_live(const Arguments& arguments) {
     for (const auto* const option : {"--mapping", "--profile", "--against"}) {
         if (arguments.value(option)) {

@@ -31,13 +31,13 @@ std::int64_t end_node_id(const RoadNetwork& roads, EdgeId edge, bool at_start) {
     return way_of(roads, edge).node_ids[point];
 }
 
-/// Where along the way, from its first node, an offset on one of its edges lies.
+/// Converts an offset on an edge to the distance along its way from the first node.
 double along_way_m(const RoadNetwork& roads, EdgeId edge, double offset_m) {
     const auto link = link_at(roads, edge);
     return is_forward(edge) ? link.from_m + offset_m : link.to_m - offset_m;
 }
 
-/// A matched piece in the words of the output. from_m < to_m along the way, whatever the direction.
+/// Matched interval in output columns; from_m < to_m along the way in either direction.
 struct RoadCells {
     std::int64_t way_id;
     std::int64_t from_node;
@@ -58,7 +58,7 @@ RoadCells road_cells(const MatchedInterval& piece, const RoadNetwork& roads) {
             .to_m = std::max(a_m, b_m)};
 }
 
-/// The part of an edge that a piece went along.
+/// Returns the part of an edge that an interval covers.
 std::vector<GeoPoint> line_of_piece(const MatchedInterval& piece, const RoadNetwork& roads) {
     std::vector<GeoPoint> line{place_on(roads, piece.edge, piece.from_offset_m)};
     double offset_m = 0;
@@ -111,7 +111,8 @@ std::string geojson_feature(const MatchedInterval& piece, const RoadNetwork& roa
     return feature.text();
 }
 
-/// How much of a piece nobody drove, because the recording was paused and the places jumped.
+/// Returns the length within an interval that was not driven, because the recording was paused and
+/// the positions jumped.
 double paused_within_m(const MatchedInterval& piece, const Odometer& odometer) {
     double paused_m = 0;
     for (const auto& pause : odometer.pauses()) {

@@ -6,17 +6,19 @@
 
 namespace macadam {
 
-/// A matched trip as the rows of `match`: one for each passage of an edge, each part off the
-/// network and each gap. \param passages  of edge_traversals.
+/// Formats a matched trip as the rows of `match`: one for each traversal of an edge, each part off
+/// the network and each gap.
+/// \param passages  result of edge_traversals
 std::string passages_csv(const MatchedTrace& passages, const RoadNetwork& roads);
 
-/// The same as features: a line for what is on a road, no geometry for the rest.
+/// Formats a matched trip as features: a line for each traversal, no geometry for the rest.
 std::string passages_geojson(const MatchedTrace& passages, const RoadNetwork& roads);
 
-/// Every pair of consecutive nodes as driven, for `match --arcs`.
+/// Lists every pair of consecutive nodes as driven, for `match --arcs`.
 std::string arcs_csv(const MatchedTrace& trace, const RoadNetwork& roads);
 
-/// "12.30 km on roads (confidence 0.98), 0.40 km off the network, 0.00 km in gaps".
+/// Summarises a match: "12.30 km on roads (confidence 0.98), 0.40 km off the network, 0.00 km in
+/// gaps".
 std::string matched_words(const MatchedTrace& trace, const Odometer& odometer);
 
 } // namespace macadam

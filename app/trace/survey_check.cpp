@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-/// Where the centre of gravity was, by the positions that can be believed.
+/// Returns the positions of the centre of gravity, from plausible fixes.
 std::vector<TripPlaceAt>
 places_of(const TripLog& trip, const Odometer& odometer, const Vehicle& vehicle) {
     const double ahead_m = antenna_ahead_m(trip.meta, vehicle);

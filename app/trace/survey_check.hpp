@@ -14,33 +14,34 @@
 
 namespace macadam {
 
-/// What survey and trip say of one piece of road, each time that the trip came over it.
+/// Survey row and one pass of the trip over it.
 struct AgainstRow {
     SurveyRow survey;
     SurveyPass pass;
     double t_s; ///< at the middle
     IriMean mean;
 
-    /// The survey's IRI of the kind that the trip's headline is, or the nearest to it that the
-    /// survey has; and which.
+    /// Survey IRI of the same kind as the trip's headline value, or of the nearest kind that the
+    /// survey has; `survey_index` names the kind.
     std::optional<double> survey_mm_per_m;
-    std::string_view survey_index; ///< "MRI", "HRI", or "IRI" if the survey does not tell
+    std::string_view survey_index; ///< "MRI", "HRI", or "IRI" if the survey does not say
 };
 
 struct Against {
     std::vector<AgainstRow> rows; ///< in the order of travel
     std::size_t survey_rows;
-    std::size_t met; ///< of them, at least once
+    std::size_t met; ///< survey rows covered at least once
 };
 
-/// \throws InputError  if the trip meets nothing of the survey.
+/// Compares a trip with a survey.
+/// \throws InputError  if the trip covers no row of the survey.
 Against against_survey(std::span<const SurveyRow> survey,
                        const TripLog& trip,
                        const TripTrace& trace,
                        const Vehicle& vehicle,
                        const SurveyMatchConfig& config);
 
-/// Results: CSV, or one JSON object of rows, score and scores by band.
+/// Formats results as CSV, or as one JSON object of rows, score and scores by band.
 std::string against_csv(const Against& against);
 std::string against_json(const Against& against);
 

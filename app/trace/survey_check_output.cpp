@@ -14,7 +14,7 @@ namespace macadam {
 namespace {
 
 constexpr double z_of_90_percent = 1.645;
-constexpr double same_place_m = 1; // of the end of a piece and the beginning of the next
+constexpr double same_place_m = 1; // between the end of a row and the beginning of the next
 
 std::optional<double> headline_of(const AgainstRow& row) {
     return row.mean.mri_mm_per_m ? row.mean.mri_mm_per_m : row.mean.hri_mm_per_m;
@@ -32,7 +32,7 @@ bool is_compared(const AgainstRow& row) {
     return whole && row.survey_mm_per_m && headline_of(row);
 }
 
-/// The columns, their values as JSON writes numbers, and their decimals.
+/// Returns the columns, with values and decimals as in JSON.
 std::vector<std::pair<std::string_view, JsonValue>> cells_of(const AgainstRow& row) {
     const auto iri = headline_of(row);
     const auto [low, high] = interval_of(row);
@@ -114,7 +114,7 @@ std::string band_name(const SurveyScore& score) {
                : fmt::format("{:g} to {:g}", score.from_mm_per_m, score.to_mm_per_m);
 }
 
-/// Steps over the pieces; begun anew where pieces do not follow each other. The first has the name.
+/// Draws steps over the rows; a gap between rows begins a new line. The first line has the name.
 std::vector<ChartLine> steps_along(std::span<const AgainstRow> rows,
                                    std::string name,
                                    ChartLine::Look look,

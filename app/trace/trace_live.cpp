@@ -18,7 +18,7 @@
 namespace macadam {
 namespace {
 
-constexpr double judged_every_s = 60; // mounting, wheels and channels, when there is enough to say
+constexpr double judged_every_s = 60; // check of mounting, wheels and channels, given enough data
 
 TraceRow row_of(const LiveRow& row) {
     return {.from_m = row.from_m,
@@ -29,7 +29,7 @@ TraceRow row_of(const LiveRow& row) {
             .mean = row.mean};
 }
 
-/// How many rows were written.
+/// Prints the rows and returns their number.
 std::size_t tell(const std::vector<LiveRow>& rows, bool json) {
     for (const auto& row : rows) {
         print(json ? json_line_of(row_of(row)) : csv_line_of(row_of(row)));
@@ -40,7 +40,7 @@ std::size_t tell(const std::vector<LiveRow>& rows, bool json) {
     return rows.size();
 }
 
-/// Says what is wrong with rows: the first of each kind with its line, all of them at the end.
+/// Reports faulty rows: the first of each kind with its line, all of them at the end.
 class DroppedSamples {
 public:
     void look_at(const TripLog& row, const TripFollower& feed, const Console& console) {
@@ -71,7 +71,7 @@ private:
     std::map<std::string, std::size_t> counts_;
 };
 
-/// What there is to say of a trip so far, each thing once.
+/// Reports each warning about the trip once.
 class WarnOnce {
 public:
     void look_at(const LiveTrace& live, Channels channels, const Console& console) {
@@ -80,7 +80,7 @@ public:
         }
         if (!felt_) {
             expect_channels(live.recent(), live.mounting(), channels);
-            felt_ = true; // a pause of a channel later on is not its absence
+            felt_ = true; // a later gap in a channel does not count as its absence
         }
         for (const auto& warning :
              warnings_of(live.recent(), *live.ruler().odometer, live.mounting())) {
@@ -105,7 +105,7 @@ public:
     }
 
 private:
-    std::set<std::string> said_; ///< up to the first number, which may waver
+    std::set<std::string> said_; ///< messages up to the first number, which may vary
     bool latency_said_ = false;
     bool felt_ = false;
 };

@@ -8,11 +8,11 @@
 
 namespace macadam {
 
-/// `trace --live`: the rows of a trip while its log is being written, each as soon as it is known.
+/// Runs `trace --live`: prints the rows of a trip while its log is being written, each as soon as
+/// it is known.
 ///
-/// \param trip  "-": standard input.
-///
-/// \throws InputError  for what the reader of trips refuses, too, as it comes.
+/// \param trip         "-": standard input
+/// \throws InputError  also for errors of the trip reader, as they occur.
 void trace_live(const std::filesystem::path& trip,
                 const PipelineConfig& config,
                 double length_m,

@@ -25,7 +25,7 @@ std::filesystem::path numbered(const std::filesystem::path& file, std::size_t nu
                                                           file.extension().string());
 }
 
-/// What a reader must know who meets the file without us.
+/// Returns the remarks that make the file understandable on its own.
 std::vector<std::string> remarks_of(const IriRun& run, const Vehicle& vehicle, Method method) {
     const auto [slowest, fastest] = std::ranges::minmax(run.speed_mps);
     return {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double z_of_90_percent = 1.645;
 
-/// The columns, their values as JSON writes numbers, and their decimals.
+/// Returns the columns, with values and decimals as in JSON.
 std::vector<std::pair<std::string_view, JsonValue>> cells_of(const TraceRow& row) {
     const auto& mean = row.mean;
     // The headline: MRI where both tracks were observed, else HRI.

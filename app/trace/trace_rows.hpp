@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// One row of `trace`: what a trip says of a piece of its own travel. Nothing: not known.
+/// Row of `trace`: roughness over an interval of the trip's travel. `std::nullopt`: not known.
 struct TraceRow {
     double from_m;
     double to_m;
@@ -19,18 +19,19 @@ struct TraceRow {
     IriMean mean;
 };
 
-/// Hands out the rows of a whole trip, one after the other, on multiples of length_m. Rows that lie
-/// within a gap of over Odometer::longest_unseen_m are left out.
+/// Emits the rows of a whole trip in order, at multiples of length_m. Rows within a gap longer than
+/// Odometer::longest_unseen_m are omitted.
 void each_trace_row(const TripTrace& trace,
                     double length_m,
                     const TripPositions& place,
                     const Vehicle& vehicle,
                     const std::function<void(const TraceRow&)>& take);
 
-/// The names of the columns, with a newline.
+/// Returns the column names, with a newline.
 std::string trace_csv_header();
 
-/// One line of CSV, or one JSON object of the same names; the lines with their newline.
+/// Formats a row as a line of CSV, or as a JSON object of the same names; lines include the
+/// newline.
 std::string csv_line_of(const TraceRow& row);
 std::string json_line_of(const TraceRow& row);
 std::string json_object_of(const TraceRow& row);

@@ -15,7 +15,7 @@ constexpr double flattening = 1 / 298.257223563;
 constexpr double eccentricity_squared = flattening * (2 - flattening);
 constexpr double rad_per_deg = std::numbers::pi / 180;
 
-/// Metres per degree of longitude and of latitude at a latitude.
+/// Returns metres per degree of longitude and of latitude at a latitude.
 PointEn metres_per_degree(double lat_deg) {
     const double sine = std::sin(lat_deg * rad_per_deg);
     const double w = 1 - eccentricity_squared * sine * sine;
@@ -24,7 +24,8 @@ PointEn metres_per_degree(double lat_deg) {
     return {n * std::cos(lat_deg * rad_per_deg) * rad_per_deg, m * rad_per_deg};
 }
 
-/// From `a` to `b` in the plane of their middle latitude, the short way round the globe.
+/// Returns the vector from `a` to `b` in the plane of their mean latitude, along the shorter way
+/// round the globe.
 PointEn step(const GeoPoint& a, const GeoPoint& b) {
     const auto scale = metres_per_degree((a.lat_deg + b.lat_deg) / 2);
     const double lon_deg = std::remainder(b.lon_deg - a.lon_deg, 360.0);

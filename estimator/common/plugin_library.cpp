@@ -14,8 +14,8 @@
 namespace macadam {
 namespace {
 
-/// Our own libraries stand in lib/ beside the program; no search path, and no variable of the
-/// environment, leads to others of their names.
+/// Returns the path of a library. The project's own libraries are in lib/ beside the program;
+/// neither a search path nor an environment variable leads to others of the same name.
 std::string path_of(std::string_view library) {
     constexpr std::string_view our_prefix = "macadam_";
     if (!library.starts_with(our_prefix)) {
@@ -38,7 +38,7 @@ std::string path_of(std::string_view library) {
 } // namespace
 
 void* plugin_symbol(const char* library, const char* symbol) {
-    // dlopen counts its openings, so asking again for an open library is cheap and never closes it.
+    // dlopen counts its references, so opening a library again is cheap, and it is never closed.
     void* const handle = dlopen(path_of(library).c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {
         throw InputError{fmt::format("cannot open the library '{}': {}", library, dlerror())};

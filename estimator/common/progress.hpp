@@ -6,8 +6,8 @@
 
 namespace macadam {
 
-/// How long work tells how far it is, and learns that it is no longer wanted.
-/// `report(done, whole)` is called now and then, from the thread that works; whole = 0: not known.
+/// Progress callback and stop token of a long operation. `report(done, whole)` is called from time
+/// to time on the working thread; whole = 0 means that the total is not known.
 struct Progress {
     std::function<void(std::size_t done, std::size_t whole)> report;
     std::stop_token stop;

@@ -5,9 +5,9 @@
 namespace macadam {
 namespace {
 
-constexpr std::uint8_t first_reason = 16; // smaller ones are sums of row_content flags
+constexpr std::uint8_t first_reason = 16; // smaller values are sums of row_content flags
 
-/// The uses of one stream's samples, read one after the other as the rows give them.
+/// Reads the use of one stream's samples in row order.
 struct Reader {
     const std::vector<std::uint8_t>& use;
     std::size_t next = 0;
@@ -60,7 +60,7 @@ const char* name_of(RowReason reason) {
 }
 
 RowCount account(const TripLog& trip, const RowAudit& use) {
-    // The order in which a rejected row finds its reason.
+    // Order of precedence of the reasons of a rejected row.
     struct Stream {
         std::uint8_t flag;
         Reader read;

@@ -2,13 +2,13 @@
 
 namespace macadam {
 
-/// A part of a trip's time, from_s < to_s.
+/// Interval of a trip's time, from_s < to_s.
 struct TimeSpan {
     double from_s;
     double to_s;
 };
 
-/// A part of a trip's travel, from_m < to_m.
+/// Interval of a trip's travel, from_m < to_m.
 struct TravelSpan {
     double from_m;
     double to_m;

@@ -6,7 +6,8 @@
 
 namespace macadam {
 
-/// How many bytes the UTF-8 sequence at the front of `text` has; 0 if there is none (RFC 3629).
+/// Returns the number of bytes of the UTF-8 sequence at the front of `text`, or 0 if it has none
+/// (RFC 3629).
 inline std::size_t utf8_length(std::string_view text) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -34,7 +35,7 @@ inline std::size_t utf8_length(std::string_view text) {
     return 0;
 }
 
-/// The letter of one such sequence; of a single byte, sequence or not, its value.
+/// Returns the code point of one UTF-8 sequence; for a single byte, valid or not, its value.
 inline std::uint32_t utf8_letter(std::string_view sequence) {
     constexpr std::uint32_t first_bits[] = {0xFF, 0x1F, 0x0F, 0x07};
     std::uint32_t letter =

@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-/// Under a Hann window of mean square 1, with zeros behind it to a power of two.
+/// Applies a Hann window of mean square 1 and pads with zeros to a power of two.
 std::vector<double> windowed(std::span<const double> signal) {
     std::vector<double> out(std::bit_ceil(signal.size()));
     const auto count = static_cast<double>(signal.size());

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double difference = 1e-5;
 constexpr int most_iterations = 100;
-constexpr double enough = 1e-9;      // two steps that lower the function by less are the last
-constexpr int remembered_steps = 12; // several times the variables: as good as the whole matrix
+constexpr double enough = 1e-9;      // the search ends after two smaller reductions of the value
+constexpr int remembered_steps = 12; // several times the variables: as good as the full matrix
 
 Eigen::VectorXd gradient(const std::function<double(const Eigen::VectorXd&)>& function,
                          const Eigen::VectorXd& at) {
@@ -60,9 +60,9 @@ Minimum minimise_bfgs(const Eigen::VectorXd& start,
     try {
         solver.minimize(with_gradient, at, value);
     } catch (const std::runtime_error&) {
-        // Its line search finds nothing lower: there the differences have no more digits.
+        // The line search finds no lower value: the differences are dominated by rounding.
     } catch (const std::logic_error&) {
-        // The same: the direction is no longer downhill.
+        // Likewise: the direction is no longer downhill.
     }
     return best;
 }

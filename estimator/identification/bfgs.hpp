@@ -11,13 +11,12 @@ struct Minimum {
     double value;
 };
 
-/// Where a smooth function of a few variables is least, downhill from `start`: quasi-Newton (BFGS,
-/// its curvature kept by the last steps) with central differences for the gradient. It may be a
-/// local one.
+/// Finds a local minimum of a smooth function of a few variables, downhill from `start`:
+/// quasi-Newton (limited-memory BFGS) with central differences for the gradient.
 ///
-/// \param function  its variables should be about as sensitive as each other and of order 1, and
-///                  so its value: differences are taken over 1e-5, and two steps that lower it by
-///                  less than 1e-9 are the last.
+/// \param function  its variables and its value should be of order 1, with similar sensitivities:
+///                  differences are taken over 1e-5, and the search ends after two steps that
+///                  reduce the value by less than 1e-9.
 ///
 /// Source: J. Nocedal, S. J. Wright, "Numerical Optimization", 2nd ed. (2006), chapters 3, 7 and 8.
 Minimum minimise_bfgs(const Eigen::VectorXd& start,

@@ -15,21 +15,21 @@ namespace macadam {
 namespace {
 
 constexpr double grid_m = 0.25;
-constexpr double longest_wave_m = 20; // longer ones are the filter's to forget at low speed
-constexpr double shortest_wave_m = 3; // shorter ones part when travel is off by half a percent
+constexpr double longest_wave_m = 20; // longer waves are attenuated by the filter at low speed
+constexpr double shortest_wave_m = 3; // shorter waves decorrelate at 0.5 % travel error
 constexpr double template_m = 300;
 constexpr double min_m = 100;
 constexpr double q_over_r = 1e9; // paper section VI-B
 constexpr double settle_m = 60;
 constexpr int filter_order = 4;
 
-/// Elevations at even places.
+/// Elevations at evenly spaced positions.
 struct EvenLine {
     double start_m;
     std::vector<double> elevation_m;
 };
 
-/// The waves that are compared.
+/// Filters the elevations to the band of wavelengths that is compared.
 std::vector<double> banded(const std::vector<double>& elevation_m) {
     const double rate = 1 / grid_m;
     const auto settle = static_cast<std::size_t>(settle_m / grid_m);
@@ -49,7 +49,7 @@ EvenLine even_line(std::span<const double> at_m, std::span<const double> elevati
     return line;
 }
 
-/// The road that the Kalman filter makes of a stretch, behind what it needs to settle.
+/// Returns the Kalman filter's road under a stretch, without the settling distance.
 EvenLine estimated_line(const Stretch& stretch, const Vehicle& vehicle) {
     UnknownInputFilter<4, 1, 1> filter{discretise(quarter_car(vehicle.half_car), stretch.step_s),
                                        q_over_r};
@@ -73,7 +73,7 @@ EvenLine estimated_line(const Stretch& stretch, const Vehicle& vehicle) {
     return line;
 }
 
-/// The mean profile as the car's centre of gravity meets it.
+/// Returns the mean profile at the car's centre of gravity.
 EvenLine measured_line(const RoadProfile& profile, const Vehicle& vehicle) {
     auto line = even_line(profile.station_m, mean_of_tracks(profile));
     if (vehicle.axles) {
@@ -96,7 +96,8 @@ EvenLine measured_line(const RoadProfile& profile, const Vehicle& vehicle) {
 
 using Complexes = std::vector<std::complex<double>>;
 
-/// sum over i of part[i] * whole[i + lag], for every lag that keeps the part within the whole.
+/// Computes sum over i of part[i] * whole[i + lag] for every lag that keeps the part within the
+/// whole.
 std::vector<double> sliding_products(std::span<const double> part, std::span<const double> whole) {
     const std::size_t size = std::bit_ceil(whole.size() + part.size());
     std::vector<double> a(size), b(size);
@@ -126,7 +127,8 @@ std::vector<double> sliding_squares(std::size_t width, std::span<const double> w
     return squares;
 }
 
-/// Where a part of the trip lies best. Both lines have lost their mean to the band already.
+/// Finds the best position of a part of the trip. Both lines are band-passed and thus have zero
+/// mean.
 ProfileRegistration
 best_place(std::span<const double> part, double part_start_m, const EvenLine& road) {
     const auto products = sliding_products(part, road.elevation_m);

@@ -11,9 +11,9 @@
 namespace macadam {
 namespace {
 
-constexpr double finest_step_s = 0.0025; // a wave of 15 Hz in 27 straight lines: 0.5 % of it
+constexpr double finest_step_s = 0.0025; // a wave of 15 Hz in 27 straight lines: error 0.5 %
 
-/// The samples [first, last) whose place lies on the profile.
+/// Samples [first, last) that lie on the profile.
 struct Piece {
     std::size_t first;
     std::size_t last;
@@ -35,7 +35,7 @@ std::vector<double> cut(const std::vector<float>& samples, const Piece& piece) {
     return {at(piece.first), at(piece.last)};
 }
 
-/// Stations under the car, `parts` to a sample.
+/// Returns the stations under the car, `parts` per sample.
 std::vector<double> fine_stations(const Stretch& stretch, Piece piece, double at_m, int parts) {
     std::vector<double> stations_m;
     for (std::size_t i = piece.first; i + 1 < piece.last; ++i) {
@@ -49,8 +49,8 @@ std::vector<double> fine_stations(const Stretch& stretch, Piece piece, double at
     return stations_m;
 }
 
-/// The system whose inputs are rates of the road: the road itself becomes a state, which makes
-/// straight lines of it where `discretise` would make steps.
+/// Converts a system to one driven by the rate of the road. The road becomes a state, so that it is
+/// linear between samples where `discretise` alone would make steps.
 template <int States, int Inputs>
 LinearSystem<States + Inputs, Inputs, 1>
 driven_by_rates(const LinearSystem<States, Inputs, 1>& car) {

@@ -6,7 +6,8 @@
 namespace macadam {
 namespace {
 
-/// Slope of the parabola through a station and its two neighbours; at the ends, of the line.
+/// Returns the slope of the parabola through a station and its two neighbours; at the ends, of the
+/// line.
 double slope_at(std::span<const double> x, std::span<const double> y, std::size_t i) {
     const auto between = [&](std::size_t a) { return (y[a + 1] - y[a]) / (x[a + 1] - x[a]); };
     if (i == 0 || i + 1 == x.size()) {

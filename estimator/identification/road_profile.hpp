@@ -7,13 +7,13 @@ namespace macadam {
 
 /// Elevations of a road's two wheel tracks at common stations.
 struct RoadProfile {
-    std::vector<double> station_m; ///< rising
+    std::vector<double> station_m; ///< increasing
     std::vector<double> left_m;
     std::vector<double> right_m; ///< the same as left_m where only one track was measured
 };
 
-/// Elevations at rising places within the stations, by cubics that pass through them. Before the
-/// first and behind the last station the elevation is held.
+/// Interpolates elevations at increasing positions by cubics through the given points. Before the
+/// first and after the last station the elevation is held.
 std::vector<double> elevations_at(std::span<const double> station_m,
                                   std::span<const double> elevation_m,
                                   std::span<const double> at_m);

@@ -14,9 +14,9 @@
 namespace macadam {
 namespace {
 
-constexpr double min_duration_s = 10;  // twenty independent values to the smoothing's 0.5 Hz
+constexpr double min_duration_s = 10;  // twenty independent values at the smoothing's 0.5 Hz
 constexpr double start_is_kgm2 = 3000; // paper table III
-constexpr double difference = 1e-4;    // of the logarithm of a parameter
+constexpr double difference = 1e-4;    // step in the logarithm of a parameter
 
 /// The golden car's springs, damper and tyre under the known masses (paper section VI-A).
 HalfCar start_car(const HalfCar& known, double height_m) {
@@ -40,8 +40,8 @@ double square_distance(std::span<const double> a, std::span<const double> b) {
         });
 }
 
-/// A channel's measured spectrum, and the model's as a function of the logarithms of what is to be
-/// found over what it is at the start.
+/// Measured spectrum of a channel, and the model's as a function of the logarithms of the
+/// parameters relative to their initial values.
 class Channel {
 public:
     using Model = std::function<std::vector<double>(const Eigen::VectorXd&)>;
@@ -58,7 +58,7 @@ public:
         return spectrum_of(felt_(logs)).amplitude;
     }
 
-    /// Square of the relative misfit.
+    /// Returns the square of the relative misfit.
     double cost(const Eigen::VectorXd& logs) const {
         return square_distance(measured_.amplitude, modelled(logs)) /
                square_sum(measured_.amplitude);
@@ -73,8 +73,8 @@ public:
                 .misfit_after = std::sqrt(cost(found))};
     }
 
-    /// Of the logarithms, to first order. Amplitudes nearer to each other than the smoothing are
-    /// one observation.
+    /// Returns the standard deviations of the logarithms, to first order. Amplitudes closer than
+    /// the smoothing width count as one observation.
     Eigen::VectorXd sd(const Eigen::VectorXd& found) const {
         const auto count = static_cast<Eigen::Index>(measured_.hz.size());
         Eigen::MatrixXd slopes(count, found.size());
@@ -114,7 +114,7 @@ std::vector<double> times(double gain, std::vector<double> values) {
     return values;
 }
 
-/// \param logs  of ks, cs, kt over what they are in `start`.
+/// \param logs  logarithms of ks, cs, kt relative to `start`.
 HalfCar suspended(HalfCar start, const Eigen::VectorXd& logs) {
     start.ks_n_per_m *= std::exp(logs[0]);
     start.cs_ns_per_m *= std::exp(logs[1]);

@@ -11,8 +11,8 @@
 namespace macadam {
 namespace {
 
-/// Whole steps nearest to a length, at least one. A step that is a mean of printed stations is off
-/// in its last digits, which must not decide a tie.
+/// Returns the number of whole steps nearest to a length, at least 1. A step that is a mean of
+/// printed stations has an error in its last digits, which must not decide a tie.
 std::size_t steps_in(double length_m, double step_m) {
     constexpr double rounding = 1e-6;
     const auto steps = static_cast<std::size_t>(std::floor(length_m / step_m + 0.5 + rounding));
@@ -47,7 +47,7 @@ std::size_t envelope_steps(double step_m) {
 }
 
 RectifiedStroke::RectifiedStroke(double step_m, bool envelope) : step_m_{step_m} {
-    // Stations are printed with a few decimals: their mean step is not held to the last bit.
+    // Printed stations have few decimals, so their mean step is compared with a tolerance.
     if (!(step_m > 0 && step_m <= coarsest_step_m * (1 + 1e-9))) {
         throw InputError{
             fmt::format("profile step is {} m, expected 0 to {}", step_m, coarsest_step_m)};
@@ -91,7 +91,7 @@ std::optional<double> RectifiedStroke::next() {
     if (!started_ || first_ + patch_ >= elevation_m_.size()) {
         return {};
     }
-    // The mean over the patch and the difference are one: the slope from its rear to its front.
+    // The mean over the patch and the difference combine to the slope from its rear to its front.
     const double slope = mean_slope(std::span{elevation_m_}.subspan(first_), patch_, step_m_);
     const Eigen::Map<const Eigen::Matrix4d> transition{transition_.data()};
     const Eigen::Map<const Eigen::Vector4d> response{response_.data()};

@@ -17,11 +17,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Sign changes of the stroke closer together than this would be seen as none: a twentieth of the
-// shortest wavelength that gets through the golden car.
+// Sign changes of the stroke closer together than this remain undetected: a twentieth of the
+// shortest wavelength that passes the golden car.
 constexpr double look_every_m = 0.02;
 
-// One station lost of an even profile at the coarsest step.
+// Allows for one missing station of an even profile at the coarsest step.
 constexpr double longest_step_m = 2 * coarsest_step_m;
 
 void check_step(double station_m, double step_m) {
@@ -40,13 +40,13 @@ void check_within(std::span<const double> edges_m, double first_m, double last_m
     }
 }
 
-/// Straight lines between stations, and straight on beyond both ends.
+/// Piecewise linear function, extrapolated linearly beyond both ends.
 class PiecewiseLine {
 public:
     PiecewiseLine(std::span<const double> station_m, std::span<const double> elevation_m)
         : station_m_{station_m}, elevation_m_{elevation_m} {}
 
-    /// Asked for rising places only.
+    /// Positions must be passed in increasing order.
     double operator()(double at_m) {
         while (piece_ + 2 < station_m_.size() && station_m_[piece_ + 1] <= at_m) {
             ++piece_;
@@ -62,12 +62,12 @@ private:
     std::size_t piece_ = 0;
 };
 
-/// The golden car in its natural modes, over distance: two conjugate pairs, of which one each is
-/// kept. Every pole lies left of zero, so nothing ever grows.
+/// Natural modes of the golden car, over distance: two conjugate pairs, stored by one member each.
+/// Every pole has a negative real part, so all modes decay.
 struct Modes {
     std::array<Complex, 2> pole_per_m;
-    std::array<Complex, 2> input;  ///< of the slope into the mode
-    std::array<Complex, 2> output; ///< of the mode into the stroke, doubled for its conjugate
+    std::array<Complex, 2> input;  ///< from slope to mode
+    std::array<Complex, 2> output; ///< from mode to stroke, doubled for its conjugate
     std::array<Eigen::RowVector4cd, 2> project;
 };
 
@@ -91,7 +91,7 @@ Modes modes_of_golden_car() {
     return modes;
 }
 
-/// The stroke over one piece with linear slope: two decaying waves on a straight line.
+/// Stroke over one interval with linear slope: two decaying waves on a straight line.
 struct Piece {
     std::array<Complex, 2> wave;
     std::array<Complex, 2> pole_per_m;
@@ -117,7 +117,7 @@ struct Piece {
     }
 };
 
-/// The car's modes, driven piece by piece.
+/// Drives the car's modes interval by interval.
 class GoldenDrive {
 public:
     explicit GoldenDrive(double start_slope) : modes_{modes_of_golden_car()} {
@@ -127,14 +127,14 @@ public:
         }
     }
 
-    /// Drives on by `length_m` with the slope going from `from` to `to`, and tells the stroke
+    /// Advances by `length_m` while the slope changes from `from` to `to`, and returns the stroke
     /// there.
     Piece drive(double from, double to, double length_m) {
         const double bend_per_m = (to - from) / length_m;
         Piece piece{{}, modes_.pole_per_m, 0, 0};
         for (std::size_t i = 0; i < state_.size(); ++i) {
-            // q' = pole q + input (from + bend x): the particular solution is straight, the rest
-            // decays.
+            // q' = pole q + input (from + bend x): the particular solution is linear, the
+            // homogeneous one decays.
             const auto pole = modes_.pole_per_m[i];
             const auto grade = -modes_.input[i] * bend_per_m / pole;
             const auto level = (grade - modes_.input[i] * from) / pole;
@@ -154,7 +154,7 @@ private:
 
 double zero_between(const Piece& piece, double low_m, double high_m) {
     const bool low_negative = piece(low_m) < 0;
-    // 40 halvings of 20 mm leave less than the error of the profile's last printed digit squared.
+    // The error after 40 halvings of 20 mm is below the square of the profile's last printed digit.
     for (int i = 0; i < 40; ++i) {
         const double middle_m = (low_m + high_m) / 2;
         ((piece(middle_m) < 0) == low_negative ? low_m : high_m) = middle_m;
@@ -179,8 +179,8 @@ double rectified_integral(const Piece& piece, double length_m) {
     return sum + std::abs(piece.integral(from_m, length_m));
 }
 
-/// Where the slope that the car is given bends (with the box) or jumps (without), after `after_m`
-/// and up to `until_m`, and the edges there.
+/// Returns the positions where the input slope changes its derivative (with the box) or jumps
+/// (without), after `after_m` and up to `until_m`, and the edges there.
 std::vector<double> breaks_between(std::span<const double> station_m,
                                    std::span<const double> edges_m,
                                    double half_box_m,
@@ -208,7 +208,7 @@ std::vector<double> breaks_between(std::span<const double> station_m,
 
 } // namespace
 
-/// Drives in batches, each as far as the box lies on points that are there.
+/// Drives in batches, each as far as the box lies within the available points.
 class ExactIri::Drive {
 public:
     Drive(std::vector<double> edges_m, bool envelope, StrokeValue value)
@@ -243,7 +243,7 @@ public:
         }
         const double mean_step_m =
             (station_m_.back() - first_station_m_) / static_cast<double>(pushed_ - 1);
-        // Stations are printed with a few decimals: differences are not held to the last bit.
+        // Printed stations have few decimals, so differences are compared with a tolerance.
         if (mean_step_m > coarsest_step_m * (1 + 1e-9)) {
             throw InputError{fmt::format("profile step is {:.6g} m in the mean, expected 0 to {}",
                                          mean_step_m,
@@ -289,7 +289,7 @@ private:
         forget();
     }
 
-    /// The stroke between at_m_ and `next_m`, to the segment that it lies in.
+    /// Adds the stroke between at_m_ and `next_m` to its segment.
     void add(const Piece& piece, double next_m) {
         const double length_m = next_m - at_m_;
         if (at_m_ >= edges_m_.front()) {
@@ -303,7 +303,7 @@ private:
         at_m_ = next_m;
     }
 
-    /// Drops the points that no box reaches back to any more.
+    /// Drops the points that the box no longer reaches.
     void forget() {
         const auto needed = std::ranges::upper_bound(station_m_, at_m_ - half_box_m_);
         const auto passed = std::max<std::ptrdiff_t>(0, needed - station_m_.begin() - 1);
@@ -314,11 +314,11 @@ private:
     std::vector<double> edges_m_;
     double half_box_m_;
     StrokeValue value_;
-    std::vector<double> station_m_; ///< of the points that are still needed
+    std::vector<double> station_m_; ///< of the points still needed
     std::vector<double> elevation_m_;
     std::size_t pushed_ = 0;
     double first_station_m_ = 0;
-    double at_m_ = 0; ///< how far the car is
+    double at_m_ = 0; ///< position of the car
     std::optional<GoldenDrive> car_;
     double sum_ = 0;
     std::vector<double> means_;

@@ -9,7 +9,7 @@ namespace macadam {
 
 namespace {
 
-constexpr double rounding = 1e-9; // of a whole count that was computed
+constexpr double rounding = 1e-9; // of a count that is computed
 
 } // namespace
 
@@ -24,7 +24,7 @@ std::optional<double> MovingMean::push(double value) {
     sum_ += value - oldest;
     oldest = value;
     ++pushed_;
-    if (pushed_ % size == 0) { // afresh, or the rounding of millions of sums would add up
+    if (pushed_ % size == 0) { // limits the accumulation of rounding errors
         sum_ = std::accumulate(last_.begin(), last_.end(), 0.0);
     }
     if (pushed_ < size) {

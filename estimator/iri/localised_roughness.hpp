@@ -6,17 +6,18 @@
 
 namespace macadam {
 
-/// Base of the moving mean that shows localised roughness: 25 ft, as AASHTO R 54 and ProVAL's short
-/// continuous report have it.
+/// Base length of the moving mean for localised roughness: 25 ft, as in AASHTO R 54 and ProVAL's
+/// short continuous report.
 inline constexpr double localised_base_m = 7.62;
 
-/// Mean of the last `count` values, for values that come one by one.
+/// Moving mean of the last `count` values of a sequence.
 class MovingMean {
 public:
-    /// \param count  >= 1; need not be whole: of the oldest value then only a part counts.
+    /// \param count  >= 1; need not be whole: the oldest value then counts with the fractional
+    ///               weight.
     explicit MovingMean(double count);
 
-    /// Nothing before as many values have come.
+    /// Adds a value and returns the mean; `std::nullopt` until `count` values have been added.
     std::optional<double> push(double value);
 
 private:
@@ -26,23 +27,23 @@ private:
     double sum_ = 0;
 };
 
-/// Where a moving mean stays above a threshold.
+/// Interval in which a moving mean stays above a threshold.
 struct RoughPlace {
-    double from_m; ///< middle of the first base that is too rough
-    double to_m;   ///< and of the last
-    double peak;   ///< the greatest mean between, in the unit of the values
+    double from_m; ///< centre of the first base above the threshold
+    double to_m;   ///< centre of the last base above the threshold
+    double peak;   ///< maximum mean, in the unit of the values
     double peak_at_m;
 };
 
-/// Finds rough places in values that come one by one.
+/// Detects localised roughness in a sequence of values.
 class RoughPlaces {
 public:
     explicit RoughPlaces(double threshold) : threshold_{threshold} {}
 
-    /// \param at_m  rising. \returns the place that ended before it, if one did.
+    /// \param at_m  increasing. \returns the rough place that ended before at_m, if any.
     std::optional<RoughPlace> push(double at_m, double value);
 
-    /// The place that lasts until the end, if one does.
+    /// Returns the rough place that lasts until the end, if any.
     std::optional<RoughPlace> finish();
 
 private:

@@ -8,9 +8,9 @@
 namespace macadam {
 namespace {
 
-constexpr double block_s = 0.25;           // four to each second that the mounting looks at
+constexpr double block_s = 0.25;           // the mounting uses four means per second
 constexpr std::size_t max_blocks = 14'400; // an hour
-constexpr double early_s = 60;             // so long it is found again more often
+constexpr double early_s = 60;             // initial time with more frequent updates
 constexpr double early_every_s = 5;
 constexpr double late_every_s = 30;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -53,7 +53,7 @@ void LiveMounting::add(const TripLog& recent, const Odometer& odometer, double n
         const double begin_s = t_s[static_cast<std::size_t>(from)];
         const auto to = std::ranges::lower_bound(t_s, begin_s + block_s) - t_s.begin();
         if (to == std::ssize(t_s)) {
-            break; // it goes on
+            break; // the block is incomplete
         }
         const double last_s = t_s[static_cast<std::size_t>(to - 1)];
         const double middle_s = (begin_s + last_s) / 2;

@@ -7,14 +7,14 @@
 
 namespace macadam {
 
-/// How the sensor hangs, by what it felt so far: means of quarters of a second over the last hour.
-/// Level is good to about two degrees after half a minute of driving; the heading, where it is to
-/// be found at all, takes eight times braking or driving off.
+/// Running estimate of the sensor's mounting from quarter-second means of the last hour. Levelling
+/// is accurate to about two degrees after half a minute of driving; the heading, where it must be
+/// estimated at all, requires braking or accelerating eight times.
 class LiveMounting {
 public:
     explicit LiveMounting(TripMeta meta);
 
-    /// Takes what came since the last call, and finds the mounting again now and then.
+    /// Adds the samples since the last call and periodically updates the mounting.
     ///
     /// \param recent    reaches back to the last call.
     /// \param odometer  reaches to now_s.
@@ -23,7 +23,7 @@ public:
     const Mounting& mounting() const { return mounting_; }
 
 private:
-    TripLog felt_; ///< its acc alone: the means
+    TripLog felt_; ///< means, in acc only
     Odometer::Knots motion_;
     double taken_s_;
     double next_s_;

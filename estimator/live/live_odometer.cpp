@@ -25,7 +25,7 @@ Odometer::Knots part_of(const Odometer::Knots& knots, std::ptrdiff_t from, std::
     return {cut(knots.t_s), cut(knots.travel_m), cut(knots.speed_mps), cut(knots.reversing)};
 }
 
-/// The knots that are settled, and behind them what was measured since.
+/// Appends the new measurements to the settled knots.
 Odometer::Knots joined(Odometer::Knots settled, const Odometer& measured) {
     const auto& knots = measured.knots();
     if (settled.t_s.empty()) {
@@ -46,7 +46,7 @@ Odometer::Knots joined(Odometer::Knots settled, const Odometer& measured) {
     return settled;
 }
 
-/// Goes on at the last speed, unless it is that of a gap's end, which nobody measured.
+/// Extrapolates at the last speed, unless it belongs to the end of a gap and was not measured.
 Odometer::Knots going_on(Odometer::Knots knots, double now_s, double longest_s) {
     const std::size_t count = knots.t_s.size();
     const double silence_s = now_s - knots.t_s.back();
@@ -63,7 +63,7 @@ Odometer::Knots going_on(Odometer::Knots knots, double now_s, double longest_s) 
     return knots;
 }
 
-/// All but the last knot, which a later speed may turn into something else.
+/// Returns all but the last knot, which a later speed may change.
 Odometer::Knots
 settled_of(const Odometer::Knots& knots, double now_s, const LiveRulerConfig& config) {
     const auto before = [&](double t_s) {
@@ -78,7 +78,7 @@ std::optional<Odometer> measured_by(const TripLog& motion, const OdometerConfig&
     try {
         auto use = unused(motion);
         return make_odometer(motion, config, use);
-    } catch (const InputError&) { // too little so far
+    } catch (const InputError&) { // too few data so far
         return std::nullopt;
     }
 }

@@ -11,11 +11,11 @@
 namespace macadam {
 namespace {
 
-constexpr double min_length_m = 10;    // of a stretch: its beginning is told as start-up
-constexpr double ended_after_s = 0.5;  // of silence, or of what makes no stretch
-constexpr double forget_every_m = 100; // so that little is moved about
+constexpr double min_length_m = 10;    // of a stretch; its beginning is reported as start-up
+constexpr double ended_after_s = 0.5;  // of silence or of unusable data
+constexpr double forget_every_m = 100; // limits the moving of data
 
-// A car is tuned by up to a minute of samples (car_in); once that much is there it stays as it is.
+// A car is tuned on up to a minute of samples (car_in); it is final once that much is available.
 constexpr double tuned_every_s = 30;
 constexpr double max_tuning_s = 60;
 
@@ -33,7 +33,7 @@ double end_s(const TripLog& recent, const StretchSpan& span) {
     return recent.acc.t_s[span.last];
 }
 
-/// Whether the cells of one can stand behind those of the other.
+/// Returns true if the cells of one run can be appended to the other.
 bool alike(const IriRun& a, const IriRun& b) {
     return a.left_mm_per_m.empty() == b.left_mm_per_m.empty() &&
            a.scatter_mm_per_m.size() == b.scatter_mm_per_m.size() && a.indicative == b.indicative &&
@@ -56,7 +56,7 @@ IriRun empty_like(const IriRun& run, double start_m, double lead_in_m) {
     return empty;
 }
 
-/// The value that holds at a place, of values that stand evenly from a run's start on.
+/// Appends the value at a position, of values evenly spaced from a run's start.
 void push_at(const std::vector<float>& from, double index, std::vector<float>& to) {
     if (!from.empty()) {
         const auto last = static_cast<double>(from.size() - 1);
@@ -64,7 +64,7 @@ void push_at(const std::vector<float>& from, double index, std::vector<float>& t
     }
 }
 
-/// A metre of `found` behind what is there.
+/// Appends one metre of `found`.
 void append_metre(const IriRun& found, IriRun& onto) {
     const double from_m = end_m(onto) - found.start_travel_m;
     const auto cells = std::lround(1 / onto.cell_m);
@@ -80,7 +80,7 @@ void append_metre(const IriRun& found, IriRun& onto) {
     }
 }
 
-/// The run without so many metres at its front.
+/// Removes this many metres from the front of a run.
 IriRun without_front(IriRun run, std::ptrdiff_t metres) {
     const auto drop = [](std::vector<float>& values, std::ptrdiff_t count) {
         values.erase(values.begin(), values.begin() + std::min(count, std::ssize(values)));
@@ -98,8 +98,8 @@ IriRun without_front(IriRun run, std::ptrdiff_t metres) {
     return run;
 }
 
-/// The rate of the even grid as make_stretch chooses it for a whole stretch, but of a rate of the
-/// log that does not waver from window to window: so the windows draw alike.
+/// Returns the rate of the even grid as make_stretch chooses it for a whole stretch, but from a log
+/// rate that is constant over all windows, so that they get the same draws.
 double grid_rate_hz(double own_hz, double fastest_mps, const StretchConfig& config) {
     if (config.rate_hz > 0) {
         return config.rate_hz;
@@ -209,7 +209,7 @@ void LiveRoughness::extend(const TripLog& recent,
     final_s_ = final_s;
 }
 
-/// Whole metres of `found` as far as it is final.
+/// Keeps the whole metres of `found` that are final.
 void LiveRoughness::keep(const IriRun& found, double to_m) {
     const double end = end_m(trace_.runs.back());
     if (found.start_travel_m > end + 1) { // a channel was silent for longer than a window

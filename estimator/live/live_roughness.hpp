@@ -11,15 +11,15 @@ namespace macadam {
 
 struct Mounting; // estimator/motion/mounting.hpp
 
-/// How much of the road behind is smoothed again to say something of a few metres.
+/// Length of the window behind the car that is smoothed again to estimate a few metres.
 struct LiveWindow {
     double length_m = 400;
     double min_s = 8;
-    double longest_s = 25; ///< of slow driving, where 400 m are many samples
+    double longest_s = 25; ///< limit at low speed, where 400 m hold many samples
 };
 
-/// Roughness by a window that follows the car: each time the method is run over the last
-/// `LiveWindow` up to now, and what the rear axle has left for long enough is kept of it.
+/// Roughness estimation in a window that follows the car: the method is run over the last
+/// `LiveWindow` up to now, and results that the rear axle left long enough ago are kept.
 class LiveRoughness {
 public:
     LiveRoughness(Vehicle vehicle,
@@ -30,7 +30,7 @@ public:
     /// \param recent    accelerations and rates of turn of the last minute or more.
     /// \param odometer  over the same time.
     /// \param now_s     the latest time of any sensor.
-    /// \param final_s   what the rear axle has left by then is final.
+    /// \param final_s   time up to which positions that the rear axle has left become final.
     ///
     /// \throws InputError  if vibration is sampled too slowly.
     void go_on(const TripLog& recent,
@@ -39,17 +39,18 @@ public:
                double now_s,
                double final_s);
 
-    /// Lets go of what lies before.
+    /// Discards results before travel_m.
     void forget_before(double travel_m);
 
     const IriTrace& trace() const { return trace_; }
 
     const Vehicle& vehicle() const { return vehicle_; }
 
-    /// The road of which all is said that will be, whether anything is known of it or not.
+    /// End of the final part of the trace, whether or not it has values.
     double known_until_m() const { return known_until_m_; }
 
-    /// Of the rear axle from the centre of gravity: negative, 0 for a car with one axle.
+    /// Position of the rear axle relative to the centre of gravity: negative, or 0 for a car with
+    /// one axle.
     double rear_m() const;
 
 private:
@@ -71,10 +72,10 @@ private:
     LiveWindow window_;
     std::optional<TunedCar> car_;
     double tuned_by_s_ = 0;
-    double rate_hz_ = 0; ///< the log's own
-    IriTrace trace_;     ///< its last run is of the stretch that was driven last
-    double last_s_;      ///< of that stretch's samples
-    double final_s_;     ///< until then it is kept
+    double rate_hz_ = 0; ///< rate of the log
+    IriTrace trace_;     ///< the last run belongs to the most recent stretch
+    double last_s_;      ///< time of that stretch's last sample
+    double final_s_;     ///< end of the time that is kept of it
     double lead_in_until_m_ = 0;
     double slow_until_m_ = 0;
     double known_until_m_ = 0;

@@ -12,14 +12,14 @@
 namespace macadam {
 namespace {
 
-constexpr double vibration_s = 75; // a window, and what a car is tuned by
-constexpr double motion_s = 600;   // what a wheel's scale and a latency are found from
+constexpr double vibration_s = 75; // a window, and the tuning of a car
+constexpr double motion_s = 600;   // estimation of wheel speed scale and latency
 constexpr double look_every_s = 0.1;
 constexpr double look_back_every_s = 15;
 constexpr double settled_s = 3;
-constexpr double longest_piece_m = 20;    // of longer rows the road is smoothed piece by piece
-constexpr double longest_silence_s = 10;  // between fixes whose line is believed
-constexpr double longest_reckoning_s = 5; // beyond the last fix, straight on
+constexpr double longest_piece_m = 20;    // longer rows are smoothed in pieces
+constexpr double longest_silence_s = 10;  // between fixes that are interpolated
+constexpr double longest_reckoning_s = 5; // of linear extrapolation after the last fix
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 LiveRulerConfig ruler_config(const LiveConfig& config) {
@@ -30,7 +30,7 @@ bool has_place(const GnssFix& fix) {
     return std::isfinite(fix.at.lat_deg) && std::isfinite(fix.at.lon_deg);
 }
 
-/// Where the antenna was: straight between two fixes, or on from the last two.
+/// Returns the antenna position, interpolated between two fixes or extrapolated from the last two.
 std::optional<GeoPoint> place_at(const TripLog& trip, double t_s) {
     const GnssFix* before = nullptr;
     const GnssFix* after = nullptr;
@@ -98,7 +98,8 @@ double LiveTrace::travelled_m() const {
     return ruler_.odometer ? ruler_.odometer->knots().travel_m.back() : 0;
 }
 
-/// Now and then, over the last minutes: how far the wheels' speed and the receiver's clock are off.
+/// Updates the wheel speed scale and the receiver's latency from the last minutes, from time to
+/// time.
 void LiveTrace::look_back() {
     looked_back_s_ = recent_.now_s();
     if (!recent_.meta().gnss_latency_stated) {
@@ -120,7 +121,7 @@ void LiveTrace::look_back() {
     }
 }
 
-/// Everything but the road, up to now.
+/// Updates everything but the road, up to now.
 void LiveTrace::look(bool over) {
     const double now = recent_.now_s();
     if (now - looked_back_s_ >= look_back_every_s) {
@@ -147,7 +148,8 @@ LiveTrace::Middle LiveTrace::middle_at(double travel_m) const {
     return {t_s, ruler_.odometer->speed_mps(t_s), place_at(recent_.trip(), t_s)};
 }
 
-/// When the rear axle came to the end of the next piece; nothing if it has not.
+/// Returns the time at which the rear axle reached the end of the next row; `std::nullopt` if it
+/// has not.
 std::optional<double> LiveTrace::next_end_s() const {
     if (!ruler_.odometer) {
         return std::nullopt;

@@ -16,53 +16,55 @@ struct LiveConfig {
     StretchConfig stretch;
     EstimatorConfig estimator;
     LiveWindow window;
-    double length_m = 20; ///< of a row
+    double length_m = 20; ///< length of a row
 
-    /// The rear axle leaves a row; so much later, at most, the row is told, and it is told of data
-    /// that go at least so far on.
+    /// Delay from the rear axle leaving a row to its output, at most; and the minimum duration of
+    /// data beyond the row that its estimate uses.
     double max_later_s = 1.8;
     double min_later_s = 1.1;
 };
 
-/// What is said of one piece of the travel. Nothing: not known.
+/// Estimate for one interval of the travel. Unknown values are `std::nullopt`.
 struct LiveRow {
     double from_m;
     double to_m;
-    double t_s; ///< at the middle
+    double t_s; ///< time at the middle
     std::optional<GeoPoint> at;
     double speed_mps;
     IriMean mean;
-    double left_s; ///< when the rear axle left it
+    double left_s; ///< time at which the rear axle left it
 };
 
-/// IRI along a trip while it is driven: fixed-lag smoothing, u[k | k + N], with N of max_later_s.
+/// IRI along a trip while it is driven: fixed-lag smoothing, u[k | k + N], with N given by
+/// max_later_s.
 ///
-/// Every part looks at what has come so far: the odometer (live_ruler.hpp), the mounting
+/// Each component works on the data received so far: the odometer (live_odometer.hpp), the mounting
 /// (live_mounting.hpp) and the roughness (live_roughness.hpp). Memory is bounded by the sampling
 /// rate and by length_m, not by the trip.
 class LiveTrace {
 public:
     LiveTrace(const TripMeta& meta, Vehicle vehicle, const LiveConfig& config);
 
-    /// Takes samples in the order in which they come, and tells the rows that they complete.
+    /// Adds samples in order of arrival and returns the rows that they complete.
     ///
     /// \throws InputError  if vibration is sampled too slowly.
     std::vector<LiveRow> add(const TripLog& samples);
 
-    /// The trip ends here: the rest of the rows, as far as the car came.
+    /// Ends the trip and returns the remaining rows, up to the end of the travel.
     std::vector<LiveRow> finish();
 
-    double travelled_m() const; ///< so far
+    double travelled_m() const; ///< distance so far
     double now_s() const { return recent_.now_s(); }
 
-    // What is known of the trip so far, for those who warn.
+    // State of the trip so far, for warnings.
     const TripLog& recent() const { return recent_.trip(); }
     const LiveOdometer& ruler() const { return ruler_; }
     const Mounting& mounting() const { return mounting_.mounting(); }
 
-    /// The receiver's latency, where the log does not state it and its two speeds have told.
+    /// Estimated latency of the receiver, if the log does not state it and both speeds determine
+    /// it.
     std::optional<double> found_latency_s() const { return found_latency_s_; }
-    std::size_t dropped() const { return recent_.dropped(); } ///< samples out of their order
+    std::size_t dropped() const { return recent_.dropped(); } ///< number of samples out of order
 
 private:
     void look_back();
@@ -72,7 +74,8 @@ private:
     std::vector<LiveRow> rows_until(double travel_m);
     LiveRow row_from(double from_m) const;
 
-    /// The middle of the next row, once it is settled: it may lie minutes back when the row ends.
+    /// State at the middle of the next row, kept once it is settled: it may lie minutes back when
+    /// the row ends.
     struct Middle {
         double t_s;
         double speed_mps;
@@ -88,7 +91,7 @@ private:
     std::optional<double> found_latency_s_;
     double looked_s_;
     double looked_back_s_;
-    std::size_t told_ = 0; ///< rows
+    std::size_t told_ = 0; ///< number of rows returned
     std::optional<Middle> middle_;
     bool scale_is_free_;
 };

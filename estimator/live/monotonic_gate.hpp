@@ -8,15 +8,15 @@
 
 namespace macadam {
 
-/// Lets through samples whose time rises, as they come.
+/// Passes on samples of a stream whose time increases.
 ///
-/// A sample far ahead of the one before it is a pause of its sensor or a wild stamp. It waits for
-/// the next one: if that follows it, both are let through; if that follows what came before, the
-/// stamp was wild. What lies behind what was let through is dropped.
+/// A sample far ahead of the previous one is either a pause of its sensor or a faulty stamp. It
+/// waits for the next one: if that follows it, both are passed on; if that follows the sample
+/// before, the stamp was faulty. Samples older than the last one passed on are dropped.
 template <typename Sample>
 class MonotonicGate {
 public:
-    /// \param pass  called with what is let through: nothing, the sample, or two.
+    /// \param pass  called with each sample that is passed on: none, one or two.
     template <typename Pass>
     void add(double t_s, const Sample& sample, Pass pass) {
         if (t_s > last_s_ && t_s - last_s_ <= far_s()) {
@@ -39,7 +39,7 @@ public:
 
 private:
     static constexpr double min_far_s = 1.5;
-    static constexpr double far_steps = 3; ///< of the sensor's own
+    static constexpr double far_steps = 3; ///< multiple of the sensor's own step
 
     double far_s() const { return std::max(min_far_s, far_steps * step_s_); }
 

@@ -15,7 +15,7 @@ void drop_first(std::vector<Value>& values, std::ptrdiff_t count) {
     values.erase(values.begin(), values.begin() + count);
 }
 
-/// How many of rising times come before one.
+/// Counts the increasing times before from_s.
 std::ptrdiff_t count_before(const std::vector<double>& t_s, double from_s) {
     return std::ranges::lower_bound(t_s, from_s) - t_s.begin();
 }

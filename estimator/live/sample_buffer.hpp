@@ -7,24 +7,25 @@
 
 namespace macadam {
 
-/// What a trip's sensors said of late, put in order as it comes, and for how long it is kept.
+/// Buffer of a trip's recent samples, sorted by sensor and kept for a limited time.
 class SampleBuffer {
 public:
-    /// \param vibration_s  what is kept of accelerations and rates of turn, ...
-    /// \param motion_s     ... of speeds and fixes; what is older goes now and then.
+    /// \param vibration_s  retention time of accelerations and rates of turn.
+    /// \param motion_s     retention time of speeds and fixes. Older samples are removed from time
+    ///                     to time.
     SampleBuffer(TripMeta meta, double vibration_s, double motion_s);
 
-    /// \param samples  in the order in which they came; its meta is not looked at.
+    /// \param samples  in order of arrival; its meta is ignored.
     void add(const TripLog& samples);
 
-    /// Of the kept samples; its `rows` are empty.
+    /// Returns the kept samples; `rows` is empty.
     const TripLog& trip() const { return trip_; }
 
-    /// With `fixes` and `speed` of the last vibration_s only, to be measured quickly.
+    /// Returns the trip with `fixes` and `speed` of the last vibration_s only, for fast processing.
     TripLog motion_beside_vibration() const;
 
-    double now_s() const { return now_s_; } ///< the latest time of any sample; -infinity before
-    std::size_t dropped() const;            ///< samples whose times did not rise
+    double now_s() const { return now_s_; } ///< latest time of any sample; initially -infinity
+    std::size_t dropped() const;            ///< number of samples whose time did not increase
 
     TripMeta& meta() { return trip_.meta; }
 

@@ -8,7 +8,7 @@
 namespace macadam {
 namespace {
 
-/// s -> (1 - z^-1) / (1 + z^-1) / corner turns 1 / (s^2 + s / q + 1) into a section.
+/// Builds a section from 1 / (s^2 + s / q + 1) by s -> (1 - z^-1) / (1 + z^-1) / corner.
 template <typename Numerator>
 std::vector<Section> butterworth(int order, double corner_hz, double rate_hz, Numerator numerator) {
     assert(order > 0 && order % 2 == 0 && corner_hz > 0 && 2 * corner_hz < rate_hz);
@@ -47,7 +47,7 @@ void run(const Section& section, std::vector<double>& signal) {
     }
 }
 
-/// The signal with `count` samples more on both sides, reflected at its end points.
+/// Extends the signal by `count` samples on both sides, by point reflection at its ends.
 std::vector<double> extended(std::span<const double> signal, std::size_t count) {
     std::vector<double> out;
     out.reserve(signal.size() + 2 * count);

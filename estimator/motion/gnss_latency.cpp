@@ -13,15 +13,15 @@ namespace {
 
 constexpr double lag_step_s = 0.05;
 constexpr int lags = 61;               // 0 to 3 s
-constexpr std::size_t min_fixes = 30;  // fewer agree by chance
-constexpr double longest_step_s = 0.5; // between wheel speeds that are joined by a line
-constexpr double clear_share = 0.5;    // of the worst lag's deviation: the best must be below it
+constexpr std::size_t min_fixes = 30;  // fewer may agree by chance
+constexpr double longest_step_s = 0.5; // between wheel speeds that are interpolated
+constexpr double clear_share = 0.5;    // best deviation over that of the worst lag, at most
 
 constexpr double min_chord_m = 8;
 constexpr double longest_chord_s = 6;
-constexpr double min_sd_s = 0.03;  // no clock is better known by this
-constexpr double worst_sd_s = 0.4; // of what is still worth saying
-constexpr float max_apart_mps = 3; // a faulty reading counts no more than this
+constexpr double min_sd_s = 0.03;  // lower limit of the accuracy of any clock
+constexpr double worst_sd_s = 0.4; // of a usable result
+constexpr float max_apart_mps = 3; // limits the effect of a faulty reading
 
 float median_of(std::vector<float> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -29,7 +29,7 @@ float median_of(std::vector<float> values) {
     return *middle;
 }
 
-/// Wheel speed at a time; NaN in its silences.
+/// Interpolates the wheel speed at a time; NaN in gaps.
 float wheel_mps(const SpeedSamples& wheels, double t_s) {
     const auto after = std::ranges::upper_bound(wheels.t_s, t_s);
     if (after == wheels.t_s.begin() || after == wheels.t_s.end()) {
@@ -44,7 +44,8 @@ float wheel_mps(const SpeedSamples& wheels, double t_s) {
     return std::lerp(wheels.speed_mps[i - 1], wheels.speed_mps[i], share);
 }
 
-/// How far the two speeds stand apart if the receiver is so late; NaN if too few can be compared.
+/// Returns the mean deviation of the two speeds for a receiver latency; NaN if too few can be
+/// compared.
 double deviation_mps(const TripLog& trip, double lag_s) {
     std::vector<float> apart_mps;
     for (const auto& fix : trip.fixes) {
@@ -60,19 +61,20 @@ double deviation_mps(const TripLog& trip, double lag_s) {
     const float middle = median_of(apart_mps);
     std::ranges::transform(
         apart_mps, apart_mps.begin(), [=](float a) { return std::abs(a - middle); });
-    // The mean, not the median: most of a drive is even, and only its changes tell the lag.
+    // The mean is used, not the median: speed is constant for most of a drive, and only its changes
+    // determine the lag.
     double sum = 0;
     for (const float a : apart_mps) {
-        sum += std::min(a, 3.0F); // a faulty reading counts no more than this
+        sum += std::min(a, 3.0F); // limits the effect of a faulty reading
     }
     return sum / static_cast<double>(apart_mps.size());
 }
 
-// ------------------------------------------------------------- from place to place, and turns
+// ------------------------------------------------------------ from fix to fix, and turns
 
-/// The way between two fixes: long enough that their noise leaves it a course.
+/// Chord between two fixes, long enough that its course is known in spite of their noise.
 struct Chord {
-    double from_s; ///< of the stamps
+    double from_s; ///< time stamps
     double to_s;
     double speed_mps;
     double course_rad; ///< positive to the left
@@ -98,7 +100,7 @@ std::vector<Chord> chords_of(const TripLog& trip) {
     return chords;
 }
 
-/// Wheel speeds summed: metres at each reading's time.
+/// Integrates the wheel speeds to metres at each reading's time.
 std::vector<double> wheel_travel_m(const SpeedSamples& wheels) {
     std::vector<double> travel_m(wheels.t_s.size(), 0.0);
     for (std::size_t i = 1; i < travel_m.size(); ++i) {
@@ -119,8 +121,8 @@ double travel_at(const SpeedSamples& wheels, const std::vector<double>& travel_m
     return std::lerp(travel_m[i - 1], travel_m[i], share);
 }
 
-/// -log likelihood of differences that have one middle and fat tails (Laplace's distribution);
-/// 0 if too few can be compared. Neighbours share a fix, so two of them count as one.
+/// Returns the -log likelihood of differences with one median and heavy tails (Laplace's
+/// distribution); 0 if too few can be compared. Neighbours share a fix, so that two count as one.
 double cost_of(std::vector<float> apart, float most) {
     if (apart.size() < min_fixes) {
         return 0;
@@ -134,7 +136,7 @@ double cost_of(std::vector<float> apart, float most) {
     return n / 2 * std::log(std::max(sum / n, 1e-3));
 }
 
-/// Of a lag, by the speeds from place to place against the wheels'.
+/// Returns the cost of a lag from the speeds between fixes and the wheel speeds.
 double speed_cost(const std::vector<Chord>& chords,
                   const SpeedSamples& wheels,
                   const std::vector<double>& travel_m,
@@ -151,7 +153,8 @@ double speed_cost(const std::vector<Chord>& chords,
     return cost_of(std::move(apart_mps), max_apart_mps);
 }
 
-/// The vertex of the parabola through the least of the values and its neighbours, as a lag.
+/// Returns the vertex of the parabola through the minimum of the values and its neighbours, as a
+/// lag.
 double vertex_s(const std::vector<double>& values) {
     const auto best = std::ranges::min_element(values);
     const auto i = best - values.begin();
@@ -164,8 +167,8 @@ double vertex_s(const std::vector<double>& values) {
     return (static_cast<double>(i) + (bend > 0 ? 0.5 * (before - after) / bend : 0)) * lag_step_s;
 }
 
-/// Mean and sd over lags that are as likely as one another before: what little is known draws the
-/// estimate to the middle of them.
+/// Returns mean and sd over lags with a uniform prior, which draws uncertain estimates to the
+/// middle.
 FoundLatency posterior(const std::vector<double>& lags_s, const std::vector<double>& costs) {
     const double least = std::ranges::min(costs);
     double sum = 0;

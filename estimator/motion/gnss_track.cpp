@@ -8,17 +8,17 @@
 namespace macadam {
 namespace {
 
-constexpr double worst_accuracy_m = 50;  // a receiver that says more has no position yet
-constexpr double typical_accuracy_m = 5; // open sky, where the receiver says nothing
-constexpr double position_noise_m = 20;  // beyond what the receiver says, seldom more
-constexpr double odometer_slack = 1.3;   // wheel slip, speeds that were missed
-constexpr double moving_mps = 0.5;       // faster than this a receiver's place must change
-constexpr double stale_s = 0.5;          // no receiver for cars stands exactly still so often
-constexpr double outvoting_s = 2.5;      // receivers stray for a second beside a wall and come back
-constexpr double standing_mps = 1;       // slower than this on the whole: it stood, and then left
+constexpr double worst_accuracy_m = 50;  // a receiver that states more has no position yet
+constexpr double typical_accuracy_m = 5; // open sky, if the receiver states no accuracy
+constexpr double position_noise_m = 20;  // beyond the stated accuracy, rarely more
+constexpr double odometer_slack = 1.3;   // wheel slip and missed speeds
+constexpr double moving_mps = 0.5;       // above this speed the position must change
+constexpr double stale_s = 0.5;          // car receivers do not repeat a position for that long
+constexpr double outvoting_s = 2.5;      // beside a wall, receivers stray for a second and return
+constexpr double standing_mps = 1;       // mean speed below which the car stood first and then left
 
-// Places nearer than this are one: thirty metres of road between places of 4 m error are known to
-// 2 %, and a receiver at rest does not wander so far.
+// Closer positions count as one: over thirty metres of road, positions with an error of 4 m give
+// the length to 2 %, and a receiver at rest does not drift that far.
 constexpr double min_move_m = 15;
 
 std::uint8_t code(RowReason reason) {
@@ -31,7 +31,8 @@ bool repeats(const GnssFix& fix, const GnssFix& before) {
     return unmoved && (must_move || fix.t_s - before.t_s < stale_s);
 }
 
-/// Fixes worth a look, as indices; the reason of the others goes into `track.use`.
+/// Returns the indices of candidate fixes; the reason for rejecting the others goes into
+/// `track.use`.
 std::vector<std::size_t> candidates(const TripLog& trip, GnssTrack& track) {
     std::vector<std::size_t> kept;
     const GnssFix* before = nullptr;
@@ -68,12 +69,12 @@ farthest_m(const Place& a, const Place& b, const OdometerConfig& config, const O
     return config.max_speed_mps * (b.t_s - a.t_s) + slack_m;
 }
 
-/// The way from one place to the next that the car certainly made.
+/// Path between two positions that the car certainly travelled.
 struct Leg {
     double begin_s;
     double end_s;
     double length_m;
-    bool known; ///< seen all along
+    bool known; ///< measured throughout
 };
 
 class LegMaker {
@@ -90,7 +91,7 @@ public:
         last_ = place;
     }
 
-    /// Where the last place is not far enough from the anchor to have moved, it stands.
+    /// The car is taken as standing if the last position is too near to the anchor.
     std::vector<Leg> finish() {
         if (last_.t_s > anchor_.t_s) {
             const bool still = !legs_.empty() || standing_since_anchor();
@@ -124,7 +125,7 @@ private:
     std::vector<Leg> legs_;
 };
 
-/// Speed at a border of two legs: their mean, or that of the one that is known.
+/// Returns the speed at a border of two legs: their mean, or that of the known one.
 float speed_between(const Leg& before, const Leg& after) {
     const double first_mps = before.length_m / (before.end_s - before.begin_s);
     const double second_mps = after.length_m / (after.end_s - after.begin_s);

@@ -9,28 +9,29 @@
 
 namespace macadam {
 
-/// A position that its neighbours bear out, at its own time: latency is taken off.
+/// Position that is consistent with its neighbours, at its own time: the latency is removed.
 struct Place {
     double t_s;
     GeoPoint at;
     double accuracy_m;
-    bool restarts; ///< nothing is known of the way from the place before
+    bool restarts; ///< the path from the previous position is unknown
 };
 
-/// The positions of a trip that can be believed.
+/// Accepted positions of a trip.
 struct GnssTrack {
     std::vector<Place> places;
-    std::vector<std::uint8_t> use; ///< one a fix: 0, or the RowReason
+    std::vector<std::uint8_t> use; ///< one entry per fix: 0, or the RowReason
 };
 
-/// Drops positions that the receiver gives little for, that repeat the one before, or that lie
-/// farther from their neighbours than the car can have gone.
+/// Rejects positions that have a poor stated accuracy, that repeat the previous one, or that are
+/// farther from their neighbours than the car can have travelled.
 ///
-/// \param farthest  where known, an odometer whose travel is at least what the car went.
+/// \param farthest  where known, an odometer whose travel is an upper bound of the distance.
 GnssTrack track_of(const TripLog& trip, const OdometerConfig& config, const Odometer* farthest);
 
-/// Travel by positions alone: the way between places at least a receiver's error apart, so that
-/// standing still adds nothing. Nothing if there are fewer than two places.
+/// Computes travel from positions alone: the path between positions at least a receiver's error
+/// apart, so that standing still adds no distance. `std::nullopt` if there are fewer than two
+/// positions.
 std::optional<Odometer> odometer_of(const GnssTrack& track, const OdometerConfig& config);
 
 } // namespace macadam

@@ -16,21 +16,21 @@ constexpr double rad_per_deg = std::numbers::pi / 180;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double longest_silence_s = 0.5; // bridged by a line
-constexpr double slight_axis = 0.2;       // of the vertical in a sensor's axis: it may be missing
+constexpr double slight_axis = 0.2;       // share of the vertical: such an axis may be missing
 
-constexpr double noise_rad_per_sqrt_s = 0.002; // angle random walk, shaking of the mount with it
+constexpr double noise_rad_per_sqrt_s = 0.002; // angle random walk, with mount vibration
 constexpr double scale_sd = 0.01;              // of the gyro, and of hills: cos 6 degrees
-constexpr double min_sd_rad = 0.003;           // of stamps that are not quite the sensor's
+constexpr double min_sd_rad = 0.003;           // from time stamps that differ from the sensor's
 
-constexpr double prior_bias_sd_radps = 0.02;        // 1 degree a second: not calibrated
+constexpr double prior_bias_sd_radps = 0.02;        // 1 degree per second: not calibrated
 constexpr double bias_walk_radps_per_sqrt_s = 5e-5; // with temperature: 0.003 rad/s in an hour
-constexpr double block_s = 10;                      // the bias is one within it
+constexpr double block_s = 10;                      // the bias is constant within a block
 constexpr double longest_drift_s = 3600;
-constexpr double far_off = 3; // sds: beyond, a reading counts less
+constexpr double far_off = 3; // sds; readings farther off are weighted down
 
 constexpr double standing_mps = 0.1;
 constexpr double min_stand_s = 2;
-constexpr double quiet_radps = 0.02;      // people getting in shake it more
+constexpr double quiet_radps = 0.02;      // limit against people getting in
 constexpr double stand_sd_radps = 0.0005; // of the mean rate while standing
 
 constexpr double course_from_mps = 4;
@@ -51,7 +51,7 @@ double wrapped(double rad) {
 
 // -------------------------------------------------------------------------------- integration
 
-/// Rate about the vertical; NaN if an axis that matters was not sampled.
+/// Returns the rate about the vertical; NaN if a relevant axis was not sampled.
 double vertical_rate(const TriaxialSamples& gyro, std::size_t i, const Eigen::Vector3d& up) {
     const float axes[] = {gyro.x[i], gyro.y[i], gyro.z[i]};
     double rate = 0;
@@ -75,19 +75,20 @@ double time_s(const Heading& heading, std::int64_t step) {
     return heading.start_s + heading.step_s * static_cast<double>(step);
 }
 
-/// The last step that is not after a time.
+/// Returns the last step that is not after a time.
 std::int64_t last_step_until(const Heading& heading, double t_s) {
     auto step = static_cast<std::int64_t>(std::floor((t_s - heading.start_s) / heading.step_s));
-    step += time_s(heading, step + 1) <= t_s ? 1 : 0; // a quotient is rounded
+    step += time_s(heading, step + 1) <= t_s ? 1 : 0; // corrects the rounding of the quotient
     step -= time_s(heading, step) > t_s ? 1 : 0;
     return step;
 }
 
-/// Trapezoids between the samples, read off at even times; of a silence, at its ends alone.
+/// Integrates by trapezoids between the samples and samples the result at even times; silences have
+/// values only at their ends.
 Heading integrated(const TripLog& trip, const Mounting& mounting) {
     const Eigen::Vector3d up = mounting.to_vehicle.row(2);
     Heading heading;
-    std::int64_t next = 0; // step to be read off
+    std::int64_t next = 0; // next step to be sampled
     double last_s = unknown;
     double last_radps = 0;
     double turned_rad = 0;
@@ -128,7 +129,7 @@ Heading integrated(const TripLog& trip, const Mounting& mounting) {
     return heading;
 }
 
-/// The number of the last step.
+/// Returns the number of the last step.
 std::int64_t end_step(const Heading& heading) {
     const auto& [first_step, first] = heading.runs.back();
     return first_step + static_cast<std::int64_t>(heading.turned_rad.size() - first) - 1;
@@ -149,20 +150,21 @@ bool was_measured(const Heading& heading, double from_s, double to_s) {
 
 // --------------------------------------------------------------------------------------- bias
 
-/// What some time says of the bias.
+/// Observation of the bias at a time.
 struct Reading {
     double t_s;
     double radps;
     double variance;
 };
 
-/// Steps over the middle of a silence, in which there is nothing to be read.
+/// Skips the middle of silences, where there are no values.
 class SilenceSkipper {
 public:
     explicit SilenceSkipper(const Heading& heading)
         : next_{heading.silent.begin()}, end_{heading.silent.end()} {}
 
-    /// The time itself; in a long silence, some whole steps later, shortly before its end.
+    /// Returns the time itself; in a long silence, a time some whole steps later, shortly before
+    /// its end.
     double after(double t_s, double step_s) {
         constexpr double looked_into_s = 10;
         while (next_ != end_ && next_->to_s <= t_s) {
@@ -181,7 +183,7 @@ private:
 };
 
 std::vector<Reading> standing_readings(const Heading& heading, const Odometer& odometer) {
-    constexpr double left_m = 1; // over a silence: it stood no longer
+    constexpr double left_m = 1; // travel over a silence that ends a stop
     SilenceSkipper skipper{heading};
     std::vector<Reading> readings;
     double from_s = unknown;
@@ -203,7 +205,7 @@ std::vector<Reading> standing_readings(const Heading& heading, const Odometer& o
         const bool stands = odometer.speed_mps(t_s) < standing_mps &&
                             !(std::abs(radps - before_radps) > quiet_radps);
         if (stands && std::isnan(from_s)) {
-            from_s = t_s + step_s; // the last of the stopping left out
+            from_s = t_s + step_s; // excludes the end of braking
         } else if (!stands && !std::isnan(from_s)) {
             close(t_s - step_s);
         }
@@ -266,7 +268,7 @@ std::vector<Course> courses_of(const TripLog& trip) {
     return courses.size() * 4 > trip.fixes.size() ? courses : courses_of_chords(trip);
 }
 
-/// What the stamp of a course may be off, in angle.
+/// Returns the angular uncertainty of a course due to the uncertainty of its time stamp.
 double blur_rad(const Heading& heading, double t_s, const TripMeta& meta) {
     const double rate_radps = turned_at(heading, t_s + 0.5) - turned_at(heading, t_s - 0.5);
     return rate_radps * (meta.gnss_latency_stated ? stated_latency_sd_s : unstated_latency_sd_s);
@@ -311,7 +313,7 @@ Belief updated(const Belief& belief, const Reading& reading) {
     return {belief.mean + gain * off, (1 - gain) * belief.variance};
 }
 
-/// What is thought of the bias in a block, of which the first begins at start_s.
+/// Estimate of the bias in a block; the first block begins at start_s.
 struct Block {
     std::int64_t number;
     Belief bias;
@@ -321,7 +323,7 @@ std::int64_t block_of(const Heading& heading, std::int64_t step) {
     return step / std::llround(block_s / heading.step_s);
 }
 
-/// The blocks that hold values.
+/// Returns the blocks that contain values.
 std::vector<Block> blocks_of(const Heading& heading) {
     std::vector<Block> blocks;
     for (auto run = heading.runs.begin(); run != heading.runs.end(); ++run) {
@@ -336,7 +338,7 @@ std::vector<Block> blocks_of(const Heading& heading) {
     return blocks;
 }
 
-/// Over silences the bias wanders on.
+/// Smooths the bias over the blocks; it continues its random walk over silences.
 std::vector<Block> smoothed_bias(const Heading& heading, std::vector<Reading> readings) {
     std::ranges::sort(readings, {}, &Reading::t_s);
     constexpr double walk_a_block =
@@ -367,8 +369,8 @@ std::vector<Block> smoothed_bias(const Heading& heading, std::vector<Reading> re
     return blocks;
 }
 
-/// Between two runs, what is thought of the bias at their ends holds half and half; over a long
-/// silence nothing is taken off, or what is left of a float would not tell turns.
+/// Subtracts the bias. Between two runs the mean of the biases at their ends applies; over a long
+/// silence it is not subtracted, since the rounding of floats would then hide turns.
 Heading without_bias(Heading heading, const std::vector<Block>& blocks) {
     double bias_rad = 0;
     double variance = 0;
@@ -401,7 +403,7 @@ Heading without_bias(Heading heading, const std::vector<Block>& blocks) {
     return heading;
 }
 
-/// Whether most courses turn otherwise than the gyro does.
+/// Returns true if the gyro contradicts most courses.
 bool is_contradicted(const Heading& heading,
                      const std::vector<Course>& courses,
                      const TripMeta& meta) {

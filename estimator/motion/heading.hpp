@@ -12,13 +12,13 @@ namespace macadam {
 
 struct Mounting; // estimator/motion/mounting.hpp
 
-/// How far a car had turned about the vertical at each time, positive to the left, from its gyro.
-/// Empty where the trip has none that can be believed.
+/// Heading change of a car about the vertical over time, positive to the left, from its gyro. Empty
+/// if the trip has no usable gyro.
 ///
-/// Values stand on a grid of step_s. Within a long silence there are none but at its ends, so that
-/// memory goes with what was measured and not with what a clock says.
+/// Values lie on a grid of step_s. A long silence has values only at its ends, so that memory is
+/// proportional to the measurements and not to the clock time.
 struct Heading {
-    /// Values of consecutive steps: those of turned_rad from `first` to before the next run's.
+    /// Values of consecutive steps: those of turned_rad from `first` up to the next run's.
     struct Run {
         std::int64_t first_step; ///< counted from start_s
         std::size_t first;
@@ -27,37 +27,36 @@ struct Heading {
     double start_s = 0;
     double step_s = 0.1;
     std::vector<float> turned_rad; ///< since start_s, run after run
-    std::vector<Run> runs;         ///< in the order of time; at least one where there are values
-    std::vector<TimeSpan> silent;  ///< when turns were not measured, in order, not overlapping
-    double bias_sd_radps = 0;      ///< of what is left of the gyro's bias
+    std::vector<Run> runs;         ///< in order of time; at least one where there are values
+    std::vector<TimeSpan> silent;  ///< times without measured turns, in order, not overlapping
+    double bias_sd_radps = 0;      ///< of the remaining gyro bias
 };
 
-/// The run that holds a step, or the one before the silence that holds it.
+/// Returns the run that contains a step, or the one before the silence that contains it.
 std::vector<Heading::Run>::const_iterator run_at(const Heading& heading, double step);
 
-/// The number of values in a run.
+/// Returns the number of values in a run.
 std::size_t size_of(const Heading& heading, std::vector<Heading::Run>::const_iterator run);
 
-/// The turn since start_s, held before and after; across silences nothing is added.
+/// Returns the turn since start_s, held before and after the data; silences add zero.
 double turned_at(const Heading& heading, double t_s);
 
 struct Turn {
     double rad;    ///< positive to the left
-    double sd_rad; ///< infinite where not all of it was measured
+    double sd_rad; ///< infinite if part of the turn was not measured
 };
 
-/// The turn from one time to a later one.
+/// Returns the turn from one time to a later one.
 Turn turned(const Heading& heading, double from_s, double to_s);
 
-/// Integrates the rate about the vehicle's vertical, less its bias.
+/// Integrates the yaw rate about the vehicle's vertical, less its bias.
 ///
-/// The bias wanders slowly; it is seen where the car stands, and while it drives as the difference
-/// from the receiver's course (failing that the course from place to place) over spans of 20 s and
-/// more. A random walk smoothed forward and backward weighs them.
+/// The bias drifts slowly. It is observed while the car stands, and while it drives as the
+/// difference from the receiver's course (or, without one, the course between positions) over spans
+/// of 20 s and more. A random walk, smoothed forward and backward, weights these observations.
 ///
-/// \returns  nothing if the trip has no gyro, or if it contradicts the course of most spans:
-/// another
-///           unit, another axis, dead.
+/// \returns  an empty heading if the trip has no gyro, or if the gyro contradicts the course of
+///           most spans: wrong unit, wrong axis, or dead.
 Heading make_heading(const TripLog& trip, const Odometer& odometer, const Mounting& mounting);
 
 } // namespace macadam

@@ -15,20 +15,20 @@
 namespace macadam {
 namespace {
 
-constexpr double speed_noise_mps = 0.5; // steps of a coarse sensor, whatever the time between
-constexpr double thin_s = 0.04;         // so shortly no car changes its speed unevenly
-constexpr double border_s = 1e-3;       // a gap begins so soon after the last reading
-constexpr double blind_s = 60;          // longer silences at one speed are not believed
+constexpr double speed_noise_mps = 0.5; // steps of a coarse sensor, at any time interval
+constexpr double thin_s = 0.04;         // no car changes its speed unevenly in this time
+constexpr double border_s = 1e-3;       // from the last reading to the beginning of a gap
+constexpr double blind_s = 60;          // longer silences at a constant speed are not accepted
 
-constexpr double compare_above_mps = 5; // where GNSS speed is good to about 1 %
+constexpr double compare_above_mps = 5; // above this GNSS speed is good to about 1 %
 constexpr std::size_t min_comparisons = 20;
-constexpr double sd_of_scales = 0.03; // tyre wear and pressure, and what a maker adds
+constexpr double sd_of_scales = 0.03; // tyre wear and pressure, and the maker's margin
 constexpr double sd_common = 0.001;   // of GNSS speed itself
 constexpr double max_scale = 1.1;
 constexpr double sd_per_mad = 1.4826; // normal distribution
 constexpr double sd_median_over_mean = 1.2533;
 
-/// A speed at its own time, latency taken off; negative when reversing.
+/// Speed at its own time, latency removed; negative when reversing.
 struct Reading {
     double t_s;
     double speed_mps;
@@ -38,8 +38,8 @@ std::uint8_t code(RowReason reason) {
     return static_cast<std::uint8_t>(reason);
 }
 
-/// Means of the readings within each `thin_s`, so that a fast bus costs no more memory than a slow
-/// one: the distance stays the same. The first and the last reading stay as they are.
+/// Averages the readings within each `thin_s`, so that a fast bus needs no more memory than a slow
+/// one: the distance is preserved. The first and the last reading are unchanged.
 class Thinner {
 public:
     void take(const Reading& reading) {
@@ -79,7 +79,8 @@ private:
     int count_ = 0;
 };
 
-/// The readings that their neighbours bear out; marks the others, if they could be read at all.
+/// Returns the readings that are consistent with their neighbours; marks the others, if they were
+/// readable.
 template <typename At>
 std::vector<Reading> plausible_readings(std::size_t count,
                                         At at,
@@ -115,8 +116,8 @@ wheel_readings(const TripLog& trip, const OdometerConfig& config, RowAudit& use)
 
 struct GnssReadings {
     std::vector<Reading> readings;
-    std::vector<std::size_t> fixes; ///< that have a speed
-    std::vector<std::uint8_t> use;  ///< one each of those
+    std::vector<std::size_t> fixes; ///< fixes with a speed
+    std::vector<std::uint8_t> use;  ///< one entry per such fix
 };
 
 GnssReadings gnss_readings(const TripLog& trip, const OdometerConfig& config) {
@@ -141,8 +142,8 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// What wheel speed must be multiplied by to agree with GNSS: the median of their ratio at speed,
-/// drawn towards 1 by as much as it is uncertain.
+/// Returns the factor that makes wheel speed agree with GNSS: the median of their ratio at speed,
+/// drawn towards 1 according to its uncertainty.
 double scale_between(const Odometer& wheels, const std::vector<Reading>& gnss) {
     std::vector<double> ratios;
     for (const auto& reading : gnss) {
@@ -158,7 +159,7 @@ double scale_between(const Odometer& wheels, const std::vector<Reading>& gnss) {
     const double middle = median(ratios);
     std::vector<double> apart(ratios.size());
     std::ranges::transform(ratios, apart.begin(), [&](double r) { return std::abs(r - middle); });
-    // A receiver's errors within one second are one error.
+    // A receiver's errors within one second are correlated.
     const double independent =
         std::min(static_cast<double>(ratios.size()), gnss.back().t_s - gnss.front().t_s + 1);
     const double sd = std::hypot(
@@ -167,7 +168,7 @@ double scale_between(const Odometer& wheels, const std::vector<Reading>& gnss) {
     return std::clamp(1 + trust * (middle - 1), 2 - max_scale, max_scale);
 }
 
-/// `main`, and in its silences what `other` says.
+/// Fills the silences of `main` with readings of `other`.
 std::vector<Reading>
 filled(const std::vector<Reading>& main, const std::vector<Reading>& other, double max_gap_s) {
     std::vector<Reading> all;
@@ -190,8 +191,8 @@ filled(const std::vector<Reading>& main, const std::vector<Reading>& other, doub
     return all;
 }
 
-/// Readings taken while the log's clock ran on and the car did not (or the other way round) are of
-/// no known time.
+/// Removes readings whose time is unknown because the log's clock ran on while the car stood (or
+/// vice versa).
 std::vector<Reading> without_pauses(std::vector<Reading> readings, const GnssTrack& track) {
     const auto& places = track.places;
     std::erase_if(readings, [&](const Reading& reading) {
@@ -213,7 +214,8 @@ public:
         store(last_.t_s, speed_of(last_));
     }
 
-    /// Goes over a gap of speeds: by the places if there are some on the way, else by the speeds.
+    /// Bridges a gap in the speeds: by the positions within it if there are any, else by the
+    /// speeds.
     void jump(const Reading& reading, const std::optional<Odometer>& places) {
         const double begin_s = last_.t_s;
         const double begin_m = travel_m_;
@@ -241,7 +243,7 @@ public:
 private:
     static double speed_of(const Reading& reading) { return std::abs(reading.speed_mps); }
 
-    /// Never back, not even by what a difference is rounded.
+    /// Never goes back, not even by rounding.
     void travel_to(double travel_m) { travel_m_ = std::max(travel_m_, travel_m); }
 
     void store(double t_s, double speed_mps) {
@@ -282,7 +284,7 @@ Odometer::Knots knots_of(const std::vector<Reading>& readings,
     return maker.finish();
 }
 
-/// At least what the car went: where its speed is not known, as fast as any car.
+/// Returns an upper bound of the travel: where the speed is not known, that of the fastest car.
 Odometer farthest_of(const std::vector<Reading>& readings, const OdometerConfig& config) {
     Odometer::Knots knots;
     double travel_m = 0;
@@ -313,7 +315,7 @@ std::vector<double> pause_ends(const GnssTrack& track) {
     return ends_s;
 }
 
-/// The travel of the pieces that end in, or span, the end of a pause.
+/// Returns the travel of the intervals that end at, or span, the end of a pause.
 std::vector<Odometer::Pause> pauses_in(const Odometer::Knots& knots,
                                        const std::vector<double>& ends_s) {
     std::vector<Odometer::Pause> pauses;
@@ -331,7 +333,7 @@ std::vector<Odometer::Pause> pauses_in(const Odometer::Knots& knots,
     return pauses;
 }
 
-/// A fix was used if its place or its speed was.
+/// Marks the fixes; a fix was used if its position or its speed was.
 void mark_fixes(const GnssTrack& track, const GnssReadings& gnss, bool speeds_used, RowAudit& use) {
     use.fixes = track.use;
     for (std::size_t i = 0; i < gnss.fixes.size(); ++i) {

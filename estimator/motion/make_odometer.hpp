@@ -4,8 +4,9 @@
 
 namespace macadam {
 
-/// The odometer of a trip; marks in `use` the speeds and the fixes (for their speed or place) that
-/// entered it, and the reason for those that did not. `use` must have been made by `unused(trip)`.
+/// Builds the odometer of a trip. In `use`, marks the speeds and the fixes (for their speed or
+/// position) that were used, and the reason for the others. `use` must have been made by
+/// `unused(trip)`.
 ///
 /// \throws InputError  if the trip has neither speeds nor two fixes.
 Odometer make_odometer(const TripLog& trip, const OdometerConfig& config, RowAudit& use);

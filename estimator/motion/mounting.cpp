@@ -20,22 +20,22 @@ using Eigen::Vector3d;
 
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 constexpr double window_s = 1;      // long against vibration, short against braking
-constexpr double steady_mps2 = 0.5; // less is neither braking nor accelerating
+constexpr double steady_mps2 = 0.5; // limit of neither braking nor accelerating
 constexpr double chunk_s = 30;      // hills and bends average out
 constexpr double wander_deg = 8;    // a 10 % grade is 5.7 degrees, camber 1.5
 constexpr double forever_s = std::numeric_limits<double>::infinity();
-constexpr double wander_mps2 = 1;        // ten times what hills and bends leave over half a minute
-constexpr double other_deg = 20;         // the vertical is felt 6 % too weak, and worse beyond
-constexpr double steepest_pull_deg = 25; // 4.6 m/s2, harder than anybody drives for half a minute
-constexpr double brisk_mps2 = 0.5;       // braking that shows which way is forward
+constexpr double wander_mps2 = 1; // ten times the effect of hills and bends over half a minute
+constexpr double other_deg = 20;  // the vertical is measured 6 % too weak, and worse beyond
+constexpr double steepest_pull_deg = 25; // 4.6 m/s2, more than drivers sustain half a minute
+constexpr double brisk_mps2 = 0.5;       // braking that shows the forward direction
 constexpr std::size_t min_brisk = 8;
 
-// Standard gravity within what a scale error of 25 % and a hill explain. Anything else is no
-// gravity: an axis is missing, or it was taken off without a word.
+// Standard gravity within a scale error of 25 % and a hill. Any other value is not gravity: an axis
+// is missing, or gravity was removed without being declared.
 constexpr double min_gravity_mps2 = 7;
 constexpr double max_gravity_mps2 = 13;
 
-/// The mean specific force of about a second, in the sensor's axes, and what the speed did.
+/// Mean specific force of about a second, in the sensor's axes, and the change of speed.
 struct Window {
     double middle_s;
     Vector3d force_mps2;
@@ -78,7 +78,8 @@ Vector3d median(std::vector<Vector3d> values) {
     return result;
 }
 
-/// Mean force while neither braking nor accelerating; of all windows if there are few such.
+/// Returns the mean force while neither braking nor accelerating; of all windows if there are few
+/// such.
 Vector3d steady_force(std::span<const Window> windows) {
     std::vector<Vector3d> steady;
     std::vector<Vector3d> all;
@@ -96,14 +97,15 @@ double angle_deg(const Vector3d& a, const Vector3d& b) {
     return deg_per_rad * std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// The force of about half a minute against that of the whole trip.
+/// Specific force of about half a minute relative to that of the whole trip.
 struct Chunk {
     TimeSpan time;
     double off_deg;
     double off_mps2; ///< positive: stronger
 };
 
-/// A last chunk that is too short to be judged is as the one before it.
+/// Divides the trip into chunks. A last chunk that is too short to be judged is equal to the one
+/// before it.
 std::vector<Chunk> chunks_of(const std::vector<Window>& windows, const Vector3d& gravity) {
     std::vector<Chunk> chunks;
     std::size_t begin = 0;
@@ -112,7 +114,7 @@ std::vector<Chunk> chunks_of(const std::vector<Window>& windows, const Vector3d&
         while (end < windows.size() && windows[end].middle_s - windows[begin].middle_s < chunk_s) {
             ++end;
         }
-        // Chunks share their borders, and the outermost reach to the ends of the trip.
+        // Chunks share their borders, and the outermost extend to the ends of the trip.
         const TimeSpan time{begin == 0 ? -forever_s : windows[begin].middle_s - window_s / 2,
                             end == windows.size() ? forever_s
                                                   : windows[end].middle_s - window_s / 2};
@@ -127,8 +129,9 @@ std::vector<Chunk> chunks_of(const std::vector<Window>& windows, const Vector3d&
     return chunks;
 }
 
-/// Whether braking or a bend tilts what is felt: both add a pull to gravity, which is then felt
-/// stronger, as the hypotenuse. A sensor that hangs otherwise feels the same gravity elsewhere.
+/// Returns true if braking or a bend tilts the specific force: both add a component to gravity, so
+/// that the total is the hypotenuse. A sensor with another orientation measures the same gravity in
+/// another direction.
 bool is_pulled(const Chunk& chunk) {
     const double by_pull_mps2 = standard_gravity_mps2 / std::cos(chunk.off_deg / deg_per_rad);
     return chunk.off_deg < steepest_pull_deg &&
@@ -144,7 +147,7 @@ bool wandered(const std::vector<Chunk>& chunks) {
         chunks, [](const Chunk& chunk) { return hangs_otherwise(chunk, wander_deg); });
 }
 
-/// When the rotation that fits the whole trip does not fit.
+/// Returns the times at which the rotation that fits the whole trip does not fit.
 std::vector<TimeSpan> hung_otherwise(const std::vector<Chunk>& chunks) {
     std::vector<TimeSpan> spans;
     for (const auto& chunk : chunks) {
@@ -164,8 +167,8 @@ Matrix3d rotation_of_rpy(const std::array<double, 3>& rpy_deg) {
         .toRotationMatrix();
 }
 
-/// Mounting angles lead from the device's axes; where the log names no frame they say that it is
-/// the device's.
+/// Returns the frame of the readings. Mounting angles refer to the device's axes: where the log
+/// names no frame, they imply that it is the device's.
 Frame frame_of(const TripMeta& meta) {
     const bool mounted = meta.mount_quat || meta.mount_rpy_deg;
     return mounted && !meta.frame_stated ? Frame::sensor : meta.frame;
@@ -187,8 +190,8 @@ Matrix3d stated_rotation(const TripMeta& meta) {
     return meta.mount_rpy_deg ? rotation_of_rpy(*meta.mount_rpy_deg) : Matrix3d::Identity();
 }
 
-/// The turn about the vertical that puts the felt braking and accelerating on the x axis. Nothing
-/// if the trip did not brake enough.
+/// Returns the rotation about the vertical that aligns braking and accelerating with the x axis;
+/// `std::nullopt` if the trip did not brake enough.
 std::optional<Matrix3d> heading(const std::vector<Window>& windows, const Matrix3d& level) {
     Eigen::Vector2d forward = Eigen::Vector2d::Zero();
     std::size_t brisk = 0;

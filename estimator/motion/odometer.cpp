@@ -8,7 +8,8 @@
 namespace macadam {
 namespace {
 
-/// Speeds at the two ends of a piece, the distance that they make of it, and the one that it has.
+/// Interval between two knots: the speeds at its ends, the distance that they imply, and its actual
+/// length.
 struct Piece {
     double begin_mps;
     double end_mps;
@@ -29,15 +30,15 @@ double speed_way_m(const Piece& piece) {
     return (piece.begin_mps + piece.end_mps) / 2 * piece.length_s;
 }
 
-/// Part of the piece's distance that is done after part `time` of its duration; straight in time
-/// where the speed is not known or nothing moved.
+/// Returns the fraction of the distance covered after the fraction `time` of the duration; linear
+/// in time where the speed is not known or zero.
 double distance_part(const Piece& piece, double time) {
     const double done_m =
         (piece.begin_mps + (piece.end_mps - piece.begin_mps) / 2 * time) * time * piece.length_s;
     return speed_way_m(piece) > 0 ? done_m / speed_way_m(piece) : time;
 }
 
-/// The inverse: the root of a quadratic, in the form that does not cancel.
+/// Inverts distance_part: the root of a quadratic, in the form without cancellation.
 double time_part(const Piece& piece, double distance) {
     if (!(speed_way_m(piece) > 0)) {
         return distance;
@@ -61,7 +62,7 @@ Odometer::Odometer(Knots knots, double scale, std::vector<Pause> pauses)
            std::ranges::is_sorted(knots_.travel_m));
 }
 
-/// The piece that holds a time within the first and the last knot.
+/// Returns the interval that contains a time between the first and the last knot.
 std::size_t Odometer::piece_at(double t_s) const {
     const auto after = std::ranges::upper_bound(knots_.t_s, t_s);
     const auto i = static_cast<std::size_t>(after - knots_.t_s.begin());

@@ -9,19 +9,19 @@
 namespace macadam {
 
 struct OdometerConfig {
-    double max_gap_s = 2.5;     ///< longest silence of speed that is bridged
-    double max_speed_mps = 90;  ///< more is not a car
-    double max_accel_mps2 = 12; ///< of the speed from one reading to the next; more is a fault
+    double max_gap_s = 2.5;     ///< longest gap in the speed that is bridged
+    double max_speed_mps = 90;  ///< upper bound of a plausible car speed
+    double max_accel_mps2 = 12; ///< largest plausible change between consecutive speed readings
 };
 
-/// Travel distance over the time of one trip: the one ruler that roughness and place share.
+/// Distance travelled over the time of one trip: the common reference of roughness and position.
 ///
-/// Wheel speed carries it where there is some, scaled to agree with GNSS over the whole trip;
-/// otherwise GNSS speed, or failing that the way between fixes. Stamps are corrected by the trip's
-/// latencies. Across a gap in the speeds the travel goes on by what the fixes on both sides say.
+/// It integrates wheel speed if available, scaled to agree with GNSS over the whole trip; otherwise
+/// GNSS speed, or without that the distance between fixes. Time stamps are corrected by the trip's
+/// latencies. Gaps in the speeds are bridged by the fixes on both sides.
 class Odometer {
 public:
-    /// Knots of a piecewise linear speed. Sizes agree, t_s rises, travel_m never falls.
+    /// Knots of a piecewise linear speed. Sizes agree, t_s increases, travel_m never decreases.
     struct Knots {
         std::vector<double> t_s;
         std::vector<double> travel_m;
@@ -29,7 +29,7 @@ public:
         std::vector<std::uint8_t> reversing; ///< 1: the wheels turned backward
     };
 
-    /// Travel while the recording was paused and its clock stood: the places jumped.
+    /// Travel while the recording was paused and its clock stopped: the position jumped.
     struct Pause {
         double from_m;
         double to_m;
@@ -37,33 +37,33 @@ public:
 
     explicit Odometer(Knots knots, double scale = 1, std::vector<Pause> pauses = {});
 
-    /// Never falls; held still before the first and after the last knot.
+    /// Never decreases; constant before the first and after the last knot.
     double travel_m(double t_s) const;
 
     /// NaN where not known.
     double speed_mps(double t_s) const;
 
-    /// Whether the wheels turned backward, as far as the log tells.
+    /// Returns true if the wheels turned backward, as far as the log shows.
     bool reversing(double t_s) const;
 
-    /// Time at which the trip had gone so far: the first, if it stood there.
+    /// Returns the time at which this travel was reached; the first, if the car stood there.
     double t_s(double travel_m) const;
 
     double whole_m() const;
     double start_s() const;
     double end_s() const;
 
-    /// By how much wheel speed was multiplied; 1 where it was not compared.
+    /// Returns the factor applied to wheel speed; 1 if it was not compared.
     double scale() const { return scale_; }
 
-    /// The end of the gap of over `longest_unseen_m` within which nothing was recorded and that
-    /// holds all of this travel; from_m if there is none. What goes step by step along the travel
-    /// goes on there, so that its work goes with what was recorded and not with how far places
-    /// lie apart.
+    /// Returns the end of a gap longer than `longest_unseen_m` without recorded data that contains
+    /// all of this travel, or from_m if there is none. Loops that step along the travel continue
+    /// there, so that their cost depends on the recorded data and not on the distance between
+    /// positions.
     double past_gap_m(double from_m, double to_m) const;
     static constexpr double longest_unseen_m = 1000;
 
-    /// In order, not overlapping; the travel over them is straight from place to place.
+    /// In order, not overlapping; the travel over them is the straight distance between positions.
     const std::vector<Pause>& pauses() const { return pauses_; }
 
     const Knots& knots() const { return knots_; }
@@ -76,7 +76,7 @@ private:
     std::vector<Pause> pauses_;
 };
 
-/// Nothing used yet: every sample `unused_channel`.
+/// Returns an audit in which every sample is `unused_channel`.
 RowAudit unused(const TripLog& trip);
 
 } // namespace macadam

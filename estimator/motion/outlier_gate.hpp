@@ -7,23 +7,23 @@
 namespace macadam {
 
 enum class GateDecision : std::uint8_t {
-    dropped,  ///< its neighbours contradict it
-    follows,  ///< from the one kept before it
-    restarts, ///< the world jumped: nothing is known between it and the one kept before it
+    dropped,  ///< contradicted by its neighbours
+    follows,  ///< consistent with the last kept reading
+    restarts, ///< first reading after a jump: its relation to the last kept one is unknown
 };
 
-/// How many that agree among themselves outvote what was believed before.
+/// Number of mutually consistent readings that outvotes the earlier ones.
 inline constexpr std::size_t outvoting = 3;
 
-/// Sorts single faults from true jumps in a row of readings.
+/// Separates single outliers from true jumps in a sequence of readings.
 ///
-/// A reading that cannot follow from the last one kept waits. If `outvoting` readings that wait
-/// follow from each other long enough they are kept, and the first of them restarts; if a later one
-/// follows from the last one kept again, those that waited were faults.
+/// A reading that is inconsistent with the last kept one waits. Once `outvoting` waiting readings
+/// are consistent with each other for long enough, they are kept and the first of them restarts; if
+/// a later reading is consistent with the last kept one, the waiting ones were outliers.
 ///
 /// \param follows      whether reading j can come after reading i < j; false for i = j if the
-///                     reading is worth nothing by itself.
-/// \param long_enough  whether what readings i to j agree on outvotes what was believed before.
+///                     reading is invalid by itself.
+/// \param long_enough  whether the agreement of readings i to j outvotes the last kept one.
 template <typename Follows, typename LongEnough>
 std::vector<GateDecision>
 gate_outliers(std::size_t count, Follows follows, LongEnough long_enough) {

@@ -36,7 +36,7 @@ double median_step_s(const std::vector<double>& t_s) {
 
 void check_rate(const TriaxialSamples& acc, const StretchConfig& config) {
     const double rate_hz = 1 / median_step_s(acc.t_s);
-    // Clocks that are a little slow are not a slower sensor.
+    // Tolerates clocks that are slightly slow.
     if (rate_hz < config.min_rate_hz * 0.99) {
         throw InputError{fmt::format("acceleration was sampled at {:.1f} Hz, expected at least "
                                      "{:g}",
@@ -45,7 +45,8 @@ void check_rate(const TriaxialSamples& acc, const StretchConfig& config) {
     }
 }
 
-/// Why the trip's motion at one time makes no stretch; 0 if it does.
+/// Returns the reason for which the trip's motion at a time does not belong to a stretch; 0 if it
+/// does.
 std::uint8_t unfit(const Odometer& odometer, double t_s, double min_speed_mps) {
     const double speed_mps = odometer.speed_mps(t_s);
     if (std::isnan(speed_mps)) {
@@ -62,7 +63,7 @@ bool is_within(std::span<const TimeSpan> spans, double t_s) {
 
 enum class Axis : int { x = 0, y = 1, z = 2 };
 
-/// Values of one of the vehicle's axes at their own times; samples without a reading are left out.
+/// Values of one of the vehicle's axes at their own times, without samples that lack a reading.
 struct Trace {
     std::vector<double> t_s;
     std::vector<double> value;
@@ -97,7 +98,7 @@ Trace rotated(const TriaxialSamples& samples,
     return trace;
 }
 
-/// Slope of a cubic at a knot: the parabola through it and its neighbours.
+/// Returns the slope of a cubic at a knot: that of the parabola through it and its neighbours.
 double tangent(const Trace& trace, std::size_t i) {
     const auto slope = [&](std::size_t a) {
         return (trace.value[a + 1] - trace.value[a]) / (trace.t_s[a + 1] - trace.t_s[a]);
@@ -111,7 +112,7 @@ double tangent(const Trace& trace, std::size_t i) {
     return (slope(i - 1) * after_s + slope(i) * before_s) / (before_s + after_s);
 }
 
-/// The trace on an even grid, by cubic Hermite pieces between its own stamps.
+/// Interpolates the trace on an even grid by cubic Hermite pieces between its own stamps.
 std::vector<double> on_grid(const Trace& trace, double start_s, double step_s, std::size_t count) {
     std::vector<double> out(count);
     std::size_t piece = 0;
@@ -137,7 +138,7 @@ struct Grid {
 };
 
 Grid grid_of(double from_s, double to_s, double rate_hz) {
-    // A stamp's last digit must not cost the last sample.
+    // Rounding of a time stamp must not cost the last sample.
     const auto steps = static_cast<std::size_t>((to_s - from_s) * rate_hz + 1e-6);
     return {from_s, 1 / rate_hz, steps + 1};
 }
@@ -147,7 +148,7 @@ double own_rate_hz(const TriaxialSamples& samples, const StretchSpan& span) {
            (samples.t_s[span.last] - samples.t_s[span.first]);
 }
 
-/// The trace on the grid, low-passed before if it is finer.
+/// Resamples the trace on the grid, low-passed first if it is finer.
 std::vector<double> evened(Trace trace, const Grid& grid, double own_hz) {
     if (own_hz * grid.step_s > same_rate) {
         const auto fine = grid_of(trace.t_s.front(), trace.t_s.back(), own_hz);
@@ -164,7 +165,7 @@ std::vector<double> evened(Trace trace, const Grid& grid, double own_hz) {
     return on_grid(trace, grid.start_s, grid.step_s, grid.count);
 }
 
-/// One axis of the accelerometer on the grid, less its mean; empty if it was not sampled
+/// Returns one axis of the accelerometer on the grid, less its mean; empty if it was not sampled
 /// throughout.
 std::vector<float> channel(const TripLog& trip,
                            const StretchSpan& span,
@@ -189,11 +190,11 @@ std::vector<float> channel(const TripLog& trip,
 
 struct Rate {
     std::vector<float> values;
-    double noise = 0; ///< standard deviation of one of them that lies beyond what a car does
+    double noise = 0; ///< standard deviation of a sample beyond the motion of a car
 };
 
-/// White noise with the power that a trace has near half its sampling rate, by its fourth
-/// differences: standard deviation of a sample. The middle one counts, so that bumps do not.
+/// Estimates white noise with the power of a trace near half its sampling rate, from its fourth
+/// differences: standard deviation of a sample. The median is used, so that bumps have no effect.
 double noise_floor(const std::vector<double>& values) {
     constexpr double sum_of_squares = 70;  // of the weights 1, -4, 6, -4, 1
     constexpr double sd_over_mad = 1.4826; // normal distribution
@@ -210,8 +211,8 @@ double noise_floor(const std::vector<double>& values) {
     return sd_over_mad * *middle / std::sqrt(sum_of_squares);
 }
 
-/// One axis of the gyroscope on the grid; empty if it was not sampled throughout, as often as the
-/// accelerometer may be at least.
+/// Returns one axis of the gyroscope on the grid; empty if it was not sampled throughout at the
+/// accelerometer's minimum rate.
 Rate rate_channel(const TripLog& trip,
                   const Mounting& mounting,
                   Axis axis,
@@ -245,7 +246,7 @@ Rate rate_channel(const TripLog& trip,
     return {{even.begin(), even.end()}, noise};
 }
 
-/// The rate of the grid of a stretch.
+/// Returns the rate of the grid of a stretch.
 double grid_rate_hz(const TripLog& trip,
                     const StretchSpan& span,
                     const Odometer& odometer,
@@ -314,7 +315,7 @@ std::vector<StretchSpan> find_stretches(const TripLog& trip,
         }
     };
     const double max_gap_s = std::max(config.max_gap_s, config.max_gap_steps * median_step_s(t_s));
-    std::size_t first = 0; // of the stretch that is being followed; it is empty where first == i
+    std::size_t first = 0; // of the current stretch, which is empty if first == i
     for (std::size_t i = 0; i < t_s.size(); ++i) {
         const bool cut = i > first && (t_s[i] - t_s[i - 1] > max_gap_s ||
                                        t_s[i] - t_s[first] > config.longest_s);

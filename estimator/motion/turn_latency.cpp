@@ -10,21 +10,21 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double min_way_m = 5;        // shorter ones have hardly a course
+constexpr double min_way_m = 5;        // shorter chords have no reliable course
 constexpr double longest_way_s = 6;    // the speed within is not known
-constexpr std::size_t neighbours = 25; // on either side: their mean is where the gyro's zero points
-constexpr std::size_t min_ways = 30;   // fewer agree by chance
-constexpr double degrees = 4;          // of freedom: the tails
-constexpr double quartile = 0.741;     // of t with so many
-constexpr double independent = 0.75;   // of the ways, neighbours having a fix in common
+constexpr std::size_t neighbours = 25; // on either side, for the zero direction of the gyro
+constexpr std::size_t min_ways = 30;   // fewer may agree by chance
+constexpr double degrees = 4;          // degrees of freedom of the t distribution
+constexpr double quartile = 0.741;     // of t with these degrees of freedom
+constexpr double independent = 0.75;   // share of the chords, since neighbours have a fix in common
 constexpr double min_spread_m = 0.1;
 
-/// From one fix to another.
+/// Chord from one fix to another.
 struct Way {
-    double from_s; ///< of the stamps
+    double from_s; ///< time stamps
     double to_s;
     Complex to_m;      ///< east and north
-    double gain_per_s; ///< of the speed, as a share of it
+    double gain_per_s; ///< acceleration relative to the speed
 };
 
 std::vector<Way> ways_of(const TripLog& trip) {
@@ -49,10 +49,10 @@ double speed_mps(const Way& way) {
     return std::abs(way.to_m) / (way.to_s - way.from_s);
 }
 
-/// With the speeds' gain, by the way before and the way after: corners are driven braking in and
-/// speeding up out.
+/// Adds the relative acceleration from the previous and the next chord: cars brake into corners and
+/// accelerate out of them.
 std::vector<Way> with_gains(std::vector<Way> ways) {
-    constexpr double most = 1.5; // of the speed, from one end of a way to the other
+    constexpr double most = 1.5; // of the speed, from one end of a chord to the other
     for (std::size_t i = 1; i + 1 < ways.size(); ++i) {
         const auto& before = ways[i - 1];
         const auto& after = ways[i + 1];
@@ -68,7 +68,7 @@ std::vector<Way> with_gains(std::vector<Way> ways) {
     return ways;
 }
 
-/// The direction that the gyro gives, summed over time, so that means over time cost nothing.
+/// Integral over time of the direction given by the gyro, so that any time mean has constant cost.
 class Directions {
 public:
     explicit Directions(const Heading& heading) : heading_{heading} {
@@ -87,7 +87,7 @@ public:
         }
     }
 
-    /// Over a time that was measured, weighed by 1 + gain_per_s (t - middle).
+    /// Returns the sum over a measured time, weighted by 1 + gain_per_s (t - middle).
     Complex sum(double from_s, double to_s, double gain_per_s) const {
         const auto from = at(from_s);
         const auto to = at(to_s);
@@ -103,7 +103,7 @@ private:
     };
 
     Sums at(double t_s) const {
-        // A sample stands for half a step before and after it.
+        // A sample represents half a step before and after it.
         const double steps = (t_s - heading_.start_s) / heading_.step_s + 0.5;
         const auto run = run_at(heading_, steps);
         const auto last = std::min(run->first + size_of(heading_, run), sums_.size() - 1);
@@ -120,7 +120,7 @@ private:
     std::vector<Sums> sums_;
 };
 
-/// Runs of ways one after the other, of which the gyro saw all lags.
+/// Returns sequences of consecutive chords for which the gyro was measured at all lags.
 std::vector<std::vector<Way>>
 seen_runs(const std::vector<Way>& ways, const Heading& heading, double longest_lag_s) {
     std::vector<std::vector<Way>> runs;
@@ -138,12 +138,12 @@ seen_runs(const std::vector<Way>& ways, const Heading& heading, double longest_l
     return runs;
 }
 
-/// How far each way of a run leads aside from what the gyro draws.
+/// Adds the lateral deviation of each chord from the gyro's path.
 void add_asides(std::vector<double>& asides_m,
                 const std::vector<Way>& run,
                 const Directions& directions,
                 double lag_s) {
-    std::vector<Complex> off; // length squared, and the angle from the gyro to the way
+    std::vector<Complex> off; // length squared, and the angle from the gyro to the chord
     std::vector<Complex> sums{0};
     for (const auto& way : run) {
         const auto drawn = directions.sum(way.from_s - lag_s, way.to_s - lag_s, way.gain_per_s);
@@ -166,7 +166,7 @@ double median_size(std::vector<double> values) {
     return *middle;
 }
 
-/// Student's t, its spread such that half of the values lie within the median.
+/// Returns the cost under Student's t, scaled so that half of the values lie within the median.
 double cost_of(const std::vector<double>& values, double median) {
     const double spread = std::max(median / quartile, min_spread_m);
     double sum = 0;

@@ -6,14 +6,14 @@
 
 namespace macadam {
 
-/// What the turns of a trip say of the receiver's latency: -log likelihoods of lags.
+/// Computes -log likelihoods of receiver lags from the turns of a trip.
 ///
-/// The ways from fix to fix are held against the way that the gyro draws, turned by its zero (the
-/// mean of the neighbours) and weighed by how fast the car went: what they differ by across, in
-/// metres, has one spread over the trip and fat tails.
+/// The chords between fixes are compared with the path drawn by the gyro, rotated by its zero
+/// direction (the mean of the neighbours) and weighted by the car's speed. Their lateral
+/// differences in metres have one spread over the trip and heavy tails.
 ///
-/// \param lags_s   of the stamps behind the truth
-/// \returns        one for each lag; all 0 if fewer than 30 ways can be compared
+/// \param lags_s   latencies of the time stamps
+/// \returns        one cost per lag; all 0 if fewer than 30 chords can be compared
 ///
 /// Source: K. L. Lange, R. J. A. Little, J. M. G. Taylor, "Robust statistical modeling using the t
 /// distribution", Journal of the American Statistical Association 84 (1989), pp. 881-896.

@@ -14,10 +14,10 @@ struct Sums {
     double right = 0;
     double centre = 0;
     double speed = 0;
-    double tracks_m = 0; ///< of covered_m, where left and right are known
+    double tracks_m = 0; ///< part of covered_m with known left and right
     double lead_in_m = 0;
     double indicative_m = 0;
-    std::vector<double> scatter; ///< of each road that could have been
+    std::vector<double> scatter; ///< of each sampled road
     double common_sd = 0;
     double random_sd = 0;
 };
@@ -82,7 +82,8 @@ double slow_m(const IriTrace& trace, double from_m, double to_m) {
 }
 
 std::uint8_t validity_of(const Sums& sums, const IriTrace& trace, double from_m, double to_m) {
-    // Rounding of borders to cells, and the tyre's contact at the end of a run, are no reasons.
+    // Rounding of borders to cells, and the tyre's contact at the end of a run, do not count as
+    // reasons.
     constexpr double notable_m = 1;
     const double slow = slow_m(trace, from_m, to_m);
     const double unknown_m = to_m - from_m - sums.covered_m - sums.lead_in_m - slow;
@@ -94,23 +95,24 @@ std::uint8_t validity_of(const Sums& sums, const IriTrace& trace, double from_m,
     return static_cast<std::uint8_t>(flags);
 }
 
-// Relative error that differs from one 20 m to the next: what falls between the two axles of a car
-// is lost to a model with one (simulated two-axle cars, docs/method/estimation.md).
+// Relative error that varies from one 20 m to the next: a one-axle model does not represent the
+// wavelengths that cancel between the two axles of a car (simulated two-axle cars,
+// docs/method/estimation.md).
 constexpr double random_part = 0.20;
 constexpr double random_length_m = 20;
-// Dry friction, tyre non-uniformity and sensor noise add to every road alike, mm/m: what the
-// paper's table of field results leaves on smooth roads.
+// Dry friction, tyre non-uniformity and sensor noise add the same mm/m to every road: the residual
+// on smooth roads in the paper's table of field results.
 constexpr double floor_mm_per_m = 0.20;
 
-// The same for lateral vibration alone, which does not see what both tracks share: twice the floor
-// of the vertical method, and a ratio of the two that differs from road to road.
+// Values for lateral acceleration alone, which does not observe the mean of the tracks: twice the
+// floor of the vertical method, and a ratio of the two that varies from road to road.
 constexpr double lateral_random_part = 0.25;
 constexpr double lateral_common_part = 0.24;
 constexpr double lateral_floor_mm_per_m = 0.40;
 
-// The published 13 Hz low-pass takes off more the faster the car goes: -11 % at 80 and -25 % at
-// 105 km/h of simulated one-axle cars, nothing at 50 (docs/method/estimation.md). Not corrected, so
-// it counts.
+// The published 13 Hz low-pass attenuates more at higher speed: -11 % at 80 and -25 % at 105 km/h
+// for simulated one-axle cars, 0 at 50 (docs/method/estimation.md). This is not corrected and
+// counts as error.
 constexpr double filter_free_mps = 50 / 3.6;
 constexpr double filter_part_per_mps = 0.0163;
 
@@ -120,8 +122,8 @@ struct Sensitivity {
     double iri_per_unit;
 };
 
-// Simulated: mass +20 % reads -15 %, damping +-20 % +-9 %, tyre +20 % +3 to +19 %; the gain
-// divides. The others were varied the same way over the quarter car's own response.
+// Simulated: mass +20 % gives -15 %, damping +-20 % gives +-9 %, tyre +20 % gives +3 to +19 %; the
+// gain divides. The others were varied in the same way in the quarter car's own response.
 constexpr Sensitivity sensitivities[] = {{"gain", -1.0},
                                          {"ms_kg", -0.75},
                                          {"cs_ns_per_m", 0.45},
@@ -140,7 +142,7 @@ double vehicle_part(const Vehicle& vehicle) {
     return std::sqrt(sum);
 }
 
-/// By the scatter of the roads that could have been, and by what they do not show.
+/// Combines the scatter of the sampled roads with the errors that they do not contain.
 double sd_of_smoother_mm_per_m(double iri_mm_per_m, const Sums& sums) {
     double square = 0;
     for (const double sum : sums.scatter) {
@@ -159,7 +161,7 @@ double sd_of_kf_mm_per_m(double iri_mm_per_m,
                          double speed_mps,
                          bool lateral_only,
                          const Vehicle& vehicle) {
-    const double min_m = 1; // shorter pieces are not more uncertain than one bump
+    const double min_m = 1; // shorter intervals are not more uncertain than one bump
     const double part = lateral_only ? lateral_random_part : random_part;
     const double random = part * std::sqrt(random_length_m / std::max(length_m, min_m));
     const double filter = filter_part_per_mps * std::max(0.0, speed_mps - filter_free_mps);
@@ -184,7 +186,8 @@ IriMean mean_over(const IriTrace& trace, double from_m, double to_m, const Vehic
     }
     mean.speed_mps = sums.speed / sums.covered_m;
     mean.hri_mm_per_m = sums.centre / sums.covered_m;
-    // One channel throughout a trip: a piece either has both tracks everywhere or nowhere.
+    // The channels are constant throughout a trip: an interval has both tracks everywhere or
+    // nowhere.
     if (sums.tracks_m >= sums.covered_m / 2) {
         mean.left_mm_per_m = sums.left / sums.tracks_m;
         mean.right_mm_per_m = sums.right / sums.tracks_m;
@@ -192,7 +195,7 @@ IriMean mean_over(const IriTrace& trace, double from_m, double to_m, const Vehic
     }
     const double headline = mean.mri_mm_per_m.value_or(*mean.hri_mm_per_m);
     mean.sd_mm_per_m =
-        sums.scatter.empty() || !vehicle.axles // what one axle loses is not in the scatter
+        sums.scatter.empty() || !vehicle.axles // the scatter excludes the error of one axle
             ? sd_of_kf_mm_per_m(
                   headline, sums.covered_m, mean.speed_mps, sums.indicative_m > 0, vehicle)
             : sd_of_smoother_mm_per_m(headline, sums);

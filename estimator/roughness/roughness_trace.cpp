@@ -13,8 +13,8 @@
 namespace macadam {
 namespace {
 
-// The paper's corners (sections VI-A and VI-B). It does not tell orders: fourth-order low-pass,
-// second-order high-pass, both run forward and backward.
+// Corner frequencies of the paper (sections VI-A and VI-B). It does not state orders; used here:
+// fourth-order low-pass and second-order high-pass, both run forward and backward.
 constexpr double vertical_lowpass_hz = 13;
 constexpr double lateral_lowpass_hz = 11;
 constexpr double lateral_highpass_hz = 0.5;
@@ -22,9 +22,9 @@ constexpr int lowpass_order = 4;
 constexpr int highpass_order = 2;
 constexpr double settle_periods = 3; // of a filter's corner: the reflection covers its ringing
 
-constexpr double grid_m = 0.05; // the tyre's 250 mm are five steps of it exactly
+constexpr double grid_m = 0.05; // the tyre's 250 mm are exactly five steps
 
-/// Elevations of one track at rising travel; as many tracks as the method gives.
+/// Elevations of the method's tracks at increasing travel.
 struct Profiles {
     std::vector<double> travel_m;
     std::vector<std::vector<double>> tracks_m;
@@ -38,7 +38,7 @@ std::vector<double> passed(const std::vector<Section>& sections,
         sections, signal, static_cast<std::size_t>(settle_periods * rate_hz / corner_hz));
 }
 
-/// The channel in the model's units: filtered as the paper does, its gain taken off.
+/// Converts the channel to the model's units: filtered as in the paper and divided by the gain.
 std::vector<double> vertical_input(const Stretch& stretch, double gain, bool filters) {
     std::vector<double> signal(stretch.vertical_mps2.begin(), stretch.vertical_mps2.end());
     std::ranges::for_each(signal, [=](double& y) { y /= gain; });
@@ -72,10 +72,10 @@ std::vector<double> lateral_input(const Stretch& stretch, double gain, bool filt
                   rate_hz);
 }
 
-/// Whether bends show in the lateral acceleration. They come with gravity's share and the pull of
-/// the turn, which the lateral half-car takes for a road of decimetres: on simulated streets its
-/// IRI was three times the truth. Bends are slow and road roll is quick: on a recorded straight
-/// highway the power below 1 Hz was 0.06 to 0.1 of that above.
+/// Returns true if the lateral acceleration contains bends. They contribute gravity and centripetal
+/// acceleration, which the lateral half-car interprets as a road of decimetres: on simulated
+/// streets its IRI was three times the truth. Bends are slow and road roll is fast: on a recorded
+/// straight highway the power below 1 Hz was 0.06 to 0.1 of that above.
 bool shows_bends(const Stretch& stretch) {
     constexpr double slow_hz = 1;
     const double rate_hz = 1 / stretch.step_s;
@@ -115,8 +115,8 @@ Channels choose(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     return config.channels;
 }
 
-/// The filter's inputs, one track each. The estimate at sample k holds since the sample before it,
-/// so it stands for the road in the middle between the two; the first has no such road.
+/// Returns the filter's inputs by track. The estimate at sample k holds from the previous sample,
+/// so it represents the road midway between the two; the first sample has no such road.
 template <int States, int Inputs, int Outputs>
 Profiles run(const LinearSystem<States, Inputs, Outputs>& system,
              const std::array<std::vector<double>, Outputs>& measured,
@@ -160,7 +160,7 @@ Profiles profiles_of(const Stretch& stretch,
                                      {std::move(lateral)},
                                      stretch,
                                      config.q_over_r);
-        profiles.tracks_m.pop_back(); // the other one is its mirror image
+        profiles.tracks_m.pop_back(); // the other track is its mirror image
         return profiles;
     }
     auto profiles = run<8, 2, 2>(
@@ -175,7 +175,7 @@ Profiles profiles_of(const Stretch& stretch,
     return profiles;
 }
 
-/// Straight lines through (x, y) at start + i * step. x rises.
+/// Interpolates (x, y) linearly at start + i * step. x increases.
 template <typename Values>
 std::vector<double> resampled(
     const std::vector<double>& x, const Values& y, double start, double step, std::size_t count) {
@@ -207,7 +207,7 @@ cell_means(const std::vector<float>& values, std::size_t per_cell, double factor
     return means;
 }
 
-/// Tracks as left, right and their mean, or the mean alone.
+/// Returns the tracks as left, right and their mean, or the mean alone.
 EstimatedProfile profile_of(std::vector<std::vector<float>> tracks_m, double start_travel_m) {
     EstimatedProfile profile{.start_travel_m = start_travel_m, .step_m = grid_m};
     profile.centre_m = std::move(tracks_m.back());
@@ -218,7 +218,7 @@ EstimatedProfile profile_of(std::vector<std::vector<float>> tracks_m, double sta
     return profile;
 }
 
-/// How far ahead of the centre of gravity the one axle of the models stands.
+/// Returns the distance from the centre of gravity forward to the single axle of the models.
 double axle_ahead_m(const Vehicle& vehicle) {
     return vehicle.axles ? vehicle.axles->cg_to_front_m - vehicle.axles->wheelbase_m / 2 : 0;
 }

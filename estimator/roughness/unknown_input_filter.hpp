@@ -6,27 +6,28 @@
 
 namespace macadam {
 
-/// The paper's Kalman filter for an unknown input: the road under a car, from what the car felt.
+/// Kalman filter for an unknown input, as in the paper: estimates the road under a car from the
+/// car's response.
 ///
 /// The input is white noise of covariance q * I beside measurement noise of covariance I, and the
 /// state x[k] is estimated; the input that best explains the step from x[k|k] to x[k+1|k+1] is
 /// u[k|k+1] = q G^T P[k+1|k]^-1 (x[k+1|k+1] - F x[k|k]). Since the step is K e with K = P H^T S^-1,
-/// this is q (H G)^T S^-1 e: nothing of the state's size is inverted, and P may be singular.
+/// this is q (H G)^T S^-1 e: no matrix of the state's size is inverted, and P may be singular.
 ///
-/// The covariance does not depend on what is measured. It is carried on until it and the gain have
-/// settled, and then left alone.
+/// The covariance does not depend on the measurements. It is propagated until it and the gain have
+/// settled, and is constant from then on.
 template <int States, int Inputs, int Outputs>
 class UnknownInputFilter {
 public:
     using Input = Eigen::Vector<double, Inputs>;
     using Output = Eigen::Vector<double, Outputs>;
 
-    /// \param system    in steps, as `discretise` gives it.
-    /// \param q_over_r  how much more the road is trusted to move than the sensor to err.
+    /// \param system    discrete, as returned by `discretise`.
+    /// \param q_over_r  ratio of the variance of the road to that of the sensor noise.
     UnknownInputFilter(const LinearSystem<States, Inputs, Outputs>& system, double q_over_r)
         : system_{system}, q_{q_over_r} {}
 
-    /// The input that was held until this measurement, since the one before it.
+    /// Returns the input held from the previous measurement until this one.
     Input push(const Output& measured) {
         if (!settled_) {
             update_gain();
@@ -43,14 +44,15 @@ private:
     using State = Eigen::Vector<double, States>;
     using Square = Eigen::Matrix<double, States, States>;
 
-    // Below these changes in a step what is left of the gain's way is about 1e-6 of it: the slowest
-    // part, drift, takes some 1e5 steps. The gain alone is no sign: it can stand still before the
-    // covariance has learned to forget drift.
+    // Below these changes per step, the remaining relative error of the gain is about 1e-6: the
+    // slowest mode, drift, takes some 1e5 steps. The gain alone is not sufficient: it can stand
+    // still before the covariance has forgotten the drift.
     static constexpr double settled_gain = 1e-11;
     static constexpr double settled_covariance = 1e-7;
 
-    // Of the state at first, beside a measurement noise of 1: nothing is known of it. Begun at rest
-    // the filter would be the plain inverse of the car, which in steps of 20 ms is not stable.
+    // Variance of the initial state, beside a measurement noise of 1: the state is unknown. Started
+    // at rest, the filter would be the plain inverse of the car, which is unstable in steps of 20
+    // ms.
     static constexpr double unknown = 1e4;
 
     void update_gain() {
@@ -61,7 +63,7 @@ private:
         const auto solver = s.llt();
         const Eigen::Matrix<double, States, Outputs> gain = solver.solve(h * predicted).transpose();
         input_gain_ = q_ * solver.solve(h * g).transpose();
-        // Joseph's form: with q / r of 1e9 the short form loses the covariance's sign.
+        // Joseph form: with q / r of 1e9 the short form loses the covariance's sign.
         const Square rest = Square::Identity() - gain * h;
         const Square before = covariance_;
         covariance_ = rest * predicted * rest.transpose() + gain * gain.transpose();

@@ -11,8 +11,8 @@ namespace macadam {
 
 namespace {
 
-// Friction is smooth: f * v / sqrt(v^2 + slip^2). A slip that is too small for the wheel's mass
-// would shake in steps of 2 ms.
+// Friction is smooth: f * v / sqrt(v^2 + slip^2). A slip speed too small for the wheel's mass would
+// oscillate in steps of 2 ms.
 constexpr double min_slip_mps = 0.005;
 constexpr double max_friction_rate_hz = 600; // f / (slip * mass)
 constexpr double max_damping_rate_hz = 300;
@@ -79,7 +79,7 @@ CarModel car_model(const CarRecipe& recipe) {
     const Axles& axles = *recipe.vehicle.axles;
     const double a = axles.cg_to_front_m;
     const double b = axles.wheelbase_m - a;
-    const double front = 2 / (1 + axles.rear_ratio); // front and rear keep their mean
+    const double front = 2 / (1 + axles.rear_ratio); // the mean of front and rear is preserved
     const double rear = axles.rear_ratio * front;
     const double front_load_n = half.ms_kg / 2 * b / (a + b) * standard_gravity_mps2;
     const double rear_load_n = half.ms_kg / 2 * a / (a + b) * standard_gravity_mps2;
@@ -116,7 +116,7 @@ Coordinates accelerations(const CarModel& car, const CarState& state, const CarI
     const PerWheel wheel{w0, w1, w2, w3};
     const PerWheel wheel_rate{r0, r1, r2, r3};
 
-    PerWheel stroke; // of the suspension, positive as it is pressed together
+    PerWheel stroke; // of the suspension, positive in compression
     PerWheel force;  // up on the body, down on the wheel
     for (std::size_t i = 0; i < 4; ++i) {
         stroke[i] = wheel[i] - (heave + car.left_m[i] * roll - car.ahead_m[i] * pitch);
@@ -136,7 +136,7 @@ Coordinates accelerations(const CarModel& car, const CarState& state, const CarI
     force[2] += rear_bar_n;
     force[3] -= rear_bar_n;
 
-    // The body leans out of a turn and dips as it brakes, and its weight then leans with it.
+    // The body rolls out of a turn and dips under braking, and its weight then adds to the moment.
     const double weight_n_per_rad = car.mass_kg * standard_gravity_mps2;
     double pitch_nm =
         car.pitch_arm_m * (weight_n_per_rad * pitch - car.mass_kg * input.forward_mps2);
@@ -145,7 +145,7 @@ Coordinates accelerations(const CarModel& car, const CarState& state, const CarI
     for (std::size_t i = 0; i < 4; ++i) {
         pitch_nm -= car.ahead_m[i] * force[i];
         roll_nm += car.left_m[i] * force[i];
-        const double tyre_n = // a tyre presses but does not pull
+        const double tyre_n = // a tyre pushes but does not pull
             std::max(car.kt_n_per_m * (input.wheel_m[i] - wheel[i]), -car.static_load_n[i]);
         acceleration[3 + i] = (tyre_n - force[i]) / car.wheel_kg;
     }

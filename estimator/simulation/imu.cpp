@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-constexpr double min_interval = 0.1; // of the usual one, between two stamps
+constexpr double min_interval = 0.1; // of the nominal one, between two stamps
 
 void refuse(const char* what, double value, double low, double high) {
     if (!(value >= low && value <= high)) {
@@ -36,7 +36,7 @@ void check(const ImuRecipe& imu) {
     }
 }
 
-/// Sensor from vehicle: the transpose of Rz(yaw) Ry(pitch) Rx(roll).
+/// Returns the rotation from vehicle to sensor: the transpose of Rz(yaw) Ry(pitch) Rx(roll).
 Matrix to_sensor(const std::array<double, 3>& rpy_deg) {
     const auto sine = [&](std::size_t i) { return exact::sin(rpy_deg[i] * pi / 180); };
     const auto cosine = [&](std::size_t i) { return exact::cos(rpy_deg[i] * pi / 180); };
@@ -68,7 +68,7 @@ Felt felt_at(const ImuMount& place,
     const double yaw_rate = motion.yaw_rate_radps;
     const double yaw_acc = motion.yaw_acc_radps2;
 
-    // In axes that turn with the car but stay level.
+    // In axes that turn with the car but remain level.
     const double ahead =
         motion.acc_mps2 + h * acceleration[1] - y * yaw_acc - x * yaw_rate * yaw_rate;
     const double left =
@@ -83,8 +83,8 @@ Felt felt_at(const ImuMount& place,
             yaw_rate - roll * pitch_rate + pitch * roll_rate};
 }
 
-/// A Butterworth filter in sections by the bilinear transform, the corner prewarped
-/// (A. V. Oppenheim, R. W. Schafer, "Discrete-Time Signal Processing", section 7.2).
+/// Designs a Butterworth filter in sections by the bilinear transform with prewarping (A. V.
+/// Oppenheim, R. W. Schafer, "Discrete-Time Signal Processing", section 7.2).
 std::vector<Imu::Section> Imu::lowpass(int order, double corner_hz, double step_s) {
     std::vector<Section> sections;
     if (corner_hz == 0) {

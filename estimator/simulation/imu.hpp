@@ -9,28 +9,27 @@
 
 namespace macadam {
 
-/// How the car moves along at one time.
+/// Planar motion of the car at one time.
 struct MotionNow {
     double travel_m, speed_mps, acc_mps2, yaw_rate_radps, yaw_acc_radps2;
 };
 
-/// Specific force (x forward, y left, z up) and rates of turn of a place that is fixed in the body.
+/// Specific force (x forward, y left, z up) and rates of turn at a point fixed in the body.
 using Felt = std::array<double, 6>;
 
-/// Rigid-body kinematics at the sensor's place, for small angles of pitch and roll.
+/// Computes rigid-body kinematics at the sensor's position, for small angles of pitch and roll.
 Felt felt_at(const ImuMount& place,
              const CarState& state,
              const Coordinates& acceleration,
              const MotionNow& motion);
 
-/// A sensor as it is bolted in: it is shown what is felt at every step of the simulation and reads
-/// it when asked.
+/// Simulated inertial sensor: `show` is called at every simulation step, `read` takes a sample.
 class Imu {
 public:
-    /// \throws InputError if a number of the recipe is out of its range.
+    /// \throws InputError  if a parameter of the recipe is out of its range.
     Imu(const ImuRecipe& recipe, double step_s, std::uint64_t seed);
 
-    void show(const Felt& felt); ///< turns into the sensor's axes and low-passes
+    void show(const Felt& felt); ///< rotates to the sensor's axes and low-passes
     void read(double t_s, ImuReadings& into);
 
 private:

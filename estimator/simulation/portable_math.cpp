@@ -18,7 +18,7 @@ constexpr double ln2_2 = 0x1.473de6afp-34;
 constexpr double ln2_3 = 0x1.3c7673007e5edp-69;
 constexpr double pi = 0x1.921fb54442d18p+1;
 
-/// |x| <= pi/4: the first term left out is below 1e-19 of the result.
+/// x| <= pi/4: the first omitted term is below 1e-19 of the result.
 double sin_series(double x) {
     const double x2 = x * x;
     double sum = 0;
@@ -37,7 +37,7 @@ double cos_series(double x) {
     return 1 - x2 / 2 * (1 + sum);
 }
 
-/// The sine of radians + quarters * pi/2.
+/// Returns the sine of radians + quarters * pi/2.
 double sine(double radians, int quarters) {
     const double turns = std::floor(radians / half_pi_1 + 0.5);
     const double x = ((radians - turns * half_pi_1) - turns * half_pi_2) - turns * half_pi_3;
@@ -56,7 +56,7 @@ double atan_series(double t) {
     return t - t * sum;
 }
 
-/// 0 <= t <= 1, from the nearest quarter
+/// 0 <= t <= 1, from the nearest quarter.
 double atan_of_fraction(double t) {
     constexpr double atan_of_quarters[] = {
         0, 0.24497866312686414, 0.4636476090008061, 0.6435011087932844, 0.7853981633974483};

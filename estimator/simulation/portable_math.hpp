@@ -1,9 +1,9 @@
 #pragma once
 
-/// Elementary functions that are the same on every machine, to the last bit: + - * / and sqrt only,
-/// which IEEE 754 fixes. Those of the C library choose other instructions on other processors.
-/// About 1e-15 relative. What is compiled from a formula must not be contracted to fused
-/// operations either (-ffp-contract=off).
+/// Elementary functions with bit-identical results on every machine: they use only + - * / and
+/// sqrt, which IEEE 754 fixes. The C library selects different instructions on different
+/// processors. Relative error about 1e-15. Code compiled from a formula must not be contracted to
+/// fused operations either (-ffp-contract=off).
 namespace macadam::exact {
 
 double sin(double radians);     ///< |radians| <= 1e5

@@ -9,7 +9,7 @@ namespace macadam {
 
 namespace {
 
-/// The output function of splitmix64, a bijection of 64 bits that leaves no pattern.
+/// Output function of splitmix64, a bijection of 64 bits that leaves no pattern.
 std::uint64_t mixed(std::uint64_t z) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
@@ -56,7 +56,7 @@ double Random::uniform(double low, double high) {
 }
 
 std::uint64_t Random::below(std::uint64_t bound) {
-    const std::uint64_t uneven = (0 - bound) % bound; // 2^64 mod bound: these would come too often
+    const std::uint64_t uneven = (0 - bound) % bound; // 2^64 mod bound: smaller ones bias it
     std::uint64_t number = bits();
     while (number < uneven) {
         number = bits();

@@ -15,7 +15,7 @@ namespace {
 constexpr double patch_edge_m = 0.1;
 constexpr double clear_of_ends_m = 1; // lanes join there
 
-/// Adds height_m(at, lateral) to the surface between two stations; at counts from from_m.
+/// Adds height_m(at, lateral) to the surface between two stations; `at` counts from from_m.
 void add(RoadSurface& surface,
          double from_m,
          double length_m,
@@ -32,7 +32,7 @@ void add(RoadSurface& surface,
     }
 }
 
-/// Height that leans from track to track, standard deviation 1 at the wheel paths.
+/// Height that varies linearly from track to track, standard deviation 1 at the wheel paths.
 struct Lean {
     double middle;
     double per_m;
@@ -48,7 +48,8 @@ Lean draw_lean(Random& random) {
 void add_slabs(RoadSurface& surface, const RoadRecipe& recipe, Random& random) {
     const double spacing_m = recipe.joint_spacing_m;
     const double size_m = recipe.joint_step_mm / 1000;
-    // Whole slabs only: they begin with their step and end level, so the lane's ends stay at 0.
+    // Only whole slabs are placed: they begin with their step and end level, so the lane's ends
+    // stay at 0.
     for (double from_m = random.uniform() * spacing_m; from_m + spacing_m < surface.length_m();
          from_m += spacing_m) {
         const Lean fault = draw_lean(random);
@@ -61,7 +62,8 @@ void add_slabs(RoadSurface& surface, const RoadRecipe& recipe, Random& random) {
     }
 }
 
-/// As many as an even rate brings on this length: the whole part and a draw for the rest.
+/// Returns the number of events at a constant rate over this length: the integer part and a draw
+/// for the fraction.
 int draw_count(double per_km, double length_m, Random& random) {
     return static_cast<int>(std::floor(per_km * length_m / 1000 + random.uniform()));
 }

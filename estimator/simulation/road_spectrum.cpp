@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double longest_wave_m = 200; // longer ones have half the power and less
+constexpr double longest_wave_m = 200; // longer waves have at most half the power
 constexpr double bent_from_per_m = 0.005;
 constexpr double bent_to_per_m = 5;
 
@@ -30,7 +30,7 @@ double power(double a, double cos_w) {
     return 1 - 2 * a * cos_w + a * a;
 }
 
-/// Power gain of the golden car from road slope to stroke per metre.
+/// Returns the power gain of the golden car from road slope to stroke per metre.
 double golden_power(double waves_per_m) {
     const double w = 2 * pi * waves_per_m * golden_speed_mps;
     const double w2 = w * w;
@@ -64,7 +64,7 @@ GoldenState stepped(const GoldenState& z, double slope, double dt_s) {
 
 constexpr double trial_step_m = 0.05;
 
-/// Stroke per metre behind a shape of some length and height 1 m.
+/// Returns the stroke per metre over and after a shape of given length and height 1 m.
 std::vector<double> trial(double length_m, const std::function<double(double)>& height) {
     constexpr double before_m = 1;
     constexpr double after_m = 50; // 2.2 s: the golden car is at rest again
@@ -85,8 +85,9 @@ double energy_m(const std::vector<double>& stroke) {
     return sum * trial_step_m;
 }
 
-/// What a rare event adds to the mean stroke of a road of stroke sd `sd`, in metres of road: the
-/// mean magnitude of a normal number that is shifted by s is about sqrt(s^2 + 2/pi sd^2).
+/// Returns the contribution of a rare event to the mean stroke of a road of stroke sd `sd`, in
+/// metres of road: the mean magnitude of a normal number shifted by s is about sqrt(s^2 + 2/pi
+/// sd^2).
 double added_m(const std::vector<double>& stroke, double size, double sd) {
     double sum = 0;
     const double square = 2 / pi * sd * sd;
@@ -97,7 +98,7 @@ double added_m(const std::vector<double>& stroke, double size, double sd) {
     return sum * trial_step_m;
 }
 
-/// What patches and potholes, each on its own, add to a road.
+/// Contributions of single patches and potholes to the stroke of a road.
 struct Events {
     std::vector<double> patch_stroke, pothole_stroke;
     double patches_per_m, potholes_per_m; ///< in one wheel path
@@ -129,7 +130,8 @@ Events events_of(const RoadRecipe& recipe) {
     return events;
 }
 
-/// Variance of the stroke that slabs bring: independent draws, so their energies add.
+/// Returns the variance of the stroke due to slabs: their draws are independent, so their energies
+/// add.
 double slab_variance(const RoadRecipe& recipe) {
     if (recipe.joint_spacing_m <= 0) {
         return 0;
@@ -141,7 +143,7 @@ double slab_variance(const RoadRecipe& recipe) {
     return size_m * size_m * energy / l;
 }
 
-/// The argument between 0 and `most` at which a rising function reaches `aim`.
+/// Solves for the argument between 0 and `most` at which an increasing function equals `aim`.
 double solved(const std::function<double(double)>& rising, double aim, double most) {
     double low = 0;
     double high = most;
@@ -154,13 +156,13 @@ double solved(const std::function<double(double)>& rising, double aim, double mo
 
 } // namespace
 
-/// A. Oustaloup et al., "Frequency-band complex noninteger differentiator: characterization and
-/// synthesis", IEEE Transactions on Circuits and Systems I 47 (2000), pp. 25-39.
+/// Source: A. Oustaloup et al., "Frequency-band complex noninteger differentiator: characterization
+/// and synthesis", IEEE Transactions on Circuits and Systems I 47 (2000), pp. 25-39.
 RoadFilter road_filter(double waviness, double step_m) {
     RoadFilter filter{};
     filter.step_m = step_m;
     filter.leak = exact::exp(-2 * pi * step_m / longest_wave_m);
-    const double steepness = (waviness - 2) / 2; // of amplitude
+    const double steepness = (waviness - 2) / 2; // of the amplitude
     const double ratio = exact::pow(bent_to_per_m / bent_from_per_m, 1.0 / RoadFilter::pair_count);
     for (int i = 0; i < RoadFilter::pair_count; ++i) {
         const auto at = [&](double shift) {
@@ -191,7 +193,7 @@ double golden_stroke_sd(const RoadFilter& filter) {
     double n = from_per_m;
     for (int i = 0; i <= points; ++i) {
         const double slope = 2 * exact::sin(pi * n * contact_patch_m) / contact_patch_m;
-        const double weight = i == 0 || i == points ? 0.5 : 1; // trapezoids over log n
+        const double weight = i == 0 || i == points ? 0.5 : 1; // trapezoidal rule over log n
         sum += weight * n * density_m3(filter, n) * slope * slope * golden_power(n);
         n *= ratio;
     }

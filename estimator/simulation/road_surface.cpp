@@ -24,11 +24,11 @@ constexpr double min_length_m = 0.1;
 constexpr double max_length_m = 200'000;
 constexpr double across_m = 0.25;      // between lines
 constexpr int lines_a_side = 5;        // wheels run up to 1.25 m from the middle
-constexpr double alike_across_m = 0.4; // of what is not common: exp(-(d / 0.4)^2 / 2)
-constexpr double settling_m = 30;      // the filters' start
+constexpr double alike_across_m = 0.4; // of the independent part: exp(-(d / 0.4)^2 / 2)
+constexpr double settling_m = 30;      // start-up of the filters
 constexpr double level_step_m = 1;     // of the roughness level
-constexpr double end_m = 100;          // over which the way to elevation 0 at an end is spread
-constexpr double end_slope_m = 5;      // over which the slope at an end is taken
+constexpr double end_m = 100;          // over which the transition to elevation 0 at an end extends
+constexpr double end_slope_m = 5;      // over which the slope at an end is measured
 
 constexpr std::size_t line_count = 2 * lines_a_side + 1;
 constexpr std::size_t stream_count = line_count + 1; // the first is common to all lines
@@ -58,7 +58,7 @@ void check(const RoadRecipe& recipe, double length_m) {
     refuse("potholes_per_km", recipe.potholes_per_km, 0, 200);
 }
 
-/// The level of roughness, mean 1: the exponential of white noise through two equal low-passes.
+/// Level of roughness with mean 1: the exponential of white noise through two equal low-passes.
 class Level {
 public:
     Level(const RoadRecipe& recipe, double step_m, std::uint64_t seed)
@@ -102,8 +102,8 @@ private:
     double part_ = 0;
 };
 
-/// Weights over independent neighbours that make lines alike over alike_across_m; their squares
-/// add up to 1.
+/// Returns weights over independent neighbours that correlate lines over alike_across_m; their
+/// squares sum to 1.
 std::array<double, tap_count> taps() {
     std::array<double, tap_count> weight{};
     double square = 0;
@@ -118,8 +118,8 @@ std::array<double, tap_count> taps() {
     return weight;
 }
 
-/// White noise of variance 1 in every stream; what it is drawn from does not matter, as hundreds
-/// of draws add up to an elevation.
+/// Draws white noise of variance 1 for every stream. Its distribution does not matter, since
+/// hundreds of draws add up to an elevation.
 Streams draw(Random& random, const std::array<double, tap_count>& weight) {
     const double spread = std::sqrt(12.0);
     std::array<double, line_count + tap_count - 1> own{};
@@ -136,8 +136,8 @@ Streams draw(Random& random, const std::array<double, tap_count>& weight) {
     return streams;
 }
 
-/// Noise to elevations: the road filter in every stream, then the long waves of the common one and
-/// the short waves of the lines' own, whose powers add up to one.
+/// Converts noise to elevations: the road filter in every stream, then the long waves of the common
+/// stream and the short waves of the lines' own, whose powers sum to one.
 class Shaper {
 public:
     Shaper(const RoadFilter& filter, double coherency_length_m) : filter_{filter} {
@@ -226,14 +226,15 @@ RoadSurface random_surface(const RoadRecipe& recipe, double length_m, std::uint6
     return surface;
 }
 
-/// A smooth way from an elevation and a slope (over the way's length) to 0 without slope; t from 0
-/// to 1.
+/// Returns a smooth transition from an elevation and a slope (over its length) to 0 without slope;
+/// t from 0 to 1.
 double way_to_zero(double elevation, double slope, double t) {
     const double rest = 1 - t;
     return rest * rest * (elevation * (1 + 2 * t) + slope * t);
 }
 
-/// The line less smooth ways from its ends to 0: waves shorter than the lane or 100 m stay.
+/// Subtracts smooth transitions from the line's ends to 0: waves shorter than the lane or 100 m
+/// remain.
 std::vector<float> with_ends_at_zero(std::vector<float> line, double step_m) {
     const std::size_t last = line.size() - 1;
     const double length_m = static_cast<double>(last) * step_m;
@@ -260,7 +261,7 @@ struct Cubic {
     std::array<double, 4> weight;
 };
 
-/// Catmull and Rom's cubic through evenly spaced lines.
+/// Returns the Catmull-Rom cubic through evenly spaced lines.
 Cubic cubic_across(const RoadSurface& surface, double lateral_m) {
     const auto& lines = surface.line_lateral_m;
     const auto last = static_cast<double>(lines.size() - 1);

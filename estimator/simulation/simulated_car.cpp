@@ -16,7 +16,7 @@ namespace {
 
 constexpr double slowest_steps_hz = 500; // error of accelerations at 2 ms: 0.03 to 0.13 %
 constexpr double steps_a_corner = 8;     // of the sensor's low-pass
-constexpr double settling_s = 5;         // the car comes to rest on its springs
+constexpr double settling_s = 5;         // the car settles on its springs
 constexpr double fastest_mps = 100;
 
 void check(const Motion& motion) {
@@ -48,8 +48,8 @@ double even_steps_hz(const ImuRecipe& imu) {
     return std::ceil(min_hz / imu.rate_hz) * imu.rate_hz;
 }
 
-/// The motion at any time: travel by a cubic that has the speeds given, the others by lines. Before
-/// the beginning the car moves as it does there.
+/// Interpolates the motion at any time: travel by a cubic with the given speeds, the others
+/// linearly. Before the beginning the initial motion continues.
 MotionNow motion_at(const Motion& motion, double t_s) {
     if (t_s < 0) {
         return {motion.travel_m[0] + t_s * motion.speed_mps[0],
@@ -92,7 +92,7 @@ CarInput input_at(const CarModel& car,
     return input;
 }
 
-/// At rest on whatever the wheels stand on.
+/// Returns the state at rest on the wheels' elevations.
 CarState standing(const CarModel& car, const CarInput& input) {
     const PerWheel& w = input.wheel_m;
     const double front_m = (w[0] + w[1]) / 2;

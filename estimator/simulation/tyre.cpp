@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double radius_spread = 0.003; // of wheels on one car: about a millimetre of wear
-constexpr double turns_ahead = 1000;    // so that a little travel before the start is positive
+constexpr double turns_ahead = 1000;    // keeps a little travel before the start positive
 
 void check(const RoadUnderWheels& road, double contact_m) {
     if (road.left_m.size() != road.right_m.size() || road.left_m.size() < 2 || !(road.step_m > 0)) {
@@ -31,7 +31,7 @@ void check(const RoadUnderWheels& road, double contact_m) {
     }
 }
 
-/// Mean over contact_m around each station of the straight lines between stations.
+/// Averages the straight lines between stations over contact_m around each station.
 std::vector<float>
 smoothed(const std::vector<float>& elevation_m, double step_m, double contact_m) {
     const double half = contact_m / 2 / step_m; // in stations
@@ -80,7 +80,7 @@ EnvelopedRoad::Heights EnvelopedRoad::at(double station_m) const {
     const double place = std::min(std::max(station_m * per_m_, 0.0), last_);
     const auto base = static_cast<std::size_t>(place);
     const double t = place - static_cast<double>(base);
-    // Catmull and Rom's cubic.
+    // Catmull-Rom cubic.
     const double weight[] = {t * (-0.5 + t * (1 - 0.5 * t)),
                              1 + t * t * (-2.5 + 1.5 * t),
                              t * (0.5 + t * (2 - 1.5 * t)),

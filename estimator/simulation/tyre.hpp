@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// The road as tyres feel it, smoothed over their contact, with a cubic between stations. Beyond
-/// its ends it is level.
+/// Road smoothed over the contact of the tyres, with a cubic between stations. It is level beyond
+/// its ends.
 class EnvelopedRoad {
 public:
     EnvelopedRoad(const RoadUnderWheels& road, double contact_m);
@@ -26,17 +26,17 @@ private:
 
     double per_m_;
     double last_;
-    std::vector<Station> station_; ///< one more in front, two more behind
+    std::vector<Station> station_; ///< one extra in front, two behind
 };
 
-/// How far the wheels are from round: a height over the turn of each, that would press the tyre
-/// with the recipe's forces at one and two cycles a turn. Each wheel has its phases, and turns a
-/// little faster or slower than the others, as worn tyres do.
+/// Non-uniformity of the wheels: a height over the turn of each that exerts the recipe's forces on
+/// the tyre at one and two cycles per turn. Each wheel has its own phases and turns slightly faster
+/// or slower than the others, as worn tyres do.
 class TyreNonUniformity {
 public:
     TyreNonUniformity(const CarRecipe& car, Random& random);
 
-    /// Of one wheel whose axle has rolled travel_m, from -1000 m on.
+    /// Returns the height of one wheel whose axle has rolled travel_m, from -1000 m on.
     double at(std::size_t wheel, double travel_m) const;
 
 private:

@@ -4,7 +4,7 @@
 
 namespace macadam {
 
-/// Mean over a window of so many values, nearly a Gaussian's: three boxes in turn.
+/// Smooths values by three successive box filters, nearly a Gaussian window of this many values.
 std::vector<double> windowed(std::vector<double> values, double window);
 
 } // namespace macadam

@@ -13,29 +13,30 @@ namespace {
 
 constexpr double relative_step = 0.03; // of a finite difference
 constexpr double usual_mass_kg = 1400;
-constexpr double friction_step_n = 20; // of the search, for a car of usual_mass_kg
-constexpr double max_friction_n = 120; // beyond, a suspension is stuck
+constexpr double friction_step_n = 20; // search step, for a car of usual_mass_kg
+constexpr double max_friction_n = 120; // above this a suspension is stuck
 constexpr double min_friction_sd_n = 5;
-constexpr double furthest = 1.5; // from what is stated, in prior standard deviations
-constexpr double trust = 0.25;   // in the likelihood: what no linear car explains has its say
+constexpr double furthest = 1.5; // from the stated values, in prior standard deviations
+constexpr double trust = 0.25;   // weight of the likelihood, which ignores the model error
 constexpr int steps = 2;
 
-// Of the road's colour: waviness 1.6 to 2.6 asks for -0.3 to 0.6 (docs/method/smoother.md).
+// Prior of the road's colour: waviness 1.6 to 2.6 corresponds to -0.3 to 0.6
+// (docs/method/smoother.md).
 constexpr double colour_sd = 0.4;
 constexpr double colour_step = 0.1;
 constexpr double min_colour = -0.3;
 constexpr double max_colour = 0.8;
 constexpr int first_rounds = 8; // from an even road
-constexpr int more_rounds = 3;  // from the level that was found
+constexpr int more_rounds = 3;  // from the previous level
 
-/// What is tuned: a car, and the colour of the road under it.
+/// Parameters of the tuning: a car, and the colour of the road under it.
 struct Point {
     Vehicle vehicle;
     double friction_n = 0;
     double colour = 0;
 };
 
-/// A number that may be moved from 0, where it is what is stated or usual.
+/// Unknown that is moved from 0, its stated or usual value.
 struct Unknown {
     void (*move)(Point&, double by);
     double prior_sd;
@@ -52,7 +53,7 @@ void colour_by(Point& point, double by) {
     point.colour = std::clamp(point.colour + by, min_colour, max_colour);
 }
 
-/// Car parameters that the vehicle calls uncertain.
+/// Returns the parameters that the vehicle declares uncertain.
 Unknowns of_car(const Vehicle& vehicle) {
     constexpr std::pair<const char*, void (*)(Point&, double)> parameters[] = {
         {"cs_ns_per_m", times_exp<&HalfCar::cs_ns_per_m>},
@@ -99,8 +100,8 @@ double mean_stroke(const RoadEstimate& estimate) {
     return sum;
 }
 
-/// The likelihood about a point: its gradient and information, and how the IRI goes with the
-/// unknowns (relative).
+/// Local behaviour of the likelihood: its gradient and information, and the relative change of IRI
+/// with the unknowns.
 struct Slope {
     Eigen::VectorXd gradient;
     Eigen::MatrixXd information;
@@ -122,7 +123,8 @@ Slope slope_at(const RoadEstimate& here,
         const double step = unknowns[static_cast<std::size_t>(i)].step;
         const Eigen::Map<const Eigen::VectorXd> e2{other.innovation.data(), samples};
         const Eigen::Map<const Eigen::VectorXd> v2{other.log_variance.data(), samples};
-        // Innovations are over their own sd: what moves them is taken at the sd of here.
+        // Innovations are relative to their own sd: the changed ones are converted to the sd of the
+        // reference.
         by_mean.col(i) = (e2.array() * ((v2 - v).array() / 2).exp() - e.array()) / step;
         by_spread.col(i) = (v2 - v) / step;
         slope.gradient[i] = -(e.array() * by_mean.col(i).array()).sum() -
@@ -133,7 +135,7 @@ Slope slope_at(const RoadEstimate& here,
     return slope;
 }
 
-/// Friction by the likelihood at even steps, and a parabola through the highest.
+/// Friction from the likelihood at even steps, with a parabola through the maximum.
 struct Friction {
     double force_n;
     double sd_n;
@@ -143,7 +145,7 @@ struct Friction {
 Friction friction_of(const DriveRecord& passage, Point point, const SmootherConfig& config) {
     const double size = point.vehicle.half_car.ms_kg / usual_mass_kg;
     const double step_n = friction_step_n * size;
-    std::vector<RoadEstimate> at; // each from an even road, so that none is favoured
+    std::vector<RoadEstimate> at; // each from an even road, to treat all alike
     const auto likelihood = [&](std::size_t i) { return at[i].log_likelihood; };
     while (at.size() < 3 || (likelihood(at.size() - 1) > likelihood(at.size() - 2) &&
                              static_cast<double>(at.size()) * step_n < max_friction_n * size)) {
@@ -161,7 +163,7 @@ Friction friction_of(const DriveRecord& passage, Point point, const SmootherConf
             .iri_per_n = (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n)};
 }
 
-/// The likelihood about a point: the same road with one unknown after the other moved.
+/// Differentiates the likelihood about a point: the same road with one unknown moved at a time.
 Slope slope_about(const DriveRecord& passage,
                   const Point& at,
                   const Unknowns& unknowns,
@@ -173,15 +175,15 @@ Slope slope_about(const DriveRecord& passage,
         unknown.move(there, unknown.step);
         beside.push_back(run(passage, there, config, more_rounds, &here));
     }
-    // The point itself after as many rounds, so that only the unknowns differ.
+    // The reference point gets the same number of rounds, so that only the unknowns differ.
     here = run(passage, at, config, more_rounds, &here);
     return slope_at(here, beside, unknowns);
 }
 
-/// Where the likelihood is highest, by Gauss-Newton from where nothing is moved.
+/// Maximum of the posterior, by Gauss-Newton from the stated values.
 struct Peak {
     Eigen::VectorXd by;
-    double iri_sd; ///< relative, of what stays unknown
+    double iri_sd; ///< relative; remaining uncertainty
 };
 
 Peak peak_about(const DriveRecord& passage,

@@ -7,13 +7,13 @@
 namespace macadam {
 namespace {
 
-constexpr double harder = 1.06;    // from one car to the next: the nearest is within 3 %
+constexpr double harder = 1.06;    // ratio of successive cars: the nearest is within 3 %
 constexpr std::size_t cars = 24;   // up to 3.8 times the damping
-constexpr double slip_mps = 0.005; // below it friction only begins
+constexpr double slip_mps = 0.005; // friction is partial below it
 constexpr double reach_m = 25;
-constexpr double min_rate2 = 1e-6; // (1 mm/s)^2: below, nothing moves that friction could hold
+constexpr double min_rate2 = 1e-6; // (1 mm/s)^2: below it the suspension is at rest
 
-/// How fast the four suspensions are pressed together.
+/// Returns the compression rates of the four suspensions.
 std::array<double, 4> stroke_rates(const CarState& x, const LinearCar& car, double l_m) {
     const double front = x[5] - x[1] + car.front_m * x[3];
     const double rear = x[7] - x[1] + car.rear_m * x[3];

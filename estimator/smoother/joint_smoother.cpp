@@ -9,12 +9,12 @@
 namespace macadam {
 namespace {
 
-constexpr double even_slope_m = 2e-6; // IRI 2: what the first round starts from
+constexpr double even_slope_m = 2e-6; // IRI 2: starting point of the first round
 
-constexpr double envelope_m = 0.25; // ASTM E1926: what the golden car's profile is averaged over
-constexpr double contact_m = 0.12;  // what a passenger car's tyre has averaged already
+constexpr double envelope_m = 0.25; // ASTM E1926: moving average of the golden car's profile
+constexpr double contact_m = 0.12;  // part already averaged by a passenger car's tyre
 
-/// Strokes of one road on its cells.
+/// Strokes of one road by cell.
 struct Strokes {
     std::vector<float> left, right, centre;
 };
@@ -27,8 +27,8 @@ std::vector<Pair> sum_of(const std::vector<Pair>& a, const std::vector<Pair>& b,
     return sum;
 }
 
-/// A box laid over the line between stations, by its effect to second order in wavelength: at 1.25
-/// m it is within 1 %.
+/// Smooths the line between stations by a box, to second order in wavelength: at 1.25 m the error
+/// is within 1 %.
 std::vector<double> smoothed(const std::vector<double>& elevation_m, double cell_m) {
     const double beside =
         (envelope_m * envelope_m - contact_m * contact_m) / (24 * cell_m * cell_m);
@@ -72,7 +72,7 @@ std::vector<float> per_metre(const std::vector<float>& cells, std::size_t cells_
     return metres;
 }
 
-/// Means of the roads' strokes, and what each road adds to them.
+/// Computes the means of the roads' strokes and the deviation of each road from them.
 void finish(RoadEstimate& estimate, std::size_t roads) {
     for (auto* values :
          {&estimate.left_mm_per_m, &estimate.right_mm_per_m, &estimate.centre_mm_per_m}) {
@@ -93,7 +93,7 @@ void finish(RoadEstimate& estimate, std::size_t roads) {
     }
 }
 
-/// The roads of a round that counts.
+/// Adds the roads of a round after settling.
 void add_roads(RoadEstimate& estimate, const std::vector<std::vector<Pair>>& roads_m) {
     const double cell_m = estimate.grid.cell_m;
     const auto cells_a_metre = static_cast<std::size_t>(std::lround(1 / cell_m));
@@ -110,7 +110,7 @@ void add_roads(RoadEstimate& estimate, const std::vector<std::vector<Pair>>& roa
     }
 }
 
-/// Before the first round; as an earlier estimate left it, if there is one.
+/// Initialises the estimate before the first round, from an earlier estimate if there is one.
 RoadEstimate begun(std::span<const DriveRecord> passages,
                    const SmootherConfig& config,
                    const RoadEstimate* begin) {

@@ -12,9 +12,9 @@ namespace macadam {
 namespace {
 
 constexpr double max_raised = 3;
-constexpr double beside_s = 2; // mirrored at both ends, so that they do not meet
+constexpr double beside_s = 2; // mirrored at both ends, to separate them
 
-/// The analogue filter: poles on a circle.
+/// Frequency response of the analogue filter: poles on a circle.
 std::complex<double> butterworth(double hz, double corner_hz, int order) {
     std::complex<double> below{1, 0};
     for (int k = 0; k < order; ++k) {
@@ -24,7 +24,7 @@ std::complex<double> butterworth(double hz, double corner_hz, int order) {
     return 1.0 / below;
 }
 
-/// Mirrored about its ends' values, then level up to a power of two.
+/// Mirrors the signal about its end values and pads it to a power of two.
 std::vector<double> padded(const std::vector<double>& values, std::size_t beside) {
     std::vector<double> out;
     out.reserve(std::bit_ceil(values.size() + 2 * beside));
@@ -66,7 +66,7 @@ inverse_lowpass(const std::vector<double>& values, double step_s, double corner_
         const auto passed = butterworth(static_cast<double>(i) * step_hz, corner_hz, order);
         waves[i] *= std::min(1.0, max_raised * std::abs(passed)) / passed;
     }
-    // Half the rate has one sign only, which half a turn of phase would spoil.
+    // The component at half the rate must remain real, so its phase is not shifted.
     waves.back() = std::abs(waves.back()) * (waves.back().real() < 0 ? -1.0 : 1.0);
     fourier.inv(signal, waves, static_cast<Eigen::Index>(signal.size()));
     return {signal.begin() + static_cast<std::ptrdiff_t>(beside),

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double window_s = 10;
 constexpr double damping = 0.7;       // of a round, in the logarithm
-constexpr double stated_weight = 0.3; // of what was stated, in readings of which all is known
+constexpr double stated_weight = 0.3; // weight of the stated variance, in fully determined readings
 constexpr double min_factor = 0.8;
 constexpr double max_factor = 400;
 

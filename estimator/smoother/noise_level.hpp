@@ -4,12 +4,12 @@
 
 namespace macadam {
 
-/// What the variances of a passage's channels are to be multiplied by, per sample; empty: 1.
+/// Factors for the variances of a passage's channels, per sample; empty: 1.
 using NoiseFactors = std::array<std::vector<double>, channel_count>;
 
-/// The factors after a round under them: the variances at which what is left of the readings over
-/// some seconds is as large as they say, as MacKay's for the road. Sensors that are better or worse
-/// than their data sheet, mounts that shake and what a linear car cannot follow show there.
+/// Updates the factors after a round: the residuals of the readings over some seconds are made
+/// consistent with their variances, as in MacKay's method for the road. This accounts for sensors
+/// better or worse than their data sheet, vibrating mounts and effects beyond a linear car.
 ///
 /// \param residual  of the passage, smoothed with its variances times `factors`
 NoiseFactors

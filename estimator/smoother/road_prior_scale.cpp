@@ -10,21 +10,21 @@ namespace {
 
 using Vector = std::vector<double>;
 
-constexpr double level_window_m = 100; // roughness changes over that, and 400 increments tell it
-constexpr double share_window_m = 400; // the share that is seen depends on speed and noise only
-constexpr double min_share = 0.02;     // what the draw's scatter may not go below
+constexpr double level_window_m = 100; // length scale of roughness; 400 increments suffice
+constexpr double share_window_m = 400; // the determined share depends on speed and noise only
+constexpr double min_share = 0.02;     // lower limit against the scatter of the draw
 constexpr double level_damping = 0.7;  // of a round, in the logarithm
 constexpr double tail_damping = 0.6;
 constexpr double cross_damping = 0.5;
 constexpr double max_cross = 0.9;      // correlation of mean and half difference
 constexpr int rounds_before_cross = 2; // the two variances settle first
 constexpr double tail_freedom = 1;     // degrees of freedom of the increments' distribution
-constexpr double tail_weight = 0.7;    // of a station and its two neighbours, each
+constexpr double tail_weight = 0.7;    // for a station and its two neighbours, each
 constexpr double min_tail = 1e-3;
-constexpr double min_variance_m2 = 1e-12; // a micrometre from station to station
+constexpr double min_variance_m2 = 1e-12; // a micrometre between stations
 
-// Half difference over mean, variances of increments, where only one of them is felt: it makes HRI
-// 0.9 of MRI. On measured profiles that is 0.86 to 0.96.
+// Ratio of half difference to mean, variances of increments, if only one of them is observed: it
+// gives an HRI of 0.9 MRI. Measured profiles have 0.86 to 0.96.
 constexpr double half_of_mean = 0.3;
 
 double square(double x) {
@@ -35,7 +35,7 @@ double damped(double old, double now, double damping) {
     return std::exp((1 - damping) * std::log(old) + damping * std::log(now));
 }
 
-/// Factors of one side after increments of `seen` times their level.
+/// Updates the factors of one side, given increments of `seen` times their level.
 void raise_tails(const Vector& seen, double Pair::*side, std::vector<Pair>& tail) {
     for (std::size_t i = 0; i < seen.size(); ++i) {
         const std::size_t from = i - std::min<std::size_t>(i, 1);
@@ -56,10 +56,10 @@ Increment times(const Increment& level, const Pair& tail) {
             level.cross * std::sqrt(tail.mean * tail.half)};
 }
 
-/// What a round sees of the increments, in units of the factors.
+/// Moments of the increments in a round, in units of the factors.
 struct Moments {
     Vector mean, half, cross;
-    Vector mean_share, half_share; ///< which the data determine
+    Vector mean_share, half_share; ///< share determined by the data
 };
 
 Moments moments_of(const RoadLevel& level, const SmoothedRoad& road, double cell_m) {
@@ -85,7 +85,7 @@ Moments moments_of(const RoadLevel& level, const SmoothedRoad& road, double cell
     return m;
 }
 
-/// The level of one station after a round.
+/// Returns the level of one station after a round.
 Increment
 level_after(const Increment& old, const Moments& m, std::size_t i, ObservedModes felt, bool cross) {
     const double mean_share = std::clamp(m.mean_share[i], min_share, 1.0);

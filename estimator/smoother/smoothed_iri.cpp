@@ -13,11 +13,11 @@ namespace {
 constexpr std::size_t tuning_samples = 3000;
 constexpr std::size_t min_tuning_samples = 1200;
 
-constexpr double iri_per_parameter = 0.6; // relative, of a parameter off by so much: 0.45 to 0.75
-constexpr double untuned_sd = 0.1; // relative, of a car of which too little was seen to tune it
+constexpr double iri_per_parameter = 0.6; // relative, per relative parameter error: 0.45 to 0.75
+constexpr double untuned_sd = 0.1;        // relative, of a car with too few data for tuning
 
-// Of every IRI alike, what simulated cars leave: of a car that is known, and of one whose friction
-// had to be found, among dampers, bars and bushes that no vehicle file tells
+// Error common to every IRI, from simulated cars: with known friction, and with estimated friction,
+// including dampers, bars and bushes that a vehicle file does not describe
 // (docs/method/smoother.md).
 constexpr double known_car_part = 0.02;
 constexpr double found_car_part = 0.04;
@@ -33,7 +33,7 @@ bool is_felt(const DriveRecord& passage) {
     return std::ranges::any_of(passage.felt, [](const auto& felt) { return !felt.empty(); });
 }
 
-/// The cells [from, to) of an estimate, on the grid's own count, put behind what is there.
+/// Appends the cells [from, to) of an estimate, counted on the grid.
 void append(const std::vector<float>& cells,
             const RoadGrid& grid,
             std::ptrdiff_t from,
@@ -64,8 +64,8 @@ void append(const std::vector<std::vector<float>>& metres,
     }
 }
 
-/// Stations [from, to) of an estimate behind what is there. Each piece has its own zero, so it is
-/// set down where the one before it ended.
+/// Appends the stations [from, to) of an estimate. Each piece has its own zero, so it is shifted to
+/// continue the previous one.
 void append(const RoadEstimate& estimate,
             std::ptrdiff_t from,
             std::ptrdiff_t to,
@@ -91,7 +91,7 @@ void append(const RoadEstimate& estimate,
     }
 }
 
-/// The rectified strokes of cells [from, to), and the headline's scatter.
+/// Appends the rectified strokes of cells [from, to), and the headline's scatter.
 void append(const RoadEstimate& estimate, std::ptrdiff_t from, std::ptrdiff_t to, IriRun& onto) {
     if (estimate.felt.half && estimate.felt.mean) {
         append(estimate.left_mm_per_m, estimate.grid, from, to, onto.left_mm_per_m);
@@ -121,7 +121,7 @@ double common_sd_of(const TunedCar& car, bool indicative) {
         known ? known_car_part : found_car_part, car.iri_sd, indicative ? indicative_common : 0);
 }
 
-/// Where both axles have been, in whole metres.
+/// Returns the cells that both axles have passed, in whole metres.
 std::pair<std::ptrdiff_t, std::ptrdiff_t> cells_under(const DriveRecord& passage, double cell_m) {
     const auto& car = passage.cars.front().car;
     const auto cells_a_metre = static_cast<std::ptrdiff_t>(std::lround(1 / cell_m));
@@ -131,7 +131,7 @@ std::pair<std::ptrdiff_t, std::ptrdiff_t> cells_under(const DriveRecord& passage
             static_cast<std::ptrdiff_t>(last_m) * cells_a_metre};
 }
 
-/// Cells [from, to) of a run, and the samples [first, last) by which they are smoothed.
+/// Cells [from, to) of a run, and the samples [first, last) used to smooth them.
 struct Piece {
     std::ptrdiff_t from, to;
     std::size_t first, last;

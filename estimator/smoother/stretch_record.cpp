@@ -11,21 +11,22 @@
 namespace macadam {
 namespace {
 
-// Of the channels' zeros, variance a second: gravity's share on hills and in bends, what the yaw
-// rate does not explain of a bend's pull, drift of the gyroscope.
+// Variance per second of the channels' zero drift: gravity on hills and in bends, centripetal
+// acceleration that the yaw rate does not explain, and gyroscope drift.
 constexpr std::array<double, channel_count> zero_drift{1e-4, 1e-2, 1e-6, 1e-6};
 constexpr double lateral_drift_without_yaw = 1;
 
 constexpr double usual_height_m = 0.3; // of an IMU above the roll axis
 
-// What linear cars leave of the readings beside sensor noise, over their rms within some seconds.
+// Error of linear cars beside sensor noise, relative to the rms of the readings within some
+// seconds.
 constexpr double model_part = 0.02;
 constexpr double model_window_s = 4;
 
-constexpr double bend_part = 0.3; // of a bend's pull: where the sensor sits, and how it hangs
+constexpr double bend_part = 0.3; // of centripetal acceleration: sensor position and orientation
 constexpr double bend_window_s = 4;
 
-constexpr double slope_window_s = 0.4; // of the speed: brakes bite within that
+constexpr double slope_window_s = 0.4; // of the speed: brake response time
 
 std::vector<double> doubles(const std::vector<float>& values, double over) {
     std::vector<double> out(values.size());
@@ -34,7 +35,7 @@ std::vector<double> doubles(const std::vector<float>& values, double over) {
     return out;
 }
 
-/// Sensor noise and what the model leaves of a channel, per sample.
+/// Returns the variance per sample of sensor noise and model error of a channel.
 std::vector<double> variance_of(const std::vector<double>& felt, double noise, double step_s) {
     const auto reach = static_cast<std::size_t>(model_window_s / 2 / step_s);
     std::vector<double> sums(felt.size() + 1);
@@ -51,7 +52,7 @@ std::vector<double> variance_of(const std::vector<double>& felt, double noise, d
     return variance;
 }
 
-/// Acceleration along the road, by the slope of the speed over a part of a second.
+/// Computes longitudinal acceleration from the slope of the speed over a fraction of a second.
 std::vector<double> acceleration_mps2(const Stretch& stretch) {
     const std::size_t n = stretch.speed_mps.size();
     const auto reach = static_cast<std::size_t>(slope_window_s / 2 / stretch.step_s);
@@ -65,7 +66,8 @@ std::vector<double> acceleration_mps2(const Stretch& stretch) {
     return slope;
 }
 
-/// What leans on the car: braking where pitch was felt, bends where anything rolls.
+/// Adds the known inputs to the body: braking if pitch was sampled, cornering if any roll channel
+/// was.
 void add_pulls(DriveRecord& passage, const Stretch& stretch, bool yaw) {
     if (!passage.felt[3].empty()) {
         passage.pull[0] = acceleration_mps2(stretch);
@@ -78,7 +80,7 @@ void add_pulls(DriveRecord& passage, const Stretch& stretch, bool yaw) {
     }
 }
 
-/// What is left of a bend's pull in the lateral channel, to be counted as noise there.
+/// Adds the residual of centripetal acceleration in the lateral channel to its noise.
 void add_bends(std::vector<double>& variance, const Stretch& stretch) {
     std::vector<double> pull2(variance.size());
     for (std::size_t k = 0; k < pull2.size(); ++k) {
@@ -91,9 +93,9 @@ void add_bends(std::vector<double>& variance, const Stretch& stretch) {
     }
 }
 
-/// What of the stretch serves the estimate. Pitch and roll of a car whose axles are not stated
-/// cannot be told from what shakes the sensor, and a lateral acceleration without a roll rate
-/// beside it says too little of short waves.
+/// Returns the channels of the stretch that serve the estimate. If the axles of a car are not
+/// stated, its pitch and roll cannot be distinguished from sensor vibration, and a lateral
+/// acceleration without a roll rate contains too little about short waves.
 SensorSet
 sensors_for(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
     switch (config.channels) {
@@ -108,7 +110,7 @@ sensors_for(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfi
     }
     if (config.sensors) {
         SensorSet named = *config.sensors;
-        named.pitch = named.pitch && vehicle.axles; // a car on one axle does not pitch
+        named.pitch = named.pitch && vehicle.axles; // a one-axle car does not pitch
         return named;
     }
     const bool rolls = config.tracks && vehicle.axles && !stretch.roll_radps.empty();
@@ -120,7 +122,7 @@ sensors_for(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfi
             .yaw = true};
 }
 
-/// Lateral acceleration without the pull of bends, if the yaw rate tells it.
+/// Returns lateral acceleration without centripetal acceleration, if the yaw rate is known.
 std::vector<double> lateral_of(const Stretch& stretch, double gain, bool yaw) {
     auto lateral = doubles(stretch.lateral_mps2, gain);
     for (std::size_t k = 0; k < lateral.size() && yaw; ++k) {
@@ -129,7 +131,7 @@ std::vector<double> lateral_of(const Stretch& stretch, double gain, bool yaw) {
     return lateral;
 }
 
-/// Sensor noise and what the model leaves, of every channel.
+/// Returns the variances of sensor noise and model error for every channel.
 std::array<std::vector<double>, channel_count>
 variances_of(const DriveRecord& passage, const Stretch& stretch, const ImuMount& imu, double gain) {
     const double noise[] = {imu.noise_mps2 / gain,

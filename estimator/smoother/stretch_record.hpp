@@ -5,17 +5,16 @@
 
 namespace macadam {
 
-/// A whole stretch as a passage, without cars: the channels that the method is to have of those
-/// that were sampled, gain and the pull of bends taken off, what leans on the body, and the
-/// variance of what the linear car does not explain. Where the wheels are not round their line is
-/// taken out.
+/// Converts a whole stretch to a passage without cars: the sampled channels that the method uses,
+/// with gain and centripetal acceleration removed, the known inputs to the body, and the variance
+/// that the linear car does not explain. The line of out-of-round wheels is removed.
 DriveRecord
 passage_of(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config);
 
-/// Samples [from, to) of a passage.
+/// Returns samples [from, to) of a passage.
 DriveRecord piece_of(const DriveRecord& whole, std::size_t from, std::size_t to);
 
-/// The vehicle, with the usual height of its sensor above the roll axis where none is known.
+/// Returns the vehicle, with the usual height of its sensor above the roll axis if it is not known.
 Vehicle with_height(Vehicle vehicle);
 
 } // namespace macadam

@@ -14,13 +14,13 @@ using Complex = std::complex<double>;
 
 constexpr double min_turn_m = 1.6; // radius 0.25 m, a small car's
 constexpr double max_turn_m = 2.5; // radius 0.40 m, a van's
-constexpr double piece_m = 200;    // wheels of 0.3 % other radius drift by a third of a turn
+constexpr double piece_m = 200;    // wheels with 0.3 % radius difference drift by a third of a turn
 constexpr std::size_t min_pieces = 4;
-constexpr std::size_t max_pieces = 24; // enough to tell; the rest of a long trip is not looked at
+constexpr std::size_t max_pieces = 24; // sufficient; the rest of a long trip is ignored
 constexpr double memory_m = 60;        // of the line's amplitude and phase, to either side
-constexpr int neighbours = 12;         // frequencies on each side that tell what the road has there
+constexpr int neighbours = 12;         // on each side, as a reference for the road's spectrum
 
-/// What a channel has at a frequency in distance, from one sample to another.
+/// Returns the Fourier component of a channel at a frequency in distance, between two samples.
 Complex line_at(const DriveRecord& passage,
                 const std::vector<double>& felt,
                 std::size_t from,
@@ -35,7 +35,7 @@ Complex line_at(const DriveRecord& passage,
     return sum;
 }
 
-/// Samples at which pieces of piece_m begin and end.
+/// Returns the samples at which pieces of piece_m begin and end.
 std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const DriveRecord& passage) {
     std::vector<std::pair<std::size_t, std::size_t>> pieces;
     std::size_t from = 0;
@@ -61,8 +61,8 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// What all channels have at `count` frequencies from lowest * step on, over what is usual. Each
-/// piece counts alike, however rough.
+/// Returns the power of all channels at `count` frequencies from lowest * step, relative to the
+/// usual. All pieces have equal weight, however rough.
 std::vector<double> power_at(const DriveRecord& passage,
                              const std::vector<std::pair<std::size_t, std::size_t>>& pieces,
                              std::size_t lowest,
@@ -88,8 +88,8 @@ std::vector<double> power_at(const DriveRecord& passage,
     return power;
 }
 
-/// The slowly changing part of `felt` that turns with the frequency: amplitude and phase over
-/// memory_m to either side.
+/// Extracts the slowly changing part of `felt` at the frequency: amplitude and phase over memory_m
+/// to either side.
 std::vector<double>
 line_of(const DriveRecord& passage, const std::vector<double>& felt, double turns_per_m) {
     const std::size_t n = felt.size();
@@ -103,7 +103,7 @@ line_of(const DriveRecord& passage, const std::vector<double>& felt, double turn
     std::vector<double> weight(n);
     Complex running = 0;
     double running_m = 0;
-    for (std::size_t k = 0; k < n; ++k) { // what lies behind, and here
+    for (std::size_t k = 0; k < n; ++k) { // behind, and here
         const double keep = std::exp(-run_m[k] / memory_m);
         running = keep * running + felt[k] * run_m[k] * turned[k];
         running_m = keep * running_m + run_m[k];
@@ -112,7 +112,7 @@ line_of(const DriveRecord& passage, const std::vector<double>& felt, double turn
     }
     running = 0;
     running_m = 0;
-    for (std::size_t k = n - 1; k-- > 0;) { // what lies ahead
+    for (std::size_t k = n - 1; k-- > 0;) { // ahead
         const double keep = std::exp(-run_m[k + 1] / memory_m);
         running = keep * (running + felt[k + 1] * run_m[k + 1] * turned[k + 1]);
         running_m = keep * (running_m + run_m[k + 1]);
@@ -126,12 +126,12 @@ line_of(const DriveRecord& passage, const std::vector<double>& felt, double turn
     return line;
 }
 
-/// Over a road without a line, power that is the mean of so many looks is that of its neighbours
-/// times a gamma variate, whose quantile this is; the largest of some hundred frequencies stays
-/// below it but for once in a thousand. (E. B. Wilson, M. M. Hilferty, "The distribution of
-/// chi-square", PNAS 17 (1931), pp. 684-688.)
+/// Returns the significance threshold of a line. On a road without a line, power averaged over this
+/// many pieces is that of its neighbours times a gamma variate, of which this is a quantile; the
+/// maximum of some hundred frequencies exceeds it once in a thousand. (E. B. Wilson, M. M.
+/// Hilferty, "The distribution of chi-square", PNAS 17 (1931), pp. 684-688.)
 double surely_a_line(double looks) {
-    constexpr double deviations = 5; // 4.3 of one in 100,000; the neighbours scatter, too
+    constexpr double deviations = 5; // 4.3 for one in 100,000, plus scatter of the neighbours
     return std::pow(1 - 1 / (9 * looks) + deviations / (3 * std::sqrt(looks)), 3);
 }
 
@@ -142,7 +142,7 @@ std::optional<double> wheel_circumference_m(const DriveRecord& passage) {
     if (pieces.size() < min_pieces) {
         return std::nullopt;
     }
-    const double step = 0.5 / piece_m; // two a resolution
+    const double step = 0.5 / piece_m; // two per resolution cell
     const auto first = static_cast<std::size_t>(1 / max_turn_m / step);
     const auto last = static_cast<std::size_t>(1 / min_turn_m / step);
     const std::size_t lowest = first - neighbours;
@@ -161,7 +161,7 @@ std::optional<double> wheel_circumference_m(const DriveRecord& passage) {
             at = i;
         }
     }
-    // Channels that feel the same side of the road rise and fall as one.
+    // Channels that observe the same side of the road are correlated.
     const auto [mean, half] = felt_by({&passage, 1});
     const double sides = (mean ? 1 : 0) + (half ? 1 : 0);
     if (!(best > surely_a_line(static_cast<double>(pieces.size()) * sides))) {

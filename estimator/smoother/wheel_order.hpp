@@ -6,14 +6,14 @@
 
 namespace macadam {
 
-/// The distance of one turn of the wheels, if tyres or rims that are not round make themselves felt
-/// in the channels: a line that stands out of the road's spectrum in distance.
+/// Detects the circumference of out-of-round tyres or rims from the channels: a line that exceeds
+/// the road's spectrum in distance.
 ///
-/// \returns  metres, 1.6 to 2.5; nothing if no line is surer than one in a thousand.
+/// \returns  metres, 1.6 to 2.5; `std::nullopt` if no line is significant at one in a thousand.
 std::optional<double> wheel_circumference_m(const DriveRecord& passage);
 
-/// Takes the line at one turn and the one at half a turn out of every channel, as they are over
-/// some 120 m. What the road has in that narrow band goes with them.
+/// Removes the lines at one turn and at half a turn from every channel, as estimated over some 120
+/// m. The road's content in that narrow band is removed with them.
 DriveRecord without_wheel_order(DriveRecord passage, double turn_m);
 
 } // namespace macadam

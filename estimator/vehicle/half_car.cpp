@@ -7,7 +7,7 @@ LinearSystem<8, 2, 2> half_car(const HalfCar& car, double height_above_roll_axis
     const double l = car.l_m;
     using Row = Eigen::RowVector<double, 8>;
 
-    // What the left and the right suspension press their wheels up with; the body feels the
+    // Forces of the left and the right suspension on their wheels, upward; the body gets the
     // opposite.
     Row left, right;
     left << car.ks_n_per_m, car.cs_ns_per_m, -car.ks_n_per_m * l, -car.cs_ns_per_m * l,

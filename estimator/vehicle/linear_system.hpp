@@ -4,7 +4,8 @@
 
 namespace macadam {
 
-/// x' = a x + b u, y = c x in continuous time; x[k+1] = a x[k] + b u[k], y[k] = c x[k] in steps.
+/// Linear system. Continuous: x' = a x + b u, y = c x. Discrete: x[k+1] = a x[k] + b u[k], y[k] = c
+/// x[k].
 template <int States, int Inputs, int Outputs>
 struct LinearSystem {
     Eigen::Matrix<double, States, States> a;
@@ -12,10 +13,10 @@ struct LinearSystem {
     Eigen::Matrix<double, Outputs, States> c;
 };
 
-/// The exponential of a square matrix.
+/// Computes the exponential of a square matrix.
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix);
 
-/// The system in steps of `step_s`, exact while the input holds still within a step.
+/// Discretises the system with step `step_s`, exact for inputs that are constant within a step.
 template <int States, int Inputs, int Outputs>
 LinearSystem<States, Inputs, Outputs>
 discretise(const LinearSystem<States, Inputs, Outputs>& system, double step_s) {

@@ -3,7 +3,7 @@
 namespace macadam {
 namespace {
 
-/// Everything divided by the sprung mass that rests on the wheel.
+/// Parameters divided by the sprung mass on the wheel.
 struct PerSprungMass {
     double suspension_per_s2;
     double damping_per_s;

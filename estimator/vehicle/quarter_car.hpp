@@ -5,16 +5,17 @@
 
 namespace macadam {
 
-/// From the road's elevation to one output, with x = (sprung height, its rate, unsprung height,
-/// its rate). Heights and road are in the same unit, so it serves elevations and slopes alike.
+/// System from the road's elevation to one output, with x = (sprung height, its rate, unsprung
+/// height, its rate). Heights and road have the same unit, so that it serves elevations and slopes
+/// alike.
 using QuarterCar = LinearSystem<4, 1, 1>;
 
-/// A quarter of the car; the output is the body's vertical acceleration.
+/// Builds a quarter of the car; the output is the body's vertical acceleration.
 QuarterCar quarter_car(const HalfCar& car);
 
-/// The golden car, per unit of sprung mass: K1 = 653 /s2, K2 = 63.3 /s2, C = 6 /s, mu = 0.15. The
-/// output is the stroke z_s - z_u: fed with slopes, it is the rate of the suspension's stroke over
-/// the speed.
+/// Builds the golden car, per unit of sprung mass: K1 = 653 /s2, K2 = 63.3 /s2, C = 6 /s, mu =
+/// 0.15. The output is the stroke z_s - z_u; with slopes as input, it is the rate of the
+/// suspension's stroke over the speed.
 ///
 /// Source: ASTM E1926, table of standard parameters.
 QuarterCar golden_car();

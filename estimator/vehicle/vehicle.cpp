@@ -6,13 +6,14 @@
 namespace macadam {
 namespace {
 
-/// A car with two axles answers a quarter car's road through the comb of its wheelbase, whose RMS
-/// is 1/sqrt(2) for a sensor at the middle; the paper identified 0.72 on its Audi, table III.
+/// Gain of a car with two axles seen as a quarter car: its wheelbase filters the road with a comb
+/// whose RMS is 1/sqrt(2) for a sensor at the middle; the paper identified 0.72 on its Audi, table
+/// III.
 constexpr double two_axle_gain = 0.72;
 
 /// ASTM E1926 (K1 = 653, K2 = 63.3, C = 6 per second, mu = 0.15) on a body of 1000 kg, as in table
-/// I of the paper. E1926 knows one wheel track only: width and roll inertia are ours, for a body
-/// whose two sides move on their own (I = m l^2 / 2).
+/// I of the paper. E1926 defines one wheel track only: width and roll inertia are chosen here, for
+/// a body whose two sides are decoupled (I = m l^2 / 2).
 Vehicle golden() {
     return {.name = "golden-car",
             .one_axle_gain = {},
@@ -28,9 +29,9 @@ Vehicle golden() {
             .uncertainty = {}};
 }
 
-/// Table III of the paper: masses and width approximated by its authors, the rest identified on
-/// 500 m of laser-measured road. The parameters were fitted together, so their errors largely make
-/// up for one another; what is left is stated as one of the gain.
+/// Table III of the paper: masses and width approximated by its authors, the rest identified on 500
+/// m of laser-measured road. The parameters were fitted jointly, so their errors largely cancel;
+/// the remaining error is stated as one of the gain.
 Vehicle audi_a6_etron() {
     return {.name = "audi-a6-etron",
             .gain = 0.72,
@@ -47,10 +48,9 @@ Vehicle audi_a6_etron() {
             .uncertainty = {{"gain", 0.04}}};
 }
 
-/// Classes of cars are not measurements of any car. They are set so that body bounce is near
-/// 1.2 to 1.4 Hz with 0.25 to 0.35 of critical damping and the wheels hop at 10 to 12.5 Hz, the
-/// ranges that textbooks on ride give for passenger cars, with masses of the class; the
-/// uncertainty spans what a class holds.
+/// Builds a class of cars. Classes are not measurements of any car: body bounce is near 1.2 to 1.4
+/// Hz with 0.25 to 0.35 of critical damping and wheel hop at 10 to 12.5 Hz, the ranges of textbooks
+/// on ride for passenger cars, with masses of the class; the uncertainty spans the class.
 Vehicle car_class(const char* name, const HalfCar& half_car) {
     return {.name = name,
             .gain = two_axle_gain,

@@ -17,26 +17,26 @@
 namespace macadam {
 namespace {
 
-constexpr double seed_weight = 0.5; // of a trace in the mean before anything is known of it
-// rho^2 * (independent values) of two traces is the square of a standard normal variable if they
-// have nothing in common. The best of 21 lags has to be three standard deviations; a course of lags
-// that was chosen block by block more.
+constexpr double seed_weight = 0.5; // weight of a trace before its agreement is known
+// rho^2 * (independent values) of two unrelated traces is the square of a standard normal variable.
+// The best of 21 lags must reach three standard deviations; a lag profile chosen block by block
+// must reach more.
 constexpr double min_evidence = 9;
 constexpr double min_evidence_in_block = 2;
 constexpr double max_agreement = 0.95;
 
-/// A trace on its way to its place.
+/// State of a trace during alignment.
 struct Member {
     Signal signal; ///< padded
     double place_sd_m;
-    double independent_m; ///< from one independent value of the signal to the next
+    double independent_m; ///< length of an independent value of the signal
     LagPrior prior;
     std::int32_t first_block;
-    std::vector<std::int32_t> lag_cm; ///< of each block
-    Signal laid;                      ///< the signal at common places
-    double agreement = 0;             ///< rho^2 with the others
+    std::vector<std::int32_t> lag_cm; ///< one per block
+    Signal laid;                      ///< the signal shifted by its lags
+    double agreement = 0;             ///< rho^2 with the other traces
     LagStatus finding = LagStatus::alone;
-    TextureWeight weight{}; ///< of the laid signal in the mean of all
+    TextureWeight weight{}; ///< of the shifted signal in the mean of all
 };
 
 bool is_found(const Member& member) {
@@ -58,7 +58,7 @@ Member member_of(const RoughnessTrace& trace, const AlignmentConfig& config) {
             .laid = {}};
 }
 
-/// Left where it was, and without a word in the mean.
+/// Resets a member: unshifted, and without weight in the mean.
 Member left_alone(Member member, LagStatus finding) {
     std::ranges::fill(member.lag_cm, 0);
     member.agreement = 0;
@@ -87,10 +87,10 @@ SignalTemplate bare_texture_of(std::span<const Member> members) {
 
 // ------------------------------------------------------------------------------------ agreement
 
-constexpr std::size_t part_m = slack_m; // places whose products are summed at once
+constexpr std::size_t part_m = slack_m; // cells multiplied at once
 
-/// Kept apart because inside the loop over lags compilers multiply lag by lag instead of eight
-/// places at once.
+/// Not inlined: inside the loop over lags, compilers would multiply lag by lag instead of eight
+/// cells at once.
 [[gnu::noinline]] std::int32_t part_dot(const std::int16_t* a, const std::int16_t* b) {
     std::int32_t sum = 0;
     for (std::size_t i = 0; i < part_m; ++i) {
@@ -99,7 +99,7 @@ constexpr std::size_t part_m = slack_m; // places whose products are summed at o
     return sum;
 }
 
-/// Sums of texture times signal over the places of each block, for each whole lag.
+/// Correlates template and signal over each block, for each whole-metre lag.
 std::vector<Correlation> correlations(const Member& member, const Signal& texture) {
     std::vector<Correlation> sums(member.lag_cm.size(), Correlation{});
     const auto last_block = sums.size() - 1;
@@ -124,11 +124,11 @@ std::vector<Correlation> correlations(const Member& member, const Signal& textur
 }
 
 struct Agreement {
-    double share; ///< rho^2 of signal and texture; 0: may be chance
-    double scale; ///< of a correlation sum to a logarithm of likelihood
+    double share; ///< rho^2 of signal and template; 0: possibly chance
+    double scale; ///< factor from a correlation sum to a log-likelihood
 };
 
-/// Over the places where a member lies now and the texture is known.
+/// Sums over the cells where both the shifted member and the template are known.
 struct Overlap {
     double metres;
     double texture_2; ///< sums of squares
@@ -149,13 +149,13 @@ Overlap overlap_of(const Member& member, const Signal& texture) {
     const auto r = masked(texture.x, member.laid.known);
     const auto x = masked(member.laid.x, texture.known);
     const auto sum = [](const auto& a, const auto& b) { return static_cast<double>(dot(a, b)); };
-    return {.metres = sum(texture.known, member.laid.known), // of -1 times -1
+    return {.metres = sum(texture.known, member.laid.known), // a product of -1 and -1
             .texture_2 = sum(r, r),
             .signal_2 = sum(x, x),
             .product = sum(r, x)};
 }
 
-/// The highest sum of all blocks at one lag.
+/// Returns the maximum over lags of the sum over all blocks.
 double best_at_one_lag(std::span<const Correlation> sums) {
     std::int64_t best = 0;
     for (std::size_t lag = 0; lag < lag_count; ++lag) {
@@ -168,7 +168,7 @@ double best_at_one_lag(std::span<const Correlation> sums) {
     return static_cast<double>(best);
 }
 
-/// rho^2 of a correlation sum, as far as it is not chance; 0 if it may all be.
+/// Returns rho^2 of a correlation sum, corrected for chance; 0 if chance may explain all of it.
 double sure_share(double product, double needed, double independent, const Overlap& overlap) {
     const double share = product * product / (overlap.texture_2 * overlap.signal_2);
     if (product <= 0 || share * independent < needed) {
@@ -201,7 +201,7 @@ TextureWeight weight_of(double share) {
     return {whole(std::sqrt(share) / (1 - share)), whole(share / (1 - share))};
 }
 
-/// Where one member agrees best with the others, which are all that is in `texture`.
+/// Shifts a member to its best agreement with the other members, from which `texture` is built.
 Member placed(Member member, const SignalTemplate& texture) {
     const auto under = texture_under(texture, member.laid.first_m, member.laid.x.size());
     const auto sums = correlations(member, under);
@@ -222,7 +222,7 @@ Member placed(Member member, const SignalTemplate& texture) {
 
 // ---------------------------------------------------------------------------------------- datum
 
-/// The mean lag in each block of all that were found.
+/// Mean lag of all found members in each block.
 struct Datum {
     std::int32_t first_block;
     std::vector<std::int32_t> lag_cm;
@@ -254,8 +254,8 @@ Datum datum_of(std::span<const Member> members) {
     return datum;
 }
 
-/// Moves all that were found, so that their lags in each block have the mean 0. Those that come to
-/// lie out of reach are none any more. \returns whether there were such.
+/// Shifts all found members so that their lags in each block have mean 0. Members beyond reach are
+/// reset. \returns true if there were any.
 bool move_to(const Datum& datum, std::vector<Member>& members) {
     constexpr std::int32_t farthest_cm = 100 * reach_m;
     bool lost = false;
@@ -281,7 +281,8 @@ void hold_datum(std::vector<Member>& members) {
 
 // ---------------------------------------------------------------------------------------- rounds
 
-/// One after the other against those before: sharp from the first, whatever the places' errors.
+/// Aligns each member with those before it, so that the mean is sharp from the start despite
+/// position errors.
 void lay_first(std::vector<Member>& members) {
     constexpr auto seed = static_cast<std::int32_t>(seed_weight * weight_unit);
     auto texture = bare_texture_of(members);
@@ -312,7 +313,7 @@ LagLine line_of(const Member& member) {
                  : LagLine{0, {}, member.finding};
 }
 
-/// Of the mean along the line, whichever way.
+/// Returns the absolute mean lag along the line.
 std::int32_t mean_size_cm(const LagLine& line) {
     const auto sum = std::accumulate(line.lag_cm.begin(), line.lag_cm.end(), std::int64_t{0});
     const auto count = std::max<std::int64_t>(1, std::ssize(line.lag_cm));
@@ -337,7 +338,7 @@ double lag_m(const LagLine& line, double station) {
 
 AlignmentSummary summary_of(std::span<const LagLine> lines) {
     AlignmentSummary summary{.drives = static_cast<std::int64_t>(lines.size())};
-    std::vector<std::int32_t> lags_cm; // of those found
+    std::vector<std::int32_t> lags_cm; // of drives found
     for (const auto& line : lines) {
         summary.beyond_reach += line.finding == LagStatus::beyond_reach ? 1 : 0;
         if (line.finding == LagStatus::found) {

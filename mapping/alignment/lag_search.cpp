@@ -8,15 +8,16 @@ namespace macadam {
 namespace {
 
 constexpr double state_m = 0.5;
-constexpr std::size_t farthest_step = 4; // states between one block and the next
-constexpr int nat = 64;                  // in units of states
-constexpr int least = -125 * nat;        // is never worth going through; four fit 16 bits
+constexpr std::size_t farthest_step = 4; // largest change between neighbouring blocks, in states
+constexpr int nat = 64;                  // units of States per nat
+constexpr int least = -125 * nat;        // effectively forbidden; the sum of four fits 16 bits
 
 constexpr double lag_of(std::size_t state) {
     return state_m * static_cast<double>(state) - reach_m;
 }
 
-/// Of 1 or more. The C library's takes other instructions on other processors.
+/// Natural logarithm for x >= 1. The C library's uses different instructions on different
+/// processors.
 double logarithm(double x) {
     double twos = 0;
     for (; x > 2; x /= 2) {
@@ -35,7 +36,7 @@ double logarithm(double x) {
 
 using WholeNats = std::array<std::int32_t, std::tuple_size_v<States>>;
 
-/// Below the highest of those that count.
+/// Normalises scores relative to the maximum of the valid states.
 States below_highest(const WholeNats& wide) {
     std::int32_t highest = wide[0];
     for (std::size_t k = 0; k < state_count; ++k) {
@@ -49,10 +50,10 @@ States below_highest(const WholeNats& wide) {
     return states;
 }
 
-/// Between whole lags by a cubic through four of them.
+/// Interpolates scores between whole lags by a cubic through four of them.
 States scores_of(const Correlation& sums, double scale, const LagPrior& prior) {
     const auto unit = static_cast<float>(nat * scale);
-    std::array<float, lag_count + 3> at{}; // one before, two behind: the ends again
+    std::array<float, lag_count + 3> at{}; // one extra before and two after, repeating the ends
     for (std::size_t lag = 0; lag < lag_count; ++lag) {
         at[lag + 1] = unit * static_cast<float>(sums[lag]);
     }
@@ -73,7 +74,7 @@ States scores_of(const Correlation& sums, double scale, const LagPrior& prior) {
     return below_highest(whole);
 }
 
-/// The best that comes to each state from a neighbouring block.
+/// Returns for each state the best score carried over from a neighbouring block.
 States carried(const States& from, int tie) {
     std::array<std::int16_t, std::tuple_size_v<States> + 2 * farthest_step> padded;
     padded.fill(least);
@@ -98,7 +99,7 @@ States sum_of(const States& a, const States& b) {
     return below_highest(sum);
 }
 
-/// The highest state, between states by a parabola. Nothing at the border.
+/// Returns the maximum, refined by a parabola; `std::nullopt` at the limit of the lags.
 std::optional<std::int32_t> peak_cm(const States& scores) {
     const auto highest = std::max_element(scores.begin(), scores.begin() + state_count);
     const auto best = static_cast<std::size_t>(highest - scores.begin());

@@ -24,7 +24,7 @@ Signal texture_under(const SignalTemplate& texture, std::int32_t first_m, std::s
     Signal under{first_m, std::vector<std::int16_t>(count), std::vector<std::int16_t>(count)};
     for (std::size_t i = 0; i < count; ++i) {
         const auto precision = texture.precision[first + i];
-        // One division of two whole numbers is the same on every machine.
+        // A single division of two integers gives the same result on every machine.
         const double x = static_cast<double>(texture.sum[first + i]) /
                          static_cast<double>(weight_unit + precision);
         under.x[i] =

@@ -8,19 +8,19 @@ namespace {
 constexpr auto block_length = static_cast<std::int32_t>(lag_block_m);
 static_assert(block_length == lag_block_m && block_length % 2 == 0);
 
-constexpr int point = 16; // bits behind it, of lags in metres
+constexpr int point = 16; // fractional bits of lags in metres
 
 std::int32_t fixed(std::int32_t cm) {
     return cm * (1 << point) / 100;
 }
 
-/// A lag that changes evenly from metre to metre.
+/// A lag that changes linearly from metre to metre.
 struct Slope {
-    std::int32_t lag; ///< at the middle of the first metre
+    std::int32_t lag; ///< at the centre of the first metre
     std::int32_t step;
 };
 
-/// How many metres on the lag has another whole part.
+/// Returns the number of metres until the integer part of the lag changes.
 std::size_t metres_alike(const Slope& slope) {
     constexpr std::int32_t metre = 1 << point;
     const auto part = slope.lag & (metre - 1);
@@ -30,9 +30,9 @@ std::size_t metres_alike(const Slope& slope) {
     return static_cast<std::size_t>(left);
 }
 
-/// Cells [first, last) of `laid`, in runs that lie the same number of metres off.
+/// Fills cells [first, last) of `laid`, in runs of equal integer lag.
 void lay(const Signal& from, std::size_t first, std::size_t last, Slope slope, Signal& laid) {
-    constexpr int fine = 7; // bits that tell places within a metre
+    constexpr int fine = 7; // fractional bits within a metre
     while (first < last) {
         const auto run = std::min(last - first, metres_alike(slope));
         const auto at = static_cast<std::size_t>(static_cast<std::int32_t>(first) + pad_m -

@@ -8,19 +8,19 @@
 namespace macadam {
 namespace {
 
-// Agreement is looked for in waves of about 5 to 60 m: shorter ones are noise, longer ones tell
-// speeds and places of cars rather than of the road.
+// Agreement is sought at wavelengths of about 5 to 60 m: shorter ones are noise, longer ones depend
+// on the speed and position of cars rather than on the road.
 constexpr std::array<std::int32_t, 5> smoothing{1, 2, 3, 2, 1};
 constexpr std::size_t smoothing_reach = smoothing.size() / 2;
 constexpr std::size_t level_reach_m = 30;
 
-// Before the standard deviation is known: 14 bits behind the point. A roughness (80,000 um/m) times
-// this fits 32 bits.
+// Fixed point with 14 fractional bits, until the standard deviation is known. Its product with a
+// roughness (80,000 um/m) fits 32 bits.
 constexpr std::int32_t one = 1 << 14;
 
 constexpr std::size_t code_count = 256;
 
-/// Quotients by small numbers as products: 16 bits behind the point. That of 0 is 0.
+/// Reciprocals of small numbers with 16 fractional bits. That of 0 is 0.
 template <std::size_t Count>
 constexpr std::array<std::int32_t, Count> reciprocals() {
     std::array<std::int32_t, Count> parts{};
@@ -43,7 +43,7 @@ std::optional<std::int32_t> median_um(const std::vector<RoughnessCode>& codes) {
         ++counts[code];
     }
     const auto known = codes.size() - counts[no_roughness];
-    std::size_t below = 0; // codes rise with what they stand for
+    std::size_t below = 0; // values increase with their codes
     for (std::size_t code = 0; code < no_roughness; ++code) {
         below += counts[code];
         if (below > known / 2) {
@@ -53,13 +53,13 @@ std::optional<std::int32_t> median_um(const std::vector<RoughnessCode>& codes) {
     return std::nullopt;
 }
 
-/// Rows with silence before and behind, so that what looks at neighbours finds some.
+/// Values padded on both sides, so that windows need no bounds checks.
 struct Row {
     std::vector<std::int32_t> x;
     std::vector<std::int32_t> known; ///< 1 or 0
 };
 
-/// (v - median) / (v + median): half the logarithm near the median, and never beyond -1 and 1.
+/// Computes (v - median) / (v + median): half the logarithm near the median, bounded by -1 and 1.
 Row compressed(const std::vector<RoughnessCode>& codes) {
     std::array<std::int32_t, code_count> value{};
     const auto middle_um = median_um(codes).value_or(0);
@@ -76,9 +76,9 @@ Row compressed(const std::vector<RoughnessCode>& codes) {
     return row;
 }
 
-/// A mean of neighbours, of those that are known; without the silent ends.
+/// Smooths by a weighted mean of known neighbours and removes the padding.
 Row smoothed(const Row& row) {
-    static constexpr auto parts = reciprocals<10>(); // of all weights together
+    static constexpr auto parts = reciprocals<10>(); // for sums of weights
     const auto count = row.x.size() - 2 * smoothing_reach;
     Row smooth{std::vector<std::int32_t>(count), std::vector<std::int32_t>(count)};
     for (std::size_t i = 0; i < count; ++i) {
@@ -94,12 +94,12 @@ Row smoothed(const Row& row) {
     return smooth;
 }
 
-/// Without the running mean of what is known within `level_reach_m`.
+/// Subtracts the running mean of known values within `level_reach_m`.
 std::vector<std::int32_t> without_level(const Row& row) {
     static constexpr auto parts = reciprocals<2 * level_reach_m + 2>();
     const auto count = row.x.size();
     std::vector<std::int32_t> level(count);
-    std::int32_t sum = 0; // of the window
+    std::int32_t sum = 0; // over the window
     std::int32_t known = 0;
     for (std::size_t i = 0; i < count + level_reach_m; ++i) {
         if (i < count) {
@@ -118,11 +118,11 @@ std::vector<std::int32_t> without_level(const Row& row) {
     return level;
 }
 
-/// What makes the standard deviation of these one unit, with 16 bits behind the point; 0 if there
-/// is none to speak of.
+/// Returns the factor, with 16 fractional bits, that scales the standard deviation to one unit; 0
+/// if it is negligible.
 std::int64_t scale_of(const std::vector<std::int32_t>& values,
                       const std::vector<std::int32_t>& known) {
-    constexpr double min_sd = 1e-3 * one; // an even trace has nothing to agree with
+    constexpr double min_sd = 1e-3 * one; // an even trace cannot be aligned
     std::int64_t square = 0;
     std::int64_t count = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -153,7 +153,7 @@ Signal signal_of(const RoughnessTrace& trace) {
 }
 
 std::int64_t dot(std::span<const std::int16_t> a, std::span<const std::int16_t> b) {
-    constexpr std::size_t part = 256; // products of so many fit 32 bits
+    constexpr std::size_t part = 256; // a sum of this many products fits 32 bits
     static_assert(std::int64_t{max_signal} * max_signal * part < (std::int64_t{1} << 31));
     std::int64_t sum = 0;
     for (std::size_t first = 0; first < a.size(); first += part) {

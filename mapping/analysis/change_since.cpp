@@ -21,7 +21,8 @@ struct Place {
     std::size_t after;
 };
 
-/// What both sides know, and the length that one alone knows is handed to `alone`.
+/// Returns the segments known on both sides and reports the length known on one side only to
+/// `alone`.
 template <typename Alone>
 std::vector<Place> common_places(std::span<const SegmentRecord> before,
                                  std::span<const SegmentRecord> since,
@@ -44,7 +45,7 @@ std::vector<Place> common_places(std::span<const SegmentRecord> before,
     return places;
 }
 
-/// The mean over a road: half of what is left of the variance is common to its segments, as in
+/// Averages over a section: half of the remaining variance is common to its segments, as in
 /// road_mean.
 Difference mean_of(std::span<const Difference> pieces) {
     Difference mean;
@@ -76,8 +77,8 @@ bool says_nothing(const ChangeLengths& lengths) {
            0;
 }
 
-/// Differences as states: positive where the verdict is the one that is looked for, else 0. What
-/// follows roads and joins neighbours then finds their stretches.
+/// Converts differences to states, positive for segments of the given verdict and 0 otherwise, so
+/// that worst_sections finds their sections.
 std::vector<SegmentRecord> as_records(std::span<const ComparedSegment> segments,
                                       std::span<const SegmentRecord> since,
                                       Verdict verdict) {

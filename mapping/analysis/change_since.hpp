@@ -15,71 +15,71 @@
 namespace macadam {
 
 struct ChangeSinceConfig {
-    double rate = 0.05;    ///< of what is called changed, at most this share by chance (expected)
-    FusionConfig fusion{}; ///< of what the errors of states are made
-    double min_length_m = 100;    ///< of a stretch that is listed
-    double max_unmeasured_m = 30; ///< as WorstSectionConfig
-    double max_other_m = 50;      ///< comparable but not called, in a row, within a stretch
+    double rate = 0.05;           ///< false discovery rate: expected share of false calls
+    FusionConfig fusion{};        ///< error model of the segment states
+    double min_length_m = 100;    ///< shortest section listed
+    double max_unmeasured_m = 30; ///< as in WorstSectionConfig
+    double max_other_m = 50;      ///< longest gap of comparable but uncalled road within a section
     double sharpest_turn_deg = 60;
 };
 
-/// How much rougher a road has become, mm/m; less than 0: smoother.
+/// Increase in roughness, mm/m; negative: smoother.
 struct Difference {
     double length_m = 0;
     double mm_per_m = 0;
     double sd = 0;
 };
 
-/// Of its variance, what all cars read wrong alike, mm^2/m^2: fusion makes the variance of n passes
-/// of m cars with stated variance s^2 as share s^2 + car_share s^2 / m + rest^2 / n, which is
-/// solved for s. 0 where references alone tell.
+/// Returns the part of a state's variance that all cars share, mm^2/m^2. Fusion gives n passes by m
+/// cars of stated variance s^2 the variance share s^2 + car_share s^2 / m + rest^2 / n, which is
+/// solved for s. 0 where the state rests on references alone.
 double common_variance(const SegmentState& state, const FusionConfig& config);
 
-/// \param before, after  of the same segment, from different passes, with states. What all cars
-/// read
-///        wrong alike (c) is there on both sides, for the model of the cars and the method have
-///        stayed the same, and cancels as far as it is equally large: the variance is
-///        s1^2 - c1^2 + s2^2 - c2^2 + (c1 - c2)^2. That a car may have driven on both sides, so
-///        that its own error cancels too, is not counted: the variance is rather too large then.
+/// Computes the change of a segment between two states. The error c common to all cars is present
+/// on both sides, since the models of the cars and the method are unchanged, and cancels as far as
+/// it is equally large: the variance is s1^2 - c1^2 + s2^2 - c2^2 + (c1 - c2)^2. A car that drove
+/// on both sides cancels part of its own error too; this is ignored, so the variance errs on the
+/// large side.
+///
+/// \param before, after  the same segment from different passes, with states.
 Difference
 difference_of(const SegmentRecord& before, const SegmentRecord& after, const FusionConfig& config);
 
-/// The probability that a difference as large, of either sign, comes by chance where nothing has
-/// changed. Normal errors.
+/// Returns the probability of a difference at least as large, of either sign, if nothing has
+/// changed. Assumes normal errors.
 double chance_of(const Difference& difference);
 
-/// Which of many tests to call, so that of those called an expected share of at most `rate` is
-/// called by chance.
+/// Decides which of many tests to call so that the expected share of false calls is at most `rate`.
 ///
-/// \param chances  any order. \returns  as many.
+/// \param chances  p-values in any order. \returns  one decision per p-value.
 ///
 /// Source: Y. Benjamini and Y. Hochberg, "Controlling the false discovery rate", Journal of the
-/// Royal Statistical Society B 57 (1995), pp. 289-300; holds for independent tests and for those
-/// whose errors go together.
+/// Royal Statistical Society B 57 (1995), pp. 289-300; holds for independent and for positively
+/// dependent tests.
 std::vector<bool> called(std::span<const double> chances, double rate);
 
 enum class Verdict { improved, no_change_shown, deteriorated };
 
 struct ComparedSegment {
-    std::size_t before; ///< places in what was given
+    std::size_t before; ///< index into the input, as is `after`
     std::size_t after;
     Difference difference;
     Verdict verdict;
 };
 
 struct ChangeLengths {
-    std::string kind; ///< of road_kinds(); "" = all
+    std::string kind; ///< one of road_kinds(); "" = all
     double improved_m = 0;
     double unchanged_m = 0; ///< comparable, no change shown
     double deteriorated_m = 0;
-    double before_alone_m = 0; ///< not comparable: passes of one side alone
+    double before_alone_m = 0; ///< not comparable: passes on one side only
     double since_alone_m = 0;
-    Difference mean{}; ///< of all that is comparable
+    Difference mean{}; ///< over all comparable road
 };
 
-/// A stretch with what it has become rougher by; less than 0: smoother.
+/// A section of road with its change in roughness; negative: smoother.
 struct ChangedStretch {
-    WorstSection stretch; ///< records: places among the compared segments; mean is not used
+    WorstSection stretch; ///< records index the compared segments; mean is unused
     RoadMean before;
     RoadMean after;
     Difference difference;
@@ -89,21 +89,21 @@ struct ChangedStretch {
 
 struct ChangeSince {
     ChangeSinceConfig config{};
-    std::vector<ComparedSegment> segments; ///< in the order of their keys
+    std::vector<ComparedSegment> segments; ///< in key order
     ChangeLengths all;
-    std::vector<ChangeLengths> kinds;   ///< with something measured, in the order of road_kinds()
-    std::size_t called_alone = 0;       ///< segments past 1.96 sd, each tested alone
-    std::vector<ChangedStretch> worse;  ///< the most first
-    std::vector<ChangedStretch> better; ///< the most first
+    std::vector<ChangeLengths> kinds;   ///< kinds with measured road, in the order of road_kinds()
+    std::size_t called_alone = 0;       ///< segments beyond 1.96 sd, each tested alone
+    std::vector<ChangedStretch> worse;  ///< largest change first
+    std::vector<ChangedStretch> better; ///< largest change first
 };
 
-/// What roads say before and since a day. Segments that both know are compared; neighbouring ones
-/// that have become rougher (or smoother) by more than chance explains are joined to stretches, as
-/// worst_sections does, with at most 50 m of others between two of them. The difference of a
-/// stretch is of all of its segments and has the interval of road_mean. Listed are those whose
-/// 90 % interval leaves out zero.
+/// Compares roads before and since a day. Segments measured on both sides are compared;
+/// neighbouring segments that have become significantly rougher (or smoother) are joined to
+/// sections as in worst_sections, bridging at most 50 m of other segments. The difference of a
+/// section covers all its segments and has the interval of road_mean. Only sections whose 90 %
+/// interval excludes zero are listed.
 ///
-/// \param before, since  segments with states from passes of that time alone, in the order of keys.
+/// \param before, since  segments with states from passes of that period alone, in key order.
 ChangeSince change_since(const RoadNetwork& roads,
                          std::span<const SegmentRecord> before,
                          std::span<const SegmentRecord> since,

@@ -12,8 +12,8 @@ namespace {
 constexpr double um_per_mm = 1000;
 constexpr double interval_90 = 1.645; // two-sided, normal distribution
 
-/// Sum over all pairs of a_i a_j exp(-|x_i - x_j| / L). What lies behind fades by the same factor
-/// for all of it, so one sum is carried along.
+/// Accumulates the sum over all pairs of a_i a_j exp(-|x_i - x_j| / L). All earlier terms decay by
+/// the same factor, so one running sum suffices.
 class FadingPairs {
 public:
     explicit FadingPairs(double correlation_m) : correlation_m_{correlation_m} {}
@@ -56,7 +56,7 @@ RoadMean mean_of(std::span<const MeasuredPiece> pieces, const ErrorAlongRoad& er
     return mean;
 }
 
-/// The earlier or later of two times, by `better`; the known one if only one is.
+/// Returns the earlier or later of two times, by `better`; the known one if only one is known.
 template <typename Better>
 std::optional<std::int64_t>
 better_of(std::optional<std::int64_t> a, std::optional<std::int64_t> b, Better better) {

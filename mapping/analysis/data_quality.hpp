@@ -7,25 +7,25 @@
 
 namespace macadam {
 
-/// How many segments there are of a kind, and how long they are.
+/// Number and total length of segments of one kind.
 struct SegmentCount {
     std::size_t segments = 0;
     double length_m = 0;
 };
 
-/// What the values of segments rest on. Both tracks, inferred and lateral alone make up all that is
-/// measured; the others are those that hold for every pass over a segment.
+/// Data basis of the segment values. `both_tracks`, `inferred` and `lateral_alone` add up to
+/// `measured`; the other counts cover segments where the condition holds for every pass.
 struct DataQuality {
     SegmentCount measured;
-    SegmentCount both_tracks;   ///< MRI was observed
-    SegmentCount inferred;      ///< MRI was inferred from the HRI of vertical vibration
-    SegmentCount lateral_alone; ///< the same of lateral vibration alone
-    SegmentCount too_slow;      ///< a part was driven too slowly
-    SegmentCount start_up;      ///< a part within the start-up of the method
-    SegmentCount gap;           ///< a part without data
+    SegmentCount both_tracks;   ///< MRI observed
+    SegmentCount inferred;      ///< MRI inferred from the HRI of vertical vibration
+    SegmentCount lateral_alone; ///< MRI inferred from lateral vibration alone
+    SegmentCount too_slow;      ///< partly driven too slowly
+    SegmentCount start_up;      ///< partly within the start-up of the method
+    SegmentCount gap;           ///< partly without data
 };
 
-/// Segments without a state are passed over.
+/// Counts segments by data basis; segments without a state are skipped.
 DataQuality data_quality(std::span<const SegmentRecord> measured);
 
 } // namespace macadam

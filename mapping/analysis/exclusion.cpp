@@ -25,10 +25,10 @@ bool overlap(const GeoBox& a, const GeoBox& b) {
 
 struct PlacedExclusion {
     const Exclusion* exclusion;
-    GeoBox box; ///< with the radius
+    GeoBox box; ///< enlarged by the radius
 };
 
-/// Steps of a part that are within an exclusion, added to ranges that end before it.
+/// Appends the steps of a part that lie within an exclusion to ranges that end before it.
 void add_excluded(std::vector<RouteMeasureRange>& ranges,
                   const RoadNetwork& roads,
                   const RouteEdge& part,

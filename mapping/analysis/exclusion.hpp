@@ -7,14 +7,14 @@
 
 namespace macadam {
 
-/// A place that must not count: a bridge, a crossing, works.
+/// A site to exclude from statistics: a bridge, a crossing, road works.
 struct Exclusion {
-    std::vector<GeoPoint> line; ///< one point or more
-    double radius_m;            ///< around it
+    std::vector<GeoPoint> line; ///< at least one point
+    double radius_m;            ///< around the line
 };
 
-/// What of a followed road lies within the radius of an exclusion, to half a metre: ranges of its
-/// ruler, in order, not overlapping.
+/// Returns the parts of a route within the radius of an exclusion, to half a metre: ranges of
+/// measure, in order and disjoint.
 std::vector<RouteMeasureRange> excluded_ranges(const RoadNetwork& roads,
                                                const LinearRoute& road,
                                                std::span<const Exclusion> exclusions);

@@ -8,9 +8,9 @@ namespace macadam {
 namespace {
 
 constexpr double sd_over_mad = 1.4826; // normal distribution
-constexpr double rounding = 1e-9;      // of sums of squares: a border must be worth more
+constexpr double rounding = 1e-9;      // of sums of squares: a boundary must gain more
 
-/// Sums over the first i pieces, by length.
+/// Length-weighted sums over the first i intervals.
 struct Sums {
     std::vector<double> length_m{0};
     std::vector<double> iri{0};
@@ -25,7 +25,7 @@ struct Sums {
         }
     }
 
-    /// Squared deviations of the pieces first <= i < last from their mean.
+    /// Returns the squared deviations of the intervals first <= i < last from their mean.
     double deviation(std::size_t first, std::size_t last) const {
         const double sum = iri[last] - iri[first];
         const double whole_m = length_m[last] - length_m[first];
@@ -40,10 +40,12 @@ double scatter(std::span<const ProfilePiece> profile, double least) {
     }
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::ranges::nth_element(steps, middle);
-    return std::max(least, sd_over_mad * *middle / std::sqrt(2.0)); // a step has two scatters
+    return std::max(least,
+                    sd_over_mad * *middle /
+                        std::sqrt(2.0)); // a difference has the scatter of two values
 }
 
-/// Where section number i may begin: at its piece, the first at 0.
+/// Returns the possible start of each section: at its interval, the first at 0.
 std::vector<double> borders_of(double whole_m, std::span<const ProfilePiece> profile) {
     std::vector<double> borders{0};
     for (std::size_t i = 1; i < profile.size(); ++i) {
@@ -53,7 +55,7 @@ std::vector<double> borders_of(double whole_m, std::span<const ProfilePiece> pro
     return borders;
 }
 
-/// For each number of pieces, where the last section of their best cut begins.
+/// Returns, for each number of intervals, the start of the last section in their optimal partition.
 std::vector<std::size_t> best_beginnings(const Sums& sums,
                                          const std::vector<double>& borders,
                                          double price,
@@ -74,7 +76,7 @@ std::vector<std::size_t> best_beginnings(const Sums& sums,
                 beginning[last] = first;
             }
         }
-        // Too short to stand alone, unless it is the whole road.
+        // Too short for a section, unless it is the entire road.
         if (last < n && borders[last] < min_length_m) {
             cost[last] = impossible;
         }

@@ -5,15 +5,15 @@ namespace {
 
 constexpr std::size_t none = ~std::size_t{0};
 
-/// A part that is maximal in what was read so far. Sums are of all scores from the first.
+/// A run that is maximal in the scores read so far. Sums start at the first score.
 struct Candidate {
     IndexRange range;
     double sum_before;
     double sum_through;
-    std::size_t lower; ///< the nearest candidate before with a lower sum_before
+    std::size_t lower; ///< nearest earlier candidate with a lower sum_before
 };
 
-/// The last candidate that begins lower than `sum_before`. Those between are jumped over.
+/// Returns the last candidate that begins lower than `sum_before`, skipping those between.
 std::size_t
 lower_than(const std::vector<Candidate>& candidates, std::size_t from, double sum_before) {
     while (from != none && candidates[from].sum_before >= sum_before) {

@@ -6,15 +6,15 @@
 
 namespace macadam {
 
-/// A part of a row: first <= i < last.
+/// A half-open index range: first <= i < last.
 struct IndexRange {
     std::size_t first;
     std::size_t last;
     friend bool operator==(const IndexRange&, const IndexRange&) = default;
 };
 
-/// The parts of a row of scores of which every beginning and every end adds up to more than zero,
-/// each as long as that stays so; in their order. O(n).
+/// Finds all maximal scoring subsequences: the longest runs in which every prefix and every suffix
+/// has a positive sum. In order; O(n).
 ///
 /// Source: W. L. Ruzzo and M. Tompa, "A linear time algorithm for finding all maximal scoring
 /// subsequences", ISMB 1999, pp. 234-241.

@@ -19,10 +19,10 @@ constexpr std::array<std::string_view, 11> kinds{"motorway",
                                                  "track",
                                                  "other"};
 constexpr double interval_90 = 1.645; // two-sided, normal distribution
-constexpr int shifts = 20;            // of the common error to either side
+constexpr int shifts = 20;            // steps of the common error to either side
 constexpr std::int32_t thrice = 3;
 
-/// Length in each class if all readings were off by `shift` of their common sd.
+/// Returns the length in each class if all readings were biased by `shift` times their common sd.
 std::vector<double>
 class_lengths_m(std::span<const RatedLength> pieces, const ClassTable& classes, double shift) {
     const double common = std::sqrt(common_share_along_road);

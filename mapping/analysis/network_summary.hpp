@@ -12,45 +12,47 @@
 
 namespace macadam {
 
-/// Road in one class of roughness, m; `low_m` and `high_m`: what it would be if all readings were
-/// too high, or too low, together, by as much as their common error may be (90 %).
+/// Length of road in one class of roughness, m. `low_m` and `high_m` are the lengths if all
+/// readings shared one bias as large as their common error may be (90 %).
 struct ClassLengthRange {
     double length_m = 0;
     double low_m = 0;
     double high_m = 0;
 };
 
-/// What is known of the roads of one kind. Every direction that may be driven counts.
+/// Statistics of the roads of one kind, counting every drivable direction.
 struct RoadSummary {
-    std::string kind;     ///< of road_kinds(); "" = all
+    std::string kind;     ///< one of road_kinds(); "" = all
     double network_m = 0; ///< on the map
     double covered_m = 0; ///< with at least one pass
-    double thrice_m = 0;  ///< with at least three
+    double thrice_m = 0;  ///< with at least three passes
     RoadMean mean{};
-    double p50 = 0, p85 = 0, p95 = 0;        ///< mm/m, by length; 0 where nothing is covered
-    std::vector<ClassLengthRange> classes{}; ///< as in the class table
+    double p50 = 0, p85 = 0, p95 = 0;        ///< mm/m, by length; 0 where no road is covered
+    std::vector<ClassLengthRange> classes{}; ///< in the order of the class table
 };
 
 struct NetworkSummary {
     RoadSummary all;
-    std::vector<RoadSummary> kinds{}; ///< those on the map, in the order of road_kinds()
+    std::vector<RoadSummary> kinds{}; ///< kinds on the map, in the order of road_kinds()
 };
 
-/// OSM's classes that cars may use, the most important first, and "other" at last.
+/// Returns OSM's highway classes open to cars, the most important first, and "other" last.
 std::span<const std::string_view> road_kinds();
 
-/// The kind of a highway tag: slip roads count with their road ("primary_link": "primary"), what is
-/// not known is "other".
+/// Returns the kind of a highway tag: slip roads count with their road ("primary_link": "primary"),
+/// and unknown tags are "other".
 std::string_view road_kind(std::string_view highway);
 
-/// \param measured   segments with a state; others are passed over.
-/// \param network_m  by highway tag: metres on the map, measured or not.
+/// Summarises a network.
+///
+/// \param measured   segments with a state; others are skipped.
+/// \param network_m  metres on the map by highway tag, measured or not.
 NetworkSummary network_summary(std::span<const SegmentRecord> measured,
                                const std::map<std::string, double>& network_m,
                                const ClassTable& classes);
 
-/// Length of road by roughness, m: bins of [0, step), [step, 2 step), ..., the last of which holds
-/// all above; in each bin a length for each class of the table.
+/// Length of road by roughness, m: bins [0, step), [step, 2 step), ..., the last one open-ended;
+/// each bin holds one length per class of the table.
 struct IriHistogram {
     double step_mm_per_m;
     std::vector<std::vector<double>> length_m;

@@ -7,7 +7,7 @@
 namespace macadam {
 namespace {
 
-constexpr double a_centimetre_m = 0.01; // what lengths are written to
+constexpr double a_centimetre_m = 0.01; // output resolution of lengths
 
 double shared_m(double from_m, double to_m, const RouteMeasureRange& range) {
     return std::max(0.0, std::min(to_m, range.to_m) - std::max(from_m, range.from_m));
@@ -25,7 +25,7 @@ double excluded_m(double from_m, double to_m, std::span<const RouteMeasureRange>
     return sum_m;
 }
 
-/// Pieces that have a place in the section.
+/// Returns the intervals that overlap the section.
 std::span<const RouteSegment> pieces_in(std::span<const RouteSegment> pieces,
                                         const RouteMeasureRange& section) {
     const auto first = std::ranges::upper_bound(pieces, section.from_m, {}, &RouteSegment::to_m);
@@ -33,7 +33,7 @@ std::span<const RouteSegment> pieces_in(std::span<const RouteSegment> pieces,
     return first < last ? std::span{first, last} : std::span<const RouteSegment>{};
 }
 
-/// What of a piece lies in the section, its place along the way too.
+/// Clips an interval to the section, including its way measures.
 RouteSegment cut(RouteSegment piece, const RouteMeasureRange& section) {
     const double before_m = std::max(0.0, section.from_m - piece.from_m);
     const double behind_m = std::max(0.0, piece.to_m - section.to_m);

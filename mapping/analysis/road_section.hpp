@@ -11,35 +11,36 @@
 
 namespace macadam {
 
-/// A part of a ruler. from_m <= to_m.
+/// An interval of route measures. from_m <= to_m.
 struct RouteMeasureRange {
     double from_m;
     double to_m;
     friend bool operator==(const RouteMeasureRange&, const RouteMeasureRange&) = default;
 };
 
-/// States by segment; those without a pass are not there.
+/// States by segment; segments without a pass are absent.
 using SegmentStates = std::map<SegmentKey, SegmentState>;
 
-/// A section of a road, as an agency reports it.
+/// A section of a route, as agencies report it.
 struct RoadSection {
-    double from_m; ///< on the ruler of the road that it is cut from
+    double from_m; ///< measure on its route
     double to_m;
-    double excluded_m;              ///< of its length
-    double open_share;              ///< measured length by what is not excluded; 0 where all is
-    CorrelatedMean measured;        ///< of what is not excluded
-    std::vector<StretchPart> parts; ///< on its ways, in driving order; holes are left out
+    double excluded_m; ///< excluded length
+    double open_share; ///< measured share of the length that is not excluded; 0 if all is excluded
+    CorrelatedMean measured;        ///< over the length that is not excluded
+    std::vector<StretchPart> parts; ///< on its ways, in driving order, without gaps
     std::vector<GeoPoint> line;
 };
 
-/// Sections of one length, and what is left at the end.
+/// Cuts sections of equal length; the last one may be shorter.
+///
 /// \param length_m  > 0
 std::vector<RouteMeasureRange> even_sections(double whole_m, double length_m);
 
-/// What is known of each section of a followed road.
+/// Computes the roughness of each section of a route.
 ///
-/// \param sections  on the road's ruler, within it.
-/// \param excluded  on the road's ruler, in order, not overlapping: what must not count.
+/// \param sections  route measures within the route.
+/// \param excluded  route measures to leave out, in order, disjoint.
 std::vector<RoadSection> measured_sections(const RoadNetwork& roads,
                                            const LinearRoute& road,
                                            const SegmentStates& states,

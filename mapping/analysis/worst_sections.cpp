@@ -12,9 +12,9 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t unmeasured = ~std::size_t{0};
-constexpr double a_centimetre_m = 0.01; // what lengths are written to
+constexpr double a_centimetre_m = 0.01; // output resolution of lengths
 
-/// Places of the measured segments in the order of their keys.
+/// Index of the measured segments in key order.
 struct Lookup {
     std::span<const SegmentRecord> records;
     std::vector<std::size_t> order;
@@ -33,15 +33,15 @@ Lookup lookup_of(std::span<const SegmentRecord> records) {
     return lookup;
 }
 
-/// A segment of a road as it is followed.
+/// A segment of a road that is followed.
 struct Piece {
     EdgeId edge;
-    std::uint32_t number; ///< along the edge, as driven
-    std::size_t record;   ///< or unmeasured
+    std::uint32_t number; ///< along the edge, in driving direction
+    std::size_t record;   ///< or `unmeasured`
     double length_m;
 };
 
-/// Those of an edge that are measured, in the order of their keys.
+/// Returns the measured segments of an edge in key order.
 std::span<const std::size_t>
 measured_on(const RoadNetwork& roads, const Lookup& lookup, EdgeId edge) {
     const auto link = link_at(roads, edge);
@@ -79,7 +79,7 @@ pieces_along(const RoadNetwork& roads, const Lookup& lookup, const std::vector<E
     return pieces;
 }
 
-/// Edges with a measured segment, and those so short that a stretch may bridge them.
+/// Selects edges with a measured segment, and edges short enough to be bridged by a section.
 std::vector<bool>
 edges_to_follow(const RoadNetwork& roads, const Lookup& lookup, const WorstSectionConfig& config) {
     std::vector<bool> wanted(2 * link_count(roads), false);
@@ -95,11 +95,11 @@ double excess_mm_per_m(const Lookup& lookup, const Piece& piece, const WorstSect
     return rated_length(lookup.records[piece.record]).iri - config.above_mm_per_m;
 }
 
-/// What lies between two poor pieces.
+/// Road between two poor segments.
 struct Between {
-    double unmeasured_m = 0; ///< in a row, at most so far
+    double unmeasured_m = 0; ///< longest contiguous length
     double better_m = 0;
-    double row_m = 0; ///< unmeasured, in a row, now
+    double row_m = 0; ///< current contiguous unmeasured length
 
     void add(const Piece& piece) {
         row_m = piece.record == unmeasured ? row_m + piece.length_m : 0;
@@ -112,7 +112,7 @@ struct Between {
     }
 };
 
-/// Parts of a road that begin and end with poor pieces and hold nothing that must not be bridged.
+/// Finds the parts of a road that begin and end with poor segments and contain no unbridgeable gap.
 std::vector<IndexRange> blocks_of(const std::vector<Piece>& pieces,
                                   const Lookup& lookup,
                                   const WorstSectionConfig& config) {
@@ -134,7 +134,7 @@ std::vector<IndexRange> blocks_of(const std::vector<Piece>& pieces,
     return blocks;
 }
 
-/// A road's runs of poor pieces, as parts of it.
+/// Finds a road's runs of poor segments, as index ranges.
 std::vector<IndexRange> poor_runs(const std::vector<Piece>& pieces,
                                   const Lookup& lookup,
                                   const WorstSectionConfig& config) {
@@ -167,7 +167,7 @@ std::vector<Segment> segments_along(const RoadNetwork& roads, std::span<const Pi
     return segments;
 }
 
-/// Whether a segment begins, as driven, where a part of its way ends.
+/// Returns true if a segment continues a part of its way in driving direction.
 bool goes_on(const StretchPart& part, const Segment& segment) {
     if (part.way_id != segment.key.way_id || part.forward != segment.key.forward) {
         return false;
@@ -203,14 +203,14 @@ std::vector<GeoPoint> line_through(const std::vector<Segment>& segments) {
     return line;
 }
 
-/// The earlier or later of two times, by `better`; the known one if only one is.
+/// Returns the earlier or later of two times, by `better`; the known one if only one is known.
 template <typename Better>
 std::optional<std::int64_t>
 better_of(std::optional<std::int64_t> a, std::optional<std::int64_t> b, Better better) {
     return a && b ? std::optional{better(*a, *b) ? *a : *b} : a ? a : b;
 }
 
-/// Everything that the measured segments say.
+/// Summarises the measured segments of a section.
 WorstSection rated(std::vector<std::size_t> records, const Lookup& lookup, double common_share) {
     WorstSection stretch{};
     std::vector<RatedLength> lengths;

@@ -25,7 +25,7 @@ double dot(const Vector& a, const Vector& b) {
     return a.east_m * b.east_m + a.north_m * b.north_m;
 }
 
-/// A plane for some hundred metres around a place.
+/// A local plane for a few hundred metres around a position.
 class SmallPlane {
 public:
     explicit SmallPlane(const GeoPoint& origin)
@@ -48,13 +48,13 @@ private:
     double north_m_per_deg_;
 };
 
-/// Between two points of a way's line.
+/// A step between two points of a way's line.
 struct LineStep {
     std::uint32_t link;
     PointEn from;
     Vector step;
     double squared_m2;
-    double along_m; ///< of its beginning, along the way
+    double along_m; ///< of its start, along the way
     double length_m;
 };
 
@@ -101,7 +101,7 @@ std::vector<LineStep> steps_in(const RoadNetwork& roads,
     return steps;
 }
 
-/// A sample in the plane, with its courses: through it, up to it and from it.
+/// A sample in the plane with its courses: through it, up to it and from it.
 struct PlacedSample {
     PointEn at;
     std::array<Vector, 3> courses;
@@ -119,7 +119,7 @@ bool run_alike(const Vector& a, const Vector& b, double min_cosine) {
     return product > 0 && product * product >= min_cosine * min_cosine * dot(a, a) * dot(b, b);
 }
 
-/// Forward, backward: which direction of a step runs one of the sample's courses.
+/// Directions of a step that match one of the sample's courses.
 struct Runs {
     bool forward;
     bool backward;
@@ -135,14 +135,14 @@ Runs runs_of(const PlacedSample& sample, const LineStep& step, double min_cosine
     return runs;
 }
 
-/// By chords: for bends that have few points in one of the networks.
+/// Compares courses by chords, for bends with few points in one of the networks.
 Runs runs_around(const PlacedSample& sample, const Vector& chord, double min_cosine) {
     const auto& course = sample.courses[0];
     return {run_alike(course, chord, min_cosine),
             run_alike(course, {-chord.east_m, -chord.north_m}, min_cosine)};
 }
 
-/// Of one edge the nearest place counts.
+/// Adds a position, keeping only the nearest per edge.
 void take(std::vector<NearPlaceOnEdge>& places, const NearPlaceOnEdge& place) {
     const auto same = std::ranges::find(places, place.edge, &NearPlaceOnEdge::edge);
     if (same == places.end()) {
@@ -152,9 +152,9 @@ void take(std::vector<NearPlaceOnEdge>& places, const NearPlaceOnEdge& place) {
     }
 }
 
-/// Where the perpendicular from a sample meets a step.
+/// Foot of the perpendicular from a sample to a step.
 struct Foot {
-    double along_m; ///< the way
+    double along_m; ///< along the way
     double across_m;
 };
 

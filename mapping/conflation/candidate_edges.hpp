@@ -9,38 +9,39 @@
 
 namespace macadam {
 
-/// A place along a way that is followed in one direction.
+/// A sampled position along a way that is followed in one direction.
 struct RoadSample {
-    double offset_m; ///< from where the way begins in that direction
-    GeoPoint behind; ///< some metres back along the way
+    double offset_m; ///< from the start of the way in that direction
+    GeoPoint behind; ///< a few metres back along the way
     GeoPoint at;
     GeoPoint ahead;
-    std::uint32_t roads_met = 0; ///< links that meet there; 0: it is no node
+    std::uint32_t roads_met = 0; ///< number of links that meet at the position; 0: not a node
 };
 
-/// Where it may be in the other network.
+/// A candidate position of a sample in the other network.
 struct NearPlaceOnEdge {
     EdgeId edge;
     double offset_m; ///< along the edge, in its direction
-    double across_m; ///< from the sample
+    double across_m; ///< distance from the sample
 };
 
-/// Half of the chord that tells a road's course: a vertex set a metre aside turns it by 8 degrees.
+/// Half the chord from which a road's course is measured: a vertex displaced by a metre turns it by
+/// 8 degrees.
 inline constexpr double half_chord_m = 7.5;
 
-/// The way's place `along_m` from its first node; held at its ends.
+/// Returns the position `along_m` from the way's first node, clamped to its ends.
 GeoPoint place_along(const WayView& way, double along_m);
 
-/// The roads of a network around a line.
+/// Finds the roads of a network around a line.
 class CandidateEdges {
 public:
-    /// \param left_out  by number of way: not looked at. Both outlive this.
+    /// \param left_out  by way number: ways to ignore. Both references outlive this object.
     CandidateEdges(const RoadNetwork& roads,
                    const std::vector<bool>& left_out,
                    const ChangeConfig& config);
 
-    /// For each sample the drivable edges within reach that run its course, each with its nearest
-    /// place; nearest first, not more than eight.
+    /// Returns for each sample the drivable edges within reach that run along its course, each with
+    /// its nearest position; nearest first, at most eight.
     std::vector<std::vector<NearPlaceOnEdge>> around(std::span<const RoadSample> samples) const;
 
 private:

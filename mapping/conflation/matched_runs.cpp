@@ -9,24 +9,24 @@
 namespace macadam {
 namespace {
 
-constexpr double max_proportioned_m = 400; // beyond, feet are right within less than lengths
-constexpr double straight_m = 0.3;         // of the place along a road: less is drawing
-constexpr double step_back_m = 6;          // as in a walk; more is a second lap of a loop
+constexpr double max_proportioned_m = 400; // beyond, perpendicular feet are more accurate
+constexpr double straight_m = 0.3; // along the road; smaller deviations are digitising noise
+constexpr double step_back_m = 6;  // as in a walk; more is a second lap of a loop
 
-/// Two stations of one place.
+/// Old and new station of one point.
 struct Knot {
     double before_m;
     double after_m;
 };
 
-/// A run's part on one way in one direction.
+/// The part of a run on one way in one direction.
 struct Stretch {
     std::uint32_t way;
     bool forward;
-    std::vector<Knot> knots; ///< both rise
+    std::vector<Knot> knots; ///< both stations increase
 };
 
-/// How far each place of a run is along the new roads.
+/// Returns the travelled distance along the new roads for each position of a run.
 std::vector<double> gone_m(const WalkRun& run) {
     std::vector<double> gone{0};
     for (std::size_t i = 1; i < run.size(); ++i) {
@@ -41,8 +41,8 @@ bool is_at_change(const WalkRun& run, std::size_t i) {
            (i + 1 < run.size() && run[i + 1].edge != run[i].edge);
 }
 
-/// Between two nodes that both networks have, lengths say more than feet of perpendiculars: these
-/// stay behind where the map was moved along the road.
+/// Between two nodes common to both networks, lengths are more accurate than perpendicular feet,
+/// which lag behind where the map was shifted along the road.
 WalkRun proportioned(const WalkRun& run, const ChangeConfig& config) {
     const auto gone = gone_m(run);
     WalkRun result;
@@ -94,9 +94,8 @@ std::vector<Stretch> stretches_of(const RoadNetwork& after, const WalkRun& run) 
     return stretches;
 }
 
-/// The fewest knots that need be kept, and the last one of all is: those off the straight line
-/// between their neighbours (Douglas and Peucker, The Canadian Cartographer 10 (1973), pp.
-/// 112-122).
+/// Keeps the minimum of knots, always including the last: those off the straight line between their
+/// neighbours (Douglas and Peucker, The Canadian Cartographer 10 (1973), pp. 112-122).
 std::vector<Knot> straightened(std::span<const Knot> knots) {
     if (knots.size() <= 2) {
         return {knots.begin(), knots.end()};

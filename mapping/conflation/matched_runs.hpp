@@ -8,11 +8,11 @@
 
 namespace macadam {
 
-/// What the runs of a walk say of where a way has gone: runs that are too short, or longer or
-/// shorter than the way by too much, say nothing. In the order of their stations, whole
-/// millimetres.
+/// Derives from the matched runs of a way its corresponding roads, in the order of their stations,
+/// in whole millimetres. Runs that are too short, or whose length differs too much from the way's,
+/// are ignored.
 ///
-/// \param left_out  ways of `after` that nothing can have become
+/// \param left_out  ways of `after` that cannot correspond to any way
 std::vector<RoadCorrespondence> same_roads(const RoadNetwork& before,
                                            const RoadNetwork& after,
                                            std::uint32_t way,

@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// A part of a way in one driving direction. Stations rise in driving direction (station_m in
-/// strip_trace.hpp): metres from the way's first node forward, minus these backward.
+/// An interval of a way in one driving direction. Stations increase in driving direction (station_m
+/// in chunk_trace.hpp): metres from the way's first node forward, their negatives backward.
 struct DirectedPart {
     std::int64_t way_id;
     bool forward;
@@ -18,8 +18,7 @@ struct DirectedPart {
     friend bool operator==(const DirectedPart&, const DirectedPart&) = default;
 };
 
-/// One piece of road as two networks have it: stations of the one go over into those of the other
-/// in proportion.
+/// The same interval of road in two networks. Stations map from one to the other in proportion.
 struct RoadCorrespondence {
     DirectedPart before;
     DirectedPart after;
@@ -27,32 +26,32 @@ struct RoadCorrespondence {
 };
 
 struct NetworkChange {
-    std::vector<std::int64_t> kept; ///< ids of ways that are cut into the same segments, rising
-    /// Of all other ways: where the road is the same. In the order of `before`: way, forward first,
-    /// stations; no two overlap by more than a junction's uncertainty.
+    std::vector<std::int64_t> kept; ///< ids of ways cut into the same segments, ascending
+    /// Intervals of all other ways where the road is the same. In the order of `before`: way,
+    /// forward first, stations; no two overlap by more than the uncertainty of a junction.
     std::vector<RoadCorrespondence> same;
 };
 
 struct ChangeConfig {
-    double farthest_m = 10;      ///< across the road
-    double max_turned_deg = 30;  ///< of the course
-    double max_stretched = 0.03; ///< of the length
-    double max_stretched_m = 8;  ///< beside that: how far the ends of a road were moved
-    double min_run_m = 20;       ///< a shorter piece is no evidence, unless it is half a way
-    double max_shared_m = 5;     ///< two roads cannot have become one along more than that
+    double farthest_m = 10;      ///< maximum distance across the road
+    double max_turned_deg = 30;  ///< maximum change of course
+    double max_stretched = 0.03; ///< maximum relative change of length
+    double max_stretched_m = 8;  ///< beyond that: maximum displacement of a road's ends
+    double min_run_m = 20;       ///< shorter runs are no evidence, unless half a way long
+    double max_shared_m = 5;     ///< maximum length over which two old roads may share a new one
 };
 
-/// Where the roads of one network are in a newer one of the same area.
+/// Conflates two networks of the same area: finds the roads of the old network in the newer one.
 ///
-/// A way that has its id, line, oneway and junctions still is kept at once. Every other one is
-/// followed in each direction that may be driven, ten metres by ten metres: its places are the
-/// hidden Markov model's observations and the roads of the new network its states, as in map
-/// matching, with a state for "gone". What is far across, of another name or class, or another kind
-/// of junction is unlikely, and so is a path along the new roads that is longer or shorter than
-/// that along the old one. Where two old roads claim one new one, that one gives way that has the
-/// better alternative.
+/// A way whose id, line, oneway and junctions are unchanged is kept at once. Every other way is
+/// matched in each drivable direction with a hidden Markov model, as in map matching: its positions
+/// every ten metres are the observations and the roads of the new network the states, with an
+/// additional state for "gone". Costs grow with distance across the road, a different name or
+/// class, another kind of junction, and a path along the new roads that is longer or shorter than
+/// along the old one. If two old roads claim the same new road, the one with the better alternative
+/// yields.
 ///
-/// \param before, after  with segments of one length.
+/// \param before, after  networks with segments of equal length.
 NetworkChange change_between(const RoadNetwork& before,
                              const RoadNetwork& after,
                              const ChangeConfig& config = {},

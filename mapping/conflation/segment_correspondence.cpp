@@ -7,9 +7,9 @@
 namespace macadam {
 namespace {
 
-constexpr double unchanged_m = 0.1; // what whole millimetres of many ways may add up to
+constexpr double unchanged_m = 0.1; // accumulated rounding to whole millimetres over many ways
 
-/// The link's border before its segment `number`, from the way's first node.
+/// Returns the boundary before segment `number` of the link, from the way's first node.
 double border_m(const Link& link, std::uint32_t number) {
     return number == link.segments
                ? link.to_m
@@ -29,7 +29,7 @@ std::uint32_t segments_of_way(const RoadNetwork& roads, const WayView& way) {
     return last.first_segment + last.segments;
 }
 
-/// The link of a way that holds a segment of that number, which the way has.
+/// Returns the link of a way that contains an existing segment number.
 Link link_with(const RoadNetwork& roads, const WayView& way, std::uint32_t index) {
     auto first = way.first_link;
     auto past = way.past_link;
@@ -45,7 +45,7 @@ struct PlacedSegment {
     WayMeasureRange whole_m;
 };
 
-/// Segments of a way that meet a range of stations, in driving direction.
+/// Returns the segments of a way that overlap a range of stations, in driving direction.
 std::vector<PlacedSegment> segments_in(const RoadNetwork& roads,
                                        const WayView& way,
                                        bool forward,
@@ -76,7 +76,7 @@ WayMeasureRange shared(const WayMeasureRange& a, const WayMeasureRange& b) {
     return {std::max(a.from_m, b.from_m), std::min(a.to_m, b.to_m)};
 }
 
-/// A range of one side of a piece of road, on its other side.
+/// Maps a range of stations from one side of a correspondence to the other.
 WayMeasureRange
 over(const WayMeasureRange& range, const DirectedPart& here, const DirectedPart& there) {
     const double scale =
@@ -87,7 +87,7 @@ over(const WayMeasureRange& range, const DirectedPart& here, const DirectedPart&
     return {at(range.from_m), at(range.to_m)};
 }
 
-/// What has become of a way in one direction.
+/// Returns the correspondences of a way in one direction.
 auto roads_of(const NetworkChange& change, std::int64_t way_id, bool forward) {
     const auto key_of = [](const RoadCorrespondence& road) {
         return std::tuple{road.before.way_id, !road.before.forward};

@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// Stations along a way in one driving direction; they rise.
+/// Ascending stations along a way in one driving direction.
 struct WayMeasureRange {
     double from_m;
     double to_m;
@@ -21,49 +21,52 @@ inline double length_m(const WayMeasureRange& range) {
     return range.to_m - range.from_m;
 }
 
-/// The way's number; nothing if the network has none of that id.
+/// Returns the way's number, or `std::nullopt` if the network has no way of that id.
 std::optional<std::uint32_t> way_numbered(const RoadNetwork& roads, std::int64_t id);
 
-/// Where a segment lies; nothing if the network has no such segment, or nobody may drive it so.
+/// Returns the stations of a segment, or `std::nullopt` if the network has no such segment or the
+/// direction is not drivable.
 std::optional<WayMeasureRange> stations_of(const RoadNetwork& roads, const SegmentKey& key);
 
-/// How many segments a chunk has; 0 if the network has no such chunk.
+/// Returns the number of segments of a chunk; 0 if the network has no such chunk.
 std::uint32_t segments_of_chunk(const RoadNetwork& roads, const ChunkKey& chunk);
 
-/// A piece of an old segment that is a piece of a new one.
+/// An interval of an old segment that is an interval of a new one.
 struct SegmentCorrespondence {
     SegmentKey after;
-    WayMeasureRange before_m; ///< of the piece, along the old way
-    WayMeasureRange after_m;  ///< of the piece, along the new way
-    WayMeasureRange whole_m;  ///< of the new segment
+    WayMeasureRange before_m; ///< the interval along the old way
+    WayMeasureRange after_m;  ///< the interval along the new way
+    WayMeasureRange whole_m;  ///< the entire new segment
 };
 
-/// A chunk that lies where it did, with the same segments: every old station plus `shift_m` is the
-/// new one.
+/// A chunk with the same position and segments in both networks: new station = old station +
+/// `shift_m`.
 struct ShiftedChunk {
     ChunkKey chunk;
     double shift_m;
 };
 
-/// What has become of the segments of an old network.
+/// Maps segments of an old network to a new one.
 class SegmentCorrespondences {
 public:
-    /// All outlive this.
+    /// All arguments outlive this object.
     SegmentCorrespondences(const RoadNetwork& before,
                            const RoadNetwork& after,
                            const NetworkChange& change);
 
-    /// Nothing has become of it as far as none is told. A segment of a kept way is its own heir.
-    /// In driving direction.
+    /// Returns the corresponding intervals in driving direction; parts of the segment without a
+    /// correspondence are lost. A segment of a kept way corresponds to itself.
     std::vector<SegmentCorrespondence> of(const SegmentKey& before) const;
 
-    /// The one segment that it is now, with both its ends where they were, to a decimetre.
+    /// Returns the single segment that now has both ends in the same positions, to a decimetre.
     std::optional<SegmentCorrespondence> unchanged(const SegmentKey& before) const;
 
-    /// Nothing if its segments are not all there, unchanged, and together one chunk.
+    /// Returns `std::nullopt` unless all segments of the chunk are unchanged and together form one
+    /// chunk.
     std::optional<ShiftedChunk> moved(const ChunkKey& before) const;
 
-    /// Where a stretch is now: nothing if less than nine tenths of it are there, or on two ways.
+    /// Returns the new position of an interval, or `std::nullopt` if less than nine tenths of it
+    /// are left or it lies on two ways.
     std::optional<DirectedPart> stretch(const DirectedPart& before) const;
 
     bool is_kept(std::int64_t way_id) const;

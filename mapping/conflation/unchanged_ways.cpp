@@ -5,7 +5,7 @@
 namespace macadam {
 namespace {
 
-/// Cut at the same points of their lines, which are alike.
+/// Returns true if two ways with equal lines have their nodes at the same points.
 bool have_same_junctions(const RoadNetwork& before,
                          const WayView& a,
                          const RoadNetwork& after,

@@ -8,18 +8,18 @@
 namespace macadam {
 namespace {
 
-// Minus logarithms of likelihoods.
-constexpr double nowhere_cost = 5.5; // for ten metres; about that of a road at the border of reach
-constexpr double vanish_cost = 1.5;  // and again to come back
-constexpr double break_cost = 7; // more than to vanish and come back, less than ten metres of it
-constexpr double sd_step_m = 3;  // of the way between two samples, old and new
+// Costs are negative log-likelihoods.
+constexpr double nowhere_cost = 5.5; // per ten metres; about that of a road at the limit of reach
+constexpr double vanish_cost = 1.5;  // and again for the return
+constexpr double break_cost = 7;     // above 2 vanish_cost, below that plus nowhere_cost
+constexpr double sd_step_m = 3;      // of the path length between two samples, old against new
 constexpr double max_step_cost = 6;
 
 constexpr double min_slack_m = 12; // between a step of the old road and one of the new
 constexpr double relative_slack = 0.3;
-constexpr double step_back_m = 6; // feet on a bend may go back
+constexpr double step_back_m = 6; // perpendicular feet may move back on a bend
 
-/// The way from one place to another along the roads.
+/// The path between two positions along the roads.
 struct Hop {
     double length_m;
     std::optional<EdgeId> between;
@@ -29,7 +29,7 @@ bool may_go_on(const RoadNetwork& roads, EdgeId from, EdgeId to) {
     return to_node(roads, from) == from_node(roads, to) && to != reversed(from);
 }
 
-/// Over at most one whole edge.
+/// Finds the path between two states over at most one entire edge.
 std::optional<Hop>
 hop(const RoadNetwork& roads, const WalkState& from, const WalkState& to, double longest_m) {
     if (from.edge == to.edge && to.offset_m >= from.offset_m - step_back_m) {
@@ -115,7 +115,7 @@ void WayLattice::add(double offset_m, double weight, std::vector<WalkState> stat
 
 namespace {
 
-/// A run and what is between its places where the edge changes.
+/// Extends a run to a position, adding the positions at a change of edge.
 void go_on(WalkRun& run,
            const RoadNetwork& roads,
            const WalkPlace& to,
@@ -155,7 +155,7 @@ WayMatching WayLattice::likeliest() const {
         const auto& column = columns_[i];
         const auto& node = column.nodes[path[i]];
         if (path[i] + 1 == column.nodes.size()) {
-            continue; // nowhere
+            continue; // the state "gone"
         }
         const WalkPlace place{
             column.offset_m, node.state.edge, node.state.offset_m, node.state.is_node};

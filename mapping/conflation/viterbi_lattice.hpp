@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// Where a sample of a way may be, and how unlikely that is by itself.
+/// A candidate state of a sample with its emission cost.
 struct WalkState {
     EdgeId edge;
     double offset_m; ///< along the edge, in its direction
@@ -16,16 +16,18 @@ struct WalkState {
     bool is_node = false; ///< a junction or an end in both networks
 };
 
-/// The likeliest way through places that samples may be in (Viterbi's algorithm). Beside its places
-/// each sample may be nowhere.
+/// Finds the most likely sequence of candidate states (Viterbi). Besides its candidates, each
+/// sample has the state "gone".
 ///
 /// Source: A. J. Viterbi, IEEE Transactions on Information Theory 13 (1967), pp. 260-269.
 class WayLattice {
 public:
     explicit WayLattice(const RoadNetwork& roads) : roads_{&roads} {}
 
-    /// \param offset_m  along the way that is followed; rising
-    /// \param weight    how much of the way it stands for, in tens of metres
+    /// Adds a sample with its candidate states.
+    ///
+    /// \param offset_m  along the way that is followed; ascending
+    /// \param weight    length of way that the sample represents, in tens of metres
     void add(double offset_m, double weight, std::vector<WalkState> states);
 
     WayMatching likeliest() const;
@@ -33,14 +35,14 @@ public:
 private:
     struct Node {
         WalkState state;
-        double cost;                   ///< of the best way to here
-        std::uint32_t before;          ///< in the previous column
-        bool is_walked;                ///< along the roads, from there
-        std::optional<EdgeId> between; ///< one edge that was passed whole
+        double cost;                   ///< of the best path up to this state
+        std::uint32_t before;          ///< predecessor, an index into the previous column
+        bool is_walked;                ///< reached along the roads from the predecessor
+        std::optional<EdgeId> between; ///< a single edge passed entirely in between
     };
     struct Column {
         double offset_m;
-        std::vector<Node> nodes; ///< the last one: nowhere
+        std::vector<Node> nodes; ///< the last one is "gone"
     };
 
     Node reached(const Column& from, const WalkState& state, double offset_m) const;

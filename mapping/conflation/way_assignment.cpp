@@ -12,16 +12,16 @@
 namespace macadam {
 namespace {
 
-constexpr int max_rounds = 8; // each settles all quarrels of two; few are of more
+constexpr int max_rounds = 8; // each resolves all conflicts of two ways; larger ones are rare
 
-/// What a way says a part of the new network has been.
+/// Claim of a way to a part of the new network.
 struct AssignmentBid {
     DirectedPart part;
-    std::size_t way; ///< its place in the list
+    std::size_t way; ///< index into the list
     std::size_t road;
 };
 
-/// Two claims that overlap.
+/// Two overlapping claims.
 struct AssignmentConflict {
     AssignmentBid first;
     AssignmentBid second;
@@ -87,7 +87,7 @@ std::set<EdgeId> edges_in(const RoadNetwork& roads, const AssignmentConflict& qu
     return edges;
 }
 
-/// Without the first or the last metres of what it has become.
+/// Removes the first and last metres, measured on the new road, from a correspondence.
 RoadCorrespondence without(const RoadCorrespondence& road, double first_m, double last_m) {
     const double scale = length_m(road.before) / length_m(road.after);
     auto rest = road;
@@ -98,7 +98,7 @@ RoadCorrespondence without(const RoadCorrespondence& road, double first_m, doubl
     return rest;
 }
 
-/// Both claims end in the middle of what they share, which is not half of either.
+/// Ends both claims in the middle of their overlap, which is less than half of either.
 void cut_ends(std::vector<WayMatch>& ways, const AssignmentConflict& quarrel) {
     const double half_m = (quarrel.to_station_m - quarrel.from_station_m) / 2;
     auto& first = ways[quarrel.first.way].roads[quarrel.first.road];

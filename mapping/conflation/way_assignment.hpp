@@ -9,16 +9,16 @@
 
 namespace macadam {
 
-/// A way that is followed in one direction, and what came of it.
+/// A way followed in one direction, with its match.
 struct WayMatch {
-    std::uint32_t way; ///< of the old network
+    std::uint32_t way; ///< way number in the old network
     bool forward;
     double cost = 0;
-    std::set<EdgeId> barred{}; ///< what others have a better claim to
+    std::set<EdgeId> barred{}; ///< edges assigned to ways with a better claim
     std::vector<RoadCorrespondence> roads{};
 };
 
-/// Where the way goes without the edges that it is barred from.
+/// Matches the way again without its barred edges.
 WayMatch followed_again(WayMatch way,
                         const RoadNetwork& before,
                         const RoadNetwork& after,
@@ -26,8 +26,9 @@ WayMatch followed_again(WayMatch way,
                         const std::vector<bool>& left_out,
                         const ChangeConfig& config);
 
-/// No two ways go to the same place: of two that do, that one looks for another that loses less by
-/// it; where they only overlap at their ends, both end in the middle of it.
+/// Resolves conflicts so that no two ways match the same road: of two that do, the one that loses
+/// less is matched again elsewhere; if they overlap only at their ends, both end in the middle of
+/// the overlap.
 std::vector<WayMatch> assign_one_to_one(std::vector<WayMatch> ways,
                                         const RoadNetwork& before,
                                         const RoadNetwork& after,

@@ -10,10 +10,10 @@ namespace macadam {
 namespace {
 
 constexpr double sample_step_m = 10;
-constexpr std::size_t samples_at_once = 32; // one search in the index
+constexpr std::size_t samples_at_once = 32; // per search in the index
 
-// Costs are minus logarithms of likelihoods, for ten metres of road.
-constexpr double sd_across_m = 3; // how far mappers move a road that they leave where it is
+// Costs are negative log-likelihoods per ten metres of road.
+constexpr double sd_across_m = 3; // displacement of an unchanged road by remapping
 constexpr double other_name_cost = 1.5;
 constexpr double other_class_cost = 0.7;
 constexpr double other_id_cost = 0.3;
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> links_met(const RoadNetwork& roads) {
     return met;
 }
 
-/// Offsets along a link at which it is looked at, its end among them.
+/// Returns the sampling offsets along a link, including its end.
 std::vector<double> even_offsets_m(double length_m) {
     const double steps = std::max(1.0, std::ceil(length_m / sample_step_m));
     std::vector<double> offsets_m;
@@ -48,8 +48,8 @@ double cost_of_words(const WayView& before, const WayView& after) {
            (before.id != after.id ? other_id_cost : 0);
 }
 
-/// Of a sample where roads meet or end, at a place: it is moved to a node nearby where as many do.
-/// Where roads meet, it costs if there is another junction, or none.
+/// Builds the state of a sample at a junction or end: it is moved to a nearby node where equally
+/// many roads meet. At a junction, a different kind of junction, or none, adds a cost.
 WalkState at_node(const RoadNetwork& after,
                   const std::vector<std::uint32_t>& met,
                   const NearPlaceOnEdge& place,
@@ -73,12 +73,12 @@ WalkState at_node(const RoadNetwork& after,
     return state;
 }
 
-/// What is no node: a point between, or where one way only goes on as the next.
+/// Returns true for a point within a way, or where one way merely continues as the next.
 bool is_between(std::uint32_t roads_met) {
     return roads_met == 0 || roads_met == 2;
 }
 
-/// How much of the way each sample stands for, in tens of metres.
+/// Returns the length of way that each sample represents, in tens of metres.
 std::vector<double> weights_of(const std::vector<RoadSample>& samples) {
     std::vector<double> weights;
     for (std::size_t i = 0; i < samples.size(); ++i) {

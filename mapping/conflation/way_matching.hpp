@@ -8,33 +8,35 @@
 
 namespace macadam {
 
-/// A place of a way, in one direction, and of the edge that it has become.
+/// A position on a way in one direction, and on the edge it is matched to.
 struct WalkPlace {
-    double offset_m; ///< from where the way begins in that direction; rising within a run
+    double offset_m; ///< from the start of the way in that direction; ascending within a run
     EdgeId edge;
     double along_m;       ///< along the edge, in its direction
     bool is_node = false; ///< a junction or an end in both networks
 };
 
-/// Walked along both without a break. Each change of edge stands there twice, at both edges' ends.
+/// An unbroken run along both networks. Each change of edge occurs twice, at the ends of both
+/// edges.
 using WalkRun = std::vector<WalkPlace>;
 
 struct WayMatching {
-    double cost = 0; ///< minus the logarithm of its likelihood, but for a constant
+    double cost = 0; ///< -log likelihood, up to a constant
     std::vector<WalkRun> runs;
 };
 
-/// Follows ways of one network through another.
+/// Matches ways of one network to another.
 class RoadWalker {
 public:
-    /// \param left_out  ways of `after` that are no candidates. All outlive this.
+    /// \param left_out  ways of `after` that are no candidates. All arguments outlive this object.
     RoadWalker(const RoadNetwork& before,
                const RoadNetwork& after,
                const std::vector<bool>& left_out,
                const ChangeConfig& config);
 
-    /// The likeliest course of a way that is followed in one direction.
-    /// \param barred  edges that it must not take
+    /// Finds the most likely match of a way in one direction.
+    ///
+    /// \param barred  edges that must not be used
     WayMatching walk(std::uint32_t way, bool forward, const std::set<EdgeId>& barred = {}) const;
 
 private:
@@ -44,7 +46,7 @@ private:
     const RoadNetwork* after_;
     CandidateEdges near_;
     ChangeConfig config_;
-    std::vector<std::uint32_t> met_before_; ///< links that meet, by node
+    std::vector<std::uint32_t> met_before_; ///< number of links that meet, by node
     std::vector<std::uint32_t> met_after_;
 };
 

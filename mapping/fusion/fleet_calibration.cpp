@@ -10,14 +10,14 @@ namespace macadam {
 namespace {
 
 constexpr int max_rounds = 400;
-constexpr int first_spread_round = 8; // the fit is about right then
+constexpr int first_spread_round = 8; // by then the fit is nearly converged
 constexpr int last_spread_round = 64;
-constexpr double settled = 1e-8; // relative: far below the whole millionths that are kept
+constexpr double settled = 1e-8; // relative; far below the stored resolution of 1e-6
 
 constexpr double cars_of_prior = 4;
 
-/// At least two cars passed; what is read where only one did tells nothing of it. Their places are
-/// numbered anew, from 0 without a gap.
+/// Selects readings at places passed by at least two cars; others carry no information about a car.
+/// Places are renumbered from 0 without gaps.
 std::vector<FleetReading> shared_readings(const std::vector<FleetReading>& readings) {
     std::vector<FleetReading> shared;
     std::uint32_t places = 0;
@@ -36,7 +36,7 @@ std::vector<FleetReading> shared_readings(const std::vector<FleetReading>& readi
     return shared;
 }
 
-/// Places that each car shares with others, each once.
+/// Counts the distinct places that each car shares with others.
 std::vector<std::size_t> shared_places(const std::vector<FleetReading>& readings,
                                        std::size_t cars) {
     std::vector<std::size_t> places(cars, 0);
@@ -54,7 +54,7 @@ double square(double x) {
     return x * x;
 }
 
-/// How far cars that are not known are off each other, robustly.
+/// Estimates the spread between cars that are not known, robustly.
 double spread_of_cars(const FleetFit& fit, const std::vector<bool>& counts, double prior_sd) {
     std::vector<double> off;
     double sampling = 0;

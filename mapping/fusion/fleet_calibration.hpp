@@ -9,52 +9,52 @@
 
 namespace macadam {
 
-/// What one pass read at a place: a segment within a time in which its road is taken for the same.
+/// Reading of one pass at a place: a segment within a period over which its road counts as
+/// unchanged.
 struct FleetReading {
     std::uint32_t place;
     std::uint32_t car;
-    std::uint32_t trip; ///< of that car
+    std::uint32_t trip; ///< number among all trips; each belongs to one car
     double read_um;     ///< > 0
 };
 
-/// What is known before anything is read. Relative: of the level of the place.
+/// Prior of the calibration. Relative values refer to the level of the place.
 struct FleetPrior {
     double gain_sd = 0.15;       ///< of cars about 1
     double offset_sd_um = 100;   ///< of cars about 0
-    double car_sd = 0.08;        ///< how far cars are off each other, as sure as 4 cars make it
-    double trip_sd = 0.02;       ///< as sure as 5 trips make it
+    double car_sd = 0.08;        ///< spread of cars, with the certainty of 4 cars
+    double trip_sd = 0.02;       ///< spread of trips, with the certainty of 5 trips
     double rest_sd = 0.07746;    ///< of a pass
-    double rest_sd_um = 50;      ///< and beside it; taken as it is
-    double min_car_sd = 0.01;    ///< what no number of passes does away with: speed, tyres, weather
-    std::size_t min_shared = 50; ///< places that a car shares with others, to be calibrated
+    double rest_sd_um = 50;      ///< absolute part of it; fixed
+    double min_car_sd = 0.01;    ///< floor that no number of passes reduces: speed, tyres, weather
+    std::size_t min_shared = 50; ///< shared places a car needs to be calibrated
 };
 
 struct FleetCalibration {
-    std::vector<std::optional<CarCalibration>> cars; ///< nothing: too little is shared with others
+    std::vector<std::optional<CarCalibration>> cars; ///< `std::nullopt`: too few shared places
     std::vector<std::size_t> shared;                 ///< readings of each car at shared places
-    double car_sd;                                   ///< how far cars are off each other, relative
-    double trip_sd;     ///< how far trips of a car are off each other, relative
-    double rest_sd;     ///< of a pass, relative, beside FleetPrior::rest_sd_um
-    double anchor_sd;   ///< of all cars together, relative
-    std::size_t places; ///< where two or more cars passed
+    double car_sd;                                   ///< spread between cars, relative
+    double trip_sd;                                  ///< spread between trips of a car, relative
+    double rest_sd;     ///< of a pass, relative, in addition to FleetPrior::rest_sd_um
+    double anchor_sd;   ///< common to all cars, relative
+    std::size_t places; ///< passed by two or more cars
 };
 
-/// How each car reads, from what others read at the same places:
-///
+/// Calibrates each car from what others read at the same places:
 ///     read / level = 1 + gain error of the car + error of the trip + offset of the car / level +
 ///     rest
+/// Levels, cars and trips are fitted in turn until they converge. Residuals have Student's t
+/// distribution with 4 degrees of freedom, so that a changed place or a broken pass hardly counts.
+/// Trips are random effects; cars have the variance of the prior. The spread of trips and passes is
+/// then estimated from the residuals, and everything is fitted again.
 ///
-/// Levels, cars and trips are fitted in turn until they agree; what is left has Student's t with 4
-/// degrees of freedom, so that a place that changed or a broken pass hardly counts. Trips are
-/// random, cars have the prior's variance. Then the spread of trips and passes is taken from what
-/// is left, and all is fitted again.
-///
-/// Cars alone do not tell what is right: their mean (robust, as a broken one must not move the
-/// others) is taken for it, and `anchor_sd` states how far that may be off. Where a car is known,
-/// as a laser survey is, all are held against it.
+/// Cars alone do not reveal the true level: their robust mean is taken for it, so that one broken
+/// car cannot move the others, and `anchor_sd` states how far it may be off. If a source is known,
+/// such as a laser survey, all cars are calibrated against it.
 ///
 /// \param readings  in the order of places.
-/// \param known     for each car: the relative sd of what is taken to be right; nothing for cars.
+/// \param known     for each car: relative sd of a source taken as correct; `std::nullopt` for
+///                  cars.
 FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                  const std::vector<std::optional<double>>& known,
                                  const FleetPrior& prior);

@@ -7,9 +7,9 @@ namespace macadam {
 namespace {
 
 constexpr double dof = 4;        // of Student's t, as in TailModel
-constexpr double min_gain = 0.1; // of car and trip together: far below any car
+constexpr double min_gain = 0.1; // of car and trip together: far below any real car
 constexpr double trips_of_prior = 5;
-constexpr double trip_counts_from = 20; // readings, so that its mean says something of the trip
+constexpr double trip_counts_from = 20; // readings needed for a meaningful trip mean
 
 double square(double x) {
     return x * x;
@@ -56,7 +56,7 @@ double FleetFit::settle() {
     return moved;
 }
 
-/// Of a reading by itself, relative to the level of its place.
+/// Returns the variance of a single reading, relative to the level of its place.
 double FleetFit::variance_of(std::size_t reading) const {
     const auto& [place, car, trip, read_um] = (*readings_)[reading];
     if (const auto& sd = (*known_)[car]) {
@@ -65,7 +65,7 @@ double FleetFit::variance_of(std::size_t reading) const {
     return square(rest_sd) + square(prior_.rest_sd_um / std::max(1.0, level_um_[place]));
 }
 
-/// Of a reading over the level, but for the offset.
+/// Returns the expected ratio of reading to level, without the offset.
 double FleetFit::expected(std::size_t reading) const {
     const auto& [place, car, trip, read_um] = (*readings_)[reading];
     return std::max(min_gain, cars[car].gain + trips_[trip].error);
@@ -92,15 +92,15 @@ void FleetFit::fit_levels() {
     middle_um_ = std::max(1.0, median_of(std::move(levels)));
 }
 
-/// Moves all levels, and with them the gains, to where the known cars have them: in turns with the
-/// rest it would take as many rounds as there are places without one.
+/// Rescales all levels, and with them the gains, to agree with the known cars. Alternating with the
+/// other steps instead would take as many rounds as there are places without a known car.
 void FleetFit::hold_against_known() {
     double whole = 0, sum = 0, square_sum = 0, min_variance = 0;
     for (std::size_t i = 0; i < readings_->size(); ++i) {
         const auto& reading = (*readings_)[i];
         const auto& sd = (*known_)[reading.car];
         if (sd && leverage_[i] < 1) {
-            // The level of the others alone.
+            // The level from the other readings alone.
             const double level =
                 (level_um_[reading.place] - leverage_[i] * reading.read_um) / (1 - leverage_[i]);
             const double off = reading.read_um / std::max(1.0, level) - 1;
@@ -123,7 +123,7 @@ void FleetFit::hold_against_known() {
     for (auto& level_um : level_um_) {
         level_um *= 1 + off;
     }
-    // A survey is off by the same share all along: its own sd does not average out.
+    // The relative error of a survey is common to all its places: its own sd does not average out.
     known_sd = std::sqrt(min_variance + square_sum / square(whole));
 }
 
@@ -145,7 +145,7 @@ void FleetFit::sum_trips() {
     }
 }
 
-/// Normal equations of gain error and offset, the trips' errors integrated out.
+/// Solves the normal equations of gain error and offset, with the trip errors integrated out.
 void FleetFit::fit_cars() {
     struct Normal {
         double gg, ga, aa, g, a;
@@ -183,7 +183,7 @@ void FleetFit::fit_cars() {
     }
 }
 
-/// Without a known car, the mean of all is taken to be right: one that is far off counts little.
+/// Without a known car, the mean of all cars is taken as correct, with outliers down-weighted.
 void FleetFit::centre_cars() {
     const double z = 1 / middle_um_;
     double whole = 0, gain = 0, offset_um = 0;
@@ -219,7 +219,8 @@ void FleetFit::take_spread() {
     std::vector<double> off;
     for (std::size_t i = 0; i < readings_->size(); ++i) {
         const auto& reading = (*readings_)[i];
-        // Half its place's weight: what is left is not what it reads wrong.
+        // A reading with half of its place's weight pulls the level along, so its residual is not
+        // its error.
         if (!(*known_)[reading.car] && leverage_[i] < 0.5) {
             off.push_back(std::abs((reading.read_um - cars[reading.car].offset_um) /
                                        level_um_[reading.place] -

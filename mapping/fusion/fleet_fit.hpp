@@ -8,32 +8,33 @@
 
 namespace macadam {
 
-/// Of a normal distribution: sd over median absolute deviation.
+/// Ratio of standard deviation to median absolute deviation for a normal distribution.
 inline constexpr double sd_over_mad_of_normal = 1.4826;
 
-/// 0 of none.
+/// Returns the median; 0 for an empty vector.
 double median_of(std::vector<double> values);
 
-/// The fit of calibrate_fleet, step by step.
+/// Runs the fit of calibrate_fleet step by step.
 class FleetFit {
 public:
-    /// One car as it is seen so far.
+    /// Current estimate of one car.
     struct Car {
         double gain = 1;
         double offset_um = 0;
-        double error_at_middle = 0; ///< relative, at the fleet's middle level
+        double error_at_middle = 0; ///< relative, at the fleet's median level
         double variance_at_middle = 0;
     };
 
-    /// \param readings  in the order of places, which count from 0 without a gap.
+    /// \param readings  in the order of places, which are numbered from 0 without gaps.
     FleetFit(const std::vector<FleetReading>& readings,
              const std::vector<std::optional<double>>& known,
              const FleetPrior& prior);
 
-    /// Levels, then trips and cars, then trust, each once. \returns how far cars moved, relative.
+    /// Updates levels, then trips and cars, then weights, once each. \returns the relative change
+    /// of the cars.
     double settle();
 
-    /// Takes the spread of trips and of passes from what is left.
+    /// Estimates the spread of trips and passes from the residuals.
     void take_spread();
 
     std::size_t place_count() const { return first_of_place_.size() - 1; }
@@ -41,7 +42,7 @@ public:
     std::vector<Car> cars;
     double trip_sd;
     double rest_sd;
-    std::optional<double> known_sd; ///< of the fleet against what is known, relative
+    std::optional<double> known_sd; ///< of the fleet against the known sources, relative
 
 private:
     struct Trip {
@@ -63,9 +64,9 @@ private:
     const std::vector<FleetReading>* readings_;
     const std::vector<std::optional<double>>* known_;
     FleetPrior prior_;
-    std::vector<std::size_t> first_of_place_; ///< and one past the last
+    std::vector<std::size_t> first_of_place_; ///< index of the first reading, plus an end sentinel
     std::vector<double> level_um_;            ///< of each place
-    std::vector<double> trust_;               ///< of each reading, above 0
+    std::vector<double> trust_;               ///< weight of each reading, > 0
     std::vector<double> leverage_;            ///< of each reading on its level, 0 to 1
     std::vector<Trip> trips_;
     double middle_um_ = 1;

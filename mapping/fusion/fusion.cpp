@@ -14,8 +14,8 @@ namespace {
 constexpr double um_per_mm = 1000;
 constexpr double interval_90 = 1.645;  // two-sided, normal distribution
 constexpr double sd_over_mad = 1.4826; // normal distribution
-constexpr double claims = 6;           // readings that scatter as claimed, known beforehand
-constexpr double survey_share = 0.5;   // of a reference's variance: alike in all its rows on a road
+constexpr double claims = 6;           // pseudo-observations that scatter as claimed
+constexpr double survey_share = 0.5; // of a reference's variance: common to all its rows on a road
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -25,7 +25,7 @@ struct Weighed {
     double weight;
 };
 
-/// Middle of the values by weight; halfway between two where they share it evenly.
+/// Returns the weighted median; halfway between two values if the weights balance.
 double weighted_median(std::vector<Weighed> values) {
     std::sort(values.begin(), values.end(), [](const Weighed& a, const Weighed& b) {
         return std::pair{a.value_um, a.weight} < std::pair{b.value_um, b.weight};
@@ -47,18 +47,18 @@ double weighted_median(std::vector<Weighed> values) {
     return values.back().value_um;
 }
 
-/// Linear in IRI; a pass read by a calibrated car as it would have been by a good one.
+/// Removes the calibration of the car from a reading, which is linear in IRI.
 double true_um(const FusionInput& input, double read_um) {
     return input.calibration
                ? std::max(0.0, (read_um - input.calibration->offset_um) / input.calibration->gain)
                : read_um;
 }
 
-/// Passes in the order of car, trip and occurrence; cars by their first trip, so that what numbers
-/// they have changes no sum.
+/// Sorts passes by car, trip and occurrence; cars by their first trip, so that vehicle numbers do
+/// not affect any sum.
 std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
     struct Place {
-        std::size_t first; ///< pass of the car
+        std::size_t first; ///< first pass of the car
         std::int64_t vehicle;
         std::size_t pass;
     };
@@ -86,7 +86,7 @@ std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
     return sorted;
 }
 
-/// Runs of passes that `alike` puts together.
+/// Groups consecutive passes for which `alike` holds.
 template <typename Alike>
 std::vector<FusionObservations::Block> runs_of(const std::vector<const FusionInput*>& passes,
                                                const Alike& alike) {
@@ -108,7 +108,7 @@ VectorXd values_of(const std::vector<const FusionInput*>& passes) {
     return values;
 }
 
-/// The middle of what the passes read, each alike.
+/// Returns the unweighted median of the readings.
 double level_um(const VectorXd& values) {
     std::vector<Weighed> alike;
     for (const double value_um : values) {
@@ -117,8 +117,8 @@ double level_um(const VectorXd& values) {
     return std::max(1.0, weighted_median(std::move(alike)));
 }
 
-/// The sds that passes state, as they would be had the passes read what the segment is. Most of an
-/// sd is a share of what was read, and a pass must not gain weight by reading low.
+/// Rescales the stated sds to the level of the segment. An sd is mostly proportional to the
+/// reading, and a pass must not gain weight by reading low.
 VectorXd stated_um(const std::vector<const FusionInput*>& passes, double level_um) {
     VectorXd stated(static_cast<Index>(passes.size()));
     std::ranges::transform(passes, stated.begin(), [&](const FusionInput* input) {
@@ -127,7 +127,7 @@ VectorXd stated_um(const std::vector<const FusionInput*>& passes, double level_u
     return stated;
 }
 
-/// With 0 for references.
+/// Sets the values of references to 0.
 VectorXd of_cars_alone(const std::vector<const FusionInput*>& passes, VectorXd values) {
     for (std::size_t i = 0; i < passes.size(); ++i) {
         if (passes[i]->reference) {
@@ -137,10 +137,10 @@ VectorXd of_cars_alone(const std::vector<const FusionInput*>& passes, VectorXd v
     return values;
 }
 
-/// Of the stated variance, in the car's part of a reading.
+/// Shares of the stated variance in the car's part of a reading.
 struct Shares {
-    double car;    ///< of a car that is not calibrated
-    double common; ///< of one that is, beside what its calibration states
+    double car;    ///< for a car that is not calibrated
+    double common; ///< for a calibrated car, in addition to the calibration's own sd
 };
 
 FusionObservations readings_of(const std::vector<const FusionInput*>& passes,
@@ -186,7 +186,7 @@ VectorXd trip_variances(const FusionObservations& readings) {
     return variances;
 }
 
-/// Of each reading by itself, without what all cars share.
+/// Returns the variance of each single reading, without the part common to all cars.
 VectorXd variances_of(const FusionObservations& readings) {
     return readings.car_sd.array().square() + readings.rest_sd.array().square() +
            trip_variances(readings).array();
@@ -204,7 +204,7 @@ double scatter_um(const VectorXd& values, const VectorXd& variances) {
     return sd_over_mad * weighted_median(std::move(weighed));
 }
 
-/// 1 / variance of each reading by itself, as far as it and its car are trusted.
+/// Returns 1 / variance of each single reading at the weights of the reading and its car.
 VectorXd weights_of(const FusionObservations& readings, const RobustWeights& trust) {
     VectorXd variances = readings.rest_sd.array().square() / trust.of_reading.array() +
                          trip_variances(readings).array();
@@ -215,7 +215,7 @@ VectorXd weights_of(const FusionObservations& readings, const RobustWeights& tru
     return variances.cwiseInverse();
 }
 
-/// By how much the passes scatter more than they claim, at least 1.
+/// Returns the excess of the scatter of the passes over their claims, >= 1.
 double
 excess(const FusionObservations& readings, const RoughnessTrend& level, const VectorXd& weights) {
     const VectorXd variances = variances_of(readings);
@@ -227,7 +227,7 @@ excess(const FusionObservations& readings, const RoughnessTrend& level, const Ve
     return std::sqrt(std::max(1.0, (claims + strangeness) / (claims + others)));
 }
 
-/// Mean distance of one side from the headline in the passes since `from_ms`.
+/// Averages the distance of one side from the headline over the passes since `from_ms`.
 std::optional<double> side_off_um(const std::vector<const FusionInput*>& passes,
                                   const VectorXd& weights,
                                   std::optional<IriUm> Pass::*side,
@@ -254,7 +254,7 @@ std::optional<IriUm> side_um(double level_um, const std::optional<double>& off_u
     return off_um ? std::optional{std::max(0, whole_um(level_um + *off_um))} : std::nullopt;
 }
 
-/// What needs no weights: counts, dates, flags.
+/// Collects values that need no weights: counts, dates, flags.
 SegmentState gathered(std::span<const FusionInput> passes) {
     SegmentState state{};
     state.segment = passes.front().pass.segment;
@@ -289,7 +289,8 @@ SegmentState with_level(SegmentState state, const RoughnessTrend& level, double 
     return state;
 }
 
-/// What all cars together may read wrong, of each reading. \param stated  0 for references.
+/// Returns the sd of the error common to all cars for each reading. \param stated  0 for
+/// references.
 VectorXd common_sd(const VectorXd& stated, double level_um, const FusionConfig& config) {
     return stated.unaryExpr([&](double stated_um) {
         return stated_um > 0 ? std::hypot(std::sqrt(config.common_share) * stated_um,
@@ -324,8 +325,8 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const VectorXd stated = stated_um(sorted, middle_um);
     const VectorXd of_cars = of_cars_alone(sorted, stated);
     const bool beside_references = of_cars.maxCoeff() > 0 && of_cars.minCoeff() <= 0;
-    // What is common to all cars cannot be weighed away, yet a pass that is less sure for it is
-    // worth less; beside references it is estimated.
+    // The error common to all cars cannot be reduced by weighting, yet it makes a pass worth less;
+    // next to references it is estimated.
     auto weighed = readings_of(
         sorted,
         values,

@@ -11,42 +11,42 @@
 
 namespace macadam {
 
-/// How a car reads, found from passes of others over the same roads or over surveyed ones.
+/// Calibration of a car from passes of others over the same roads, or over surveyed ones.
 struct CarCalibration {
     double gain = 1; ///< reading = offset + gain * IRI
     double offset_um = 0;
-    double relative_sd = 0.1; ///< of what its readings are still off by, alike in all its passes
+    double relative_sd = 0.1; ///< remaining error, common to all its passes
     friend bool operator==(const CarCalibration&, const CarCalibration&) = default;
 };
 
-/// A pass with whose it is and when. Passes come in the order of (trip_sha256, occurrence).
+/// A pass with its car and time. Passes come in the order of (trip_sha256, occurrence).
 struct FusionInput {
     Pass pass;
     std::string trip_sha256;
-    std::int64_t vehicle; ///< any number that tells cars, and surveys, apart
+    std::int64_t vehicle; ///< any number unique to a car or survey
     std::optional<std::int64_t> utc_ms;
-    std::optional<CarCalibration> calibration{}; ///< of the vehicle; nothing: not calibrated
-    bool reference = false; ///< of a survey with better instruments: pass.sd_um is all that is
-                            ///< wrong with it, and none of it is shared with any car
+    std::optional<CarCalibration> calibration{}; ///< of the vehicle; `std::nullopt`: not calibrated
+    bool reference = false; ///< from a survey with better instruments: pass.sd_um is its entire
+                            ///< error, shared with no car
 };
 
-/// The state of one segment: the level of a road that changes with time, on the day of the newest
-/// pass, from passes whose errors are in part those of the method, the car and the trip, under a
-/// t distribution, so that one broken car or pass among several hardly counts
+/// Fuses the passes of one segment into its state: the level, on the day of the newest pass, of a
+/// road that changes with time. Pass errors are partly common to the method, the car and the trip,
+/// and have a t distribution, so that one broken car or pass among several hardly counts
 /// (mapping/fusion/roughness_time_series.hpp).
 ///
-/// What all cars share does not average out, nor over the passes of one car what that car reads
-/// wrong. Where passes scatter more than they claim, sd grows by as much (R. T. Birge, "The
-/// calculation of errors by the method of least squares", Physical Review 40 (1932), p. 207).
+/// The error shared by all cars does not average out, nor does a car's own error over its passes.
+/// If passes scatter more than they claim, sd grows accordingly (R. T. Birge, "The calculation of
+/// errors by the method of least squares", Physical Review 40 (1932), p. 207).
 ///
-/// A reference shares none of that: where one stands beside cars, what all cars read wrong alike is
-/// itself estimated from their difference, so that many cars do not outvote it. It is down-weighted
-/// like a broken car where the others tell of another road.
+/// A reference shares none of these errors: next to cars, their common error is estimated from the
+/// difference to the reference, so that many cars do not outvote it. A reference that the other
+/// passes contradict is down-weighted like a broken car.
 ///
-/// Left and right keep their distance from the headline, as the passes since the last change tell
-/// it. `centre_only` and each flag of `validity` stay only where every pass has them. The same
-/// bytes whatever the order of import, because the order here is fixed and numbers of vehicles
-/// only tell cars apart.
+/// Left and right keep their distance from the headline as measured since the last change.
+/// `centre_only` and each flag of `validity` are set only if every pass has them. The result is
+/// independent of the order of import to the byte: the order here is fixed and vehicle numbers only
+/// distinguish cars.
 ///
 /// \param passes  at least one, all of one segment, in the order that FusionInput states.
 SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& config);

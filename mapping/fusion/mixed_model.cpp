@@ -11,8 +11,8 @@
 namespace macadam {
 namespace {
 
-constexpr int max_rounds = 50;   // a round shrinks the step by 2 to 10
-constexpr double settled = 1e-6; // of the readings' sd
+constexpr int max_rounds = 50;   // each round shrinks the step by a factor of 2 to 10
+constexpr double settled = 1e-6; // in sds of the readings
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -26,13 +26,13 @@ double precision_in(const FusionObservations& readings, const RobustWeights& tru
     return trust.of_reading[i] / square(readings.rest_sd[i]);
 }
 
-/// Readings of a car that one trip's part is in, or one reading that no trip's is in.
+/// Readings of a car that share a trip error, or one reading without any.
 struct Run {
     Index first, count;
     double trip_variance;
 };
 
-/// A car with its runs; they are looked up once for all rounds.
+/// A car with its runs, computed once for all rounds.
 struct CarRuns {
     FusionObservations::Block readings;
     std::span<const Run> runs;
@@ -75,8 +75,8 @@ private:
 
 // ---------------------------------------------------------------------------- normal equations
 
-/// Adds weight * row * row^T to the lower triangle of a matrix. Much of a row is 0: what happened
-/// before the reading.
+/// Adds weight * row * row^T to the lower triangle of a matrix. Rows are mostly 0: changes before
+/// the reading.
 template <typename Row>
 void add_square(MatrixXd& matrix, const Row& row, double weight) {
     const auto size = matrix.rows();
@@ -90,10 +90,9 @@ void add_square(MatrixXd& matrix, const Row& row, double weight) {
     }
 }
 
-/// The normal equations of a mean and its readings, which take trust for trust.
-///
-/// What the readings of a car or a trip have in common is taken out by the identity of Sherman and
-/// Morrison, so that the inverse of their covariance is never needed but in sums over readings.
+/// Normal equations of a mean model and its readings, solved for given weights. The errors common
+/// to a car or a trip are eliminated with the Sherman-Morrison identity, so that the inverse
+/// covariance is only needed within sums over readings.
 class NormalEquations {
 public:
     NormalEquations(const FusionObservations& readings, const MeanModel& mean)
@@ -119,7 +118,7 @@ public:
         return coefficients_;
     }
 
-    /// As they were solved last.
+    /// Returns the last solution.
     LeastSquaresFit fit() const {
         const auto count = mean_->columns.cols();
         return {coefficients_, solver_.solve(MatrixXd::Identity(count, count))};
@@ -128,7 +127,7 @@ public:
 private:
     auto row(Index reading) const { return rows_.row(reading); }
 
-    /// What a reading weighs that is alone in its run.
+    /// Returns the weight of a reading that is alone in its run.
     double alone(const Run& run, const RobustWeights& trust) const {
         const double precision = precision_in(*readings_, trust, run.first);
         return precision / (1 + precision * run.trip_variance);
@@ -150,7 +149,7 @@ private:
         add_square(sums_, of_car_, -1 / (of_car + loaded));
     }
 
-    /// \returns  of the car's part in the reading the squared sd, by its weight
+    /// \returns  squared sd of the car's part in the reading, times its weight
     double add_alone(const Run& run, const RobustWeights& trust) {
         const auto i = run.first;
         const double precision = alone(run, trust);
@@ -182,7 +181,7 @@ private:
     const FusionObservations* readings_;
     const MeanModel* mean_;
     Cars cars_;
-    MeanColumns rows_; ///< of the columns and then the value
+    MeanColumns rows_; ///< design columns, then the value
     MatrixXd sums_;    ///< lower triangle of rows^T * V^-1 * rows
     VectorXd of_trip_;
     VectorXd of_car_;
@@ -192,11 +191,11 @@ private:
 
 // --------------------------------------------------------------------------------------- trust
 
-/// What the readings of a car have in common beside the mean, and how sure that is.
+/// Common deviation of a car's readings from the mean, with its variances.
 struct CarOff {
     double off;
-    double own_variance;   ///< of the car's part, as it claims
-    double noise_variance; ///< of what the mean of its readings has of trips and rests
+    double own_variance;   ///< of the car's part, as stated
+    double noise_variance; ///< of trip errors and residuals in the mean of its readings
 };
 
 CarOff car_off(const FusionObservations& readings,
@@ -220,17 +219,17 @@ double trusted(double squared_sds, double dof) {
     return dof / (dof + squared_sds);
 }
 
-/// -log density of Student's t whose weights `trusted` gives, where a variance is judged by
-/// another that is `scale` times as large.
+/// Returns the -log density of Student's t matching the weights of `trusted`, for a variance that
+/// is `scale` times the one used for judging.
 double surprise(double squared_sds, double dof, double scale) {
     return scale * (dof + 1) / 2 * std::log1p(squared_sds / dof);
 }
 
-/// What a car is judged by.
+/// Basis for judging a car.
 struct CarJudgement {
     CarOff off;
-    double seen;        ///< variance of its mean, as far as the readings scatter like that
-    double squared_sds; ///< that its mean is off
+    double seen;        ///< variance of its mean, limited to the observed scatter
+    double squared_sds; ///< deviation of its mean
 };
 
 CarJudgement judgement_of(const FusionObservations& readings,
@@ -248,7 +247,7 @@ squared_rest(const FusionObservations& readings, double residual, const CarOff& 
     return square((residual - off.off) / readings.rest_sd[i]);
 }
 
-/// How far each car and each reading is to be believed that is off the mean by so much.
+/// Updates the weights of each car and each reading from their deviations.
 void judge(RobustWeights& next,
            const RobustWeights& before,
            const FusionObservations& readings,
@@ -258,7 +257,7 @@ void judge(RobustWeights& next,
     for (Index c = 0; const auto& car : cars) {
         const auto [off, seen, sds2] = judgement_of(readings, before, residuals, tail, car);
         const double own = off.own_variance, noise = off.noise_variance;
-        // Of the mean of its readings as a whole: a car of one pass is that pass.
+        // Judges the mean of the car's readings: a car of one pass is that pass.
         const double widened = (own + noise) / trusted(sds2, tail.dof) - noise;
         next.of_car[c++] = own > 0 ? own / widened : 1;
         const auto& [first, count] = car.readings;
@@ -268,7 +267,7 @@ void judge(RobustWeights& next,
     }
 }
 
-/// -log likelihood of readings that are off the mean by so much, but for a constant.
+/// Returns the -log likelihood of the deviations from the mean, up to a constant.
 double misfit_of(const RobustWeights& trust,
                  const FusionObservations& readings,
                  const Cars& cars,

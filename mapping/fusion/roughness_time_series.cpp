@@ -10,11 +10,11 @@ namespace {
 
 constexpr double ms_per_year = 365.25 * 86400e3;
 constexpr std::size_t max_steps = 3;
-constexpr int min_beside = 3; // readings, and trips, on either side of a step
+constexpr int min_beside = 3; // readings, and trips, required on either side of a step
 constexpr int min_trips = 2;
 constexpr double max_candidates = 100;
 constexpr double day_years = 1 / 365.25;
-constexpr double worth_a_look = 5; // nats, of the same readings without cars and trends
+constexpr double worth_a_look = 5; // nats, for the same readings without cars and trends
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -30,13 +30,13 @@ double age(const Ages& ages, Index i) {
     return ages.years[static_cast<std::size_t>(i)];
 }
 
-/// How many steps a reading is older than; an undated one is taken for the newest.
+/// Counts the steps after a reading; an undated reading counts as the newest.
 std::size_t steps_after(double years, std::span<const double> steps) {
     return static_cast<std::size_t>(
         std::ranges::count_if(steps, [&](double step) { return years > step; }));
 }
 
-/// The median between the steps, for each reading.
+/// Returns for each reading the median of its period between steps.
 VectorXd medians_between(const FusionObservations& readings,
                          const Ages& ages,
                          std::span<const double> steps) {
@@ -51,7 +51,7 @@ VectorXd medians_between(const FusionObservations& readings,
     return start;
 }
 
-/// What a road with these steps says of the readings.
+/// Fit of a road with given steps.
 struct Trial {
     std::vector<double> step_years; ///< youngest last, as their columns
     MeanModel mean;
@@ -66,7 +66,7 @@ struct Problem {
     const ChangeModel& change;
 };
 
-/// With a column of what all cars read wrong alike, before those of the steps.
+/// Inserts a column of the error common to all cars before the columns of the steps.
 MeanModel with_common(const MeanModel& mean, const VectorXd& common_sd, std::size_t steps) {
     const auto last = static_cast<Index>(steps);
     const auto first = mean.columns.cols() - last;
@@ -90,12 +90,13 @@ Trial trial_of(const Problem& problem, std::vector<double> step_years) {
     return {std::move(step_years), std::move(mean), std::move(robust)};
 }
 
-/// Sizes of the trial's steps, as its step_years.
+/// Returns the sizes of the trial's steps, in the order of step_years.
 VectorXd sizes_of(const Trial& trial) {
     return trial.robust.fit.coefficients.tail(static_cast<Index>(trial.step_years.size()));
 }
 
-/// Ages at which a step may lie: just before readings after which the road could be another.
+/// Returns the ages at which a step may lie: just before a reading after which the road may have
+/// changed.
 std::vector<double> candidates(const Ages& ages) {
     const double apart_years = std::max(day_years, ages.span_years / max_candidates);
     std::vector<double> dated;
@@ -112,7 +113,7 @@ std::vector<double> candidates(const Ages& ages) {
     return found;
 }
 
-/// Whether enough was read on both sides.
+/// Returns true if there are enough readings on both sides of a step.
 bool is_supported(const FusionObservations& readings, const Ages& ages, double step_years) {
     int beside[2] = {0, 0};
     int trips[2] = {0, 0};
@@ -127,7 +128,7 @@ bool is_supported(const FusionObservations& readings, const Ages& ages, double s
            std::min(trips[0], trips[1]) >= min_trips;
 }
 
-/// Whether any step could make so much of a difference, told without the search.
+/// Returns true if any step might gain enough likelihood, without a search.
 bool is_worth_a_look(const Problem& problem) {
     const auto& readings = problem.readings;
     std::vector<std::pair<double, Index>> dated;
@@ -161,7 +162,7 @@ bool is_worth_a_look(const Problem& problem) {
     return false;
 }
 
-/// The step that would explain most, by the readings as they claim to be.
+/// Finds the step that would explain most, at the sds that the readings state.
 std::optional<double> likeliest_step(const Problem& problem, const MeanModel& mean) {
     const auto& readings = problem.readings;
     const auto trust = full_trust(readings);
@@ -193,7 +194,7 @@ bool are_real(const Problem& problem, const Trial& trial) {
     return sizes_of(trial).cwiseAbs().minCoeff() >= min_um;
 }
 
-/// Step after step, as long as each makes the readings so much likelier.
+/// Adds steps as long as each gains enough likelihood.
 Trial with_steps(const Problem& problem) {
     auto best = trial_of(problem, {});
     const bool can_be_supported = problem.readings.values.size() >= 2 * min_beside;
@@ -217,7 +218,7 @@ Trial with_steps(const Problem& problem) {
     return best;
 }
 
-/// The trend as if nothing were known of trends beforehand.
+/// Estimates the trend without its prior.
 std::optional<Trend> trend_of(const Problem& problem, const Trial& trial) {
     if (problem.ages.span_years <= 1) {
         return std::nullopt;

@@ -11,17 +11,17 @@
 
 namespace macadam {
 
-/// A segment in its place with what is known of it.
+/// A segment with its geometry and state.
 struct SegmentRecord {
     Segment segment;
-    std::string name;                  ///< of the road, "" where the map has none
-    std::string highway;               ///< OSM's class, "" where there is none
-    std::optional<SegmentState> state; ///< nothing: no pass yet
+    std::string name;                  ///< of the road, "" if the map has none
+    std::string highway;               ///< OSM's class, "" if there is none
+    std::optional<SegmentState> state; ///< `std::nullopt`: no pass yet
 };
 
-/// What a map shows of a segment. What it points at lasts until the next one is shown.
+/// Map display data of a segment. Its references remain valid until the next one is shown.
 struct SegmentSummary {
-    /// As in its SegmentState.
+    /// As in SegmentState.
     struct Roughness {
         IriUm iri_um;
         IriUm sd_um;
@@ -30,9 +30,9 @@ struct SegmentSummary {
 
     SegmentKey key;
     std::span<const GeoPoint> line;
-    std::string_view name;              ///< as in its SegmentRecord
-    std::string_view highway;           ///< as in its SegmentRecord
-    std::optional<Roughness> roughness; ///< nothing: no pass yet
+    std::string_view name;              ///< as in SegmentRecord
+    std::string_view highway;           ///< as in SegmentRecord
+    std::optional<Roughness> roughness; ///< `std::nullopt`: no pass yet
 };
 
 } // namespace macadam

@@ -11,12 +11,12 @@ constexpr double ms_per_year = 365.25 * 86400e3;
 constexpr double month_years = 1.0 / 12;
 constexpr double max_walk_steps = 40;
 constexpr double slope_from_years = month_years;
-constexpr double season_from_years = 0.75; // less of a year is no season but a trend
+constexpr double season_from_years = 0.75; // a shorter span shows a trend, not a season
 
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Beginnings of the times between which the level may wander, youngest first; in steps.
+/// Returns the start of each period between which the level may drift, youngest first; in steps.
 std::vector<int> walk_of(const Ages& ages, double step_years) {
     std::vector<int> bins;
     for (const double years : ages.years) {
@@ -30,7 +30,7 @@ std::vector<int> walk_of(const Ages& ages, double step_years) {
     return bins;
 }
 
-/// What a column has for undated readings: the mean of those with a date.
+/// Fills the entries of undated readings with the mean of the dated ones.
 template <typename Column>
 void fill_undated(Column& column, const Ages& ages) {
     double sum = 0;
@@ -53,13 +53,15 @@ class Columns {
 public:
     Columns(MeanModel& model, const Ages& ages) : model_{&model}, ages_{&ages} {}
 
-    /// Of what is in every reading.
+    /// Adds the level, which is in every reading.
     void add_level() {
         model_->columns.col(next_).setOnes();
         model_->precisions[next_++] = 0;
     }
 
-    /// \param value  what the column has for a reading that is so many years old.
+    /// Adds a column.
+    ///
+    /// \param value  entry for a reading of the given age in years.
     template <typename Value>
     void add(double precision, const Value& value) {
         auto column = model_->columns.col(next_);
@@ -151,7 +153,7 @@ MeanModel mean_model(const Ages& ages,
                     VectorXd(static_cast<Index>(count))};
     Columns columns{model, ages};
     columns.add_level();
-    if (sloped) { // one column beside those between the bins
+    if (sloped) { // one column in addition to those between the bins
         columns.add(precision_of(std::hypot(change.slope_sd_per_year * level_um,
                                             change.slope_sd_um_per_year)),
                     [](double years) { return -years; });

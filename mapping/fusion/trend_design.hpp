@@ -7,28 +7,30 @@
 
 namespace macadam {
 
-/// When readings were taken, in years before the newest; NaN = undated.
+/// Ages of readings, in years before the newest; NaN = undated.
 struct Ages {
     std::vector<double> years;
-    std::int64_t newest_ms; ///< 0 where all are undated
+    std::int64_t newest_ms; ///< 0 if all are undated
     double span_years;      ///< from the oldest to the newest
 };
 Ages ages_of(const std::vector<std::optional<std::int64_t>>& utc_ms);
 
-/// Places of the coefficients that a change has; the level is the first.
+/// Columns of the coefficients; the level is the first.
 inline constexpr Eigen::Index level_column = 0;
-inline constexpr Eigen::Index slope_column = 1; ///< per year, if the span has_slope
+inline constexpr Eigen::Index slope_column = 1; ///< per year, if has_slope
 
 bool has_slope(const Ages& ages);
 
-/// \param step_years  ages of steps: what is older is before them. Their columns are the last.
+/// Builds the design matrix and the prior of the coefficients.
+///
+/// \param step_years  ages of steps: older readings lie before them. Their columns are the last.
 MeanModel mean_model(const Ages& ages,
                      double level_um,
                      const ChangeModel& change,
                      std::span<const double> step_years);
 
-/// The column of a step: -1 before it. Undated readings lie before it by the share of those that
-/// do.
+/// Returns the column of a step: -1 before it. Undated readings take the share of dated readings
+/// before it.
 Eigen::VectorXd step_column(const Ages& ages, double step_years);
 
 } // namespace macadam

@@ -37,7 +37,7 @@ std::vector<std::vector<GeoPoint>> cut_at_antimeridian(std::span<const GeoPoint>
             const double way_deg = short_way_deg(a.lon_deg, b.lon_deg);
             const double share = way_deg == 0 ? 0.0 : (side_deg - a.lon_deg) / way_deg;
             const double lat_deg = std::lerp(a.lat_deg, b.lat_deg, share);
-            // What begins or ends on the meridian itself needs no part of no length.
+            // A line that begins or ends on the meridian needs no empty part.
             const GeoPoint before{lat_deg, side_deg};
             const GeoPoint after{lat_deg, -side_deg};
             if (parts.back().back() != before) {
@@ -75,7 +75,7 @@ GeoBox grown_over(const GeoBox& box, double margin_m) {
     if (box.east_deg <= half_turn_deg) {
         return grown(box, margin_m);
     }
-    const double turned_deg = (box.west_deg + box.east_deg) / 2; // to where there is room
+    const double turned_deg = (box.west_deg + box.east_deg) / 2; // centred, to avoid clipping
     const auto large =
         grown({box.west_deg - turned_deg, box.south_deg, box.east_deg - turned_deg, box.north_deg},
               margin_m);

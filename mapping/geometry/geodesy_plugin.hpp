@@ -4,10 +4,11 @@
 
 namespace macadam {
 
-// What mapping/geometry/local_frame.cpp asks of the plug-in macadam_geodesy (MRPT's
+// Interface between mapping/geometry/local_frame.cpp and the plug-in macadam_geodesy (MRPT's
 // topography).
 
-/// The point on the ellipsoid under an earth-centred place; returns the height above it, m.
+/// Converts an earth-centred position to the point on the ellipsoid below it; returns the height
+/// above the ellipsoid, m.
 using GeodesyToGeodetic = double(const double* xyz, GeoPoint* point);
 inline constexpr const char* geodesy_to_geodetic_name = "macadam_geodesy_to_geodetic";
 

@@ -15,7 +15,7 @@ struct Vector3 {
     double x, y, z;
 };
 
-/// The axes of the local frame in the earth-centred one: east, north and the ellipsoid's normal.
+/// Axes of the local frame in earth-centred coordinates: east, north and the ellipsoid's normal.
 struct Axes {
     Vector3 east, north, up;
 };
@@ -35,9 +35,9 @@ double dot(const Vector3& a, const Vector3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Earth-centred place of a point on the ellipsoid. A trip asks for tens of thousands, and in
-/// double they are right to a nanometre, so MRPT's long double is not needed. Source: Snyder, "Map
-/// Projections: A Working Manual" (1987), eq. 4-20; WGS 84.
+/// Returns the earth-centred position of a point on the ellipsoid. Called tens of thousands of
+/// times per trip, and accurate to a nanometre in double, so MRPT's long double is not needed.
+/// Source: Snyder, "Map Projections: A Working Manual" (1987), eq. 4-20; WGS 84.
 Vector3 geocentric(const GeoPoint& point) {
     constexpr double rad_per_deg = std::numbers::pi / 180;
     constexpr double equator_m = 6378137;
@@ -79,8 +79,8 @@ GeoPoint LocalFrame::to_geo(const PointEn& point) const {
     const auto axes = axes_at(origin);
     const auto base = geocentric(origin);
 
-    // The plane leaves the ellipsoid upwards; come back down along the frame's own vertical until
-    // the height is nothing, so that to_local brings back the very same east and north.
+    // The plane rises above the ellipsoid: descend along the frame's own vertical until the height
+    // is 0, so that to_local returns exactly the same east and north.
     double up = 0;
     GeoPoint found = origin;
     for (int round = 0; round < 5; ++round) {

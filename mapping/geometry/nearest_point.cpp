@@ -6,12 +6,12 @@
 namespace macadam {
 namespace {
 
-/// Straight in degrees scaled to metres.
+/// Assumes a straight line in degrees scaled to metres.
 LineFoot foot_on(const GeoPoint& from, const GeoPoint& to, const GeoPoint& place) {
     const double whole_m = distance_m(from, to);
     const double to_start_m = distance_m(from, place);
     const double to_end_m = distance_m(to, place);
-    // Law of cosines: how far along the piece the foot of the perpendicular lies.
+    // Law of cosines: position of the perpendicular's foot along the line segment.
     const double foot_m =
         whole_m > 0
             ? (to_start_m * to_start_m - to_end_m * to_end_m + whole_m * whole_m) / (2 * whole_m)

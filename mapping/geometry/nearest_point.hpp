@@ -7,14 +7,15 @@
 
 namespace macadam {
 
-/// The point of a line that is nearest to a place.
+/// The point of a line nearest to a position.
 struct LineFoot {
     double distance_m = std::numeric_limits<double>::infinity();
-    double along_m = 0;    ///< from the line's beginning
-    double course_deg = 0; ///< of the line there; 0 for a line of one point
+    double along_m = 0;    ///< from the start of the line
+    double course_deg = 0; ///< of the line at that point; 0 for a single-point line
 };
 
-/// Exact enough within some kilometres. \param line  at least one point.
+/// Finds the nearest point of a line. Accurate within a few kilometres. \param line  at least one
+/// point.
 LineFoot foot_on(std::span<const GeoPoint> line, const GeoPoint& place);
 
 } // namespace macadam

@@ -9,19 +9,20 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t own_line = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t min_delay = 10; // points, until a line may join what it drew itself
+constexpr std::size_t min_delay = 10; // points before a line may join its own earlier part
 
-// A branch is drawn from where the line began to leave the road, not from where it had left it.
+// A branch starts where the line began to leave the road, not where it had left it.
 constexpr std::size_t longest_leave = 6; // points
 constexpr double on_road_m = 3;
 
-/// Draws line after line and remembers where roads already are.
+/// Draws line after line and indexes the roads drawn so far.
 class NetworkBuilder {
 public:
     explicit NetworkBuilder(const TraceConfig& config)
         : config_{config}, index_{config}, own_index_{config} {}
 
-    /// \param ends  whether an end belongs to another way, however that runs there.
+    /// \param attach_from, attach_to  whether an end belongs to another way, whatever that way's
+    ///                                course.
     void draw(const TraceLine& line, bool attach_from, bool attach_to) {
         line_ = &line;
         const auto size = line.points.size();
@@ -54,7 +55,8 @@ public:
 private:
     using Place = std::optional<TraceVertex>;
 
-    /// For each point of the line where it runs along a drawn way or, a while later, itself.
+    /// Finds for each point of the line its position on a drawn way or, after a delay, on the line
+    /// itself.
     TraceJoins joins_of_own_too() {
         own_index_.clear();
         const auto& points = line_->points;
@@ -101,7 +103,7 @@ private:
         free_while_leaving(joins.rbegin(), joins.rend());
     }
 
-    /// Where the vertex stands in the drawing; nothing if it was left out.
+    /// Returns the position of the vertex in the drawing, or none if it was omitted.
     Place place_of(const TraceVertex& vertex) const {
         return vertex.way == own_line ? own_place_[vertex.point] : vertex;
     }
@@ -142,9 +144,9 @@ private:
     TraceConfig config_;
     InferredNetwork drawing_;
     TraceIndex index_;
-    const TraceLine* line_ = nullptr; ///< that is being drawn
+    const TraceLine* line_ = nullptr; ///< line being drawn
     TraceIndex own_index_;
-    std::vector<Place> own_place_; ///< where each of its points stands in the drawing
+    std::vector<Place> own_place_; ///< position of each of its points in the drawing
 };
 
 } // namespace

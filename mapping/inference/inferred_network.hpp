@@ -9,15 +9,16 @@
 
 namespace macadam {
 
-/// A oneway road while it is drawn, as nodes in driving order. Two ways meet where they share one.
+/// A oneway road under construction, as nodes in driving order. Two ways meet where they share a
+/// node.
 struct InferredWay {
-    std::vector<std::size_t> nodes; ///< in InferredNetwork::nodes, >= 2
-    std::size_t passes = 1;         ///< lines that ran along it, in the median over its nodes
-    bool attached_from = false;     ///< its first node is another way's
-    bool attached_to = false;       ///< its last node is
+    std::vector<std::size_t> nodes; ///< indices into InferredNetwork::nodes, >= 2
+    std::size_t passes = 1;         ///< median over its nodes of the lines that ran along it
+    bool attached_from = false;     ///< its first node belongs to another way
+    bool attached_to = false;       ///< its last node belongs to another way
 };
 
-inline constexpr std::size_t many_passes = 4; ///< of a way that is sure to be a road
+inline constexpr std::size_t many_passes = 4; ///< a way with this many passes is certainly a road
 
 struct InferredNetwork {
     std::vector<PointEn> nodes;
@@ -32,15 +33,14 @@ struct TraceVertex {
     std::size_t point;
 };
 
-/// A point of a line on a way that runs alike.
+/// The match of a line's point to a way with a similar course.
 struct TraceJoin {
     TraceVertex at;
     double away_m;
 };
-using TraceJoins = std::vector<std::optional<TraceJoin>>; ///< as many as the line has points
+using TraceJoins = std::vector<std::optional<TraceJoin>>; ///< one entry per point of the line
 
-/// Which drawn vertices are near a place: a grid, so that a question costs as much as roads are
-/// near.
+/// A grid index of drawn vertices; the cost of a query grows with the number of roads nearby.
 class TraceIndex {
 public:
     explicit TraceIndex(const TraceConfig& config);
@@ -49,15 +49,15 @@ public:
     void add(const std::vector<PointEn>& line, std::size_t way);
     void clear() { cells_.clear(); }
 
-    /// The nearest vertex, within `within_m`, of a way that runs about so.
+    /// Returns the nearest vertex within `within_m` on a way with a similar course.
     std::optional<TraceJoin> alike(const PointEn& place, double course_rad, double within_m) const;
 
-    /// The nearest point of each way that runs about so, as far as `within_m`, in the order of
-    /// ways.
+    /// Returns the nearest point of each way with a similar course within `within_m`, in the order
+    /// of ways.
     std::vector<TraceJoin>
     all_alike(const PointEn& place, double course_rad, double within_m) const;
 
-    /// The nearest vertex, within `within_m`, however its way runs.
+    /// Returns the nearest vertex within `within_m`, whatever the course of its way.
     std::optional<TraceJoin> nearest(const PointEn& place, double within_m) const;
 
 private:
@@ -77,22 +77,23 @@ private:
     std::unordered_map<std::int64_t, std::vector<Entry>> cells_;
 };
 
-/// How far from a line its ways are sought.
+/// Returns the distance within which ways are searched around a line.
 double seeks_m(const TraceLine& line, const TraceConfig& config);
 
-/// Of the nearest ways alike, within seeks_m, those that a line is on: within joins_m or three sd
-/// of its positions; also farther, where it only strays from them and comes back. Runs so short
-/// that they only cross another road are none, and short breaks of one way are closed.
+/// Selects from the nearest similar ways within seeks_m those that the line is really on: within
+/// joins_m or three sd of its positions, or farther if the line only strays and returns. Runs so
+/// short that they merely cross another road are dropped, and short breaks within one way are
+/// closed.
 TraceJoins true_joins(TraceJoins nearest, const TraceLine& line, const TraceConfig& config);
 
-/// For each point of the line where it is on the ways of an index.
+/// Finds for each point of the line its position on the ways of an index.
 TraceJoins joins_of(const TraceLine& line, const TraceIndex& index, const TraceConfig& config);
 
-/// Draws the lines one after the other. What runs along a way that is drawn joins it.
+/// Draws the lines one after the other. A part that runs along a way already drawn joins it.
 InferredNetwork drawing_of(const std::vector<TraceLine>& lines, const TraceConfig& config);
 
-/// Draws the ways once more, those of many lines first, so that those which have come to lie on
-/// each other become one. \param sd_m  of the positions.
+/// Redraws the ways, those with many lines first, so that ways that have come to coincide become
+/// one. \param sd_m  of the positions.
 InferredNetwork drawn_again(const InferredNetwork& drawing, double sd_m, const TraceConfig& config);
 
 } // namespace macadam

@@ -8,12 +8,12 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t slack = 3;          // points, by which a line may join a way late or early
-constexpr std::size_t crossing_reach = 6; // points around a turn, within which two ways may cross
-constexpr double longest_joint_m = 150;   // longer ones are ways that were drawn
-constexpr double detour_m = 60;           // that a line may have cut off
+constexpr std::size_t slack = 3;          // points by which a line may join a way late or early
+constexpr std::size_t crossing_reach = 6; // points around a turn within which two ways may cross
+constexpr double longest_joint_m = 150;   // longer joints are ways that were drawn
+constexpr double detour_m = 60;           // corner that a line may have cut off
 
-/// A line left one way and came to another.
+/// A turn of a line from one way to another.
 struct Turn {
     TraceVertex from;
     TraceVertex to;
@@ -21,7 +21,8 @@ struct Turn {
     bool is_round;
 };
 
-/// Whether a line only went on along its way, `steps` points later; a way may also cross itself.
+/// Returns true if a line merely continued along its way, `steps` points later; a way may also
+/// cross itself.
 bool goes_along(const TraceVertex& from, const TraceVertex& to, std::size_t steps) {
     return from.way == to.way && to.point + slack >= from.point &&
            to.point <= from.point + steps + 2 * slack;
@@ -61,7 +62,7 @@ std::vector<Turn> turns_of(const std::vector<TraceLine>& lines,
     return turns;
 }
 
-/// Two ways' steps that cross: steps from_step and to_step, at a place.
+/// A crossing of two ways, between their steps from_step and to_step.
 struct Crossing {
     std::size_t from_step;
     std::size_t to_step;
@@ -91,7 +92,7 @@ std::optional<Crossing> crossing_of(const std::vector<PointEn>& a,
     return Crossing{i, k, on_a, {a[i].east_m + on_a * ae, a[i].north_m + on_a * an}};
 }
 
-/// Joins the ways of a drawing.
+/// Joins the ways of an inferred network.
 class JunctionBuilder {
 public:
     explicit JunctionBuilder(InferredNetwork drawing) : drawing_{std::move(drawing)} {
@@ -151,7 +152,7 @@ private:
         return sum_m + apart_m(last, point(turn.to));
     }
 
-    /// Whether the drawing already leads from the one way to the other, and not far round.
+    /// Returns true if the network already connects the two ways without a long detour.
     bool is_way(const Turn& turn, double max_m) const {
         const auto first = turn.to.point - std::min(turn.to.point, slack);
         const auto end = std::min(turn.to.point + 2 * slack, last_of(turn.to.way)) + 1;
@@ -243,7 +244,7 @@ private:
         inserted_.emplace_back();
     }
 
-    /// A dead end: the way back begins where the way there ends.
+    /// Joins a dead end: the way back begins where the way there ends.
     void join_ends(const Turn& turn) {
         const auto& there = drawing_.ways[turn.from.way];
         auto& back = drawing_.ways[turn.to.way];
@@ -262,7 +263,7 @@ private:
 
     struct Inserted {
         std::size_t step;
-        double share; ///< metres from the step's beginning
+        double share; ///< metres from the start of the step
         std::size_t node;
     };
 

@@ -15,8 +15,8 @@
 namespace macadam {
 namespace {
 
-constexpr int rounds = 3;      // of drawing; later ones join what the first's noise kept apart
-constexpr int refinements = 2; // a round; the second sees every line beside the road's middle
+constexpr int rounds = 3; // of drawing; later rounds join ways kept apart by noise in the first
+constexpr int refinements = 2; // per round; the second compares every line with the road's centre
 
 GeoBox extent_of(const TripLog& trip) {
     GeoBox box;
@@ -65,7 +65,7 @@ bool is_before(const TripDrawing* a, const TripDrawing* b) {
         });
 }
 
-/// By content, each once.
+/// Sorts trips by content and removes duplicates.
 std::vector<const TripDrawing*> in_order(std::span<const TripDrawing> trips) {
     std::vector<const TripDrawing*> ordered;
     for (const auto& trip : trips) {
@@ -100,7 +100,7 @@ double median_sd_m(const std::vector<TraceLine>& lines) {
     return sds.empty() ? 0 : *middle;
 }
 
-/// The ways of a drawing on the globe, their nodes numbered from 1 in the order of the ways.
+/// Converts the drawing to ways on the globe, with nodes numbered from 1 in the order of the ways.
 std::vector<Way> ways_of(const InferredNetwork& drawing, const LocalFrame& frame) {
     std::vector<std::int64_t> node_ids(drawing.nodes.size(), 0);
     std::int64_t last_id = 0;

@@ -10,8 +10,8 @@ namespace macadam {
 namespace {
 
 constexpr double beside_m = 60;              // lines farther apart drove different roads
-constexpr std::size_t max_samples = 5000;    // points that are compared with all others around
-constexpr double sd_per_median = 1 / 0.6745; // of a normal distribution's absolute values
+constexpr std::size_t max_samples = 5000;    // points compared with all others around them
+constexpr double sd_per_median = 1 / 0.6745; // for absolute values of a normal distribution
 
 } // namespace
 

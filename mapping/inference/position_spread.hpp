@@ -4,8 +4,9 @@
 
 namespace macadam {
 
-/// The lines with the sd of their positions as they contradict each other, where that is more than
-/// receivers say: their slow errors show only where two drove the same road.
+/// Raises the sd of the positions of lines to the spread between lines on the same road, where that
+/// exceeds the receivers' statement: slow receiver errors only show where two trips drove the same
+/// road.
 std::vector<TraceLine> with_seen_sd(std::vector<TraceLine> lines, const TraceConfig& config);
 
 } // namespace macadam

@@ -9,23 +9,23 @@ namespace macadam {
 namespace {
 
 constexpr double trimmed_share = 0.2; // of the weight, at either end
-constexpr double move_sd_points = 2;  // of the kernel that smooths moves along a way
-constexpr std::size_t move_reach = 6; // points, three times that
-constexpr std::size_t goes_back = 2;  // points that noise may run back along a way
+constexpr double move_sd_points = 2;  // of the kernel that smooths the moves along a way
+constexpr std::size_t move_reach = 6; // points; three times the sd
+constexpr std::size_t goes_back = 2;  // points of backward noise along a way
 
-// A way of one line within outlier_m of one of many: a receiver's excursion, rather than a road.
+// A way of one line within outlier_m of a way of many is a receiver error rather than a road.
 constexpr double outlier_m = 40;
 
-/// How far to the right of a vertex a line passed it.
+/// Lateral offset of a line to the right of a vertex.
 struct Offset {
     double m;
     double weight;
 };
 using Offsets = std::vector<std::vector<std::vector<Offset>>>; ///< per way, per vertex
 
-/// A point of a line in the terms of its way.
+/// Projection of a line's point onto its way.
 struct Projection {
-    double station; ///< in vertices from the way's first
+    double station; ///< in vertices from the start of the way
     double right_m;
 };
 
@@ -59,7 +59,7 @@ Projection projected(const std::vector<PointEn>& way, std::size_t near, const Po
     return best;
 }
 
-/// Adds what one passage of a way, point by point, says of the vertices that it passed.
+/// Adds the offsets of one run along a way to the vertices passed.
 void add_passage(std::vector<std::vector<Offset>>& offsets,
                  const std::vector<Projection>& passage,
                  double weight) {
@@ -123,7 +123,7 @@ double trimmed_mean(std::vector<Offset>& offsets) {
     return sum / (high - low);
 }
 
-/// Moves to the right, smoothed along the way; where nothing passed, as their neighbours.
+/// Smooths the moves to the right along the way; vertices without lines follow their neighbours.
 std::vector<double> smoothed_moves(const std::vector<std::optional<double>>& moves) {
     std::vector<double> smooth(moves.size(), 0);
     for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -209,7 +209,7 @@ InferredNetwork without_outliers(const InferredNetwork& drawing, const TraceConf
             index.add(points_of(drawing, way), way);
         }
     }
-    // Where positions jump aside and back a line runs otherwise than the road for a few points.
+    // Where positions jump aside and back, a line deviates from the road's course for a few points.
     const auto is_outlier = [&](std::size_t way) {
         const auto points = points_of(drawing, way);
         std::size_t alike = 0;

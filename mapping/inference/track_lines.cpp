@@ -12,27 +12,27 @@ namespace {
 
 using Points = std::vector<PointEn>;
 
-constexpr float standing_mps = 1;        // by the receiver; below it positions wander
-constexpr float wheels_stand_mps = 0.3F; // by the wheels
-constexpr double wheels_near_s = 1;      // a wheel speed holds so long
-constexpr double stands_s = 20;          // within stands_m for so long: 0.6 m/s, no driving
+constexpr float standing_mps = 1;        // receiver speed below which positions wander
+constexpr float wheels_stand_mps = 0.3F; // wheel speed below which the car stands
+constexpr double wheels_near_s = 1;      // validity of a wheel speed
+constexpr double stands_s = 20;          // this long within stands_m means 0.6 m/s: not driving
 constexpr double stands_m = 12;
-constexpr double min_step_s = 0.02;         // no receiver is faster; what comes between is skipped
-constexpr double min_step_share = 0.5;      // of the spacing; nearer points are one
-constexpr double widest_kernel = 3;         // standard deviations
-constexpr double fastest_mps = 90;          // more is no car, ...
-constexpr double jitter_m = 20;             // ... beyond what two positions are off by
-constexpr double usual_sd_m = 3;            // of a receiver that says nothing of itself
+constexpr double min_step_s = 0.02;    // faster than any receiver; fixes in between are skipped
+constexpr double min_step_share = 0.5; // of the spacing; nearer points are merged
+constexpr double widest_kernel = 3;    // standard deviations
+constexpr double fastest_mps = 90;     // no car is faster ...
+constexpr double jitter_m = 20;        // ... beyond the error of two positions
+constexpr double usual_sd_m = 3;       // of a receiver without stated accuracy
 constexpr double axis_per_radius = 1 / 1.5; // a 68 % radius is 1.5 sd of one axis (Rayleigh)
 constexpr double comes_back_m = 30;         // behind where it stood: the positions wandered
 
-// A car that turned round comes back beside its own line; a hairpin's legs part.
+// A car that turned round returns beside its own line; the legs of a hairpin diverge.
 constexpr double turned_rad = 150 * std::numbers::pi / 180;
 constexpr std::size_t turn_points = 3;
 constexpr std::size_t leg_points = 8;
 constexpr double beside_m = 12;
 
-/// The fixes of a trip that serve, in the plane, and whether the car stood.
+/// The usable fixes of a trip in the plane, and whether the car stood.
 struct Fixes {
     std::vector<GnssFix> fix;
     Points at;
@@ -48,7 +48,7 @@ bool wheels_stand(const SpeedSamples& speed, double t_s) {
     return std::abs(speed.speed_mps[i]) < wheels_stand_mps;
 }
 
-/// Marks where the positions stay in one place for long.
+/// Marks fixes that stay in one position for long.
 void mark_clusters(Fixes& fixes) {
     const auto& fix = fixes.fix;
     for (std::size_t i = 0; i < fix.size(); ++i) {
@@ -86,7 +86,7 @@ Fixes serving(const TripLog& trip, const LocalFrame& frame, const TraceConfig& c
     return fixes;
 }
 
-/// Whether a point is one more of the line: far enough, and not behind where the car stood.
+/// Returns true if a point extends the line: far enough, and not behind where the car stood.
 bool goes_on(const Points& line, const PointEn& at, bool stood, double min_m) {
     if (line.empty()) {
         return true;
@@ -105,7 +105,7 @@ bool goes_on(const Points& line, const PointEn& at, bool stood, double min_m) {
            0;
 }
 
-/// Positions at least half a spacing apart, in runs without a silence or a jump.
+/// Groups positions at least half a spacing apart into runs without gaps or jumps.
 std::vector<Points> runs_of(const Fixes& fixes, const TraceConfig& config) {
     std::vector<Points> runs;
     bool stood = false;
@@ -126,7 +126,7 @@ std::vector<Points> runs_of(const Fixes& fixes, const TraceConfig& config) {
     return runs;
 }
 
-/// Of the receiver's own words, in the mean square.
+/// Returns the root mean square of the receiver's stated accuracy.
 double sd_of(const Fixes& fixes) {
     double squares = 0;
     std::size_t count = 0;
@@ -149,7 +149,7 @@ std::vector<double> distances_along(const Points& line) {
     return along_m;
 }
 
-/// Sums of a straight line fitted with weights (x: distance from the point in question).
+/// Sums of a weighted straight-line fit (x: distance from the point in question).
 struct Fit {
     double w = 0, wx = 0, wxx = 0, we = 0, wxe = 0, wn = 0, wxn = 0;
 
@@ -171,8 +171,8 @@ struct Fit {
     }
 };
 
-/// Each point from its neighbours within a few sd_m along the line: a local straight line, so that
-/// the ends stay where they are.
+/// Smooths each point by a local straight line through its neighbours within a few sd_m along the
+/// line, so that the ends do not move.
 Points locally_straight(const Points& line, const std::vector<double>& along_m, double sd_m) {
     Points smooth;
     std::size_t first = 0;
@@ -191,8 +191,8 @@ Points locally_straight(const Points& line, const std::vector<double>& along_m, 
     return smooth;
 }
 
-/// Smoothed twice: what the first smoothing took away, smoothed as well, is given back, so that
-/// bends are cut less.
+/// Smooths twice: the residual of the first smoothing is smoothed and added back, so that bends are
+/// cut less.
 ///
 /// Source: J. W. Tukey, "Exploratory Data Analysis" (1977): "twicing".
 Points smoothed(const Points& line, double sd_m) {
@@ -211,7 +211,7 @@ Points smoothed(const Points& line, double sd_m) {
     return smooth;
 }
 
-/// Points at even distance along the line, its last point included.
+/// Resamples the line at equal distances, including its last point.
 Points resampled(const Points& line, double spacing_m) {
     const auto along_m = distances_along(line);
     const auto steps = std::max(1.0, std::round(along_m.back() / spacing_m));
@@ -234,8 +234,8 @@ bool runs_beside(const PointEn& at, std::span<const PointEn> line) {
     return std::ranges::any_of(line, [&](const PointEn& p) { return apart_m(at, p) < beside_m; });
 }
 
-/// Whether the car turned round at point i: its course is the opposite one, and what follows lies
-/// beside what was before.
+/// Returns true if the car turned round at point i: its course is reversed, and the line after the
+/// point runs beside the line before it.
 bool turns_round(const Points& line, std::size_t i) {
     if (i < turn_points || i + turn_points >= line.size()) {
         return false;
@@ -258,7 +258,7 @@ bool turns_round(const Points& line, std::size_t i) {
     return true;
 }
 
-/// A line cut where the car turned round.
+/// Adds a line, cut where the car turned round.
 void add_cut(std::vector<TraceLine>& lines, const Points& line, double sd_m) {
     std::size_t first = 0;
     bool after_turn = false;

@@ -7,22 +7,23 @@
 
 namespace macadam {
 
-/// What a trip drew without a break, in a plane: points about spacing_m apart, the noise of single
-/// positions taken out.
+/// A continuous line of a trip in a plane: points about spacing_m apart, with the noise of single
+/// positions removed.
 struct TraceLine {
     std::vector<PointEn> points;
-    double sd_m;             ///< of its positions, across the road, as the receiver says
+    double sd_m;             ///< of its positions, across the road, as stated by the receiver
     bool after_turn = false; ///< begins where the line before it turned round
 };
 
-/// The lines of a trip. A line ends where the positions fall silent or jump, and where the car
-/// turns round on its own road. Standing draws nothing, nor does what goes back after it.
+/// Extracts the lines of a trip. A line ends at a gap or jump of the positions, and where the car
+/// turns round on its own road. Standing draws no line, nor does moving back after it.
 std::vector<TraceLine>
 trace_lines(const TripLog& trip, const LocalFrame& frame, const TraceConfig& config);
 
 double apart_m(const PointEn& a, const PointEn& b);
 
-/// Direction of the line at a point, radians clockwise from north. \param line  >= 2 points.
+/// Returns the direction of the line at a point, radians clockwise from north. \param line  >= 2
+/// points.
 double course_rad(const std::vector<PointEn>& line, std::size_t i);
 
 } // namespace macadam

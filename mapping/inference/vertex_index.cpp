@@ -10,9 +10,9 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t min_alike = 3; // points in a row: fewer only cross the other road
-constexpr double joins_sds = 3;      // of its positions a line lies from its road, ...
-constexpr double strays_sds = 5;     // ... and for a while
+constexpr std::size_t min_alike = 3; // points in a row: shorter runs merely cross the other road
+constexpr double joins_sds = 3;  // usual distance of a line from its road, in sds of its positions
+constexpr double strays_sds = 5; // temporary distance
 constexpr double farthest_join_m = 40;
 constexpr double farthest_stray_m = 50;
 
@@ -46,7 +46,8 @@ TraceJoins::iterator at(TraceJoins& joins, std::size_t i) {
     return joins.begin() + static_cast<std::ptrdiff_t>(i);
 }
 
-/// Removes runs so short that they only cross another road, and closes short breaks of one way.
+/// Removes runs so short that they merely cross another road, and closes short breaks within one
+/// way.
 void drop_short_runs(TraceJoins& joins, const TraceConfig& config) {
     for_each_run(joins, [&](std::size_t first, std::size_t end) {
         if (joins[first] && end - first < min_alike) {
@@ -125,7 +126,7 @@ bool TraceIndex::is_alike(const Entry& entry, double course_rad) const {
 std::optional<TraceJoin>
 TraceIndex::alike(const PointEn& place, double course_rad, double within_m) const {
     std::optional<TraceJoin> best;
-    double vertex_m = 0; // of two vertices with one step between them the nearer
+    double vertex_m = 0; // the nearer of two neighbouring vertices
     visit_near(place, within_m, [&](const Entry& entry, double away_m) {
         const double to_vertex_m = apart_m(entry.at, place);
         if ((!best || std::tie(away_m, to_vertex_m) < std::tie(best->away_m, vertex_m)) &&

@@ -8,10 +8,10 @@
 namespace macadam {
 namespace {
 
-constexpr double touched_m = 5; // less of an arc (or half of a short one) is noise
-constexpr double meet_m = 1;    // two pieces that are nearer than this go on from each other
+constexpr double touched_m = 5; // touching less of an arc (or half of a short one) is noise
+constexpr double meet_m = 1;    // intervals nearer than this are contiguous
 
-/// Pieces on one edge, each farther along it than the one before; there may be holes between.
+/// Intervals on one edge in ascending order; there may be gaps between them.
 using Run = std::vector<MatchedInterval>;
 
 std::vector<Run> runs_of(const MatchedTrace& trace) {
@@ -30,7 +30,7 @@ std::vector<Run> runs_of(const MatchedTrace& trace) {
     return runs;
 }
 
-/// Offset of the edge's n-th point, in its direction of travel.
+/// Returns the offset of the edge's n-th point, in its direction of travel.
 double point_offset_m(const RoadNetwork& roads, EdgeId edge, std::uint32_t n) {
     const auto link = link_at(roads, edge);
     const auto along_m = way_of(roads, edge).along_m;
@@ -54,7 +54,7 @@ Arc arc_at(const RoadNetwork& roads, const MatchedInterval& piece, std::uint32_t
                                   piece.confidence};
 }
 
-/// When the piece came to a place of its edge; its beginning for one before.
+/// Returns the time at an offset of its edge; the interval's start for offsets before it.
 double time_at(const MatchedInterval& piece, double offset_m) {
     const double whole_m = piece.to_offset_m - piece.from_offset_m;
     const double share = whole_m > 0 ? (offset_m - piece.from_offset_m) / whole_m : 0;
@@ -64,7 +64,7 @@ double time_at(const MatchedInterval& piece, double offset_m) {
 void add_arcs(std::vector<Arc>& arcs, const Run& run, const RoadNetwork& roads) {
     const auto edge = run.front().edge;
     const auto link = link_at(roads, edge);
-    auto first = run.begin(); // of the pieces on an arc
+    auto first = run.begin(); // first interval on an arc
     for (std::uint32_t n = 0; n < link.last_point - link.first_point; ++n) {
         const double from_m = point_offset_m(roads, edge, n);
         const double to_m = point_offset_m(roads, edge, n + 1);

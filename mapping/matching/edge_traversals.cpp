@@ -6,7 +6,7 @@
 namespace macadam {
 namespace {
 
-constexpr double meet_m = 1; // offsets that are nearer than this go on from each other
+constexpr double meet_m = 1; // intervals with a smaller difference of offset are contiguous
 
 double long_m(const MatchedInterval& piece) {
     return piece.to_offset_m - piece.from_offset_m;
@@ -53,7 +53,7 @@ MatchedTrace edge_traversals(const MatchedTrace& trace, double min_m) {
             passages.back().to_travel_m = piece.to_travel_m;
             passages.back().t_leave_s = piece.t_leave_s;
         } else if (!is_speck) {
-            if (passages.empty()) { // specks before it
+            if (passages.empty()) { // tiny intervals before the first traversal
                 piece.from_travel_m = joined.front().from_travel_m;
                 piece.t_enter_s = joined.front().t_enter_s;
             }

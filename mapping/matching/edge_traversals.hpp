@@ -4,14 +4,14 @@
 
 namespace macadam {
 
-/// The trace with one piece for each passage of an edge, as people and scripts read it: `map_match`
-/// cuts a passage wherever travel and place run together at another pace.
+/// Merges a trace into one interval per traversal of an edge, for output. (`map_match` also cuts a
+/// traversal wherever the ratio of travel to offset changes.)
 ///
-/// Pieces of one edge that go on from each other become one, its confidence their mean by length,
-/// the standard deviation of its place their largest; so do holes with the same reason. Pieces
-/// shorter than `min_m`, as rounding leaves them at nodes and ends, and as standing does, go up
-/// in their neighbours: time and travel stay without holes. An edge that is passed again, after a
-/// loop or a U-turn, is a piece again.
+/// Consecutive intervals of one edge are merged: confidence is their length-weighted mean, and the
+/// position's standard deviation their maximum. Consecutive gaps with the same reason are merged
+/// too. Intervals shorter than `min_m`, caused by rounding at nodes and ends and by standing, are
+/// absorbed by their neighbours, so that time and travel remain continuous. An edge traversed again
+/// after a loop or a U-turn is a new interval.
 MatchedTrace edge_traversals(const MatchedTrace& trace, double min_m = 0.05);
 
 } // namespace macadam

@@ -16,9 +16,9 @@
 namespace macadam {
 namespace {
 
-constexpr double straight_m = 0.25; // pieces keep the place along the edge within this
+constexpr double straight_m = 0.25; // maximum error of the offset within an interval
 
-/// The knot at a place of the path; the ends of the knots for one beyond them.
+/// Interpolates the knots at a path position, clamped to their ends.
 PathSample knot_at(const std::vector<PathSample>& knots, double along_m) {
     const auto next =
         std::lower_bound(knots.begin(), knots.end(), along_m, [](const PathSample& knot, double m) {
@@ -35,7 +35,7 @@ PathSample knot_at(const std::vector<PathSample>& knots, double along_m) {
             std::lerp(before.sd_m, next->sd_m, share)};
 }
 
-/// The knots between two places of the path, with new ones at both.
+/// Returns the knots between two path positions, with new ones at both.
 std::vector<PathSample> clipped(const std::vector<PathSample>& knots, double from_m, double to_m) {
     if (knots.empty()) {
         return {};
@@ -69,11 +69,11 @@ bool is_straight(std::span<const PathSample> knots) {
     });
 }
 
-/// Of the first knots, as many as one straight line serves; at least two.
+/// Counts the first knots that one straight line fits; at least two.
 std::size_t straight_count(std::span<const PathSample> knots) {
     std::size_t good = 2;
     std::size_t step = 1;
-    while (good < knots.size()) { // growing steps, then halved ones
+    while (good < knots.size()) { // growing steps, then bisection
         const auto tried = std::min(good + step, knots.size());
         if (is_straight(knots.first(tried))) {
             good = tried;
@@ -132,7 +132,7 @@ pieces_of(const RoadPath& path, const std::vector<PathSample>& knots, const Odom
     return pieces;
 }
 
-/// What fills the trip up to `to_travel_m`, where no road does.
+/// Fills the trace up to `to_travel_m` where there is no road.
 void fill(MatchedTrace& trace,
           IntervalKind kind,
           double to_travel_m,
@@ -174,7 +174,7 @@ MatchedTrace map_match(const TripLog& trip,
     const double begin_m = positions.all.front().travel_m;
     const double end_m = positions.all.back().travel_m;
     MatchedTrace trace;
-    std::size_t sample = 0; // of the chain, up to which the trace is filled
+    std::size_t sample = 0; // up to which the trace is filled
     for (const auto& path : paths) {
         auto pieces =
             pieces_of(path, smoothed_knots(path, roads, plane, positions, odometer), odometer);

@@ -13,42 +13,42 @@
 
 namespace macadam {
 
-/// A part of a trip. On a road: the edge, and between which offsets (along the edge in driving
-/// direction, from_offset_m <= to_offset_m) the centre of gravity went.
+/// A matched interval of a trip. On a road: the edge and the offsets (along the edge in driving
+/// direction, from_offset_m <= to_offset_m) between which the centre of gravity travelled.
 struct MatchedInterval {
     IntervalKind kind;
     EdgeId edge; ///< only for road
     double from_travel_m;
     double to_travel_m;
-    double from_offset_m; ///< only for road
+    double from_offset_m; ///< only for road, as is to_offset_m
     double to_offset_m;
     double t_enter_s;
     double t_leave_s;
     double confidence;  ///< 0..1, of the edge and direction; 0 for the other kinds
-    std::string reason; ///< why it is not on a road; "" on a road
+    std::string reason; ///< why there is no road; "" on a road
 
-    /// Standard deviation of the place along the edge, given that it is the right edge: the largest
-    /// in the piece. 0 for the other kinds.
+    /// Maximum standard deviation of the offset in the interval, given that the edge is correct. 0
+    /// for the other kinds.
     double offset_sd_m = 0;
 };
 
-/// In the order of travel, one after the other without holes, from the first to the last position.
+/// Ordered by travel and contiguous, from the first to the last position.
 using MatchedTrace = std::vector<MatchedInterval>;
 
-/// Hidden-Markov map matching of one trip: which edges it drove, in which direction, and where on
-/// them it was at which travel.
+/// Matches one trip to the network with a hidden Markov model: the edges driven, their direction,
+/// and the offset on them at each travelled distance.
 ///
-/// Positions are thinned by travelled distance; candidates are the drivable edges near each; the
-/// cost of a candidate grows with its distance and its angle to the course, the cost of a
-/// transition with |length of the way on the network - travelled distance| and with turning round.
-/// The cheapest chain is found by Viterbi; where no way joins two samples the trace is cut into a
-/// gap and goes on. Confidence is the forward-backward posterior of the edge on the same lattice.
+/// Positions are sampled by travelled distance; candidates are the drivable edges near each sample.
+/// The emission cost grows with distance from the edge and with the angle to its course; the
+/// transition cost grows with |path length on the network - travelled distance| and with turning
+/// round. Viterbi finds the cheapest path; where no path joins two samples, the trace has a gap.
+/// Confidence is the forward-backward posterior of the edge on the same lattice.
 ///
-/// Positions alone, and positions with speed, course and rates of turn (`heading`), all work.
-/// `use.fixes` learns which fixes served.
+/// Works with positions alone, and with speed, course and rates of turn (`heading`). `use.fixes`
+/// records which fixes were used.
 ///
-/// Source: P. Newson, J. Krumm, "Hidden Markov map matching through noise and sparseness",
-/// ACM SIGSPATIAL GIS 2009, pp. 336-343.
+/// Source: P. Newson, J. Krumm, "Hidden Markov map matching through noise and sparseness", ACM
+/// SIGSPATIAL GIS 2009, pp. 336-343.
 MatchedTrace map_match(const TripLog& trip,
                        const Odometer& odometer,
                        const RoadNetwork& roads,

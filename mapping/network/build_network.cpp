@@ -20,7 +20,7 @@ namespace {
 
 // ---------------------------------------------------------------------------------------- ways
 
-/// Without repeats of one and the same point in sequence, which maps hold now and then.
+/// Removes consecutive repeats of a point, which maps contain now and then.
 Way without_repeats(Way way) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < way.node_ids.size(); ++i) {
@@ -42,7 +42,7 @@ bool is_a_line(const Way& way) {
     });
 }
 
-/// In the order of their ids, each a line.
+/// Sorts ways by id and keeps those that form a line.
 std::vector<Way> in_order(std::vector<Way> ways) {
     for (auto& way : ways) {
         assert(way.node_ids.size() == way.line.size());
@@ -59,7 +59,8 @@ std::vector<Way> in_order(std::vector<Way> ways) {
     return ways;
 }
 
-/// Where longitudes jump from 180 to -180 neither lines nor boxes nor plane metres hold.
+/// Rejects ways near the antimeridian: where longitudes jump from 180 to -180, lines, boxes and
+/// plane coordinates are invalid.
 void expect_on_globe(const std::vector<Way>& ways) {
     for (const auto& way : ways) {
         for (const auto& point : way.line) {
@@ -80,7 +81,7 @@ void expect_on_globe(const std::vector<Way>& ways) {
     }
 }
 
-/// Texts that are kept once each.
+/// Interns strings.
 class TextPool {
 public:
     TextPool(NetworkArrays& tables, const NetworkLimits& limits)
@@ -127,8 +128,8 @@ void add_lengths(NetworkArrays& tables, const Way& way) {
     }
 }
 
-/// Records of the ways with their points, and one past the last; each way is let go of when it is
-/// told, because a map of a country has millions. Links are not there yet.
+/// Adds the records of the ways with their points, and an end sentinel. Frees each way once added,
+/// because the map of a country has millions. Links are added later.
 void add_ways(NetworkArrays& tables, std::vector<Way> ways, const NetworkLimits& limits) {
     TextPool texts{tables, limits};
     const auto start = [&] {
@@ -161,11 +162,12 @@ void add_ways(NetworkArrays& tables, std::vector<Way> ways, const NetworkLimits&
 
 // ------------------------------------------------------------------------------------ topology
 
-/// Identities of the points that are nodes, rising: ends of ways and points met more than once.
+/// Returns the ids of the points that are nodes, ascending: ends of ways and points that occur more
+/// than once.
 std::vector<std::int64_t> node_identities(const NetworkArrays& tables) {
     auto met = tables.node_ids;
     for (std::size_t way = 0; way + 1 < tables.ways.size(); ++way) {
-        met.push_back(tables.node_ids[tables.ways[way].first_point]); // an end counts as met twice
+        met.push_back(tables.node_ids[tables.ways[way].first_point]); // an end counts twice
         met.push_back(tables.node_ids[tables.ways[way + 1].first_point - 1]);
     }
     std::sort(met.begin(), met.end());
@@ -188,7 +190,7 @@ std::uint16_t speed_limit_cmps(const NetworkArrays& tables, const PackedWay& way
                                     : usual_speed_limit_cmps(text(tables, way.highway));
 }
 
-/// The way's parts between nodes, in its own direction. \returns how many segments they have.
+/// Adds the way's links in its own direction. \returns their number of segments.
 std::uint64_t add_links(NetworkArrays& tables,
                         std::uint32_t way,
                         const std::vector<std::int64_t>& nodes,
@@ -216,7 +218,7 @@ std::uint64_t add_links(NetworkArrays& tables,
         link.from = link.to;
         link.first_point = i;
         segments += segments_in(Unpacked{}(link.length_mm), segment_length_m);
-        link.first_segment = static_cast<std::uint32_t>(segments); // held in bounds by the caller
+        link.first_segment = static_cast<std::uint32_t>(segments); // the caller checks its range
     }
     return segments;
 }
@@ -306,7 +308,7 @@ BoxTreeArrays tree_of(const NetworkArrays& tables) {
         const auto last =
             next.way == link.way ? next.first_point : tables.ways[link.way + 1].first_point - 1;
         const auto pieces = pieces_of(last - link.first_point);
-        // In 64 bits: steps times pieces of a link of 262,144 points are more than 2^32.
+        // 64 bits: for a link of 262,144 points, steps times boxes exceed 2^32.
         const std::uint64_t steps = last - link.first_point;
         for (std::uint64_t piece = 0; piece < pieces; ++piece) {
             const auto from = link.first_point + steps * piece / pieces;

@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// What a network built in memory looks into.
+/// Storage of a network built in memory.
 struct NetworkArrays {
     std::vector<PackedWay> ways;
     std::vector<PackedPoint> points;
@@ -26,26 +26,27 @@ struct NetworkArrays {
     std::vector<char> letters;
 };
 
-/// Where an identity stands among those of the nodes, which rise; nothing: no node.
+/// Returns the number of a node id among the ascending ids of the nodes; `std::nullopt`: not a
+/// node.
 std::optional<std::uint32_t> number_of_node(const std::vector<std::int64_t>& nodes,
                                             std::int64_t id);
 
-/// Of places of roads: 11 km of room to the antimeridian at the equator.
+/// Longitude limit of roads: leaves 11 km to the antimeridian at the equator.
 inline constexpr double farthest_lon_deg = 179.9;
 
-/// Boxes of the index over a link of so many steps from point to point: a long winding link has
-/// several small ones, each of at most 16 steps.
+/// Returns the number of index boxes over a link of so many steps between points: a long winding
+/// link has several small boxes, each of at most 16 steps.
 constexpr std::uint32_t pieces_of(std::uint32_t steps) {
     constexpr std::uint32_t max_steps = 16;
     return steps / max_steps + (steps % max_steps == 0 ? 0U : 1U);
 }
 
-/// Segments of one direction that a network of so many points may have.
+/// Returns the maximum number of segments in one direction for a network of so many points.
 constexpr std::uint64_t max_segments(std::uint64_t points, const NetworkLimits& limits) {
     return limits.free_segments + limits.segments_per_point * points;
 }
 
-/// What a way's traffic rule leaves of its links' directions.
+/// Returns the direction flags of links under a way's oneway rule.
 constexpr std::uint16_t flags_of(Oneway oneway) {
     return static_cast<std::uint16_t>((oneway != Oneway::backward ? link_flags::forward : 0) |
                                       (oneway != Oneway::forward ? link_flags::backward : 0));

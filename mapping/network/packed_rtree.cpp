@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t max_levels = 9; // 16^8 leaves are all that 32 bits can number
+constexpr std::size_t max_levels = 9; // 32 bits number at most 16^8 leaves
 
 bool meet(const GridBox& a, const GridBox& b) {
     return a.south_e7 <= b.north_e7 && b.south_e7 <= a.north_e7 && a.west_e7 <= b.east_e7 &&
@@ -24,7 +24,7 @@ GridBox around(const GridBox& a, const GridBox& b) {
             std::max(a.east_e7, b.east_e7)};
 }
 
-/// Distance along the Hilbert curve that fills a square of 2^32 by 2^32.
+/// Returns the distance along the Hilbert curve that fills a square of 2^32 by 2^32.
 ///
 /// Source: H. S. Warren, "Hacker's Delight", 2nd ed. (2012), chapter 16: the state is one of four
 /// orientations, here as a swap and a complement of the two coordinates.
@@ -45,7 +45,8 @@ std::uint64_t hilbert_distance(std::uint32_t x, std::uint32_t y) {
     return distance;
 }
 
-/// From the middle of a box, counted from the south pole and the antimeridian.
+/// Returns the curve distance of the centre of a box, counted from the south pole and the
+/// antimeridian.
 std::uint64_t place_on_curve(const GridBox& box) {
     const auto middle = [](std::int32_t a, std::int32_t b) {
         return static_cast<std::uint32_t>((std::int64_t{a} + b) / 2 + (std::int64_t{1} << 31U));
@@ -57,7 +58,7 @@ std::size_t parents_of(std::size_t boxes) {
     return (boxes + box_tree_fan_out - 1) / box_tree_fan_out;
 }
 
-/// Where each level begins, the leaves' first; the last is the number of all boxes.
+/// Start of each level, leaves first; the last entry is the total number of boxes.
 struct Levels {
     std::array<std::size_t, max_levels + 1> first{};
     std::size_t count = 0;
@@ -129,7 +130,7 @@ BoxTreeArrays build_box_tree(std::vector<GridBox> leaves, std::vector<std::uint3
 std::vector<std::uint32_t> numbers_meeting(const PackedRtree& tree, const GridBox& box) {
     const auto levels = levels_of(tree.numbers.size());
     std::vector<std::uint32_t> found;
-    // Depth first: the boxes of a level that are still to be looked at, from `at` to `past`.
+    // Depth first: the boxes of a level still to be visited, [at, past).
     struct Range {
         std::size_t at = 0;
         std::size_t past = 0;

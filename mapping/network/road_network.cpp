@@ -16,7 +16,7 @@ std::string_view text(const RoadNetwork& roads, std::uint32_t number) {
     return {roads.letters.data() + first, roads.first_letter[number + 1] - first};
 }
 
-/// In RoadNetwork::points, of the link's last point.
+/// Returns the index in RoadNetwork::points of the link's last point.
 std::uint32_t last_point(const RoadNetwork& roads, std::uint32_t link) {
     const auto way = roads.links[link].way;
     const auto& next = roads.links[link + 1];

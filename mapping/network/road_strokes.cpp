@@ -9,7 +9,7 @@ namespace macadam {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr double along_the_way = -1; // better than any turn into another way
+constexpr double along_the_way = -1; // preferred to any turn into another way
 
 std::uint32_t number_of(EdgeId edge) {
     return static_cast<std::uint32_t>(edge);
@@ -36,7 +36,7 @@ bool is_same_road(const WayView& a, const WayView& b) {
     return a.name == b.name && (!a.name.empty() || a.highway == b.highway);
 }
 
-/// How much one must turn to go on from an edge to the next; nothing if that is another road.
+/// Returns the turn from an edge to the next; `std::nullopt` if that is another road.
 std::optional<double>
 turn_deg(const RoadNetwork& roads, EdgeId edge, EdgeId next, double sharpest_turn_deg) {
     if (is_next_of_way(roads, edge, next)) {
@@ -55,7 +55,7 @@ struct Choice {
     double turn_deg = std::numeric_limits<double>::infinity();
 };
 
-/// The edge after each, where both are the best that the other has.
+/// Returns the successor of each edge where both prefer each other.
 std::vector<std::uint32_t>
 next_edges(const RoadNetwork& roads, const std::vector<bool>& wanted, double sharpest_turn_deg) {
     std::vector<Choice> after(wanted.size()), before(wanted.size());

@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-/// The way's place `at_m` from its first node, which lies on the link.
+/// Returns the position `at_m` from the way's first node, which lies on the link.
 GeoPoint place_at(const RoadNetwork& roads, const Link& link, double at_m) {
     const auto way = way_at(roads, link.way);
     const auto& along_m = way.along_m;
@@ -24,7 +24,8 @@ GeoPoint place_at(const RoadNetwork& roads, const Link& link, double at_m) {
     return between(line[i - 1], line[i], step_m > 0 ? (at_m - along_m[i - 1]) / step_m : 0.0);
 }
 
-/// The link's border between its segments `number` - 1 and `number`, from the way's first node.
+/// Returns the boundary between segments `number` - 1 and `number` of the link, from the way's
+/// first node.
 double border_m(const Link& link, std::uint32_t number) {
     return number == link.segments
                ? link.to_m
@@ -46,7 +47,7 @@ line_between(const RoadNetwork& roads, const Link& link, double from_m, double t
     return line;
 }
 
-/// Nothing if `text` is not all a number.
+/// Parses a number; `std::nullopt` unless `text` is entirely a number.
 template <typename Number>
 std::optional<Number> number_in(std::string_view text) {
     Number number{};
@@ -59,7 +60,7 @@ std::optional<Number> number_in(std::string_view text) {
 
 std::string name_of(const SegmentKey& key) {
     constexpr std::size_t min_digits = 4;
-    std::array<char, 32> name{}; // 20 for the way, a sign, 10 for the index
+    std::array<char, 32> name{}; // 20 characters for the way, a sign, 10 for the index
     std::array<char, 10> index{};
     auto* const way_end = std::to_chars(name.data(), name.data() + 20, key.way_id).ptr;
     const auto* const index_end =

@@ -13,9 +13,9 @@ struct ClassLimit {
     double kmh;
 };
 
-// The commonest limit among the countries of OSM wiki, "Default speed limits": 130 km/h on
-// motorways, 100 to 110 between towns, 50 in towns, 20 where people live and play. Class by class
-// the wiki names no limit; what a class is for says which of them holds (Key:highway).
+// Most common limits among the countries of OSM wiki, "Default speed limits": 130 km/h on
+// motorways, 100 to 110 between towns, 50 in towns, 20 in living streets. The wiki gives no limits
+// per class; the purpose of a class (Key:highway) determines which one applies.
 constexpr ClassLimit class_limits[] = {
     {"motorway", 130},
     {"motorway_link", 110},

@@ -5,9 +5,9 @@
 
 namespace macadam {
 
-/// What cars may drive on roads of a class of OSM where no sign says otherwise, cm/s: outside
-/// towns on the classes that join towns, inside them on the others; 100 km/h for an unknown class.
-/// Rather too high than too low: it serves to tell what no car can have driven.
+/// Returns the default speed limit of an OSM highway class, cm/s: rural limits for classes that
+/// connect towns, urban ones for the others; 100 km/h for an unknown class. Errs on the high side,
+/// as it serves to exclude speeds that no car can have driven.
 std::uint16_t usual_speed_limit_cmps(std::string_view highway);
 
 } // namespace macadam

@@ -8,7 +8,8 @@
 namespace macadam {
 namespace {
 
-/// The one drivable edge of a way that leaves a node; nothing if there are two or none.
+/// Returns the only drivable edge of a way that leaves a node; `std::nullopt` if there are two or
+/// none.
 std::optional<EdgeId>
 departure(const NetworkArrays& tables, std::uint32_t way, std::uint32_t node) {
     std::optional<EdgeId> found;
@@ -24,13 +25,13 @@ departure(const NetworkArrays& tables, std::uint32_t way, std::uint32_t node) {
     return found;
 }
 
-/// A drivable edge and the node that it leads to.
+/// A drivable edge and the node at its end.
 struct Arrival {
     std::uint32_t node;
     EdgeId edge;
 };
 
-/// The drivable edges of a way, in the order of the nodes that they lead to.
+/// Returns the drivable edges of a way, sorted by the nodes at their ends.
 std::vector<Arrival> arrivals_of(const NetworkArrays& tables, std::uint32_t way) {
     std::vector<Arrival> arrivals;
     for (auto i = tables.ways[way].first_link; i < tables.ways[way + 1].first_link; ++i) {
@@ -46,7 +47,7 @@ std::vector<Arrival> arrivals_of(const NetworkArrays& tables, std::uint32_t way)
     return arrivals;
 }
 
-/// The one edge that leads to a node; nothing if there are two or none.
+/// Returns the only edge that arrives at a node; `std::nullopt` if there are two or none.
 std::optional<EdgeId> arrival(std::span<const Arrival> arrivals, std::uint32_t node) {
     const auto found = std::ranges::equal_range(arrivals, node, {}, &Arrival::node);
     return found.size() == 1 ? std::optional{found.front().edge} : std::nullopt;
@@ -63,12 +64,12 @@ std::optional<std::uint32_t> number_of_way(const NetworkArrays& tables, std::int
                : std::nullopt;
 }
 
-/// More edges leave no junction: a rule for each way there would forbid a square of turns.
+/// More edges leave no real junction: a rule for each way there would forbid a square of turns.
 constexpr std::uint32_t max_departures = 64;
 
-/// The turns that a rule forbids. A rule that the ways' ends do not make plain forbids none.
+/// Adds the turns that a rule forbids; none if the rule is ambiguous.
 ///
-/// \param arrivals  of the way that the rule is for
+/// \param arrivals  of the way with the rule
 void add_barred(NetworkArrays& tables,
                 std::span<const Arrival> arrivals,
                 const TurnRule& rule,

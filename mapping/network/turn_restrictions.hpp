@@ -7,12 +7,11 @@
 
 namespace macadam {
 
-/// Adds the turns that the ways' rules forbid, in order, each once, and flags the links that they
-/// begin on. A rule that the ways' ends do not make plain forbids none, nor does
-/// one at a node that over 64 edges leave, which is no junction.
+/// Adds the turns forbidden by the ways' rules, sorted and unique, and flags the links they begin
+/// on. Ignores ambiguous rules and rules at nodes left by over 64 edges, which are no junctions.
 ///
 /// \param tables  with ways, links and departures
-/// \param nodes   identities of the nodes, rising
+/// \param nodes   ids of the nodes, ascending
 void add_turn_restrictions(NetworkArrays& tables, const std::vector<std::int64_t>& nodes);
 
 } // namespace macadam

@@ -12,7 +12,7 @@ constexpr std::int32_t step_um = 20;
 constexpr unsigned mantissa_bits = 5;
 constexpr unsigned steps_in_octave = 1U << mantissa_bits;
 
-/// In steps. Below two octaves every step has its code; then each octave has 32.
+/// Decodes to steps. Below two octaves every step has its code; above, each octave has 32.
 constexpr unsigned steps_of(RoughnessCode code) {
     const unsigned octave = code >> mantissa_bits;
     const unsigned within = code % steps_in_octave;
@@ -22,7 +22,7 @@ constexpr unsigned steps_of(RoughnessCode code) {
 constexpr RoughnessCode largest_code = no_roughness - 1;
 constexpr unsigned max_steps = steps_of(largest_code);
 
-/// The code of the most steps that are not more than `steps`.
+/// Returns the code of the largest value not above `steps`.
 RoughnessCode code_below(unsigned steps) {
     const auto width = static_cast<unsigned>(std::bit_width(steps));
     const unsigned octave = width > mantissa_bits ? width - mantissa_bits : 0;

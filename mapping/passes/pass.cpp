@@ -14,16 +14,16 @@ namespace {
 
 constexpr double millionths = 1e6;
 constexpr double thousandths = 1e3;
-constexpr double largest_um = 1e9; // 1000 m/km is no road
+constexpr double largest_um = 1e9; // far above any road
 
-/// One drive over one segment, as the match has it.
+/// One pass over one segment, as matched.
 struct Passage {
     SegmentKey segment;
-    double segment_m;                   ///< its length
-    std::vector<TravelSpan> travel;     ///< apart from one another
+    double segment_m;                   ///< length of the segment
+    std::vector<TravelSpan> travel;     ///< disjoint
     double offset_m = 0;                ///< driven along the road
-    double confident_m = 0;             ///< the same, times the confidence of the match
-    std::optional<std::uint32_t> drive; ///< over the chunk
+    double confident_m = 0;             ///< driven length times the confidence of the match
+    std::optional<std::uint32_t> drive; ///< number over the chunk
     double t_enter_s;
     double t_leave_s;
 };
@@ -64,8 +64,8 @@ std::vector<Passage> passages_of(std::span<const SegmentOverlap> parts) {
 
 using Known = std::optional<double>;
 
-/// What was read of a segment in one passage; sums over its ranges, weighted by covered length.
-/// A side counts only where every range has it.
+/// Roughness of a segment in one pass; sums over its travel ranges, weighted by covered length. A
+/// side is only valid if every range has it.
 struct Reading {
     double covered_m = 0; ///< along the trip
     double iri = 0;
@@ -93,7 +93,7 @@ Reading read(const Passage& passage, const IriTrace& roughness, const Vehicle& v
         }
         reading.covered_m += w;
         reading.iri += w * headline->iri_mm_per_m;
-        reading.sd += w * headline->sd_mm_per_m; // one car: its ranges err alike
+        reading.sd += w * headline->sd_mm_per_m; // same car: errors of its ranges are common
         reading.speed += w * mean.speed_mps;
         reading.left = sum_of(reading.left, mean.left_mm_per_m, w);
         reading.right = sum_of(reading.right, mean.right_mm_per_m, w);
@@ -120,7 +120,7 @@ double driven_m(const Passage& passage) {
     return sum_m;
 }
 
-/// MRI inferred from HRI is indicative, too; from then on the flag does not tell why.
+/// An MRI inferred from HRI is also indicative; the flag then no longer states the reason.
 std::uint8_t validity_of(const Reading& reading) {
     unsigned flags = reading.validity;
     flags |= (flags & validity::indicative) != 0 ? validity::lateral_alone : 0U;
@@ -156,7 +156,7 @@ std::optional<Pass> pass_of(const Passage& passage,
         return std::nullopt;
     }
     const auto reading = read(passage, roughness, vehicle);
-    // Metres of the trip stand for metres of the road; a match that stepped back covers none twice.
+    // Metres of travel represent metres of road; a match that stepped back covers none twice.
     const double covered_m =
         std::min(passage.segment_m, reading.covered_m * passage.offset_m / driven_m(passage));
     const bool is_read = reading.iri / reading.covered_m * thousandths < largest_um &&
@@ -176,7 +176,7 @@ std::optional<Headline> headline_of(const IriMean& mean) {
     if (!mean.hri_mm_per_m) {
         return std::nullopt;
     }
-    // Of a quotient the relative variances add up:
+    // The relative variances of a quotient add up:
     // (hri sd / ratio)^2 + (iri * sd of ratio / ratio)^2.
     const double iri = *mean.hri_mm_per_m / hri_over_mri;
     return Headline{

@@ -9,8 +9,8 @@
 namespace macadam {
 namespace {
 
-// Of positions with a speed sensor, as measured (docs/method/matching.md): where the match does not
-// say.
+// Default without a stated sd: positions with a speed sensor, as measured
+// (docs/method/matching.md).
 constexpr double usual_place_sd_m = 2.5;
 
 constexpr double longest_silence_m = 20;
@@ -20,7 +20,7 @@ double share(double value, double from, double to) {
     return (value - from) / (to - from);
 }
 
-/// The part of a piece between two offsets along its edge.
+/// Returns the part of an interval between two offsets along its edge.
 SegmentOverlap
 part_of(const MatchedInterval& piece, const SegmentOverlap& segment, double a, double b) {
     const double first = share(a, piece.from_offset_m, piece.to_offset_m);
@@ -37,7 +37,7 @@ part_of(const MatchedInterval& piece, const SegmentOverlap& segment, double a, d
     return part;
 }
 
-/// A road piece cut at the borders of segments, in driving direction.
+/// Cuts a road interval at segment boundaries, in driving direction.
 std::vector<SegmentOverlap> parts_of(const MatchedInterval& piece, const RoadNetwork& roads) {
     std::vector<SegmentOverlap> parts;
     const auto link = link_at(roads, piece.edge);

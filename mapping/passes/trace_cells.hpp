@@ -12,8 +12,8 @@ struct TraceCell {
     RoughnessCode left = no_roughness;
 };
 
-/// The trace with these cells, from the first known one to the last; `trace.first_m` is where
-/// `cells` begin and has no cells of its own yet. Empty where none is known.
+/// Fills a trace with these cells, from the first known to the last; `trace.first_m` is the start
+/// of `cells`, and the trace has no cells yet. Empty if no cell is known.
 RoughnessTrace with_cells(RoughnessTrace trace, std::span<const TraceCell> cells);
 
 } // namespace macadam

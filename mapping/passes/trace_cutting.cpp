@@ -13,13 +13,14 @@ namespace {
 
 constexpr double min_cover = 0.5; // of a cell, as of a segment
 
-/// Station and travel at one time of a drive.
+/// Station and travel at the same time of a drive.
 struct Knot {
     double station_m;
     double travel_m;
 };
 
-/// Both rise. Steps back within a drive are rounding.
+/// Returns knots with increasing station and travel. Backward steps within a drive are rounding
+/// errors.
 std::vector<Knot> knots_of(std::span<const SegmentOverlap> parts) {
     std::vector<Knot> knots;
     const auto add = [&](const Knot& knot) {
@@ -35,7 +36,7 @@ std::vector<Knot> knots_of(std::span<const SegmentOverlap> parts) {
     return knots;
 }
 
-/// Beyond the ends metre for metre.
+/// Interpolates travel; extrapolated one to one beyond the ends.
 double travel_at(std::span<const Knot> knots, double station_m) {
     if (station_m <= knots.front().station_m) {
         return knots.front().travel_m + station_m - knots.front().station_m;
@@ -60,11 +61,11 @@ TraceCell cell_over(const TravelSpan& travel, const IriTrace& roughness, const V
             mean.left_mm_per_m ? code_of(*mean.left_mm_per_m) : no_roughness};
 }
 
-/// The mean over the drive's length. In whole decimetres, so that the last bit of a filter, which
-/// is another on another processor, hardly ever shows.
+/// Returns the length-weighted mean of the drive in whole decimetres, so that differences between
+/// processors in the last bit of a filter hardly ever show.
 std::int32_t place_sd_mm(std::span<const SegmentOverlap> parts) {
-    constexpr double min_sd_dm = 3;   // how a corner is cut and a lane is kept is in no filter
-    constexpr double max_sd_dm = 500; // far beyond what lags can mend
+    constexpr double min_sd_dm = 3;   // cut corners and lane keeping are in no filter
+    constexpr double max_sd_dm = 500; // far beyond what lags can correct
     double sum = 0;
     double length_m = 0;
     for (const auto& part : parts) {
@@ -76,7 +77,7 @@ std::int32_t place_sd_mm(std::span<const SegmentOverlap> parts) {
     return 100 * static_cast<std::int32_t>(std::lround(sd_dm));
 }
 
-/// \param told  travel that may be read
+/// \param told  readable range of travel
 RoughnessTrace trace_of(std::span<const SegmentOverlap> parts,
                         const TravelSpan& told,
                         const IriTrace& roughness,
@@ -101,7 +102,7 @@ RoughnessTrace trace_of(std::span<const SegmentOverlap> parts,
                       cells);
 }
 
-/// The mean of the known part of a row of cells, and how long that is. Micrometres per metre.
+/// Mean of the known cells of a range and their total length. Micrometres per metre.
 struct Mean {
     double covered_m = 0;
     double um = 0;

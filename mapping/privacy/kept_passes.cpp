@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t longest_pause_ms = 300'000;
 
-/// How many of the first passes lie nearer than that to where they begin, by travel or by air.
+/// Counts the first passes within a length of their start, by travel or by straight-line distance.
 std::size_t passes_within(std::span<const PassedSegment> passed, double length_m) {
     const auto& hidden = passed.front().from;
     double travel_m = 0;

@@ -10,22 +10,22 @@
 
 namespace macadam {
 
-/// A segment that a trip passed, as a database knows it that keeps no positions.
+/// A segment passed by a trip, as recorded in a database without positions.
 struct PassedSegment {
-    std::int64_t t_ms; ///< middle of the passage
+    std::int64_t t_ms; ///< middle of the pass
     double length_m;
-    GeoPoint from; ///< of the segment, in driving direction
+    GeoPoint from; ///< start of the segment, in driving direction
     GeoPoint to;
 };
 
-/// Which passes of a trip stay when its ends and long stops are trimmed after the fact.
+/// Selects the passes of a trip that remain when its ends and long stops are trimmed after import.
 ///
-/// Where the trip began before its first pass, nobody knows any more: lengths count from there,
-/// which leaves out more than needed. So does each pause of more than five minutes between two
-/// passes, whether the car stood or drove elsewhere.
+/// The start of the trip before its first pass is no longer known, so lengths count from that pass,
+/// which removes more than necessary. Each pause of more than five minutes between two passes is
+/// treated alike, whether the car stood or drove elsewhere.
 ///
 /// \param passed  in driving order
-/// \param draw_m  length number n: drawn for this trip, always the same
+/// \param draw_m  length number n of this trip, random but reproducible
 std::vector<bool> kept_passes(std::span<const PassedSegment> passed,
                               const std::function<double(std::size_t n)>& draw_m);
 

@@ -71,7 +71,7 @@ SegmentState
 published(SegmentState state, std::span<const FusionInput> passes, const ReleaseRule& rule) {
     state.iri_um = rounded(state.iri_um);
     state.sd_um = rounded_up(state.sd_um);
-    state.low_um = -rounded_up(-state.low_um); // outward, so that it tells no more than the sd
+    state.low_um = -rounded_up(-state.low_um); // outward, to reveal no more than the sd
     state.high_um = rounded_up(state.high_um);
     state.left_um = rounded(state.left_um);
     state.right_um = rounded(state.right_um);

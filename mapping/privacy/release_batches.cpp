@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-using Months = std::map<std::int64_t, std::vector<std::size_t>>; ///< pending passes by their month
+using Months = std::map<std::int64_t, std::vector<std::size_t>>; ///< pending passes by month
 
 constexpr auto undated = std::numeric_limits<std::int64_t>::min();
 
@@ -21,7 +21,7 @@ constexpr std::int64_t floored(std::int64_t value, std::int64_t by) {
     return value / by - (value % by < 0 ? 1 : 0);
 }
 
-/// Counted from March of the year 0, so that a leap day ends its year.
+/// Month counted from March of the year 0, so that a leap day ends its year.
 ///
 /// Source: H. Hinnant, "chrono-Compatible Low-Level Date Algorithms" (2013), civil_from_days.
 struct Month {

@@ -9,49 +9,50 @@
 
 namespace macadam {
 
-/// When a group of passes may be published.
+/// Conditions for publishing a group of passes.
 struct ReleaseRule {
-    std::int32_t min_cars = 5;     ///< distinct ones in every figure
-    std::int32_t min_new_cars = 2; ///< since the last publication: no single car tips the scale
+    std::int32_t min_cars = 5;     ///< distinct cars in every figure
+    std::int32_t min_new_cars = 2; ///< since the last publication: no single car is decisive
 
-    /// Cars up to each of these numbers, rising, were named under another key than those after it:
-    /// one car may be there under several numbers.
+    /// Last car number of each earlier naming key, ascending. Keys name cars differently, so one
+    /// car may have several numbers.
     std::vector<std::int64_t> last_of_key{};
 };
 
-/// How many cars these are at least: the most that were named under one key.
+/// Returns a lower bound of the number of distinct cars: the maximum named under one key.
 std::int32_t min_count(const std::set<std::int64_t>& vehicles, const ReleaseRule& rule);
 
-/// A pass over a segment that no publication tells of yet.
+/// A pass over a segment that is not yet published.
 struct PendingPass {
     std::int64_t vehicle;
     std::optional<std::int64_t> utc_ms;
-    bool is_new;   ///< came since the last publication
-    bool has_aged; ///< was there already in a publication so long ago that what came since counts
-                   ///< no more
+    bool is_new;   ///< imported since the last publication
+    bool has_aged; ///< already pending at a publication so long ago that newer passes no longer
+                   ///< count
 };
 
-/// Passes that are published together: those of whole months, by at least the least number of
-/// cars. Never divided and never joined later, so that the difference of any two figures ever
-/// published is made of such batches.
+/// Passes that are published together: those of whole months, from at least the minimum number of
+/// cars. Batches are never divided or joined later, so that the difference of any two published
+/// figures consists of batches.
 struct ReleaseBatch {
-    std::vector<std::size_t> passes;      ///< of those pending, rising
-    std::optional<std::int64_t> from_ms;  ///< begin of its first month; nothing: none is dated
-    std::optional<std::int64_t> until_ms; ///< end of its last one
+    std::vector<std::size_t> passes; ///< indices of pending passes, ascending
+    std::optional<std::int64_t>
+        from_ms; ///< start of its first month; `std::nullopt`: none is dated
+    std::optional<std::int64_t> until_ms; ///< end of its last month
 };
 
 struct Release {
-    std::vector<ReleaseBatch> batches; ///< in the order of time
-    std::vector<std::size_t> left;     ///< of the passes: those that stay pending
+    std::vector<ReleaseBatch> batches; ///< in order of time
+    std::vector<std::size_t> left;     ///< indices of passes that stay pending
 };
 
-/// Groups the pending passes of a segment. A batch takes month after month, those without a date
-/// first, until enough cars are in it; what is left stays pending. No batch at all, and all stay
-/// pending, unless at least `min_new_cars` of the cars are new or those that aged are enough alone.
+/// Groups the pending passes of a segment. A batch takes month after month, undated passes first,
+/// until it has enough cars; the rest stays pending. Without at least `min_new_cars` new cars, or
+/// enough aged cars alone, no batch is formed and all passes stay pending.
 Release release(std::span<const PendingPass> pending, const ReleaseRule& rule);
 
-/// The begin of the month of a time, UTC.
+/// Returns the start of the month of a time, UTC.
 std::int64_t month_begin_ms(std::int64_t utc_ms);
-std::int64_t next_month_ms(std::int64_t utc_ms); ///< the begin of the month after
+std::int64_t next_month_ms(std::int64_t utc_ms); ///< start of the following month
 
 } // namespace macadam

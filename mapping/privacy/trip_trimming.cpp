@@ -10,20 +10,20 @@
 namespace macadam {
 namespace {
 
-constexpr double still_m = 50;        // of travel or by air: a receiver at rest wanders
-constexpr double anchor_step_s = 10;  // between places that are tried as those of a stop
-constexpr double same_place_m = 5;    // of travel: fixes that tell where an end is
-constexpr double fix_error_m = 10;    // of the places of an end and of a fix together
-constexpr std::size_t fixes_away = 3; // in a row: one that jumps is none
+constexpr double still_m = 50; // of travel or straight-line distance: a receiver at rest wanders
+constexpr double anchor_step_s = 10;  // between candidate positions of a stop
+constexpr double same_place_m = 5;    // of travel: fixes that determine the position of an end
+constexpr double fix_error_m = 10;    // combined error of an end's and a fix's position
+constexpr std::size_t fixes_away = 3; // in a row: ignores a single jump
 
-/// A place of the trip on its ruler.
+/// A position of the trip with its travel.
 struct Place {
     double travel_m;
     double t_s;
     GeoPoint at;
 };
 
-/// In the order of travel.
+/// Returns the positions in the order of travel.
 std::vector<Place> places_of(const TripLog& trip, const Odometer& odometer) {
     std::vector<Place> places;
     for (const auto& fix : trip.fixes) {
@@ -42,7 +42,8 @@ double middle(std::vector<double> values) {
     return *at;
 }
 
-/// Where the car was: what the fixes there agree on, or the nearest one. \param places  not empty.
+/// Returns the car's position: the consensus of the fixes there, or the nearest one. \param places
+/// not empty.
 GeoPoint place_at(const std::vector<Place>& places, double travel_m) {
     const auto first =
         std::ranges::lower_bound(places, travel_m - same_place_m, {}, &Place::travel_m);
@@ -64,7 +65,7 @@ GeoPoint place_at(const std::vector<Place>& places, double travel_m) {
 
 // --------------------------------------------------------------------------------------- stops
 
-/// Where the ruler stood still, or has no knot.
+/// Adds intervals in which travel did not advance or has no knot.
 void add_stops_of_ruler(const Odometer::Knots& knots, std::vector<TravelSpan>& stops) {
     std::size_t first = 0;
     for (std::size_t i = 1; i < knots.t_s.size(); ++i) {
@@ -80,7 +81,7 @@ void add_stops_of_ruler(const Odometer::Knots& knots, std::vector<TravelSpan>& s
     }
 }
 
-/// Where fixes stayed at one place though the ruler went on, or were silent.
+/// Adds intervals in which fixes stayed in one position while travel advanced, or were missing.
 void add_stops_of_fixes(std::vector<Place> places, std::vector<TravelSpan>& stops) {
     std::ranges::stable_sort(places, {}, &Place::t_s);
     for (std::size_t anchor = 0; anchor < places.size();) {
@@ -116,8 +117,8 @@ std::vector<TravelSpan> joined(std::vector<TravelSpan> spans) {
 
 // -------------------------------------------------------------------------------------- lengths
 
-/// Where the fixes stay away by air from the place at `from_m`, going on from there in the order
-/// of the range; nothing: they never do.
+/// Returns the travel from which the fixes stay beyond a straight-line distance from the position
+/// at `from_m`, in the order of the range; `std::nullopt`: they never do.
 template <typename Iterator>
 std::optional<double>
 travel_away(Iterator place, Iterator past, const GeoPoint& hidden, double away_m) {
@@ -141,7 +142,8 @@ public:
         : trip_{&trip}, rule_{&rule}, places_{places_of(trip, odometer)}, whole_m_{
                                                                               odometer.whole_m()} {}
 
-    /// From where on the trip may be told after a place; beyond the trip: nowhere.
+    /// Returns the travel from which the trip may be published after a hidden position; beyond the
+    /// trip if never.
     double end_after(double hidden_m, std::size_t n) const {
         const double length_m = drawn_m(n);
         const double by_travel_m = hidden_m + length_m;
@@ -186,7 +188,7 @@ std::vector<TravelSpan> long_stops(const TripLog& trip, const Odometer& odometer
     std::vector<TravelSpan> stops;
     add_stops_of_ruler(odometer.knots(), stops);
     add_stops_of_fixes(places_of(trip, odometer), stops);
-    for (const auto& pause : odometer.pauses()) { // its clock stood: nobody knows how long
+    for (const auto& pause : odometer.pauses()) { // clock stopped: duration unknown
         stops.push_back({pause.from_m, pause.to_m});
     }
     return joined(std::move(stops));

@@ -12,9 +12,9 @@
 namespace macadam {
 namespace {
 
-constexpr double step_m = 5; // between the fixes of the car that stands for the line
+constexpr double step_m = 5; // between the fixes of the simulated car
 constexpr double speed_mps = 5;
-constexpr double max_short_m = 30; // of the end of a line that its match may miss, as at junctions
+constexpr double max_short_m = 30; // end of a line that its match may miss, as at junctions
 
 double length_of(std::span<const GeoPoint> line) {
     double sum_m = 0;
@@ -29,7 +29,7 @@ GnssFix fix_at(const GeoPoint& place, double travel_m) {
     return {travel_m / speed_mps, place, unknown, unknown, unknown};
 }
 
-/// A car that drives along the line: a fix at least every 5 m, the last at its end.
+/// Simulates a car that drives along the line: a fix at least every 5 m, the last at its end.
 TripLog car_along(std::span<const GeoPoint> line) {
     TripLog trip;
     double passed_m = 0, next_m = 0;
@@ -46,8 +46,8 @@ TripLog car_along(std::span<const GeoPoint> line) {
     return trip;
 }
 
-/// Positions are sparse, so a match ends a little short of its line: to the foot of the line's own
-/// ends, as far as that is on the same edge.
+/// Extends a match to its line's own ends: with sparse positions it ends slightly short. Reaches to
+/// the nearest point of each end, if that is on the same edge.
 LinearRoute
 reaching_its_ends(const RoadNetwork& roads, LinearRoute road, std::span<const GeoPoint> line) {
     const auto foot_m = [&](const RouteEdge& part, const GeoPoint& end) {

@@ -13,9 +13,8 @@
 namespace macadam {
 namespace {
 
-constexpr double a_millimetre_m = 1e-3; // the grain of the network's lengths
-constexpr double sharpest_turn_deg =
-    60; // where a road goes on in another way, as of worst stretches
+constexpr double a_millimetre_m = 1e-3;  // resolution of the network's lengths
+constexpr double sharpest_turn_deg = 60; // into another way, as in worst_sections
 
 double length_m(const RouteEdge& part) {
     return part.to_m - part.from_m;
@@ -30,7 +29,7 @@ std::uint32_t number_of_way(const RoadNetwork& roads, std::int64_t way_id) {
     return static_cast<std::uint32_t>(found - ways.begin());
 }
 
-/// The same road the other way.
+/// Reverses a route.
 LinearRoute turned_round(const LinearRoute& road, const RoadNetwork& roads) {
     LinearRoute back;
     for (auto part = road.parts.rbegin(); part != road.parts.rend(); ++part) {
@@ -74,10 +73,10 @@ std::vector<bool> edges_named(const RoadNetwork& roads, std::string_view name) {
     return wanted;
 }
 
-/// The segment of an edge in which an offset lies, counted in driving direction.
+/// Returns the segment of an edge that contains an offset, counted in driving direction.
 std::uint32_t segment_at(const Link& link, double segment_m, double offset_m) {
     const double last = link.segments - 1;
-    const bool has_length = segment_m > 0; // two points near a pole may be one place
+    const bool has_length = segment_m > 0; // two points near a pole may coincide
     return static_cast<std::uint32_t>(has_length ? std::clamp(offset_m / segment_m, 0.0, last)
                                                  : 0.0);
 }
@@ -90,7 +89,7 @@ void add_pieces(std::vector<RouteSegment>& pieces,
     const bool forward = is_forward(*part.edge);
     const auto way_id = roads.ways[link.way].id;
     const double segment_m = (link.to_m - link.from_m) / link.segments;
-    const double ruler_m = start_m - part.from_m; // of the beginning of the edge
+    const double ruler_m = start_m - part.from_m; // measure at the start of the edge
     const auto last = segment_at(link, segment_m, part.to_m - a_millimetre_m);
     for (auto i = segment_at(link, segment_m, part.from_m + a_millimetre_m); i <= last; ++i) {
         const double from_m = std::max(part.from_m, i * segment_m);
@@ -105,7 +104,8 @@ void add_pieces(std::vector<RouteSegment>& pieces,
     }
 }
 
-/// Whether a segment stands beside a range of them, in either direction of counting.
+/// Extends a range by an adjacent segment at either end; returns true if the range contains the
+/// segment.
 bool joins(SegmentRange& range, const SegmentKey& key) {
     if (range.way_id != key.way_id || range.forward != key.forward) {
         return false;

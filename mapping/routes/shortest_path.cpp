@@ -15,12 +15,12 @@
 namespace macadam {
 namespace {
 
-constexpr double fastest_mps = 250 / 3.6; // of any speed limit
-// The straight distance is of the ellipsoid, lengths of roads are whole millimetres: what is left
-// away keeps the estimate below the truth.
+constexpr double fastest_mps = 250 / 3.6; // maximum of any speed limit
+// Straight-line distances are on the ellipsoid, lengths of roads in whole millimetres: the factor
+// keeps the estimate a lower bound.
 constexpr double cautious = 0.999;
 
-/// A point of the network, once for each direction that may be driven there.
+/// A point of the network, once per drivable direction.
 struct Stop {
     EdgeId edge;
     double offset_m;
@@ -51,7 +51,7 @@ std::vector<Stop> stops_near(const RoadNetwork& roads, const GeoPoint& place, do
     return stops;
 }
 
-/// Edges by which one may go on: not back, unless there is no other way on.
+/// Returns the edges that may follow: no U-turn, unless there is no other way on.
 std::vector<EdgeId> ways_on(const RoadNetwork& roads, EdgeId edge) {
     std::vector<EdgeId> on;
     for (const auto next : out_edges(roads, to_node(roads, edge))) {
@@ -96,10 +96,10 @@ public:
 
 private:
     struct Label {
-        double spent;  ///< up to the end of the edge
-        EdgeId before; ///< the edge itself where the route begins on it
+        double spent;  ///< cost up to the end of the edge
+        EdgeId before; ///< the edge itself if the route begins on it
     };
-    /// By estimate, then by edge; an arrival's edge is the goal's.
+    /// Ordered by estimate, then by edge; an arrival has the goal's edge.
     using Entry = std::tuple<double, EdgeId, bool, double>;
 
     double cost(EdgeId edge, double part_m) const {
@@ -140,8 +140,8 @@ private:
         }
     }
 
-    /// Where the goal's edge itself came before, the route lies on it alone, unless that edge is a
-    /// loop that is driven past its own beginning.
+    /// Builds the route to the goal. If the goal's edge is its own predecessor, the route lies on
+    /// it alone, unless that edge is a loop driven past its own start.
     LinearRoute way_to(EdgeId goal_edge, const std::vector<Stop>& starts) const {
         const auto offset_on = [](const std::vector<Stop>& stops, EdgeId edge) {
             return std::ranges::find(stops, edge, &Stop::edge)->offset_m;

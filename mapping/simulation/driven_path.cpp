@@ -13,13 +13,13 @@ namespace macadam {
 namespace {
 
 constexpr double grid_m = 1;
-constexpr double sharpest_per_m = 0.5; // no car turns within less than 2 m
-constexpr double min_step_m = 0.05;    // of travel between points: a turn on the spot still moves
-constexpr double corner_cosine = 0.87; // 30 degrees: from here on a bend is a corner
+constexpr double sharpest_per_m = 0.5; // no car turns on a radius below 2 m
+constexpr double min_step_m = 0.05;    // of travel between points: even a turn on the spot moves
+constexpr double corner_cosine = 0.87; // 30 degrees: a sharper bend is a corner
 constexpr std::size_t widest_box = 40;
 constexpr std::size_t wander_box = 20;
 
-/// A vertex of the map's line along the route, and what holds from it on.
+/// A vertex of the map's line along the route, with the properties from there on.
 struct Vertex {
     double route_m;
     PointEn at;
@@ -101,8 +101,8 @@ PointEn unit(const PointEn& from, const PointEn& to) {
     return length_m > 0 ? PointEn{east_m / length_m, north_m / length_m} : PointEn{1, 0};
 }
 
-/// Vertices without those that stand on the one before: the seams between edges, for which the
-/// later edge counts.
+/// Removes vertices that coincide with the one before: the seams between edges, where the later
+/// edge counts.
 std::vector<Vertex> without_seams(const std::vector<Vertex>& vertices) {
     std::vector<Vertex> kept;
     for (const auto& vertex : vertices) {
@@ -116,7 +116,7 @@ std::vector<Vertex> without_seams(const std::vector<Vertex>& vertices) {
     return kept;
 }
 
-/// How far it is to the next corner of the map's line, before or after; at most `max_m`.
+/// Returns the distance to the nearest corner of the map's line, before or after; at most `max_m`.
 std::vector<double>
 to_corner_m(const std::vector<Vertex>& vertices, const std::vector<double>& route_m, double max_m) {
     std::vector<double> corners_m;
@@ -150,14 +150,15 @@ std::vector<double> grid_over(double length_m) {
     return grid;
 }
 
-/// Lines beside the map's, one coordinate a vector; and how wide corners may be rounded.
+/// Lines beside the map's, one vector per coordinate, and the width available for rounding corners.
 struct LaneLine {
     std::vector<double> east_m;
     std::vector<double> north_m;
     std::vector<std::size_t> box;
 };
 
-/// Half a box. Three of 17 m turn into the near lane on a radius of 5 m, into the far one on 10 m.
+/// Returns half a box. Three of 17 m turn into the near lane on a radius of 5 m, into the far one
+/// on 10 m.
 double corner_box(const DrivingRecipe& driving) {
     return std::clamp(std::round((driving.corner_m / grid_m - 1) / 2), 1.0, double{widest_box});
 }
@@ -183,14 +184,14 @@ LaneLine lane_line(const std::vector<Vertex>& vertices,
                               left_m * ahead.north_m);
         line.north_m.push_back(a.at.north_m + share * (b.at.north_m - a.at.north_m) +
                                left_m * ahead.east_m);
-        const double speed_box = (a.usual_mps / 6) * (a.usual_mps / 6); // as v^2 / lateral force
+        const double speed_box = (a.usual_mps / 6) * (a.usual_mps / 6); // ~ v^2 / lateral force
         line.box.push_back(
             static_cast<std::size_t>(std::clamp(speed_box, min_box, min_box + corner_m[i])));
     }
     return line;
 }
 
-/// Boxes whose width changes smoothly along the line.
+/// Limits the change of box widths along the line.
 std::vector<std::size_t> eased(std::vector<std::size_t> box) {
     for (std::size_t i = 1; i < box.size(); ++i) {
         box[i] = std::min(box[i], box[i - 1] + 1);
@@ -203,7 +204,7 @@ std::vector<std::size_t> eased(std::vector<std::size_t> box) {
 
 std::vector<PointEn> rounded(LaneLine line) {
     const auto box = eased(std::move(line.box));
-    for (int i = 0; i < 3; ++i) { // three boxes are nearly a bell
+    for (int i = 0; i < 3; ++i) { // three boxes approximate a Gaussian
         line.east_m = boxed(line.east_m, box);
         line.north_m = boxed(line.north_m, box);
     }
@@ -227,7 +228,7 @@ std::vector<double> travel_along(const ExactPlane& plane, const std::vector<Poin
     return travel_m;
 }
 
-/// Of the circle through each point and its neighbours (K. Menger).
+/// Computes the curvature of the circle through each point and its neighbours (K. Menger).
 std::vector<double> curvature_along(const ExactPlane& plane, const std::vector<PointEn>& points) {
     std::vector<double> curvature_per_m(points.size(), 0.0);
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {

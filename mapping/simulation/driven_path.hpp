@@ -9,25 +9,25 @@
 
 namespace macadam {
 
-/// A part of a route in one lane.
+/// An interval of a route in one lane.
 struct LanePiece {
     Lane lane;
-    double station_m; ///< of the lane, where the piece begins
+    double station_m; ///< lane station at the start of the interval
     double from_m;    ///< along the route
     double to_m;
 };
 
-/// Where a car drives: beside the map's line in its lane, corners rounded as drivers do at the
-/// road's usual speed. Given about every metre of the route; what the car itself travels is a
-/// little more or less than the map's line there. As many of each of the vectors as of `route_m`.
+/// Path of a car: beside the map's line in its lane, with corners rounded as at the road's usual
+/// speed. Sampled about every metre of the route; the car's own travel is slightly more or less
+/// than the length of the map's line. All vectors have the size of `route_m`.
 struct DrivenPath {
     ExactPlane plane;
     std::vector<LanePiece> pieces;
-    std::vector<double> route_m;         ///< rising from 0, along the map's lines
-    std::vector<double> travel_m;        ///< rising from 0, along the path itself
+    std::vector<double> route_m;         ///< increasing from 0, along the map's lines
+    std::vector<double> travel_m;        ///< increasing from 0, along the path itself
     std::vector<PointEn> points;         ///< in the plane
     std::vector<double> curvature_per_m; ///< positive to the left
-    std::vector<double> wander_m;        ///< of the car from its lane's middle, left positive
+    std::vector<double> wander_m; ///< offset of the car from the centre of its lane, left positive
 };
 
 DrivenPath driven_path(const RoadNetwork& roads,
@@ -35,7 +35,8 @@ DrivenPath driven_path(const RoadNetwork& roads,
                        const DrivingRecipe& driving,
                        std::uint64_t seed);
 
-/// Where the car is at a travel, held at the ends, and which way it looks (east, north; length 1).
+/// Position and direction (east, north; unit vector) of the car at a travelled distance, clamped to
+/// the path.
 struct PathPlace {
     PointEn at;
     PointEn heading;

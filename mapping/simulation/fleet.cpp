@@ -28,8 +28,8 @@ enum Draw : std::uint64_t {
     draw_wheels = 48
 };
 
-/// A one-axle method sees the mean of both ends of a car, whose RMS the wheelbase combs to about
-/// this (docs/method/identification.md).
+/// A one-axle method sees the mean of both ends of a car; comb filtering by the wheelbase reduces
+/// its RMS to about this (docs/method/identification.md).
 constexpr double one_axle_gain = 0.72;
 
 std::array<double, 3> three(Random& random, double sd) {
@@ -39,7 +39,7 @@ std::array<double, 3> three(Random& random, double sd) {
     return {sd * x, sd * y, sd * z};
 }
 
-/// Known to `sd`: what is written of it. No one writes what is more than 2.5 of them off.
+/// Draws a documented parameter with relative error `sd`, limited to 2.5 sd.
 double written(Random& random, double truth, double sd) {
     return truth * (1 + sd * std::clamp(random.normal(), -2.5, 2.5));
 }
@@ -96,14 +96,14 @@ FleetCar made_car(const FleetScenario& recipe, std::size_t number, std::uint64_t
     return car;
 }
 
-/// Cars take turns; a trip back is driven by the car of the trip out.
+/// Assigns cars in turn; a return trip is driven by the car of the outward trip.
 std::size_t car_of_trip(const Fleet& fleet, std::size_t number) {
     const bool back = is_return(fleet.recipe.driving, fleet.seed, number);
     const auto turn = number / 2 + (number % 2 == 1 && !back ? 1 : 0);
     return turn % fleet.cars.size();
 }
 
-/// Trips are spread over the days of the recipe in their order, by daylight; whole milliseconds.
+/// Spreads trips over the days of the recipe in their order, by daylight; whole milliseconds.
 double start_utc_s(const Fleet& fleet, std::size_t number) {
     constexpr double day_s = 86400;
     constexpr double dawn_s = 6 * 3600.0;

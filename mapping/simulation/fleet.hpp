@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// One car of a fleet with its own faults drawn, and what its vehicle file says of it.
+/// One car of a fleet with its drawn faults, and its vehicle file.
 struct FleetCar {
     CarRecipe car;
     ImuRecipe imu;
@@ -21,10 +21,10 @@ struct FleetCar {
     bool acc;
     bool gyro;
     bool wheel_speed;
-    Vehicle written; ///< the true linear car, as wrong as the recipe says
+    Vehicle written; ///< the true linear car with the errors of the recipe
 };
 
-/// All that trips are made from. It is only read, so trips may be made in parallel.
+/// Immutable input of all trips, so that trips may be simulated in parallel.
 struct Fleet {
     FleetScenario recipe;
     std::uint64_t seed;
@@ -32,12 +32,14 @@ struct Fleet {
     RouteMap map;
 };
 
+/// Draws a fleet.
+///
 /// \throws InputError  if the recipe has no car, or the network no round trips.
 Fleet make_fleet(FleetScenario recipe, const RoadNetwork& roads, std::uint64_t seed);
 
-/// Trip `number` (from 0) as its car would log it: the same whatever was made before it.
+/// Simulates trip `number` (from 0) as its car would log it, independent of any other trip.
 ///
-/// \throws InputError  if no way can be found.
+/// \throws InputError  if no route can be found.
 TripLog simulate_trip(const Fleet& fleet,
                       const RoadNetwork& roads,
                       const LaneSource& lanes,

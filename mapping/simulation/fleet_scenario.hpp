@@ -12,21 +12,21 @@
 
 namespace macadam {
 
-/// Two bounds, from which a number is drawn evenly.
+/// Bounds of a uniform distribution.
 struct Bounds {
     double low;
     double high;
     friend bool operator==(const Bounds&, const Bounds&) = default;
 };
 
-/// What is said of some roads. What is not said stays as the rules before it left it.
+/// Rule for some roads. Unset values remain as earlier rules left them.
 struct RoadRule {
-    std::vector<std::string> highways; ///< classes of OSM; empty: every class
+    std::vector<std::string> highways; ///< OSM classes; empty: every class
     std::optional<std::int64_t> way_id;
-    std::string name;                   ///< of the road, the whole of it; "": any
-    double share = 1;                   ///< of the ways that fit, drawn by their ids
+    std::string name;                   ///< full name of the road; "": any
+    double share = 1;                   ///< of the matching ways, drawn by their ids
     std::optional<Bounds> iri_mm_per_m; ///< drawn for each way and direction
-    std::optional<double> waviness;     ///< these as in RoadRecipe
+    std::optional<double> waviness;     ///< this and the following as in RoadRecipe
     std::optional<double> level_sd;
     std::optional<double> level_length_m;
     std::optional<double> coherency_length_m;
@@ -36,71 +36,71 @@ struct RoadRule {
     std::optional<double> potholes_per_km;
 };
 
-/// How trips are driven.
+/// Model of how trips are driven.
 struct DrivingRecipe {
     std::size_t trips = 20;
     Bounds length_km{6, 12};
-    std::size_t places = 24;   ///< between which people drive
-    double return_share = 0.5; ///< how often the second of two trips goes back the way of the first
-    double stop_share = 0.1;   ///< of junctions off motorways, those where the car stops
+    std::size_t places = 24;   ///< origins and destinations
+    double return_share = 0.5; ///< probability of returning after an odd trip
+    double stop_share = 0.1;   ///< of junctions off motorways at which the car stops
     Bounds stop_s{3, 25};
-    Bounds driver{0.85, 1.1};                ///< speed of a trip over the usual one of its roads
-    std::map<std::string, double> speed_kmh; ///< by highway class, where not the usual one
+    Bounds driver{0.85, 1.1}; ///< ratio of a trip's speed to the usual speed of its roads
+    std::map<std::string, double> speed_kmh; ///< by highway class, overriding the usual one
     double acceleration_mps2 = 1.4;
     double braking_mps2 = 1.8;
-    double lateral_mps2 = 2.5;            ///< at most, in curves
-    bool right_hand = true;               ///< on which side of the road one drives
-    double lane_offset_m = 1.75;          ///< of the lane of a two-way road from the map's line
-    double oneway_offset_m = 0;           ///< of the lane of a oneway road, to the same side
-    double corner_m = 17;                 ///< corners are rounded by three moving means of so much
-    double wander_m = 0.15;               ///< of the car in its lane, standard deviation, ...
-    double wander_length_m = 200;         ///< ... which changes over this distance
-    std::int64_t from_utc_s = 1735689600; ///< 2025-01-01: first and last day of driving
-    std::int64_t to_utc_s = 1767139200;   ///< 2025-12-31
+    double lateral_mps2 = 2.5;    ///< maximum in curves
+    bool right_hand = true;       ///< side of the road driven on
+    double lane_offset_m = 1.75;  ///< of the lane of a two-way road from the map's line
+    double oneway_offset_m = 0;   ///< of the lane of a oneway road, to the same side
+    double corner_m = 17;         ///< corners are rounded by three moving means of this length
+    double wander_m = 0.15;       ///< standard deviation of the car's position in its lane
+    double wander_length_m = 200; ///< correlation length of the wander
+    std::int64_t from_utc_s = 1735689600; ///< 2025-01-01: first day of driving
+    std::int64_t to_utc_s = 1767139200;   ///< 2025-12-31: last day
 };
 
-/// A satellite receiver. Its position is wrong by a slow error (first-order Gauss-Markov, each
-/// axis) and a quick one.
+/// A satellite receiver. Its position has a slow error (first-order Gauss-Markov, each axis) and a
+/// white one.
 struct GnssRecipe {
     double rate_hz = 5;
-    double sigma_m = 1.5; ///< of the slow error, standard deviation of an axis
+    double sigma_m = 1.5; ///< of the slow error, standard deviation per axis
     double correlation_s = 60;
     double white_m = 0.2;
-    double speed_sd_mps = 0.1;   ///< across as well, whence the error of the course
-    Bounds latency_s{0, 0.4};    ///< by how much stamps are late, drawn for each car
-    bool latency_stated = false; ///< does the log say so?
+    double speed_sd_mps = 0.1;   ///< also across, which causes the error of the course
+    Bounds latency_s{0, 0.4};    ///< delay of the time stamps, drawn for each car
+    bool latency_stated = false; ///< whether the log states the latency
     double outages_per_hour = 4;
     Bounds outage_s{5, 40};
-    Bounds first_fix_s{0, 10};  ///< before the first position of a trip
+    Bounds first_fix_s{0, 10};  ///< time before the first position of a trip
     double antenna_ahead_m = 0; ///< of the centre of gravity
     double antenna_left_m = 0;
 };
 
-/// What of the sensors is drawn for each car, beside what its recipe says.
+/// Sensor errors drawn for each car, in addition to its recipe.
 struct SensorSpread {
-    double acc_bias_mps2 = 0.03; ///< standard deviations
+    double acc_bias_mps2 = 0.03; ///< standard deviation, as are the following
     double gyro_bias_radps = 0.002;
     double tilt_deg = 0.3; ///< of the sensor in the car, each angle
 };
 
 struct OdometerRecipe {
     double rate_hz = 50;
-    double scale_sd = 0.01; ///< of what the log says over the truth, drawn for each car
+    double scale_sd = 0.01; ///< of the ratio of logged to true speed, drawn for each car
     double noise_mps = 0.01;
     double quantum_mps = 0.01; ///< 0: none
 };
 
-/// One car of the fleet, and what it logs. `car.vehicle.name` is its vehicle_id.
+/// One car of the fleet with its logged channels. `car.vehicle.name` is its vehicle_id.
 struct FleetCarRecipe {
     CarRecipe car;
-    ImuRecipe imu;           ///< biases and tilt are drawn, not read from here
-    double gnss_rate_hz = 0; ///< 0: as the fleet's
-    bool acc = true;         ///< which columns its logs have
+    ImuRecipe imu;           ///< biases and tilt are drawn, not taken from here
+    double gnss_rate_hz = 0; ///< 0: that of the fleet
+    bool acc = true;         ///< columns of its logs, as are the following
     bool gyro = true;
-    bool wheel_speed = true; ///< else only the receiver's speed
+    bool wheel_speed = true; ///< if false, only the receiver's speed
 };
 
-/// All that a simulated fleet is made from, but for the network and the seed.
+/// Complete input of a simulated fleet, except for the network and the seed.
 struct FleetScenario {
     std::vector<FleetCarRecipe> cars;
     std::vector<RoadRule> roads;
@@ -108,7 +108,7 @@ struct FleetScenario {
     GnssRecipe gnss;
     SensorSpread spread;
     OdometerRecipe odometer;
-    double knowledge_sd = 0.05; ///< relative, of the parameters that the vehicle files state
+    double knowledge_sd = 0.05; ///< relative, of the parameters stated in the vehicle files
 };
 
 } // namespace macadam

@@ -26,7 +26,7 @@ double duration_s(const Motion& motion) {
     return static_cast<double>(motion.travel_m.size() - 1) * motion.step_s;
 }
 
-/// A value of the motion at a time, between two steps, held at the ends.
+/// Interpolates a value of the motion between two steps, clamped at the ends.
 double at_time(const Motion& motion, const std::vector<double>& values, double t_s) {
     const double steps =
         std::clamp(t_s / motion.step_s, 0.0, static_cast<double>(values.size() - 1));
@@ -39,7 +39,7 @@ struct Hole {
     double to_s;
 };
 
-/// Times without a fix. The wait for the next outage is drawn second by second.
+/// Draws the times without a fix. The wait for the next outage is drawn second by second.
 std::vector<Hole> holes_of(const GnssRecipe& gnss, double whole_s, std::uint64_t seed) {
     Random random{seed_of({seed, draw_holes})};
     std::vector<Hole> holes{{0, random.uniform(gnss.first_fix_s.low, gnss.first_fix_s.high)}};
@@ -61,7 +61,7 @@ PointEn left_of(const PointEn& heading) {
     return {-heading.north_m, heading.east_m};
 }
 
-/// Position error of each fix: what moves slowly, and what does not.
+/// Position error of each fix: a slow part and a white part.
 struct PositionError {
     std::vector<double> east_m;
     std::vector<double> north_m;
@@ -79,7 +79,7 @@ PositionError position_error(std::size_t count, const GnssRecipe& gnss, std::uin
     return error;
 }
 
-/// Clockwise from north.
+/// Returns the course, clockwise from north.
 double course_of_deg(const PointEn& velocity) {
     const double degrees = exact::atan2(velocity.east_m, velocity.north_m) * 180 / std::numbers::pi;
     return degrees < 0 ? degrees + 360 : degrees;

@@ -9,16 +9,16 @@
 
 namespace macadam {
 
-/// What a satellite receiver in the car says, from its first fix on, with holes where it had none.
+/// Simulates the fixes of a satellite receiver in the car, from its first fix on, with outages.
 ///
-/// \param latency_s  the truth of a fix is this much older than its stamp.
+/// \param latency_s  age of a fix at its time stamp.
 std::vector<GnssFix> received_fixes(const DrivenPath& path,
                                     const Motion& motion,
                                     const GnssRecipe& gnss,
                                     double latency_s,
                                     std::uint64_t seed);
 
-/// What the wheels say: speed of the centre of gravity times `scale`, with noise, in whole quanta.
+/// Simulates wheel speeds: speed of the centre of gravity times `scale`, with noise, quantised.
 SpeedSamples wheel_speeds(const Motion& motion,
                           const OdometerRecipe& odometer,
                           double scale,

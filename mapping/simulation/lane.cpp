@@ -10,10 +10,10 @@
 namespace macadam {
 namespace {
 
-/// A surface needs some length; a way of a few centimetres gets this much.
+/// Minimum length of a surface, for ways of a few centimetres.
 constexpr double shortest_lane_m = 2;
 
-// What seeds are for, so that no two draws of a way are the same.
+// Purposes of seeds, so that no two draws of a way are the same.
 enum Draw : std::uint64_t { draw_share = 1, draw_level = 2, draw_surface = 3 };
 
 std::uint64_t bits_of(std::int64_t id) {
@@ -46,7 +46,8 @@ RoadRecipe with_rule(RoadRecipe road, const RoadRule& rule, double level) {
     return road;
 }
 
-/// Mean of the strokes of a lane between two stations; of the nearest one if there is none between.
+/// Averages the strokes of a lane between two stations; uses the nearest one if there is none
+/// between.
 double mean_between(std::span<const float> strokes, double step_m, double from_m, double to_m) {
     const auto last = static_cast<double>(strokes.size() - 1);
     const auto first = static_cast<std::size_t>(std::clamp(std::round(from_m / step_m), 0.0, last));

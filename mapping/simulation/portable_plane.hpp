@@ -4,14 +4,14 @@
 
 namespace macadam {
 
-/// Degrees around a place as a plane, x east, y north: the ellipsoid's radii at the place, and how
-/// a degree of longitude shrinks northwards to first order. Good to 1e-6 within 5 km. Unlike what
-/// calls the C library, the same on every machine to the last bit.
+/// A plane around a position, x east, y north, from the ellipsoid's radii at that position and the
+/// first-order change of the length of a degree of longitude northwards. Accurate to 1e-6 within 5
+/// km. Independent of the C library, so identical on every machine to the last bit.
 class ExactPlane {
 public:
     explicit ExactPlane(const GeoPoint& origin);
-    PointEn to_plane(const GeoPoint& point) const; ///< longitudes as long as at the origin
-    GeoPoint to_geo(const PointEn& point) const;   ///< its inverse
+    PointEn to_plane(const GeoPoint& point) const; ///< longitudes scaled as at the origin
+    GeoPoint to_geo(const PointEn& point) const;   ///< inverse of to_plane
     PointEn metres(const PointEn& from, const PointEn& to) const; ///< east and north on the ground
 
 private:

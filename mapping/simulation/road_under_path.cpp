@@ -9,7 +9,7 @@ namespace {
 
 constexpr double letting_down_m = 100;
 
-/// How much a lane is lifted, in one wheel track, since a place of the route.
+/// Height by which a lane is lifted in one wheel track, since a position of the route.
 struct Lift {
     double since_m = 0;
     double height_m = 0;
@@ -20,10 +20,10 @@ struct Lift {
     }
 };
 
-/// One wheel's track over the lanes, asked for from front to back.
+/// Profile of one wheel track over the lanes, read from front to back.
 class Track {
 public:
-    /// Goes on in another lane at a place of the route.
+    /// Continues in another lane at a position of the route.
     void enter(double route_m, double elevation_m) { lift_ = {route_m, last_m_ - elevation_m}; }
 
     float lifted(double route_m, double elevation_m) {
@@ -36,7 +36,7 @@ private:
     double last_m_ = 0;
 };
 
-/// Values of a rising table in between, asked for from front to back.
+/// Interpolates an ascending table, read from front to back.
 class Walk {
 public:
     explicit Walk(const std::vector<double>& x) : x_{x} {}

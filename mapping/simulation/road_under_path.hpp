@@ -4,8 +4,8 @@
 
 namespace macadam {
 
-/// The road under a car's wheels along its travel. Where it turns off a lane before its end, the
-/// next lane is lifted to meet it, each track by itself, and let down over 100 m.
+/// Composes the road under a car's wheels along its travel. Where the car leaves a lane before its
+/// end, the next lane is raised to meet it, separately for each track, and lowered over 100 m.
 RoadUnderWheels road_under(const DrivenPath& path, const LaneSource& lanes, double half_track_m);
 
 } // namespace macadam

@@ -24,7 +24,7 @@ struct ClassSpeed {
     std::string_view highway;
     double kmh;
 };
-// What traffic does in central Europe, in and out of towns taken together.
+// Typical traffic speeds in central Europe, in and out of towns combined.
 constexpr std::array class_speeds{ClassSpeed{"motorway", 115},
                                   ClassSpeed{"motorway_link", 60},
                                   ClassSpeed{"trunk", 95},
@@ -48,7 +48,7 @@ std::size_t index(EdgeId edge) {
     return static_cast<std::size_t>(edge);
 }
 
-/// Nodes that can be reached from `start`, or that reach it.
+/// Returns the nodes reachable from `start`, or that reach it, by the given adjacency.
 std::vector<bool> reach(const std::vector<std::vector<NodeId>>& next, NodeId start) {
     std::vector<bool> seen(next.size(), false);
     std::vector<NodeId> open{start};
@@ -66,8 +66,8 @@ std::vector<bool> reach(const std::vector<std::vector<NodeId>>& next, NodeId sta
     return seen;
 }
 
-/// The largest set of nodes of which each can be reached from each. Cores are looked for from nodes
-/// that are in none yet, until what is left cannot hold a larger one.
+/// Finds the largest strongly connected component. Searches from nodes not yet in a component,
+/// until the remaining ones cannot form a larger one.
 std::vector<NodeId> largest_core(const RoadNetwork& roads) {
     const auto count = node_count(roads);
     std::vector<std::vector<NodeId>> next(count);
@@ -100,7 +100,7 @@ std::vector<NodeId> largest_core(const RoadNetwork& roads) {
     return best;
 }
 
-/// Edges by which one may go on after `edge`: not back, unless there is no other way on.
+/// Returns the edges that may follow `edge`: no U-turn, unless there is no other way on.
 std::vector<EdgeId> ways_on(const RoadNetwork& roads, EdgeId edge) {
     std::vector<EdgeId> on;
     bool back = false;
@@ -126,13 +126,13 @@ ways_from(const RoadNetwork& roads, NodeId node, const std::optional<EdgeId>& ca
     return {edges.begin(), edges.end()};
 }
 
-/// What a driver thinks that an edge takes: up to half more than it does.
+/// Returns the time that a driver expects on an edge: up to half more than the true one.
 double thought_time_s(const RouteMap& map, EdgeId edge, std::uint64_t taste) {
     return map.edge_time_s[index(edge)] * (1 + Random{seed_of({taste, index(edge)})}.uniform() / 2);
 }
 
-/// The quickest way from a node (or on from an edge) to a place; empty if there is none. Dijkstra
-/// over edges; equal times go by the number of the edge.
+/// Finds the quickest path from a node (or on from an edge) to a place; empty if there is none.
+/// Dijkstra over edges; ties are resolved by edge number.
 std::vector<EdgeId> quickest(const RoadNetwork& roads,
                              const RouteMap& map,
                              NodeId start,
@@ -177,7 +177,7 @@ std::vector<EdgeId> quickest(const RoadNetwork& roads,
 }
 
 struct DriveItinerary {
-    std::vector<NodeId> stations; ///< begin, places on the way, end
+    std::vector<NodeId> stations; ///< start, places on the way, end
     std::vector<EdgeId> edges;
     double length_m = 0;
 };
@@ -186,7 +186,7 @@ DriveItinerary begun_at(NodeId place) {
     return {.stations = {place}, .edges = {}};
 }
 
-/// The tour with the way to one more place; as it was if there is no way.
+/// Extends a tour to one more place; unchanged if there is no path.
 DriveItinerary led_on(DriveItinerary tour,
                       const RoadNetwork& roads,
                       const RouteMap& map,
@@ -206,7 +206,7 @@ DriveItinerary led_on(DriveItinerary tour,
     return tour;
 }
 
-/// Cut where it is long enough, at the end of an edge.
+/// Cuts a tour at its length limit, at the end of an edge.
 DriveItinerary cut_to(DriveItinerary tour, const RoadNetwork& roads, double longest_m) {
     std::size_t kept = 0;
     double length_so_far_m = 0;
@@ -224,7 +224,7 @@ DriveItinerary outward(const RoadNetwork& roads,
                        const DrivingRecipe& driving,
                        std::uint64_t seed,
                        std::size_t trip) {
-    constexpr int max_idle_legs = 60; // one after the other
+    constexpr int max_idle_legs = 60; // consecutive
     Random random{seed_of({seed, draw_way, trip})};
     const auto taste = seed_of({seed, draw_taste, trip});
     const double length_m = 1000 * random.uniform(driving.length_km.low, driving.length_km.high);
@@ -240,7 +240,7 @@ DriveItinerary outward(const RoadNetwork& roads,
     return cut_to(std::move(tour), roads, length_m);
 }
 
-/// From the end of a tour to its beginning, past the same places.
+/// Builds the return tour from the end of a tour to its start, via the same places.
 DriveItinerary homeward(const DriveItinerary& out,
                         const RoadNetwork& roads,
                         const RouteMap& map,
@@ -248,7 +248,7 @@ DriveItinerary homeward(const DriveItinerary& out,
                         std::size_t trip) {
     const auto taste = seed_of({seed, draw_taste, trip});
     auto tour = begun_at(to_node(roads, out.edges.back()));
-    // The last place was not reached where the tour was cut.
+    // The last place was not reached if the tour was cut.
     for (auto i = out.stations.size() - 1; i-- > 0;) {
         if (out.stations[i] != tour.stations.back()) {
             tour = led_on(std::move(tour), roads, map, out.stations[i], taste);
@@ -283,7 +283,7 @@ make_route_map(const RoadNetwork& roads, const DrivingRecipe& driving, std::uint
     RouteMap map;
     Random random{seed_of({seed, draw_places})};
     const auto places = std::clamp<std::size_t>(driving.places, 2, core.size());
-    for (std::size_t i = 0; i < places; ++i) { // the first of a shuffled pack
+    for (std::size_t i = 0; i < places; ++i) { // start of a Fisher-Yates shuffle
         std::swap(core[i], core[i + random.below(core.size() - i)]);
     }
     map.places.assign(core.begin(), core.begin() + static_cast<std::ptrdiff_t>(places));
@@ -297,7 +297,7 @@ make_route_map(const RoadNetwork& roads, const DrivingRecipe& driving, std::uint
 }
 
 bool is_return(const DrivingRecipe& driving, std::uint64_t seed, std::size_t trip) {
-    // Of every two trips only the second can be one: half of them is all of those.
+    // Only the second trip of every two can be a return, so its probability is doubled.
     const double chance = std::min(1.0, 2 * driving.return_share);
     return trip % 2 == 1 && Random{seed_of({seed, draw_return, trip})}.uniform() < chance;
 }

@@ -26,7 +26,7 @@ std::vector<double> boxed(std::span<const double> values, std::size_t half_width
 
 std::vector<double> slow_noise(std::size_t count, double sd, double steps, std::uint64_t seed) {
     Random random{seed};
-    const double kept = steps > 0 ? steps / (steps + 1) : 0; // of the last value, a step later
+    const double kept = steps > 0 ? steps / (steps + 1) : 0; // of the last value, per step
     const double fresh = std::sqrt(1 - kept * kept);
     std::vector<double> noise;
     noise.reserve(count);

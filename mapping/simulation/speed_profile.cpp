@@ -16,12 +16,12 @@ namespace macadam {
 namespace {
 
 constexpr double step_s = 0.01;
-constexpr double margin_m = 8;          // of road before the rear and after the front axle
+constexpr double margin_m = 8;          // of road behind the rear and ahead of the front axle
 constexpr double crawl_mps = 1.5;       // in the tightest turn
-constexpr double rest_s = 6;            // at the beginning and the end of a trip
+constexpr double rest_s = 6;            // at the start and the end of a trip
 constexpr double stop_clearance_m = 20; // between two stops
-constexpr std::size_t pedal_box = 35;   // two boxes of 0.7 s: how quickly a foot moves
-constexpr double mood_sd = 0.04;        // of a driver's speed on an open road
+constexpr std::size_t pedal_box = 35;   // two boxes of 0.7 s: duration of a pedal movement
+constexpr double mood_sd = 0.04;        // variation of a driver's speed on an open road
 constexpr double mood_length_m = 400;
 
 enum Draw : std::uint64_t { draw_driver = 21, draw_mood = 22, draw_stops = 23 };
@@ -31,7 +31,7 @@ struct Stop {
     double duration_s;
 };
 
-/// Where the car may have to stop: ends of edges where roads meet and traffic does not flow.
+/// Returns the possible stops: ends of edges at junctions without free flow.
 std::vector<Stop> stops_of(const RoadNetwork& roads,
                            const std::vector<EdgeId>& route,
                            const DrivingRecipe& driving,
@@ -54,7 +54,7 @@ std::vector<Stop> stops_of(const RoadNetwork& roads,
     return stops;
 }
 
-/// The speed that road, curve and driver allow at each point of the path.
+/// Returns the speed allowed by road, curve and driver at each point of the path.
 std::vector<double> allowed_mps(const DrivenPath& path,
                                 const RoadNetwork& roads,
                                 const DrivingRecipe& driving,
@@ -79,14 +79,14 @@ std::vector<double> allowed_mps(const DrivenPath& path,
     return speed_mps;
 }
 
-/// Points of the path with the speed there, and how long the car stands on them.
+/// Points of the path with their speeds and stop durations.
 struct Plan {
     std::vector<double> travel_m;
     std::vector<double> speed_mps;
     std::vector<double> stand_s;
 };
 
-/// The part of the path that is driven, with stops.
+/// Selects the driven part of the path and adds its stops.
 Plan planned(const DrivenPath& path,
              std::vector<double> speed_mps,
              const std::vector<Stop>& stops) {
@@ -115,7 +115,7 @@ Plan planned(const DrivenPath& path,
     return plan;
 }
 
-/// Speeds that the car can reach, and brake from in time. v^2 changes by 2 a a metre.
+/// Limits speeds by acceleration and braking: v^2 changes by 2 a per metre.
 Plan within_reach(Plan plan, const DrivingRecipe& driving) {
     auto& v = plan.speed_mps;
     v.front() = 0;
@@ -132,7 +132,8 @@ Plan within_reach(Plan plan, const DrivingRecipe& driving) {
     return plan;
 }
 
-/// Speed over time at even steps: between two points of the plan acceleration is constant.
+/// Converts to speed over time at equal steps, with constant acceleration between two points of the
+/// plan.
 std::vector<double> speed_over_time(const Plan& plan) {
     std::vector<double> speed_mps(static_cast<std::size_t>(rest_s / step_s), 0.0);
     double begin_s = static_cast<double>(speed_mps.size()) * step_s;
@@ -180,7 +181,7 @@ Motion motion_of(const DrivenPath& path, double begin_m, std::vector<double> spe
     for (int i = 0; i < 2; ++i) {
         speed_mps = boxed(speed_mps, pedal_box);
         for (auto& speed : speed_mps) {
-            speed = std::max(0.0, speed); // the box sums leave some 1e-16 below
+            speed = std::max(0.0, speed); // box sums leave about 1e-16 below 0
         }
     }
     Motion motion{.step_s = step_s,

@@ -7,13 +7,13 @@
 
 namespace macadam {
 
-/// How a driver goes along a path: at the usual speed of each road times his own factor, slower in
-/// curves, with stops at some junctions, at rest for some seconds at both ends. Acceleration
-/// changes over about a second, as feet do.
+/// Simulates the speed of a driver along a path: the usual speed of each road times the driver's
+/// factor, reduced in curves, with stops at some junctions and a few seconds at rest at both ends.
+/// Acceleration changes over about a second, as a foot moves.
 ///
-/// \param route  that the path was made of.
-/// \returns      the motion in steps of 10 ms; travel from a few metres after the path's beginning,
-///               so that the rear axle stands on it, to as much before its end.
+/// \param route  the route of the path.
+/// \returns      the motion in steps of 10 ms; travel starts a few metres after the start of the
+/// path, so that the rear axle is on it, and ends as far before its end.
 Motion drive_along(const DrivenPath& path,
                    const RoadNetwork& roads,
                    const std::vector<EdgeId>& route,

@@ -8,9 +8,10 @@
 
 namespace macadam {
 
-/// What a recipe says of roads that are not there: "no road has the class 'residental'", for a
-/// class that neither the network nor OSM knows, a way or a name that the network has not. A class
-/// of OSM that only this network lacks is nothing strange. In the order of the recipe, each once.
+/// Reports rules of a scenario for roads that do not exist: "no road has the class 'residental'",
+/// for a class known neither to the network nor to OSM, or a way or name that the network lacks. An
+/// OSM class that only this network lacks is not reported. In the order of the scenario, without
+/// duplicates.
 std::vector<std::string> unused_rules(const FleetScenario& recipe, const RoadNetwork& roads);
 
 } // namespace macadam

@@ -7,34 +7,34 @@
 
 namespace macadam {
 
-/// Where a picture lies on the plane of a coordinate reference system; x grows to the right and y
-/// upwards, whatever the order of axes that its authority states.
+/// Georeference of a picture on the plane of a coordinate reference system; x grows to the right
+/// and y upwards, whatever axis order its authority states.
 struct PicturePlane {
     std::string wkt;  ///< of the system; "" = spherical Mercator, EPSG:3857
-    double left, top; ///< of the top left corner of the top left pixel, in the plane's units
-    double per_px;    ///< side of a pixel
+    double left, top; ///< of the top left corner of the top left pixel, in units of the plane
+    double per_px;    ///< side length of a pixel
     int width_px, height_px;
 };
 
-/// Whole pixels of a picture.
+/// A rectangle of whole pixels in a picture.
 struct PicturePart {
     int left_px, top_px, width_px, height_px;
 };
 
-/// Eight-bit RGBA of a part of a picture, top row first, colours not multiplied by their alpha. A
-/// pixel is the same, to the last byte, whichever part it is asked for with.
+/// Renders part of a picture as eight-bit RGBA, top row first, alpha not premultiplied. A pixel is
+/// identical to the last byte whichever part it is requested with.
 ///
-/// \throws InputError  if the file behind it cannot be read.
+/// \throws InputError  if the underlying file cannot be read.
 using PaintPart = std::function<std::vector<std::uint8_t>(const PicturePart& part)>;
 
-/// A map of other people's, to lie under the roads.
+/// A third-party map under the roads.
 struct BaseMap {
-    std::string attribution; ///< whose it is; "" = does not say
+    std::string attribution; ///< copyright notice; "" = not stated
 
-    /// The map as it lies on a picture's plane; transparent where it has nothing.
+    /// Warps the map to a picture's plane; transparent outside its extent.
     std::function<PaintPart(const PicturePlane& plane)> laid_on;
 
-    std::vector<std::string> files{}; ///< that it is read from: not to be written over
+    std::vector<std::string> files{}; ///< source files, protected from being overwritten
 };
 
 } // namespace macadam

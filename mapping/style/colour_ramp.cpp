@@ -5,8 +5,8 @@
 namespace macadam {
 namespace {
 
-// ColorBrewer 2.0 by Cynthia A. Brewer, "RdYlBu", 5 and 3 classes from the blue end; of 3 the ends
-// are those of 5, which are stronger, and the middle a yellow that holds on white.
+// ColorBrewer 2.0 by Cynthia A. Brewer, "RdYlBu", 5 and 3 classes from the blue end; the ramp of 3
+// uses the ends of 5, which are stronger, and a yellow that is visible on white.
 constexpr std::array<std::uint32_t, 5> rdylbu{0x2c7bb6, 0xabd9e9, 0xffffbf, 0xfdae61, 0xd7191c};
 constexpr std::array<std::uint32_t, 3> rdylbu_of_3{0x2c7bb6, 0xfee090, 0xd7191c};
 

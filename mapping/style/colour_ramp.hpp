@@ -6,14 +6,14 @@
 
 namespace macadam {
 
-/// Colours from smooth to rough, between which those of classes are taken at even distances.
+/// Colours from smooth to rough; the colours of classes are taken from it at equal distances.
 struct ColourRamp {
     std::string_view name;
     std::span<const std::uint32_t> colours;          ///< 0xRRGGBB
-    std::span<const std::uint32_t> colours_of_three; ///< where a map has three classes
+    std::span<const std::uint32_t> colours_of_three; ///< for class tables of three classes
 };
 
-/// The shipped ones, the default first.
+/// Returns the shipped ramps, the default first.
 std::span<const ColourRamp> colour_ramps();
 
 } // namespace macadam

@@ -8,21 +8,20 @@
 
 namespace macadam {
 
-/// A class as a user states it.
+/// A user-defined class.
 struct OwnClass {
     std::string name;
-    double to_mm_per_m = 0; ///< infinity for the last
-    bool open = false;      ///< the border itself belongs to the next class
+    double to_mm_per_m = 0; ///< infinity for the last class
+    bool open = false;      ///< whether the bound itself belongs to the next class
 };
 
-/// A class table that is not among class_tables(), with the words that it consists of. Copies share
-/// them.
+/// A class table that is not among class_tables(), owning its strings. Copies share them.
 class OwnClassTable {
 public:
-    /// \param classes  at least one, borders rising, the last infinity
+    /// \param classes  at least one, bounds ascending, the last infinity
     OwnClassTable(std::string name, std::string title, std::vector<OwnClass> classes);
 
-    /// Valid as long as any copy of this.
+    /// Returns the table, valid as long as any copy of this object.
     const ClassTable& table() const;
 
 private:

@@ -15,7 +15,7 @@ constexpr std::array fhwa{IriClass{"good", 95 / in_per_mi_of_mm_per_m, true},
                           IriClass{"fair", 170 / in_per_mi_of_mm_per_m, false},
                           IriClass{"poor", no_limit, false}};
 
-// Round figures that road administrations often use; no standard.
+// Round values in common use by road administrations; no standard.
 constexpr std::array five{IriClass{"very good", 1.5, false},
                           IriClass{"good", 2.5, false},
                           IriClass{"fair", 3.5, false},

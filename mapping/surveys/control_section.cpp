@@ -24,8 +24,8 @@ std::vector<SegmentRecord> cut_to(const ControlSection& section,
 }
 
 double student_t_975(double degrees_of_freedom) {
-    // The expansion about the normal point z (Abramowitz and Stegun, 26.7.5) is off by 4 % for 2
-    // degrees of freedom, and by less than 0.1 % from 6 on; below that stand the tables' values.
+    // The expansion about the normal quantile z (Abramowitz and Stegun, 26.7.5) has an error of 4 %
+    // for 2 degrees of freedom, and below 0.1 % from 6 on; smaller degrees use tabulated values.
     constexpr std::array<double, 4> tabled{4.3027, 3.1824, 2.7764, 2.5706}; // 2 to 5
     if (degrees_of_freedom < 6) {
         const auto i = static_cast<std::size_t>(std::clamp(degrees_of_freedom, 2.0, 5.0)) - 2;

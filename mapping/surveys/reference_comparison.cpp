@@ -23,7 +23,8 @@ double length_m(const Segment& segment) {
     return segment.to_m - segment.from_m;
 }
 
-/// Mean by length of one track, of reference and cars; nothing where either misses it somewhere.
+/// Computes the length-weighted means of one track; `std::nullopt` if reference or cars lack it
+/// anywhere.
 std::optional<SurveyPair> side_of(std::span<const ReferencedSegment> run,
                                   std::optional<IriUm> Pass::*of_reference,
                                   std::optional<IriUm> SegmentState::*of_cars) {
@@ -43,7 +44,7 @@ std::optional<SurveyPair> side_of(std::span<const ReferencedSegment> run,
 
 struct ReferenceMean {
     double iri;
-    double sd; ///< as if one error for all: a survey's is
+    double sd; ///< for a fully common error, as a survey's is
 };
 
 ReferenceMean reference_of(std::span<const ReferencedSegment> run) {
@@ -96,7 +97,7 @@ ReferencePair pair_of(std::span<const ReferencedSegment> run) {
             .days_after = days_after(run)};
 }
 
-/// A segment of one as the cars' interval has it: as the store states it, not made anew.
+/// Builds the pair of a single segment with the stored interval of the cars, not a recomputed one.
 ReferencePair pair_of_one(const ReferencedSegment& one) {
     auto pair = pair_of({&one, 1});
     pair.headline.low = mm_per_m(one.cars.low_um);

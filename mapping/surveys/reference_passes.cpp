@@ -8,7 +8,7 @@
 namespace macadam {
 namespace {
 
-constexpr double min_overlap_m = 1; // of two rows: less is the match's place
+constexpr double min_overlap_m = 1; // of two rows: less is position error of the match
 
 struct Part {
     const ReferencePart* part;
@@ -25,7 +25,7 @@ bool overlaps(const ReferencePart& a, const ReferencePart& b) {
     return shared_m > std::min(min_overlap_m, std::min(length_m(a), length_m(b)) / 2);
 }
 
-/// The parts of one passage over a segment do not overlap.
+/// Disjoint parts of one pass over a segment.
 using Passage = std::vector<Part>;
 
 void add_to_first_free(std::vector<Passage>& passages, const Part& part) {
@@ -47,7 +47,7 @@ double covered_m(const Passage& passage) {
     return std::min(sum_m, passage.front().part->segment_m);
 }
 
-/// Mean by length of what each part's row says; nothing where one of them does not say it.
+/// Computes the length-weighted mean of the parts' rows; `std::nullopt` if a row lacks the value.
 template <typename Value>
 std::optional<double> mean_of(const Passage& passage, const Value& value) {
     double sum = 0, whole_m = 0;
@@ -62,7 +62,7 @@ std::optional<double> mean_of(const Passage& passage, const Value& value) {
     return sum / whole_m;
 }
 
-/// Of the road's scatter within rows, what the mean of these parts has.
+/// Returns the share of the road's scatter within rows that remains in the mean of these parts.
 double scatter_share(const Passage& passage) {
     const double whole_m = covered_m(passage);
     double share = 1 - whole_m / passage.front().part->segment_m;
@@ -122,7 +122,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Why a row that lies on the network cannot enter a pass; "" if it can.
+/// Returns the reason why a located row cannot enter a pass; "" if it can.
 std::string_view fault_of(const SurveyRow& row) {
     if (headline_of(row)) {
         return "";

@@ -11,31 +11,32 @@
 
 namespace macadam {
 
-/// A part of a way: from_m < to_m along it from its first node.
+/// An interval of a way: from_m < to_m along it from its first node.
 struct WayPart {
     std::int64_t way_id;
-    bool forward; ///< the direction that is meant
+    bool forward; ///< direction of the interval
     double from_m;
     double to_m;
     friend bool operator==(const WayPart&, const WayPart&) = default;
 };
 
-/// How rows of a reference survey say where they are.
+/// Location method of the rows of a reference survey.
 enum class ReferencePlaces : std::uint8_t {
-    on_ways, ///< each by the part of a way
-    ends,    ///< each by its begin and end
-    middles  ///< each by its middle, and with a heading or in the order in which it was driven
+    on_ways, ///< interval of a way
+    ends,    ///< start and end coordinates
+    middles  ///< midpoint coordinates, with a heading or in driving order
 };
 
-/// A row of a survey that is to enter a store. What it has of `way`, `begin`, `end` and `heading`
-/// depends on ReferencePlaces; a row without its place has none.
+/// A survey row to be imported into a database. Whether `way`, `begin`, `end` and `heading` are set
+/// depends on ReferencePlaces; a row without a position has none of them.
 struct ReferenceRow {
-    SurveyRow values; ///< `at` and `length_m` for middles
+    SurveyRow values; ///< `at` and `length_m` for midpoints
     bool placed = true;
     std::optional<WayPart> way{};
     std::optional<GeoPoint> begin{};
     std::optional<GeoPoint> end{};
-    std::optional<double> heading_deg{}; ///< clockwise from north; for middles, then length_m too
+    std::optional<double>
+        heading_deg{}; ///< clockwise from north; for midpoints, which then have length_m too
 };
 
 struct ReferenceSurvey {
@@ -44,14 +45,15 @@ struct ReferenceSurvey {
     std::string sha256; ///< of the file's decompressed text
 };
 
-/// The IRI that a row states as its headline, mm/m: the mean of both tracks, or what stands for it.
+/// Headline IRI of a row, mm/m: the mean of both tracks, or its substitute.
 struct ReferenceIri {
     double mm_per_m;
     bool from_hri; ///< inferred: MRI = HRI / hri_over_mri
 };
 
-/// MRI; failing that the mean of left and right, then an IRI of a kind that is not told, which
-/// surveys mean for MRI, then HRI. Nothing: the row has none of them, or one track alone.
+/// Selects the headline of a row: MRI; otherwise the mean of left and right, then an IRI of
+/// unspecified kind, which usually means MRI, then HRI. `std::nullopt` if the row has none of them,
+/// or one track alone.
 std::optional<ReferenceIri> headline_of(const SurveyRow& row);
 
 } // namespace macadam

@@ -6,15 +6,15 @@
 namespace macadam {
 namespace {
 
-constexpr double min_apart_m = 0.01; // two rows nearer than this are one place
+constexpr double min_apart_m = 0.01; // closer rows coincide
 constexpr double square_m = 100;
 
-/// Farther apart than this many usual steps, neighbouring rows are of different lines.
+/// Gap between neighbouring rows of different lines, in multiples of the usual step.
 constexpr double usual_steps = 4;
-constexpr double always_joined_m = 15; // of dense surveys, across holes
+constexpr double always_joined_m = 15; // of dense surveys, across gaps
 constexpr double never_joined_m = 2000;
 
-constexpr double course_over_m = 20; // noise of rows that stand close does not turn the line
+constexpr double course_over_m = 20; // so that noise of closely spaced rows does not turn the line
 
 double apart_m(const PointEn& a, const PointEn& b) {
     return std::hypot(b.east_m - a.east_m, b.north_m - a.north_m);
@@ -33,13 +33,13 @@ double longest_leg_m(std::span<const PointEn> points) {
     return std::clamp(usual_steps * *middle, always_joined_m, never_joined_m);
 }
 
-/// `distance_m` beyond b, straight on from a.
+/// Returns the point `distance_m` beyond b on the straight line from a.
 PointEn beyond(const PointEn& a, const PointEn& b, double distance_m) {
     const double part = distance_m / apart_m(a, b);
     return {b.east_m + part * (b.east_m - a.east_m), b.north_m + part * (b.north_m - a.north_m)};
 }
 
-/// The direction of a way about the leg that ends at point i.
+/// Returns the direction of a way around the leg that ends at point i.
 PointEn course_at(std::span<const PointEn> way, std::span<const double> way_m, std::size_t i) {
     std::size_t from = i - 1;
     std::size_t to = i;
@@ -56,7 +56,7 @@ PointEn course_at(std::span<const PointEn> way, std::span<const double> way_m, s
             (way[to].north_m - way[from].north_m) / chord_m};
 }
 
-/// The rows [first, last) of one line. Rows at the place of the one before are left out.
+/// Adds the rows [first, last) of one line, omitting rows that coincide with the one before.
 void add_line(std::span<const SurveyRow> survey,
               std::span<const PointEn> points,
               std::size_t first,

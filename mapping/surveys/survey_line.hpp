@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// The piece of a row on its line, metres along that line.
+/// Interval of a row on its line, metres along that line.
 struct SurveyPiece {
     std::size_t row;
     double from_m;
@@ -23,13 +23,13 @@ struct SurveyLine {
     std::vector<SurveyPiece> pieces; ///< in driving order
 };
 
-/// A straight part of a line, directed as it was driven.
+/// A straight leg of a line, in driving direction.
 struct SurveyLeg {
     PointEn begin;
-    PointEn end; ///< another place than begin
+    PointEn end; ///< differs from begin
     std::size_t line;
     double begin_m; ///< along its line
-    PointEn course; ///< of the line about here; a unit vector
+    PointEn course; ///< of the line around here; a unit vector
 };
 
 struct SurveyLines {
@@ -37,10 +37,10 @@ struct SurveyLines {
     std::vector<SurveyLeg> legs;
 };
 
-/// Lines from the rows; the first and last leg of each reach to the ends of its pieces.
+/// Builds lines from the rows; the first and last leg of each extend to the ends of its intervals.
 SurveyLines survey_lines(std::span<const SurveyRow> survey, const LocalFrame& frame);
 
-/// The place of a leg that is nearest to a point.
+/// The point of a leg nearest to a position.
 struct PlaceOnLeg {
     std::size_t line;
     double station_m;
@@ -48,13 +48,13 @@ struct PlaceOnLeg {
 };
 PlaceOnLeg nearest_on(const SurveyLeg& leg, const PointEn& point);
 
-/// Legs by squares of the plane.
+/// A grid index of legs.
 class SurveyLegIndex {
 public:
-    /// \param reach_m  how far from a leg it is still found.
+    /// \param reach_m  maximum distance at which a leg is found.
     SurveyLegIndex(std::span<const SurveyLeg> legs, double reach_m);
 
-    /// Those within reach of the point, and some more; numbers of legs.
+    /// Returns the indices of all legs within reach of the point, and possibly some more.
     std::span<const std::size_t> near(const PointEn& point) const;
 
 private:

@@ -11,25 +11,25 @@
 namespace macadam {
 namespace {
 
-constexpr double course_over_m = 10; // on both sides of a sample: the noise of positions averages
+constexpr double course_over_m = 10; // on both sides of a sample, to average position noise
 constexpr double min_chord_m = 5;    // of a course
-constexpr double other_road_m = 2;   // nearer by so much, another line is taken than before
+constexpr double other_road_m = 2;   // advantage required to switch to another line
 constexpr double slack_m = 5;        // of a pass beyond its first and last sample
 
-/// The trip at one travel distance.
+/// Position and course of the trip at one travel distance.
 struct Sample {
     PointEn at;
     double travel_m;
     PointEn course; ///< a unit vector
 };
 
-/// A sample that belongs to the survey.
+/// A sample matched to the survey.
 struct Met {
     double travel_m;
     PlaceOnLeg place;
 };
 
-/// The trip as one broken line in a plane, without the holes between its positions.
+/// The trip as one polyline in a plane, without the gaps between its positions.
 class TripLine {
 public:
     TripLine(std::span<const TripPlaceAt> trip, const LocalFrame& frame) {
@@ -95,13 +95,15 @@ bool goes_on(const Met& before, double travel_m, const PlaceOnLeg& place, double
            std::abs(apart_m) <= 2 * max_distance_m + (travel_m - before.travel_m) / 4;
 }
 
-/// Before a line and behind it its end is the nearest place of it, but not where the trip was.
+/// Returns true beyond the ends of a line, where the nearest point is its end but not where the
+/// trip was.
 bool is_end(const PlaceOnLeg& place, const SurveyLine& line) {
     return place.station_m <= line.pieces.front().from_m ||
            place.station_m >= line.pieces.back().to_m;
 }
 
-/// The nearest place within the limits; where two are about as near, the one that goes on.
+/// Finds the nearest point within the limits; of two about equally near, the one that continues the
+/// line.
 std::optional<PlaceOnLeg> place_of(const Sample& sample,
                                    const std::optional<Met>& before,
                                    const SurveyLines& lines,
@@ -125,7 +127,7 @@ std::optional<PlaceOnLeg> place_of(const Sample& sample,
     return best;
 }
 
-/// Matched samples in which line and trip go on together.
+/// Groups matched samples in which line and trip advance together.
 std::vector<std::vector<Met>> runs_of(std::span<const Sample> samples,
                                       const SurveyLines& lines,
                                       const SurveyMatchConfig& config) {
@@ -148,8 +150,8 @@ std::vector<std::vector<Met>> runs_of(std::span<const Sample> samples,
     return runs;
 }
 
-/// How far the line's ruler is ahead of the trip's at each sample: the mean over as much on both
-/// sides, so that a drift of one against the other is followed up to the ends.
+/// Returns the offset of the line's measure from the trip's at each sample: a symmetric mean, so
+/// that drift between the two is followed up to the ends.
 std::vector<double> ahead_of_trip_m(std::span<const Met> run, double average_m) {
     std::vector<double> sums{0};
     for (const auto& met : run) {
@@ -168,9 +170,9 @@ std::vector<double> ahead_of_trip_m(std::span<const Met> run, double average_m) 
     return ahead_m;
 }
 
-/// Where the line passes its stations, by the trip's ruler.
+/// Travel of the trip at stations of the line.
 struct Rulers {
-    std::vector<double> station_m; ///< rising
+    std::vector<double> station_m; ///< increasing
     std::vector<double> travel_m;
 
     std::optional<double> travel_at(double at_m) const {

@@ -13,8 +13,8 @@ namespace macadam {
 namespace {
 
 constexpr double same_place_m = 0.01;
-constexpr double max_apart_m = 15;        // between the end of a row and the begin of the next
-constexpr double sharpest_turn_deg = 120; // between rows of one line; more is driven back
+constexpr double max_apart_m = 15;        // between the end of a row and the start of the next
+constexpr double sharpest_turn_deg = 120; // between rows of one line; more is a return trip
 constexpr double shortest_part_m = 1e-3;
 
 // ------------------------------------------------------------------------------------ by ways
@@ -27,7 +27,7 @@ std::optional<WayView> find_way(const RoadNetwork& roads, std::int64_t way_id) {
                : std::optional{way_at(roads, static_cast<std::uint32_t>(found - ways.begin()))};
 }
 
-/// What of a part of a way lies on the segments of one link.
+/// Returns the overlaps of a way interval with the segments of one link.
 std::vector<ReferencePart> parts_on(const Link& link, const WayPart& part, std::size_t row) {
     std::vector<ReferencePart> parts;
     const double segment_m = (link.to_m - link.from_m) / link.segments;
@@ -68,20 +68,20 @@ void place_on_way(const RoadNetwork& roads,
 
 // ------------------------------------------------------------------------------ by coordinates
 
-/// Rows on a line that was driven: metres along it.
+/// Rows on a driven line, as metres along it.
 struct DrivenLine {
     std::vector<GeoPoint> line;
     std::vector<SurveyPiece> pieces;
 };
 
-/// The straight line that a row stands for, as driven.
+/// The straight line of a row, in driving direction.
 struct Stick {
     std::size_t row;
     GeoPoint begin;
     GeoPoint end;
 };
 
-/// The place so far from another in a direction; near enough for the length of a row.
+/// Returns the point at a distance and heading; accurate enough for the length of a row.
 GeoPoint place_at(const GeoPoint& from, double heading_deg, double distance_m) {
     const double heading_rad = heading_deg * std::numbers::pi / 180;
     return LocalFrame{from}.to_geo(
@@ -104,14 +104,14 @@ std::vector<Stick> sticks_of(const ReferenceSurvey& survey) {
     return sticks;
 }
 
-/// Whether a car that drove one may have gone on over the other.
+/// Returns true if a car that drove the first may have continued over the second.
 bool follows(const Stick& before, const Stick& after) {
     const double turn_deg = std::abs(std::remainder(
         course_deg(after.begin, after.end) - course_deg(before.begin, before.end), 360));
     return distance_m(before.end, after.begin) <= max_apart_m && turn_deg <= sharpest_turn_deg;
 }
 
-/// Sticks of one drive, in the order of travel, whichever way the file runs.
+/// Groups the lines of one drive in the order of travel, whatever the order of the file.
 std::vector<std::deque<Stick>> chains_of(const std::vector<Stick>& sticks) {
     std::vector<std::deque<Stick>> chains;
     for (const auto& stick : sticks) {
@@ -156,7 +156,7 @@ std::vector<DrivenLine> lines_of_sticks(const ReferenceSurvey& survey) {
     return lines;
 }
 
-/// The vertices of a line of middles, with their places on its ruler in the plane and on the
+/// Vertices of a line of midpoints, with their distances along it in the plane and on the
 /// ellipsoid.
 struct Vertices {
     std::vector<GeoPoint> places;
@@ -215,7 +215,7 @@ std::vector<DrivenLine> lines_of_middles(const ReferenceSurvey& survey) {
     return lines;
 }
 
-/// What a row has of a matched part of its line.
+/// Returns the overlap of a row with a matched part of its line.
 std::optional<ReferencePart> shared(const SurveyPiece& piece, const LinePart& part) {
     const double from_m = std::max(piece.from_m, part.from_line_m);
     const double to_m = std::min(piece.to_m, part.to_line_m);

@@ -7,13 +7,13 @@
 
 namespace macadam {
 
-/// What a survey with other instruments, such as a laser, says of one piece of road. The rows of a
-/// survey come in the order in which it was driven.
+/// One interval of road in a survey with other instruments, such as a laser. The rows of a survey
+/// are in driving order.
 struct SurveyRow {
-    std::size_t line = 0;                 ///< of the file
-    GeoPoint at{};                        ///< of the middle of the piece
-    std::optional<double> length_m{};     ///< 0.1 to 2000; nothing: half-way to both neighbours
-    std::optional<double> iri_mm_per_m{}; ///< of a kind that is not told
+    std::size_t line = 0;             ///< line number in the file
+    GeoPoint at{};                    ///< midpoint of the interval
+    std::optional<double> length_m{}; ///< 0.1 to 2000; `std::nullopt`: half-way to both neighbours
+    std::optional<double> iri_mm_per_m{}; ///< of unspecified kind
     std::optional<double> left_mm_per_m{};
     std::optional<double> right_mm_per_m{};
     std::optional<double> mri_mm_per_m{}; ///< mean of left and right

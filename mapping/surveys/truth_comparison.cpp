@@ -12,17 +12,17 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t run_segments = 5; // 100 m of the usual segments
-constexpr double same_place_m = 0.01;   // truth files have millimetres
+constexpr std::size_t run_segments = 5; // 100 m at the usual segment length
+constexpr double same_place_m = 0.01;   // truth files have a resolution of millimetres
 
-/// A segment that both know.
+/// A segment known in both.
 struct Pair {
     SegmentKey key;
     std::string highway;
     double length_m;
     double truth;
     double state;
-    bool held; ///< by the interval
+    bool held; ///< truth within the interval
 };
 
 double mm_per_m(IriUm um) {
@@ -69,7 +69,7 @@ std::vector<Pair> pairs_of(std::span<const SegmentRecord> states,
     return pairs;
 }
 
-/// Squares of the error of runs of consecutive segments.
+/// Returns the squared errors of runs of consecutive segments.
 std::vector<double> squares_of_runs(std::span<const Pair> pairs) {
     std::vector<double> squares;
     std::size_t first = 0;

@@ -10,8 +10,8 @@
 
 namespace macadam {
 
-/// How near the states of a store come to the truth; mm/m. A number that needs more segments than
-/// there are is NaN.
+/// Agreement of the states of a database with the truth; mm/m. A number that needs more segments
+/// than available is NaN.
 struct TruthScore {
     std::size_t segments = 0; ///< with a state and a truth
     double km = 0;
@@ -21,25 +21,25 @@ struct TruthScore {
     double rmse_100m = 0;   ///< of runs of five segments, length-weighted means
     std::size_t runs = 0;   ///< of five segments
     double correlation = 0; ///< of single segments (Pearson)
-    double coverage = 0;    ///< share of segments whose 90 % interval holds the truth
+    double coverage = 0;    ///< share of segments whose 90 % interval contains the truth
 };
 
 struct TruthComparison {
     TruthScore all;
     struct Class {
-        std::string highway; ///< "" where the map has none
+        std::string highway; ///< "" if the map has none
         TruthScore score;
     };
     std::vector<Class> classes; ///< longest first
 };
 
-/// Joins by segment key; the truth that counts is the MRI. A run is five consecutive segments of
-/// one way and direction that all have a state and a truth; runs do not overlap.
+/// Joins states and truth by segment key and compares their MRI. A run is five consecutive segments
+/// of one way and direction that all have a state and a truth; runs do not overlap.
 ///
-/// \param states  in the order of their keys; those without a state are passed over.
-/// \param truth   in the order of their keys.
-/// \throws InputError  if a segment's place along its way is not the same in both: the store and
-///                     the truth are of different networks or segment lengths.
+/// \param states  in key order; records without a state are skipped.
+/// \param truth   in key order.
+/// \throws InputError  if a segment's position along its way differs: database and truth have
+/// different networks or segment lengths.
 TruthComparison compare_with_truth(std::span<const SegmentRecord> states,
                                    std::span<const SegmentTruth> truth);
 

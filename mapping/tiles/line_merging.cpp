@@ -11,10 +11,10 @@
 namespace macadam {
 namespace {
 
-constexpr double min_cosine = 0.5; // of a turn of 60 degrees
+constexpr double min_cosine = 0.5; // a turn of 60 degrees
 constexpr auto none = std::numeric_limits<std::size_t>::max();
 
-/// One of the two ends of a part: 2 * part is where its line begins, one more where it stops.
+/// An end of a part: 2 * part is the start of its line, 2 * part + 1 its end.
 using End = std::size_t;
 
 struct Meeting {
@@ -27,7 +27,7 @@ WorldPoint place_of(const std::vector<RoadPart>& parts, End end) {
     return end % 2 == 0 ? line.front() : line.back();
 }
 
-/// The way out of the part at that end, of length 1; 0 if its line has no direction.
+/// Returns the unit vector out of the part at that end; 0 if its line has no direction.
 std::pair<double, double> way_out(const std::vector<RoadPart>& parts, End end) {
     const auto& line = parts[end / 2].line;
     const auto at = place_of(parts, end);
@@ -54,7 +54,7 @@ bool may_meet(const std::vector<RoadPart>& parts, End a, End b) {
     return a / 2 != b / 2 && is_same_road(of_a, of_b) && (!of_a.is_directed || a % 2 != b % 2);
 }
 
-/// All pairs of ends that lie in one place.
+/// Adds all pairs of ends that coincide.
 void add_meetings(const std::vector<RoadPart>& parts,
                   std::span<const End> ends,
                   std::vector<Meeting>& meetings) {
@@ -72,7 +72,7 @@ void add_meetings(const std::vector<RoadPart>& parts,
     }
 }
 
-/// The end with which each goes on, or none.
+/// Returns the end that each end continues with, or none.
 std::vector<End> partners_of(const std::vector<RoadPart>& parts) {
     std::vector<End> ends(2 * parts.size());
     for (End end = 0; end < ends.size(); ++end) {

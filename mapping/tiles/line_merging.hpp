@@ -6,14 +6,14 @@
 
 namespace macadam {
 
-/// A part, perhaps taken against its line.
+/// A part and the direction in which it is used.
 struct PartUse {
     std::size_t part;
     bool reversed = false;
 };
 
-/// Parts that follow one another on one road as chains; each part is in one. Directed parts are
-/// only joined end to beginning. A road that closes upon itself is cut open at its first part.
+/// Chains parts that follow one another on one road; each part is in one chain. Directed parts are
+/// only joined end to start. A closed road is cut at its first part.
 ///
 /// \param parts  in the order of `first`.
 /// \returns      chains in the order of their first parts; those of closed roads last.

@@ -7,7 +7,7 @@
 namespace macadam {
 namespace {
 
-/// How far a place is from the straight line between two others, squared.
+/// Returns the squared distance of a position from the straight line between two others.
 double distance_squared(const WorldPoint& at, const WorldPoint& from, const WorldPoint& to) {
     const double dx = double(to.x) - from.x, dy = double(to.y) - from.y;
     double x = double(at.x) - from.x, y = double(at.y) - from.y;
@@ -22,7 +22,7 @@ double distance_squared(const WorldPoint& at, const WorldPoint& from, const Worl
 
 using Range = std::pair<std::size_t, std::size_t>;
 
-/// Where a range must be bent: its farthest point, if that is too far.
+/// Returns the farthest point of a range if it exceeds the tolerance, where the range is split.
 std::size_t bend_of(std::span<const WorldPoint> line, const Range& range, double tolerance) {
     std::size_t bend = range.first;
     double farthest = tolerance * tolerance;
@@ -52,7 +52,7 @@ std::vector<WorldPoint> simplified(std::span<const WorldPoint> line,
             begin = i;
         }
     }
-    while (!open.empty()) { // its own stack: a line may have very many points
+    while (!open.empty()) { // an explicit stack: a line may have very many points
         const auto range = open.back();
         open.pop_back();
         if (const auto bend = bend_of(line, range, tolerance); bend != range.first) {

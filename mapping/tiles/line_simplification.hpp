@@ -8,11 +8,10 @@
 
 namespace macadam {
 
-/// A line with fewer points that is nowhere farther than the tolerance from the one that is given,
-/// and begins and ends where it does.
+/// Simplifies a line so that it deviates nowhere by more than the tolerance and keeps its ends.
 ///
 /// \param line       at least two points.
-/// \param is_kept    points that stay whatever the tolerance, such as where others end.
+/// \param is_kept    points to keep whatever the tolerance, such as the ends of other lines.
 ///
 /// Source: D. H. Douglas and T. K. Peucker, "Algorithms for the reduction of the number of points
 /// required to represent a digitized line or its caricature", The Canadian Cartographer 10 (1973),

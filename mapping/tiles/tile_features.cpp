@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-constexpr int measured_zoom = 20; // whose tiles are 4096 of our units wide
+constexpr int measured_zoom = 20; // its tiles are 4096 world units wide
 constexpr double units_in_tile = 4096;
 
 std::uint32_t units(double tiles) {
@@ -45,9 +45,9 @@ bool is_same_piece(const RoadPart& a, const RoadPart& b) {
     return a.first.way_id == b.first.way_id && a.first.index == b.first.index;
 }
 
-/// Both directions of one piece, of which the rougher is shown.
+/// Merges both directions of one part, showing the rougher one.
 RoadPart worse_of(const RoadPart& forward, const RoadPart& backward) {
-    const bool is_forward_worse = forward.um_mm >= backward.um_mm; // of the same length
+    const bool is_forward_worse = forward.um_mm >= backward.um_mm; // of equal length
     auto part = is_forward_worse ? forward : backward;
     const auto& other = is_forward_worse ? backward : forward;
     part.first = std::min(forward.first, backward.first);
@@ -143,7 +143,7 @@ void add_values(RoadPart& part, const RoadPart& other) {
     part.um_mm += other.um_mm;
     part.worst_um = std::max(part.worst_um, other.worst_um);
     part.passes = std::min(part.passes, other.passes);
-    part.last_seen_ms = std::max(part.last_seen_ms, other.last_seen_ms); // nothing is the least
+    part.last_seen_ms = std::max(part.last_seen_ms, other.last_seen_ms); // std::nullopt is lowest
     std::ranges::transform(part.class_mm, other.class_mm, part.class_mm.begin(), std::plus<>{});
 }
 

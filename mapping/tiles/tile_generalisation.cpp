@@ -40,7 +40,7 @@ bool is_alike(const Run& a, const Run& b, const ClassTable& table) {
 
 void join(Run& run, const Run& next) {
     add_values(run.values, next.values);
-    if (next.length > run.length) { // the road goes by the name of its longest piece
+    if (next.length > run.length) { // the road takes the name of its longest part
         run.values.name = next.values.name;
         run.values.highway = next.values.highway;
     }
@@ -64,7 +64,7 @@ std::vector<Run> runs_of(const std::vector<RoadPart>& parts,
     return runs;
 }
 
-/// Of two neighbours of a run the one that is nearest in IRI, of equal ones the one before.
+/// Returns the neighbour of a run that is nearest in IRI; on a tie, the one before.
 std::size_t neighbour_of(const std::vector<Run>& runs, std::size_t i) {
     if (i == 0 || i + 1 == runs.size()) {
         return i == 0 ? 1 : i - 1;
@@ -75,7 +75,7 @@ std::size_t neighbour_of(const std::vector<Run>& runs, std::size_t i) {
     return apart(i - 1) <= apart(i + 1) ? i - 1 : i + 1;
 }
 
-/// Joins a run with the one after it, and the result with neighbours that are now like it.
+/// Joins a run with the one after it, and the result with neighbours now of the same class.
 void join_at(std::vector<Run>& runs, std::size_t i, const ClassTable& table) {
     const auto take_next = [&](std::size_t at) {
         join(runs[at], runs[at + 1]);
@@ -136,14 +136,14 @@ joined(const std::vector<RoadPart>& parts, const Generalisation& how, const Clas
 
 // ---------------------------------------------------------------------------------------- cells
 
-/// A square of the grid, and the direction of what is directed.
+/// A square of the grid; directed parts also differ by direction.
 struct Cell {
     std::uint32_t x, y;
     int direction;
     friend auto operator<=>(const Cell&, const Cell&) = default;
 };
 
-/// Puts `part` and what is drawn in its square together: the longer line stays.
+/// Merges `part` with the part drawn in its square: the longer line stays.
 void put_together(RoadPart& drawn, RoadPart part) {
     const auto order = [](const RoadPart& p) { return std::pair{-length_of(p.line), p.first}; };
     if (order(part) < order(drawn)) {
@@ -157,7 +157,7 @@ std::vector<RoadPart> drawn_by_cells(std::vector<RoadPart> parts, double side) {
         return parts;
     }
     std::vector<RoadPart> drawn;
-    std::map<Cell, std::size_t> of_cell; // places among the drawn
+    std::map<Cell, std::size_t> of_cell; // indices of drawn parts
     for (auto& part : parts) {
         const auto box = box_of(part.line);
         if (std::max(box.max_x - box.min_x, box.max_y - box.min_y) >= side) {

@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// A square of the web's map: zoom 0 has one tile, each zoom four times as many as the one before.
-/// x grows eastwards from the antimeridian, y southwards from 85.0511 degrees north.
+/// A Web Mercator tile: zoom 0 has one tile, each zoom four times as many as the one before. x
+/// grows eastwards from the antimeridian, y southwards from 85.0511 degrees north.
 ///
 /// Source: OGC 17-083r2, "Two Dimensional Tile Matrix Set", annex D.1, WebMercatorQuad.
 struct TileId {
@@ -20,20 +20,22 @@ struct TileId {
 
 inline constexpr int max_zoom = 22; ///< a tile of 256 px is then 10 m wide at the equator
 
-/// Where a place lies among the tiles of a zoom, in tiles: the whole part of each names the tile.
+/// A position in tile coordinates of a zoom; the integer parts identify the tile.
 struct TilePlace {
     double x = 0;
     double y = 0;
 };
 
-/// \param point  latitudes beyond 85.0511 degrees are taken for that.
+/// Converts a position to tile coordinates.
+///
+/// \param point  latitudes are clamped to 85.0511 degrees.
 TilePlace tile_place(const GeoPoint& point, int zoom);
 GeoPoint geo_point(const TilePlace& place, int zoom);
 
-/// What a tile shows, or with `margin` (in tiles) what lies so much around it, too.
+/// Returns the extent of a tile, enlarged by `margin` tiles on each side.
 GeoBox tile_box(const TileId& tile, double margin = 0);
 
-/// The tiles of a zoom that a box touches, from the first to the last of both.
+/// The tiles of a zoom that intersect a box.
 struct TileRange {
     std::uint32_t first_x = 0, first_y = 0;
     std::uint32_t last_x = 0, last_y = 0; ///< inclusive

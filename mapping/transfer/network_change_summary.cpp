@@ -12,13 +12,13 @@
 namespace macadam {
 namespace {
 
-using Direction = std::pair<std::int64_t, bool>; ///< a way's id; forward
+using Direction = std::pair<std::int64_t, bool>; ///< way id; forward
 using Ways = std::map<Direction, std::set<std::int64_t>>;
 
-/// Which ways those of one network are in the other.
+/// Correspondence of the ways of both networks.
 struct Relations {
-    Ways after;  ///< of old ones
-    Ways before; ///< of new ones
+    Ways after;  ///< of old ways
+    Ways before; ///< of new ways
 };
 
 Relations relations_of(const NetworkChange& change) {
@@ -30,7 +30,7 @@ Relations relations_of(const NetworkChange& change) {
     return relations;
 }
 
-/// Calls `visit(key, length_m, name)` for each segment that may be driven.
+/// Calls `visit(key, length_m, name)` for each drivable segment.
 template <typename Visit>
 void for_each_segment(const RoadNetwork& roads, Visit visit) {
     for (std::uint32_t i = 0; i < link_count(roads); ++i) {
@@ -51,7 +51,7 @@ void add(SegmentTotal& total, double length_m) {
     total.length_m += length_m;
 }
 
-/// Where the segment counts that is not kept.
+/// Returns the total to which a segment of a changed way belongs.
 SegmentTotal& fate_of(ChangeSummary& summary,
                       const SegmentKey& key,
                       const SegmentCorrespondences& correspondences,
@@ -89,7 +89,7 @@ std::vector<LostRoad> longest(const std::map<std::string, double>& lost_m, std::
     return roads;
 }
 
-/// Parts of the new network that are known, in the order of way and station.
+/// Returns the parts of the new network known from the old, in the order of way and station.
 std::vector<DirectedPart> known_parts(const NetworkChange& change) {
     std::vector<DirectedPart> parts;
     std::ranges::transform(change.same, std::back_inserter(parts), &RoadCorrespondence::after);

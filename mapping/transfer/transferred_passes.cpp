@@ -22,7 +22,7 @@ ChunkOrder order_of(const ChunkKey& chunk) {
     return {chunk.way_id, !chunk.forward, chunk.number};
 }
 
-/// Length-weighted sums over the pieces of one passage.
+/// Length-weighted sums over the intervals of one pass.
 class PieceMean {
 public:
     explicit PieceMean(std::span<const CarriedPiece> pieces) : pieces_{pieces} {
@@ -48,7 +48,7 @@ public:
             [&](const CarriedPiece& piece) { return static_cast<double>(piece.pass->*value); })));
     }
 
-    /// Nothing where one of them has none.
+    /// Returns the mean; `std::nullopt` if one of the passes lacks the value.
     std::optional<IriUm> known(std::optional<IriUm> Pass::*value) const {
         const auto is_known = [&](const CarriedPiece& piece) {
             return (piece.pass->*value).has_value();
@@ -66,7 +66,7 @@ private:
     double covered_m_ = 0;
 };
 
-/// The pass of a drive over one new segment; nothing where too little of it is covered.
+/// Builds the pass of a drive over one new segment; `std::nullopt` if too little of it is covered.
 std::optional<Pass> pass_of(std::span<const CarriedPiece> pieces) {
     const PieceMean mean{pieces};
     const auto& first = pieces.front();
@@ -81,7 +81,7 @@ std::optional<Pass> pass_of(std::span<const CarriedPiece> pieces) {
     pass.iri_right_um = mean.known(&Pass::iri_right_um);
     pass.iri_centre_um = mean.known(&Pass::iri_centre_um);
     pass.iri_um = mean.whole(&Pass::iri_um);
-    pass.sd_um = std::max(1, mean.whole(&Pass::sd_um)); // one car: its passes err alike
+    pass.sd_um = std::max(1, mean.whole(&Pass::sd_um)); // same car: errors of its passes are common
     pass.speed_mmps = mean.whole(&Pass::speed_mmps);
     pass.confidence_ppm = mean.whole(&Pass::confidence_ppm);
     pass.covered_mm = static_cast<std::int32_t>(std::lround(covered_m * mm_per_m));
@@ -93,7 +93,7 @@ std::optional<Pass> pass_of(std::span<const CarriedPiece> pieces) {
     return pass;
 }
 
-/// The pieces of a drive over one new segment: it is there but once.
+/// Groups the intervals of a drive by new segment; each segment occurs once.
 std::map<SegmentKey, std::vector<CarriedPiece>>
 pieces_by_segment(const std::vector<CarriedPiece>& pieces) {
     std::map<SegmentKey, std::vector<CarriedPiece>> by_segment;
@@ -103,7 +103,7 @@ pieces_by_segment(const std::vector<CarriedPiece>& pieces) {
     return by_segment;
 }
 
-/// Of which old passes a new one is made, beside it.
+/// A new pass with the old passes it is made from.
 struct NewPass {
     Pass pass;
     std::vector<const Pass*> made_of;
@@ -115,7 +115,7 @@ std::vector<NewPass> passes_of(const CarriedDrive& drive,
     for (const auto& [key, pieces] : pieces_by_segment(drive.pieces)) {
         std::vector<const Pass*> made_of;
         std::ranges::transform(pieces, std::back_inserter(made_of), &CarriedPiece::pass);
-        // Slivers of its neighbours may be there, too, of the last millimetre.
+        // Slivers of its neighbours, below a millimetre, may be present too.
         const auto same = std::ranges::find_if(pieces, [&](const CarriedPiece& piece) {
             const auto correspondence = correspondences.unchanged(piece.pass->segment);
             return correspondence && correspondence->after == key;
@@ -133,7 +133,7 @@ std::vector<NewPass> passes_of(const CarriedDrive& drive,
     return passes;
 }
 
-/// Numbers passages over a segment in the order of time.
+/// Numbers the passes over a segment in order of time.
 void number_occurrences(std::vector<NewPass>& passes) {
     std::ranges::stable_sort(passes, {}, [](const NewPass& made) { return made.pass.t_ms; });
     std::map<SegmentKey, std::uint32_t> occurrences;
@@ -142,7 +142,7 @@ void number_occurrences(std::vector<NewPass>& passes) {
     }
 }
 
-/// Old chunks whose readings only get another name, and those of which others are cut.
+/// Old chunks whose data only change their key, and the data to be recut.
 struct Parted {
     TransferredPasses renamed;
     TripPasses rest;

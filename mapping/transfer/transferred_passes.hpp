@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// What one trip left on the ways that a new network has not kept.
+/// Passes and traces of one trip on the ways that a new network has not kept.
 struct TripPasses {
     std::vector<Pass> passes;
     std::vector<RoughnessTrace> traces;
@@ -17,19 +17,18 @@ struct TripPasses {
 
 struct TransferredPasses {
     TripPasses readings;   ///< on segments and chunks of the new network
-    std::size_t moved = 0; ///< old passes of which something is left
-    std::size_t lost = 0;  ///< old passes of which nothing is
+    std::size_t moved = 0; ///< old passes transferred at least in part
+    std::size_t lost = 0;  ///< old passes lost entirely
 };
 
-/// A trip's passes and traces where the new network has their roads.
+/// Transfers a trip's passes and traces to a new network.
 ///
-/// A chunk whose segments are what they were keeps all as it is, under its new name. Everywhere
-/// else a new pass is the mean of the old ones of that drive over the new segment, weighted by the
-/// length that they cover of it: what a flag of validity said of one of them it says of the new
-/// one, its time is that of its middle, and there is none where less than half of the segment is
-/// covered. Traces are put together from the metres of the old ones, each at the nearest metre.
-/// What is left of a trip that drove a chunk twice is told apart by its times, as extract_passes
-/// and extract_traces would.
+/// A chunk with unchanged segments keeps its data under the new key. Elsewhere, a new pass is the
+/// mean of the old passes of that drive over the new segment, weighted by the covered length. It
+/// has every validity flag that any of them has and the time of its midpoint, and is omitted if
+/// less than half of the segment is covered. Traces are assembled from the nearest metres of the
+/// old traces. Repeated drives over a chunk are distinguished by their times, as in extract_passes
+/// and extract_traces.
 TransferredPasses carried(const TripPasses& old, const SegmentCorrespondences& correspondences);
 
 } // namespace macadam

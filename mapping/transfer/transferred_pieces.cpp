@@ -7,9 +7,9 @@
 namespace macadam {
 namespace {
 
-constexpr double longest_gap_m = 20; // as of a drive
-constexpr double step_back_m = 5;    // two old roads may claim so much of a new one
-// Beyond what the road takes at the speed of the passes: a stop at a crossing.
+constexpr double longest_gap_m = 20; // as for a drive
+constexpr double step_back_m = 5;    // maximum overlap of two old roads on a new one
+// Allowance beyond the driving time at the speed of the passes: a stop at a crossing.
 constexpr double longest_stop_s = 120;
 constexpr double min_speed_mps = 0.5;
 constexpr double ms_per_s = 1000;
@@ -23,7 +23,7 @@ double speed_mps(const Pass& pass) {
     return std::max(min_speed_mps, pass.speed_mmps / mm_per_m);
 }
 
-/// A reference survey has neither speeds nor times: its stations alone tell the order.
+/// A reference survey has neither speeds nor times: only stations determine the order.
 bool is_driven(const Pass& pass) {
     return pass.speed_mmps > 0;
 }

@@ -9,30 +9,30 @@
 
 namespace macadam {
 
-/// What a pass says of a piece of a new segment.
+/// Part of a pass on an interval of a new segment.
 struct CarriedPiece {
-    const Pass* pass; ///< the old one
+    const Pass* pass; ///< the old pass
     ChunkKey old_chunk;
     SegmentCorrespondence correspondence;
-    double covered_m; ///< of the piece, along the new way
-    double t_ms;      ///< in the middle of the piece
+    double covered_m; ///< length along the new way
+    double t_ms;      ///< at the midpoint of the interval
 };
 
-/// In the order of time, for each chunk of the new network.
+/// In order of time, for each chunk of the new network.
 using ChunkPieces = std::vector<CarriedPiece>;
 
-/// The pieces of one drive over a new chunk, in the order of time.
+/// The intervals of one drive over a new chunk, in order of time.
 struct CarriedDrive {
-    std::optional<std::uint32_t> number; ///< nothing: its passes belong to none
+    std::optional<std::uint32_t> number; ///< `std::nullopt`: its passes belong to no drive
     std::vector<CarriedPiece> pieces;
 };
 
-/// The pieces of passes by new chunk, in the order of the chunks' keys.
+/// Groups the intervals of passes by new chunk, in key order of the chunks.
 std::vector<ChunkPieces> pieces_by_chunk(const std::vector<Pass>& passes,
                                          const SegmentCorrespondences& correspondences);
 
-/// As driven_parts tells drives apart: stations that go on, without a gap of more than 20 m or of
-/// much more time than it takes.
+/// Separates drives as driven_parts does: a drive has continuous stations, without a gap of more
+/// than 20 m or of much more time than the distance takes.
 std::vector<CarriedDrive> drives_of(const ChunkPieces& pieces);
 
 } // namespace macadam

@@ -9,9 +9,9 @@
 namespace macadam {
 namespace {
 
-constexpr std::int32_t sd_step_mm = 100; // as extract_traces rounds it
+constexpr std::int32_t sd_step_mm = 100; // rounding of extract_traces
 
-/// A piece and the old trace that was read there.
+/// An interval with the old trace that was read there.
 struct TracedPiece {
     WayMeasureRange before_m;
     WayMeasureRange after_m;
@@ -39,7 +39,7 @@ double off_m(const WayMeasureRange& range, double station_m) {
     return std::max({0.0, range.from_m - station_m, station_m - range.to_m});
 }
 
-/// Of the old way; metre for metre beyond the piece's ends.
+/// Maps a station to the old way; one to one beyond the ends of the interval.
 double old_station_m(const TracedPiece& piece, double station_m) {
     const double scale = length_m(piece.before_m) / length_m(piece.after_m);
     const double within_m = std::clamp(station_m, piece.after_m.from_m, piece.after_m.to_m);
@@ -57,7 +57,7 @@ TraceCell cell_at(const TracedPiece& piece, double station_m) {
     return {piece.trace->iri[k], piece.trace->left.empty() ? no_roughness : piece.trace->left[k]};
 }
 
-/// By the lengths of the pieces, in whole decimetres.
+/// Returns the mean weighted by interval length, in whole decimetres.
 std::int32_t place_sd_mm(const std::vector<TracedPiece>& pieces) {
     double sum = 0;
     double all_m = 0;

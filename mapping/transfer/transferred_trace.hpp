@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// The trace of a drive over a new chunk, from the metres of the old ones, with its margin before
-/// and behind as far as they reach. Nothing where nothing is known.
+/// Assembles the trace of a drive over a new chunk from the metres of the old traces, with its
+/// margins as far as they reach. `std::nullopt` if no metre is known.
 std::optional<RoughnessTrace> trace_of(const CarriedDrive& drive,
                                        const std::vector<RoughnessTrace>& old,
                                        double segment_length_m);

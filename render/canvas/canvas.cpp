@@ -10,7 +10,7 @@ std::uint8_t mixed(std::uint8_t below, std::uint32_t above, double share) {
     return std::uint8_t(std::lround(std::lerp(double(below), double(above), share)));
 }
 
-/// How far a place is outside a rounded box; negative inside.
+/// Returns the signed distance of a point from a rounded box; negative inside.
 double outside_px(const RoundedBox& shape, const PixelPoint& at) {
     const auto& box = shape.box;
     const double x =
@@ -30,7 +30,7 @@ double from_piece_px(const PixelPoint& a, const PixelPoint& b, const PixelPoint&
     return std::hypot(at.x - a.x - t * dx, at.y - a.y - t * dy);
 }
 
-/// To the left of the edge, seen along it; y grows downwards.
+/// Returns the distance to the left of the edge, seen along it; y points downwards.
 double left_of_px(const PixelPoint& a, const PixelPoint& b, const PixelPoint& at) {
     const double dx = b.x - a.x;
     const double dy = b.y - a.y;

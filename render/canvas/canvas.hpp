@@ -7,10 +7,10 @@
 
 namespace macadam {
 
-/// Draws shapes and text onto a picture, or onto some rows of one, with smooth edges.
+/// Anti-aliased drawing of shapes and text onto a picture, or onto some of its rows.
 class Canvas final : public DrawTarget {
 public:
-    /// \param top_px  of the picture's rows, the first that `image` has
+    /// \param top_px  row of the picture at which `image` begins
     explicit Canvas(Image image, int top_px = 0) : image_{std::move(image)}, top_px_{top_px} {}
 
     void fill(const RoundedBox& shape, std::uint32_t rgb) override;

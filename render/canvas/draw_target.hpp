@@ -12,8 +12,8 @@ struct RoundedBox {
     double radius_px = 0;
 };
 
-/// What shapes and text are drawn with: on a picture (Canvas) or on a page of a PDF file (PdfPage).
-/// What lies outside is left out.
+/// Target of drawing: a picture (Canvas) or a page of a PDF file (PdfPage). Shapes and text are
+/// clipped to it.
 class DrawTarget {
 public:
     DrawTarget() = default;
@@ -23,17 +23,17 @@ public:
 
     virtual void fill(const RoundedBox& shape, std::uint32_t rgb) = 0;
 
-    /// A thick line with round ends.
+    /// Draws a thick line with round ends.
     virtual void
     stroke(const PixelPoint& from, const PixelPoint& to, double radius_px, std::uint32_t rgb) = 0;
 
-    /// Corners in the order of the clock.
+    /// Fills a triangle with its corners in clockwise order.
     virtual void fill_triangle(const PixelPoint& a,
                                const PixelPoint& b,
                                const PixelPoint& c,
                                std::uint32_t rgb) = 0;
 
-    /// \param at  left end of the base line
+    /// \param at  left end of the baseline
     virtual void write(const TextMask& text, const PixelPoint& at, std::uint32_t rgb) = 0;
 };
 

@@ -16,7 +16,7 @@ namespace macadam {
 namespace {
 
 constexpr double pt_per_inch = 72;
-constexpr const char* family = "DejaVu Sans"; // as pictures have it
+constexpr const char* family = "DejaVu Sans"; // as in pictures
 
 struct Release {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -41,7 +41,7 @@ void expect(cairo_status_t status) {
     }
 }
 
-/// Cairo has blue, green, red and a byte of nothing as a number of the machine's.
+/// Copies pixels to Cairo's format: blue, green, red and an unused byte in native byte order.
 void put_pixels(cairo_surface_t* picture, std::span<const std::uint8_t> rgba) {
     cairo_surface_flush(picture);
     const auto width = std::size_t(cairo_image_surface_get_width(picture));
@@ -64,7 +64,7 @@ public:
         cairo_scale(cairo_.get(), pt_per_px, pt_per_px);
         cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
         layout_.reset(pango_cairo_create_layout(cairo_.get()));
-        // Letters stand where they are, not on the pixels of some screen.
+        // Letters keep their exact positions instead of being hinted to a screen's pixels.
         const Owned<cairo_font_options_t> options{cairo_font_options_create()};
         cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
         cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
@@ -224,7 +224,7 @@ void describe(cairo_surface_t* surface, const PdfSheet& sheet) {
     set(CAIRO_PDF_METADATA_TITLE, sheet.title);
     set(CAIRO_PDF_METADATA_AUTHOR, sheet.author);
     set(CAIRO_PDF_METADATA_CREATOR, "macadam");
-    // Cairo would take the clock's time.
+    // Without this Cairo would use the current time.
     set(CAIRO_PDF_METADATA_CREATE_DATE, sheet.made.empty() ? "1970-01-01T00:00:00Z" : sheet.made);
 }
 

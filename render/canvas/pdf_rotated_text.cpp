@@ -11,7 +11,7 @@ namespace {
 
 constexpr double same_direction = 0.002; // sine: 0.03 px at the far side of a letter of 13 px
 
-/// Glyphs of one font in one direction, which a page writes in one go.
+/// Glyphs of one font in one direction, which a page shows in one call.
 struct Run {
     const PageGlyph* first;
     std::vector<cairo_glyph_t> glyphs;
@@ -52,7 +52,7 @@ void set_colour(cairo_t* cairo, std::uint32_t rgb) {
     cairo_set_source_rgb(cairo, channel(16), channel(8), channel(0));
 }
 
-/// The glyph of the current font that has no ink; 0 if it has none.
+/// Returns the glyph of the current font that has no ink; 0 if there is none.
 std::uint32_t blank_of(cairo_t* cairo) {
     auto* const font = cairo_get_scaled_font(cairo);
     auto* const face = cairo_ft_scaled_font_lock_face(font);
@@ -63,7 +63,7 @@ std::uint32_t blank_of(cairo_t* cairo) {
     return blank;
 }
 
-/// Writes glyphs that stand for a text as a whole, as readers of the page take it from there.
+/// Shows glyphs that represent a text as a whole, so that PDF readers extract it from there.
 void show(cairo_t* cairo, const std::string& text, const std::vector<cairo_glyph_t>& glyphs) {
     const cairo_text_cluster_t all{static_cast<int>(text.size()), static_cast<int>(glyphs.size())};
     cairo_show_text_glyphs(cairo,
@@ -76,7 +76,8 @@ void show(cairo_t* cairo, const std::string& text, const std::vector<cairo_glyph
                            cairo_text_cluster_flags_t{});
 }
 
-/// Cairo leaves out what has no ink, with what it stands for.
+/// Returns the runs with ink. Cairo omits glyphs without ink, together with the text that they
+/// represent.
 std::vector<Run>
 inked_runs(cairo_t* cairo, PdfFonts& fonts, std::span<const PageGlyph> glyphs, double size_px) {
     auto runs = runs_of(glyphs);
@@ -101,9 +102,9 @@ void draw_halo(cairo_t* cairo, PdfFonts& fonts, std::span<const Run> runs, const
     cairo_stroke(cairo);
 }
 
-/// Readers take words apart whose letters turn. So the first letters stand for all of the text, and
-/// blanks after them, where the other letters are, so that it is found where it is seen; the other
-/// letters stand for nothing.
+/// Draws letters with extractable text. PDF readers split words with rotated letters. The first
+/// letters therefore represent the whole text, followed by blanks at the positions of the other
+/// letters, so that it is found where it is visible; the other letters represent no text.
 void draw_letters(cairo_t* cairo,
                   PdfFonts& fonts,
                   std::span<const Run> runs,

@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// Fonts by where they are read from.
+/// Font faces by source.
 class PdfFonts {
 public:
     cairo_font_face_t* face(const FontSource& font);
@@ -22,7 +22,7 @@ private:
     std::map<FontSource, std::unique_ptr<cairo_font_face_t, Release>> faces_;
 };
 
-/// Draws PdfPage::write_turned's text.
+/// Draws the text of PdfPage::write_turned.
 void draw_turned(cairo_t* cairo, PdfFonts& fonts, const TurnedText& text);
 
 } // namespace macadam

@@ -12,7 +12,8 @@
 namespace macadam {
 namespace {
 
-// Maps are flat areas with thin lines: level 1 without row filters is quickest and hardly larger.
+// Maps are flat areas with thin lines: level 1 without row filters is the fastest and hardly
+// larger.
 constexpr int quick = 1;
 
 [[noreturn]] void fail(png_structp /*png*/, png_const_charp message) {
@@ -35,7 +36,8 @@ struct PngWriter::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// Not from libpng's own call, which no exception of the taker's should pass through.
+    /// Passes the bytes on outside libpng's own call, through which the receiver's exceptions must
+    /// not propagate.
     void hand_on() {
         if (!bytes.empty()) {
             put(bytes);

@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// A PNG file, row by row, as large as the picture may be.
+/// Writes a PNG file row by row, for pictures of any size.
 class PngWriter {
 public:
     using PutBytes = std::function<void(std::string_view bytes)>;
@@ -17,10 +17,10 @@ public:
     PngWriter(int width_px, int height_px, PutBytes put);
     ~PngWriter();
 
-    /// Some whole rows, the next after those before.
+    /// Appends some whole rows.
     void add(std::span<const std::uint8_t> rgb);
 
-    /// After the last row.
+    /// Ends the file after the last row.
     void finish();
 
 private:

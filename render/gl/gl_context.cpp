@@ -32,8 +32,8 @@ void check_size(int width_px, int height_px) {
     }
 }
 
-/// Mesa and its compiler do not bear to be refused memory: they crash. So it is tried before
-/// whether as much is there as they take, which is what was measured and half as much again.
+/// Checks that enough memory is available, since Mesa and its compiler crash if an allocation
+/// fails. The requirement is the measured one plus half.
 void expect_memory(int width_px, int height_px) {
     constexpr std::size_t own_bytes = 100'000'000;
     constexpr std::size_t bytes_per_px = 12;
@@ -53,8 +53,8 @@ void expect_memory(int width_px, int height_px) {
 }
 
 void* new_context() {
-    // Mesa would write compiled shaders to the user's home from a thread of its own; ours compile
-    // in a few milliseconds.
+    // Mesa would write compiled shaders to the user's home from another thread; these shaders
+    // compile in a few milliseconds.
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
     constexpr std::array attributes{OSMESA_FORMAT,
                                     OSMESA_RGBA,

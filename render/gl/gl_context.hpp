@@ -5,28 +5,29 @@
 
 namespace macadam {
 
-inline constexpr int max_window_px = 16384; ///< what OSMesa can draw; more silently fails
+inline constexpr int max_window_px = 16384; ///< limit of OSMesa; larger sizes fail silently
 
-/// An OpenGL 3.3 core context without a window, drawing into memory. It is current in the thread
-/// that made it until it ends or another one is.
+/// OpenGL 3.3 core context without a window, drawing into memory. It is current in the thread that
+/// created it until it is destroyed or another context becomes current.
 ///
-/// OSMesa is opened when the first context is made, and every entry point comes from it by name: a
-/// program that links libGL as well would call that one's functions, which draw nothing.
+/// OSMesa is loaded with the first context, and every entry point is looked up in it by name: a
+/// program that also links libGL would otherwise call the functions of that library, which draw
+/// into no context.
 class GlContext {
 public:
-    /// \param rgba  width_px * height_px * 4 bytes, to live longer than the context; its first
-    ///              row is the one at the bottom of OpenGL's window.
-    /// \throws InputError  if a side is not 1 .. max_window_px (OSMesa accepts more and then draws
-    ///                     wrongly or crashes), or if OSMesa is missing or refuses.
+    /// \param rgba  width_px * height_px * 4 bytes, which must outlive the context; its first row
+    ///              is the bottom row of OpenGL's window.
+    /// \throws InputError  if a side is not 1 .. max_window_px (OSMesa accepts larger sizes and
+    ///                     then draws wrongly or crashes), or if OSMesa is missing or fails.
     GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px);
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    /// What is drawn from now on in this thread is drawn here.
+    /// Makes this the current context of the thread.
     void make_current() const;
 
-    /// An OpenGL function: `context.entry<decltype(&glClear)>("glClear")`.
+    /// Looks up an OpenGL function: `context.entry<decltype(&glClear)>("glClear")`.
     template <typename Pointer>
     Pointer entry(const char* name) const {
         return reinterpret_cast<Pointer>(address(name)); // NOLINT(*-reinterpret-cast)

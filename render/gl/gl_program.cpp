@@ -26,7 +26,7 @@ linked_program(const GlContext& context, const char* vertex_shader, const char* 
         shader_source(shader, 1, &source, nullptr);
         compile_shader(shader);
         attach_shader(made, shader);
-        delete_shader(shader); // lives as long as the program
+        delete_shader(shader); // kept alive by the program
     }
     context.entry<PFNGLLINKPROGRAMPROC>("glLinkProgram")(made);
     GLint linked = GL_FALSE;

@@ -4,9 +4,9 @@
 
 namespace macadam {
 
-/// A program of one vertex and one fragment shader; it lives as long as the context.
+/// Links a program of one vertex and one fragment shader; it lives as long as the context.
 ///
-/// \throws InputError  if OpenGL refuses a shader, with what it says of it.
+/// \throws InputError  if OpenGL rejects a shader, with its message.
 unsigned
 linked_program(const GlContext& context, const char* vertex_shader, const char* fragment_shader);
 

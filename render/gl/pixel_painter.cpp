@@ -26,7 +26,7 @@ struct PixelPainter::Gl {
 };
 
 PixelPainter::PixelPainter(const GlContext& context) : gl_{std::make_unique<Gl>(context)} {
-    gl_->GenTextures(1, &gl_->texture); // they end with the context
+    gl_->GenTextures(1, &gl_->texture); // freed with the context
     gl_->GenFramebuffers(1, &gl_->framebuffer);
 }
 

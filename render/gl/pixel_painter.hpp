@@ -9,17 +9,17 @@
 
 namespace macadam {
 
-/// Lays pixels on a context's picture as they are. The memory behind it is the driver's while it
-/// draws, so they go through OpenGL.
+/// Copies pixels unchanged to a context's picture. Its memory belongs to the driver while drawing,
+/// so they are copied through OpenGL.
 class PixelPainter {
 public:
     explicit PixelPainter(const GlContext& context);
     ~PixelPainter();
 
-    /// \param part  where on the context's picture
+    /// \param part  position on the context's picture
     /// \param rgba  its pixels, first row first
     ///
-    /// They stay inside the box that was cleared last, as all that is drawn.
+    /// They are clipped to the box that was cleared last, like all drawing.
     void lay(const PicturePart& part, std::span<const std::uint8_t> rgba);
 
 private:

@@ -55,7 +55,7 @@ void VertexBuffer::Gl::describe_vertices(std::size_t vertex_bytes,
                             is_share ? GL_UNSIGNED_BYTE : GL_FLOAT,
                             is_share ? GL_TRUE : GL_FALSE,
                             GLsizei(vertex_bytes),
-                            // OpenGL takes the offset for an address.
+                            // OpenGL interprets the offset as an address.
                             reinterpret_cast<const void*>(part.offset)); // NOLINT
     }
 }

@@ -9,27 +9,27 @@
 
 namespace macadam {
 
-/// What a vertex has at a location of the shader.
+/// Vertex attribute at a location of the shader.
 struct VertexPart {
     enum class Kind {
         floats,
-        shares ///< bytes that stand for 0 to 1
+        shares ///< bytes that represent 0 to 1
     } kind;
     int count;          ///< 1 .. 4
-    std::size_t offset; ///< bytes from the vertex's begin
+    std::size_t offset; ///< bytes from the beginning of the vertex
 };
 
-/// Draws rectangles of four corners each, in the order 0 1 2, 2 1 3, as many in one call as fit in
-/// some megabytes. Binds a vertex array and buffers of its own, which stay bound.
+/// Draws quads with corners in the order 0 1 2, 2 1 3, in batches of some megabytes. It binds its
+/// own vertex array and buffers, which stay bound.
 class VertexBuffer {
 public:
-    /// \param parts  by location, from 0 on
+    /// \param parts  by location, starting at 0
     VertexBuffer(const GlContext& context,
                  std::size_t vertex_bytes,
                  std::span<const VertexPart> parts);
     ~VertexBuffer();
 
-    /// \param Vertex  of vertex_bytes
+    /// \param Vertex  type of size vertex_bytes
     template <typename Vertex>
     void draw(std::span<const std::array<Vertex, 4>> quads) const {
         draw_bytes(std::as_bytes(quads));

@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-constexpr double min_cosine = 0.5; // of the turn from a part into the next: 60 degrees
+constexpr double min_cosine = 0.5; // of the turn between two parts: 60 degrees
 constexpr std::size_t nothing = SIZE_MAX;
 
 bool stands_before(const PixelPoint& a, const PixelPoint& b) {
@@ -24,7 +24,7 @@ bool line_before(const std::vector<PixelPoint>& a, const std::vector<PixelPoint>
     return std::ranges::lexicographical_compare(a, b, stands_before);
 }
 
-/// In pixels from the cell's corner.
+/// Returns the line in pixels from the cell's corner.
 std::vector<PixelPoint> laid(const RoadName& road, const PixelBox& cell) {
     std::vector<PixelPoint> line;
     line.reserve(road.line.size());
@@ -35,10 +35,10 @@ std::vector<PixelPoint> laid(const RoadName& road, const PixelBox& cell) {
 }
 
 struct Cut {
-    double from, to; ///< parts of a piece; from > to: outside
+    double from, to; ///< fractions of a line segment; from > to: outside
 };
 
-/// Liang and Barsky's clipping.
+/// Clips a line segment by the method of Liang and Barsky.
 Cut cut_of(const PixelPoint& a, const PixelPoint& b, const PixelBox& room) {
     Cut cut{0, 1};
     const auto clip = [&](double start, double step, double low, double high) {
@@ -66,10 +66,10 @@ PixelPoint between(const PixelPoint& a, const PixelPoint& b, double part) {
 
 struct Piece {
     PixelPoint from, to;
-    bool reaches_to; ///< the end of the piece that was cut
+    bool reaches_to; ///< includes the end of the original line segment
 };
 
-/// What is left of a piece; the same points in either direction.
+/// Returns the remainder of a line segment; the points are the same in either direction.
 std::optional<Piece> cut_piece(const PixelPoint& from, const PixelPoint& to, const PixelBox& room) {
     const bool turned = stands_before(to, from);
     const auto& a = turned ? to : from;
@@ -83,7 +83,7 @@ std::optional<Piece> cut_piece(const PixelPoint& from, const PixelPoint& to, con
     return turned ? Piece{last, first, cut.from == 0} : Piece{first, last, cut.to == 1};
 }
 
-/// The parts of a line inside a room.
+/// Returns the parts of a line inside a box.
 std::vector<std::vector<PixelPoint>> inside(const std::vector<PixelPoint>& line,
                                             const PixelBox& room) {
     std::vector<std::vector<PixelPoint>> parts;
@@ -104,7 +104,7 @@ std::vector<std::vector<PixelPoint>> inside(const std::vector<PixelPoint>& line,
     return parts;
 }
 
-/// In the direction that sorts first.
+/// Returns the line in the direction that sorts first.
 std::vector<PixelPoint> directed(std::vector<PixelPoint> line) {
     std::vector<PixelPoint> back{line.rbegin(), line.rend()};
     return line_before(back, line) ? back : line;
@@ -143,7 +143,7 @@ bool part_before(const NamedPart& a, const NamedPart& b) {
 struct Arm {
     std::size_t part;
     bool at_end;     ///< of the part's line
-    PixelPoint away; ///< direction from the place, of length 1
+    PixelPoint away; ///< direction from the position, of length 1
 };
 
 PixelPoint unit_step(const PixelPoint& from, const PixelPoint& to) {
@@ -153,7 +153,7 @@ PixelPoint unit_step(const PixelPoint& from, const PixelPoint& to) {
     return {x / length, y / length};
 }
 
-/// Ends nearer than a sixteenth of a pixel are one place.
+/// Rounds a point to a grid of a sixteenth of a pixel: ends in the same cell are joined.
 std::pair<std::int64_t, std::int64_t> place_of(const PixelPoint& point) {
     return {std::llround(point.x * 16), std::llround(point.y * 16)};
 }
@@ -173,10 +173,10 @@ Places places_of(std::span<const NamedPart> parts) {
 
 struct Joint {
     double cosine;
-    std::size_t a, b; ///< of the place's arms
+    std::size_t a, b; ///< indices of the position's arms
 };
 
-/// Of each part, where its start and its end go on: the part and whether at its end.
+/// Continuations of each part at its start and its end: the other part and whether at its end.
 using Partners = std::vector<std::array<std::pair<std::size_t, bool>, 2>>;
 
 void join_at(const std::vector<Arm>& arms, Partners& partners) {
@@ -220,7 +220,7 @@ void append(NamedPart& chain, const NamedPart& part, bool backwards) {
     chain.half_width_px = std::max(chain.half_width_px, part.half_width_px);
 }
 
-/// All of one name.
+/// Joins the parts of one name.
 std::vector<NamedPart> chains_of(std::span<const NamedPart> parts) {
     const auto partners = partners_of(parts);
     std::vector<bool> taken(parts.size(), false);

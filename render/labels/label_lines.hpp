@@ -4,8 +4,8 @@
 
 namespace macadam {
 
-/// A road's part in a cell, in pixels from the cell's corner, in an order and direction of its own:
-/// the same for the same geometry, however it was given.
+/// Part of a road in a cell, in pixels from the cell's corner, with a canonical order and
+/// direction: the same for the same geometry, regardless of the input.
 struct NamedPart {
     std::vector<PixelPoint> line;
     std::string name;
@@ -14,14 +14,14 @@ struct NamedPart {
     double half_width_px = 0;
 };
 
-/// The parts of roads in a cell, each once: two directions of a road are one.
+/// Returns the parts of roads in a cell without duplicates; the two directions of a road count as
+/// one.
 std::vector<NamedPart> parts_in(std::span<const RoadName> roads, const PixelBox& cell);
 
-/// Parts of one name that follow each other end to end, as one line each; where more than two meet
-/// the straightest pairs go on, and nothing turns by more than 60 degrees. Parts without a name are
-/// left out.
+/// Joins parts of the same name end to end to lines. Where more than two parts meet, the
+/// straightest pairs are joined; turns are limited to 60 degrees. Parts without a name are omitted.
 ///
-/// \param parts  as parts_in gives them
+/// \param parts  as returned by parts_in
 std::vector<NamedPart> named_chains(const std::vector<NamedPart>& parts);
 
 double length_px(std::span<const PixelPoint> line);

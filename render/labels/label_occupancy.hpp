@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// Where roads lie in a cell, in squares of a few pixels.
+/// Occupancy of a cell by roads, in squares of a few pixels.
 class OccupancyGrid {
 public:
     OccupancyGrid(const PixelBox& cell, std::span<const NamedPart> parts, double square_px);

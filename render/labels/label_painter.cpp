@@ -6,7 +6,7 @@
 namespace macadam {
 namespace {
 
-/// A disc with a soft edge: shares of 256 of the pixels around its middle, row by row.
+/// Returns a disc with a soft edge: coverage in 1/256 of the pixels around its centre, row by row.
 std::vector<std::uint16_t> disc(double radius_px) {
     const int side = int(std::ceil(radius_px));
     std::vector<std::uint16_t> shares;
@@ -20,8 +20,8 @@ std::vector<std::uint16_t> disc(double radius_px) {
     return shares;
 }
 
-/// Whether the pixel has four neighbours with as much ink or more. Wherever it reaches, one of them
-/// is nearer and reaches further.
+/// Returns true if the pixel has four neighbours with as much ink or more. Any point it reaches is
+/// nearer to one of them, which reaches further.
 bool is_inside(const TextMask& ink, int x, int y) {
     if (x == 0 || y == 0 || x + 1 == ink.width || y + 1 == ink.height) {
         return false;

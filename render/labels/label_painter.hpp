@@ -15,13 +15,13 @@ struct LabelInks {
     std::uint32_t halo;
 };
 
-/// A pixel of the plane, in whole pixels.
+/// Pixel of the plane, in whole pixels.
 struct PlanePixel {
     int x = 0, y = 0;
 };
 
-/// Draws labels onto a canvas that shows a part of the plane they were placed in; what lies outside
-/// is cut off. Two canvases that share a pixel of the plane get the same pixel.
+/// Draws labels onto a canvas that shows a part of the plane of their placement; they are clipped
+/// to it. Two canvases that share a pixel of the plane get the same pixel.
 ///
 /// \param corner  top left pixel of the canvas on the plane
 void draw_labels(Canvas& canvas,
@@ -30,10 +30,10 @@ void draw_labels(Canvas& canvas,
                  const LabelInks& inks,
                  TypeSetter& setter);
 
-/// The ink of a label, on the plane.
+/// Returns the ink of a label, on the plane.
 TextMask label_mask(const Label& label, TypeSetter& setter);
 
-/// What lies within `radius_px` of ink, with soft edges.
+/// Returns the halo within `radius_px` of ink, with soft edges.
 TextMask halo_of(const TextMask& ink, double radius_px);
 
 } // namespace macadam

@@ -7,8 +7,8 @@
 namespace macadam {
 namespace {
 
-// Of the em, in DejaVu Sans; Noto's fonts differ by little.
-constexpr double capitals = 0.76; // with room for what stands above capitals in many scripts
+// In units of the em, for DejaVu Sans; Noto's fonts differ little.
+constexpr double capitals = 0.76; // with room for accents above capitals in many scripts
 constexpr double descenders = 0.22;
 
 double cosine_of_deg(double deg) {
@@ -19,7 +19,7 @@ double dot(const PixelPoint& a, const PixelPoint& b) {
     return a.x * b.x + a.y * b.y;
 }
 
-/// Nothing if there is no way between them.
+/// Returns the unit vector between two points; `std::nullopt` if they coincide.
 std::optional<PixelPoint> direction(const PixelPoint& from, const PixelPoint& to) {
     const double x = to.x - from.x;
     const double y = to.y - from.y;
@@ -30,7 +30,7 @@ std::optional<PixelPoint> direction(const PixelPoint& from, const PixelPoint& to
     return PixelPoint{x / length, y / length};
 }
 
-/// A stretch of a path as it is read.
+/// Interval of a path in reading direction.
 struct Reading {
     const LabelPath* path;
     double start_px;
@@ -74,7 +74,7 @@ LabelPath base_line(const LabelPath& road, double left_px, double smooth_px) {
     for (int i = 0; i <= steps; ++i) {
         const double here_px = length_px * i / steps;
         const double reach_px = std::min({smooth_px, here_px, length_px - here_px});
-        const double min_px = smooth_px / 4; // at the ends, where nothing is left to look at
+        const double min_px = smooth_px / 4; // at the ends, where no neighbourhood is left
         along = direction(road.at(here_px - std::max(reach_px, min_px)),
                           road.at(here_px + std::max(reach_px, min_px)))
                     .value_or(along);
@@ -92,7 +92,7 @@ double base_line_px(const TextLook& look,
                     const LabelConfig& config,
                     LabelSide side) {
     const double away_px = half_width_px + config.gap_px + config.halo_px;
-    // Few letters have descenders: what they reach below the line may come near the road.
+    // Few letters have descenders, so these may come near the road.
     return side == LabelSide::above ? away_px + 0.5 * descenders * look.size_px
                                     : -away_px - capitals * look.size_px;
 }

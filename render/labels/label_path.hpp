@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// A line that is asked for its points by distance from its start.
+/// Polyline with access to its points by distance from its start.
 class LabelPath {
 public:
     explicit LabelPath(std::span<const PixelPoint> line);
@@ -19,38 +19,42 @@ private:
     std::vector<double> until_px_; ///< from the start to each point
 };
 
-/// A cluster of a label where it stands.
+/// Position of a label's cluster.
 struct SetPlace {
-    PixelPoint from;  ///< left end of its base line
-    PixelPoint along; ///< direction of its base line, of length 1
+    PixelPoint from;  ///< left end of its baseline
+    PixelPoint along; ///< direction of its baseline, of length 1
     double width_px;
 };
 
-/// On which side of the road as it is read.
+/// Side of the road in reading direction.
 enum class LabelSide { above, below };
 
-/// How far the base line is from the middle of the road, above it or (negative) below.
+/// Returns the distance of the baseline from the centre of the road, positive above and negative
+/// below.
 double
 base_line_px(const TextLook& look, double half_width_px, const LabelConfig& config, LabelSide side);
 
-/// Whether a stretch of a path is read in its direction: from left to right, or straight up.
+/// Returns true if an interval of a path is read in its direction: from left to right, or straight
+/// up.
 bool reads_forward(const LabelPath& path, double from_px, double to_px);
 
-/// The base line of names beside a road: so far to its left (negative: right) along the path. Kinks
-/// and bends shorter than `smooth_px` are rounded off, so that letters keep their distances.
+/// Computes the baseline of names beside a road: `left_px` to its left (negative: right) along the
+/// path. Kinks and bends shorter than `smooth_px` are rounded off, so that letters keep their
+/// spacing.
 LabelPath base_line(const LabelPath& road, double left_px, double smooth_px);
 
-/// The clusters of a line along its base line; nothing if that bends too much there, or ends.
+/// Places the clusters of a line along its baseline; `std::nullopt` if the baseline bends too much
+/// or ends there.
 ///
-/// \param middle_px  of the label, along the base line
-/// \param forward    read in the direction of the base line
+/// \param middle_px  middle of the label, along the baseline
+/// \param forward    read in the direction of the baseline
 std::optional<std::vector<SetPlace>> set_along(const LabelPath& base,
                                                const SetLine& line,
                                                double middle_px,
                                                bool forward,
                                                const LabelConfig& config);
 
-/// The corners of a cluster's letters: from its descenders to its capitals' tops.
+/// Returns the corners of a cluster's letters, from its descenders to the top of its capitals.
 std::vector<PixelPoint> corners_of(const SetPlace& place, const TextLook& look);
 
 } // namespace macadam

@@ -13,33 +13,32 @@ namespace macadam {
 namespace {
 
 constexpr int last_main_rank = 2; // secondary roads
-constexpr double main_size = 1.1; // of their names, over those of others
-constexpr double same_name = 0.8; // of repeat_px: the least distance between two labels of a name
+constexpr double main_size = 1.1; // size of their names relative to others
+constexpr double same_name = 0.8; // of repeat_px: minimum distance between two labels of a name
 
-// What a place for a label costs: what nobody would mind against what everybody would.
+// Cost of a label position, from barely noticeable to clearly disturbing.
 constexpr double cost_of_cover = 4;
 constexpr double cost_of_bend = 3;
-constexpr double cost_of_distance = 0.6; // at half way to the next label
-constexpr double cost_below = 0.08;      // names above their road are more usual
+constexpr double cost_of_distance = 0.6; // halfway to the next label
+constexpr double cost_below = 0.08;      // names are usually above their road
 
 struct Road {
     NamedPart part;
     LabelPath path;
 };
 
-/// Where the names of a road may stand: to its left and right, for those that are read along it and
-/// against it.
+/// Baseline of a road's names: on its left or right, read along it or against it.
 struct BaseLine {
     LabelPath path;
     LabelSide side;
     bool forward;
 };
 
-/// A label that may come to stand.
+/// Candidate position of a label.
 struct Candidate {
     std::vector<SetPlace> places;
-    std::vector<PixelBox> boxes; ///< of its clusters with halo
-    PixelBox box;                ///< of all of them
+    std::vector<PixelBox> boxes; ///< of its clusters, with halo
+    PixelBox box;                ///< union of boxes
     PixelPoint middle;
     double cost;
 };
@@ -79,7 +78,7 @@ std::vector<Road> roads_by_weight(const std::vector<NamedPart>& parts) {
     return roads;
 }
 
-/// Labels one road after the other; those that stand are not moved.
+/// Places labels road by road; placed labels are not moved.
 class Placing {
 public:
     Placing(const LabelCell& cell,
@@ -108,8 +107,8 @@ private:
         const SetLine* line;
         const std::vector<BaseLine>* base_lines;
         TextLook look;
-        double ideal_px; ///< where the label's middle would best stand, along the road
-        double reach_px; ///< how far from there it may stand
+        double ideal_px; ///< best position of the label's middle, along the road
+        double reach_px; ///< maximum distance from there
     };
 
     std::optional<Candidate> best_of(const Task& task) const;
@@ -124,9 +123,9 @@ private:
     const LabelConfig* config_;
     TypeSetter* setter_;
     OccupancyGrid ground_;
-    std::vector<PixelBox> kept_free_; ///< from the cell's corner
+    std::vector<PixelBox> kept_free_; ///< relative to the cell's corner
     std::vector<Label> labels_;
-    std::vector<Candidate> taken_; ///< as many as labels
+    std::vector<Candidate> taken_; ///< one per label
 };
 
 void Placing::label(const Road& road) {

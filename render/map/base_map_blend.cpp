@@ -6,8 +6,7 @@
 namespace macadam {
 
 PaintPart ground_with(PaintPart base, const GroundMix& mix) {
-    // Whole numbers, so that every machine rounds alike; 255 times `all` and its half are less than
-    // 32 bits hold.
+    // Integers make the rounding equal on every machine; 255 times `all` and its half fit 32 bits.
     constexpr std::uint32_t whole = 65536;
     constexpr std::uint32_t all = 255 * whole;
     const auto opacity = std::uint32_t(std::lround(mix.opacity * double(whole)));

@@ -6,13 +6,13 @@
 
 namespace macadam {
 
-/// How much of a base map is seen.
+/// Visibility of a base map.
 struct GroundMix {
-    std::uint32_t ground; ///< 0xRRGGBB, behind it
-    double opacity;       ///< 0 to 1 of the base map's own
+    std::uint32_t ground; ///< 0xRRGGBB, background colour
+    double opacity;       ///< 0 to 1, relative to the base map's own
 };
 
-/// The base map over the ground: opaque RGBA.
+/// Blends the base map with the ground colour to opaque RGBA.
 PaintPart ground_with(PaintPart base, const GroundMix& mix);
 
 } // namespace macadam

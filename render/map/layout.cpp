@@ -14,7 +14,7 @@ constexpr double margin_px = 26;
 constexpr double scale_room_px = 300;
 constexpr double scale_height_px = 50;
 constexpr double line_height = 1.3; // of the em
-constexpr double ascent = 0.93;     // of DejaVu Sans, of the em
+constexpr double ascent = 0.93;     // of DejaVu Sans, in units of the em
 constexpr double max_header = 0.3;  // of the sheet's height
 
 struct Block {
@@ -23,8 +23,8 @@ struct Block {
     double height_px() const { return double(lines.size()) * look.size_px * line_height; }
 };
 
-/// Text that is too long for two lines is set smaller, then in more lines; only what would take the
-/// map's own place is left out, and says so.
+/// Sets a block of text. Text too long for two lines is set smaller, then in more lines; only text
+/// that would take the map's own area is omitted, with an indication.
 Block block(
     TypeSetter& setter, const std::string& text, TextLook look, double width, double height) {
     const double smallest_px = look.size_px * 0.7;

@@ -12,26 +12,27 @@ namespace macadam {
 struct PlacedText {
     std::string text;
     TextLook look;
-    PixelPoint at; ///< left end of the base line
+    PixelPoint at; ///< left end of the baseline
     bool quiet = false;
 };
 
-/// How the sheet is divided: title above, map, scale bar and attribution below.
+/// Division of the sheet: title above, map, scale bar and attribution below.
 struct Layout {
-    double unit = 1; ///< what one pixel of a picture of 1000 px has become
+    double unit = 1; ///< size of one pixel of a 1000 px picture
     PixelBox map;
     std::vector<PlacedText> texts;
-    PixelBox scale_room; ///< for north arrow and scale bar
+    PixelBox scale_room; ///< area of north arrow and scale bar
     bool scale_bar = true;
-    bool edges = true; ///< hairlines between the map and what is around it
+    bool edges = true; ///< hairlines around the map
 };
 
-/// One thousandth of the shorter side; small pictures get more, so that their text can be read.
+/// Returns one thousandth of the shorter side, or more for small pictures, so that their text
+/// remains legible.
 double unit_of(int width_px, int height_px);
 
 Layout layout_of(const MapScene& scene, int width_px, int height_px, TypeSetter& setter);
 
-/// `box` made smaller by `margin` on every side.
+/// Shrinks `box` by `margin` on every side.
 PixelBox inset(const PixelBox& box, double margin);
 
 } // namespace macadam

@@ -21,7 +21,7 @@ constexpr double casing_px = 1.7;
 
 constexpr double km_per_mi = 1.609344;
 
-/// As many decimals as keep the table's borders in mm/m true, but no more than two.
+/// Returns the number of decimals that keeps the table's borders in mm/m exact, at most two.
 int decimals_of(const ClassTable& table) {
     for (const int decimals : {0, 1}) {
         const double scale = std::pow(10.0, decimals);
@@ -36,7 +36,7 @@ int decimals_of(const ClassTable& table) {
     return 2;
 }
 
-/// The words with a value in the place of their {}.
+/// Replaces the {} in the words by a value.
 std::string with_value(std::string words, const std::string& value) {
     const auto place = words.find("{}");
     return place == std::string::npos ? words : words.replace(place, 2, value);
@@ -165,7 +165,7 @@ std::vector<Legend> forms_of(const Legend& legend) {
 LegendCard legend_card(const Legend& legend, int columns, double unit, TypeSetter& setter) {
     LegendCard card{.legend = legend, .columns = columns, .unit = unit};
     const TextLook look{text_px * unit};
-    double alone_px = 0; // names without a range may use its place
+    double alone_px = 0; // names without a range may use its column
     for (const auto& entry : legend.entries) {
         const double name_px = setter.width_px(entry.name, look);
         (entry.range.empty() ? alone_px : card.name_px) =

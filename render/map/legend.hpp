@@ -22,20 +22,20 @@ struct Legend {
     std::vector<LegendEntry> entries;
 };
 
-/// The classes with their values, then what else the scene's lines show. Nothing if the style wants
-/// no legend.
+/// Returns the classes with their values, then the other kinds of lines in the scene. Empty if the
+/// style has no legend.
 Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable& classes);
 
-/// The legend in three forms, the fullest first: as it is, without lengths, and with the values of
-/// classes for their names.
+/// Returns the legend in three forms, the fullest first: complete, without lengths, and with the
+/// values of classes instead of their names.
 std::vector<Legend> forms_of(const Legend& legend);
 
-/// The legend as a table on a card, `columns` entries beside each other.
+/// Legend as a table on a card, with `columns` entries side by side.
 struct LegendCard {
     Legend legend;
     int columns = 1;
     double unit = 1;
-    double name_px = 0, range_px = 0, length_px = 0; ///< widths of the parts of an entry
+    double name_px = 0, range_px = 0, length_px = 0; ///< column widths within an entry
     double width_px = 0, height_px = 0;
 };
 

@@ -14,9 +14,9 @@ constexpr double repeat_px = 420;
 constexpr double edge_px = 6;
 constexpr double legend_air_px = 8;
 
-constexpr double min_label_px = 10; // smaller letters cannot be read
+constexpr double min_label_px = 10; // minimum legible size
 constexpr double min_halo_px = 1.5;
-constexpr double base_map_halo = 1.6; // of one on ground that is even
+constexpr double base_map_halo = 1.6; // relative to that on plain ground
 
 std::vector<RoadName>
 road_names(const MapScene& scene, const MapFrame& frame, const LineWidths& widths) {

@@ -6,17 +6,17 @@
 
 namespace macadam {
 
-/// The names of a scene's roads on its picture, off the legend and the map's edges.
+/// Places the names of a scene's roads on its picture, off the legend and the map's edges.
 std::vector<Label> map_labels(const MapScene& scene,
                               const Layout& layout,
                               const Placement& placement,
                               const LineWidths& widths,
                               TypeSetter& setter);
 
-/// Letters and distances of labels in a picture. \param unit  as layout_of has it
+/// Returns letter sizes and distances of labels in a picture. \param unit  as in layout_of
 LabelConfig label_config(double unit);
 
-/// From the middle of a road to the edge of what is painted of it.
+/// Returns the distance from the centre of a road to the edge of its painted line.
 double painted_half_width_px(const LineWidths& widths, const MapLine& line);
 
 } // namespace macadam

@@ -15,9 +15,9 @@ constexpr double margin_px = 30;      // between the data and the map's edge
 constexpr double card_margin_px = 18; // between the legend and the map's edge
 constexpr double label_px = 14;
 
-constexpr double min_scale = 0.9; // of a small map, over what it has without a legend
+constexpr double min_scale = 0.9; // of a small map, relative to its scale without a legend
 
-/// Whether the line from `a` to `b` passes through the box: Liang and Barsky's clipping.
+/// Returns true if the line from `a` to `b` passes through the box, by Liang and Barsky's clipping.
 bool passes_through(const PixelBox& box, const PixelPoint& a, const PixelPoint& b) {
     double from = 0;
     double to = 1;
@@ -35,7 +35,7 @@ bool passes_through(const PixelBox& box, const PixelPoint& a, const PixelPoint& 
 
 using Corners = std::array<PixelPoint, 4>;
 
-/// Where the card could stand, the best place first.
+/// Returns the possible corners of the card, the best first.
 Corners corners_of(const PixelBox& map, const LegendCard& card) {
     const double margin = std::round(card_margin_px * card.unit);
     const double left = map.left + margin;
@@ -50,7 +50,7 @@ PixelBox ground_of(const LegendCard& card, const PixelPoint& corner) {
     return inset({corner.x, corner.y, corner.x + card.width_px, corner.y + card.height_px}, -air);
 }
 
-/// How many pieces of road each corner would hide.
+/// Counts the road intervals that each corner would hide.
 std::array<std::size_t, 4> hidden_by(const MapScene& scene,
                                      const MapFrame& frame,
                                      const LegendCard& card,
@@ -68,7 +68,7 @@ std::array<std::size_t, 4> hidden_by(const MapScene& scene,
     return hidden;
 }
 
-/// The card with as many entries beside each other as there is room for.
+/// Returns the card with as many entries side by side as fit.
 LegendCard widest_card(const Legend& legend, const Layout& layout, TypeSetter& setter) {
     const double room_px = layout.map.width() - 2 * card_margin_px * layout.unit;
     auto best = legend_card(legend, 1, layout.unit, setter);
@@ -102,7 +102,7 @@ Placement beside_or_below(const MapScene& scene,
     return {upper_frame, row, corners_of(layout.map, row)[1]};
 }
 
-/// In a corner without roads, or where the data makes room for it.
+/// Places the legend in a corner without roads, or where the data makes room for it.
 Placement placement_beside_roads(const MapScene& scene,
                                  const Legend& legend,
                                  const MapFrame& frame,
@@ -118,7 +118,8 @@ Placement placement_beside_roads(const MapScene& scene,
     return beside_or_below(scene, legend, layout, setter);
 }
 
-/// Whether the sheet is so small that its letters take more of it than on larger ones.
+/// Returns true if the sheet is so small that its letters are relatively larger than on other
+/// sheets.
 bool has_large_letters(const Layout& layout) {
     const double side_px = std::min(layout.map.width(), layout.scale_room.bottom);
     return layout.unit * 1000 > side_px * 1.001;
@@ -130,7 +131,7 @@ struct NorthArrow {
 };
 
 PixelPoint turned(const PixelPoint& point, const PixelPoint& pivot, double turn_rad) {
-    if (turn_rad == 0) { // not moved by a rounding
+    if (turn_rad == 0) { // avoids rounding
         return point;
     }
     const double x = point.x - pivot.x;
@@ -158,8 +159,7 @@ void draw_north(DrawTarget& canvas,
                                  turned(c, pivot, arrow.turn_rad),
                                  rgb);
         };
-    // The light half reaches a little under the dark one, so that no ground shines through the
-    // seam.
+    // The light half extends slightly under the dark one, so that no ground shows through the seam.
     const double under = 1;
     fill({tip.x - under, tip.y + 4 * under},
          {foot.x + half, foot.y},

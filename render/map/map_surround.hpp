@@ -5,21 +5,20 @@
 
 namespace macadam {
 
-/// Where the data and the legend go on the map.
+/// Placement of the data and the legend on the map.
 struct Placement {
     MapFrame frame;
     LegendCard card;
     PixelPoint corner; ///< of the card, top left
 };
 
-/// The legend goes into a corner without roads. If there is none, the data makes room for it, at
+/// Places the legend in a corner without roads. If there is none, the data makes room for it, at
 /// the side or below, whichever leaves the larger map. Small pictures, in which letters take more
-/// room, have a shorter legend where a tenth of the map's scale or more would be lost to the full
-/// one.
+/// room, get a shorter legend if the full one would reduce the map's scale by a tenth or more.
 Placement
 placement_of(const MapScene& scene, const Legend& legend, const Layout& layout, TypeSetter& setter);
 
-/// Everything but the roads.
+/// Draws all elements of the sheet except the roads.
 void draw_map_surround(DrawTarget& canvas,
                        const Layout& layout,
                        const Placement& placement,

@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// Labels on a page: the same letters at the same places as draw_labels draws on a picture, but as
-/// text that can be searched and copied.
+/// Writes labels on a page: the same letters at the same positions as draw_labels draws on a
+/// picture, but as searchable and copyable text.
 void draw_labels(PdfPage& page,
                  std::span<const Label> labels,
                  const LabelInks& inks,

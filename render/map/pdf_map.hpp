@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// The same map as render_map draws on a picture of the sheet's pixels, as the bytes of a PDF file:
-/// its lines are lines and its text is text.
+/// Returns the map as the bytes of a PDF file, with vector lines and text. Its layout equals that
+/// of render_map on a picture of the sheet's pixels.
 ///
 /// \throws InputError  as render_map, and if Cairo cannot write it.
 std::string map_pdf(const MapScene& scene, const MapStyle& style, const PdfSheet& sheet);

@@ -30,7 +30,7 @@ Strands strands_of(std::span<const Polyline> strands, int rank, bool measured) {
 
 struct PdfPen {
     double radius_px;
-    std::uint64_t looks; ///< a bit for each
+    std::uint64_t looks; ///< one bit per look
     std::uint32_t rgb;
 };
 
@@ -38,9 +38,9 @@ bool is_of(const PdfPen& brush, const Polyline& strand, std::size_t piece) {
     return (brush.looks >> strand.looks[piece] & 1U) != 0;
 }
 
-/// Neighbouring pieces of the brush's looks are one line. What was painted before ends round below
-/// what is painted later, which is cut off where the look changes: so each look has its own length
-/// and no bend has a gap.
+/// Draws neighbouring line segments of the pen's looks as one line. Earlier lines have round ends
+/// below later ones, which are cut off where the look changes: each look keeps its exact length,
+/// and bends have no gaps.
 void draw(PdfPage& page, const Polyline& strand, const PdfPen& brush) {
     const auto& looks = strand.looks;
     for (std::size_t i = 0; i < looks.size();) {

@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// The roads as lines on a page, in the order in which painted_roads paints them, so that the page
+/// Draws the roads as lines on a page, in the painting order of painted_roads, so that the page
 /// looks like the picture.
 void draw_roads(PdfPage& page,
                 std::span<const Polyline> strands,
@@ -17,7 +17,7 @@ void draw_roads(PdfPage& page,
                 const Palette& palette,
                 std::span<const std::uint32_t> class_colours);
 
-/// What is below them on a base map: edges of the roads without a measurement.
+/// Draws the edges below roads without a measurement, for use on a base map.
 void draw_unmeasured_edges(PdfPage& page,
                            std::span<const Polyline> strands,
                            const LineWidths& widths,

@@ -67,7 +67,7 @@ strands_of(const MapScene& scene, const std::vector<LineUse>& uses, const MapFra
     return strands;
 }
 
-/// The scene with lines that bend as the projection bends them.
+/// Returns the scene with its lines densified for the projection.
 MapScene bent_scene(const MapScene& scene, const MapFrame& frame) {
     auto shown = scene;
     for (auto& line : shown.lines) {
@@ -81,7 +81,7 @@ struct Roads {
     LineWidths widths;
 };
 
-/// Each of two ways at its side of the road.
+/// Offsets the two directions of roads to their sides.
 std::vector<Polyline> side_by_side(const MapScene& scene,
                                    const MapStyle& style,
                                    const MapFrame& frame,
@@ -140,7 +140,7 @@ MapFrame frame_of(const MapScene& scene, const MapStyle& style, int width_px, in
     return placement_of(scene, legend, layout, setter).frame;
 }
 
-/// The base map as it lies on a picture; empty where the scene has none.
+/// Returns the base map resampled to a picture; empty if the scene has none.
 PaintPart ground_of(const MapScene& scene,
                     const MapStyle& style,
                     const MapFrame& frame,
@@ -162,7 +162,7 @@ PicturePart part_of(const PixelBox& box) {
     return {int(box.left), int(box.top), int(box.width()), int(box.height())};
 }
 
-/// Of all that a picture shows, what is in some of its rows.
+/// Elements of a picture, drawn for a range of rows.
 class Picture {
 public:
     Picture(const MapScene& scene, const MapStyle& style, const PictureSize& size)
@@ -207,7 +207,7 @@ private:
 };
 
 int rows_of_band(const PictureSize& size) {
-    constexpr int pixels = 8'388'608; // 25 MB, and 67 MB that OpenGL draws into
+    constexpr int pixels = 8'388'608; // 25 MB, and 67 MB of OpenGL memory
     return size.band_px > 0 ? size.band_px : std::max(1, pixels / size.width_px);
 }
 

@@ -26,14 +26,15 @@ using Owned = std::unique_ptr<PJ, Release>;
                     cause)};
 }
 
-/// "+proj=utm +zone=33" is an operation; a map wants the system of its results.
+/// Converts a definition to that of a coordinate system: "+proj=utm +zone=33" is an operation, and
+/// a map needs the system of its results.
 std::string as_system(const std::string& crs) {
     const bool is_operation =
         crs.find("+proj=") != std::string::npos || crs.find("+init=") != std::string::npos;
     return is_operation && crs.find("+type=crs") == std::string::npos ? crs + " +type=crs" : crs;
 }
 
-/// "Compound" and "geocentric" systems have heights.
+/// Rejects "compound" and "geocentric" systems, which have heights.
 void expect_flat(PJ_CONTEXT* context, const PJ* system, const std::string& crs) {
     switch (proj_get_type(system)) {
     case PJ_TYPE_PROJECTED_CRS:

@@ -15,8 +15,8 @@ namespace macadam {
 namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180;
-constexpr double farthest_deg = 85;          // Mercator never arrives at the poles
-constexpr double min_side_m = 200;           // a map of less shows nothing one can recognise
+constexpr double farthest_deg = 85;          // Mercator does not reach the poles
+constexpr double min_side_m = 200;           // a smaller map shows no recognisable features
 constexpr double earth_radius_m = 6378137.0; // of the sphere of EPSG:3857
 
 double mercator_y_rad(double lat_deg) {
@@ -49,7 +49,7 @@ GeoBox at_least(const GeoBox& box, double side_m) {
     return missing_m > 0 ? grown_over(box, missing_m / 2) : box;
 }
 
-/// A box on the plane, radians.
+/// Box on the plane, radians.
 struct PlaneBox {
     double west_rad = std::numeric_limits<double>::infinity();
     double south_rad = std::numeric_limits<double>::infinity();
@@ -64,8 +64,8 @@ PlaneBox mercator_box(const GeoBox& box) {
             .north_rad = mercator_y_rad(box.north_deg)};
 }
 
-/// A place that the projection leads to another when it is taken back is not on its plane: beyond
-/// the horizon, or in a fold.
+/// Projects a position and verifies it by the inverse. A position with another inverse is not on
+/// the plane: it lies beyond the horizon, or in a fold.
 std::optional<PlanePoint> sure_plane(const PlaneProjection& projection, const GeoPoint& place) {
     constexpr double near_m = 1;
     const auto plane = projection.to_plane(place);
@@ -73,7 +73,8 @@ std::optional<PlanePoint> sure_plane(const PlaneProjection& projection, const Ge
     return back && distance_m(*back, place) < near_m ? plane : std::nullopt;
 }
 
-/// Of the places of a grid over the box: its outline bends, and a pole may lie inside.
+/// Returns the extent of a grid of positions over the box: its outline is curved, and a pole may
+/// lie inside.
 PlaneBox projected_box(const GeoBox& box, const PlaneProjection& projection) {
     constexpr int steps = 48;
     PlaneBox plane;
@@ -119,7 +120,7 @@ PlaneRad on_plane(const MapFrame& frame, const GeoPoint& point) {
                  : PlaneRad{nowhere, nowhere};
 }
 
-/// The pieces of a line on the plane, halved until they are straight.
+/// Halves the segments of a line until they are straight on the plane.
 class Bending {
 public:
     explicit Bending(const MapFrame& frame) : frame_{frame} {}
@@ -138,7 +139,7 @@ private:
         const auto b = to_pixel(frame_, to);
         const auto m = to_pixel(frame_, middle);
         const double off_px = std::hypot(m.x - (a.x + b.x) / 2, m.y - (a.y + b.y) / 2);
-        if (halvings > 0 && off_px > straight_px) { // false where a place is none
+        if (halvings > 0 && off_px > straight_px) { // false if a point is NaN
             go(from, middle, halvings - 1);
             go(middle, to, halvings - 1);
         } else {
@@ -189,7 +190,8 @@ double metres_per_px(const MapFrame& frame, double y_px) {
         return distance_m(to_geo(frame, {frame.centre.x - 0.5, y_px}),
                           to_geo(frame, {frame.centre.x + 0.5, y_px}));
     }
-    // Over a short piece of the parallel: the ground is an ellipsoid, the picture a sphere.
+    // Measured over a short interval of the parallel, since the ground is an ellipsoid and the
+    // picture a sphere.
     constexpr double piece_deg = 1e-3;
     const double lat_deg = to_geo(frame, {frame.centre.x, y_px}).lat_deg;
     return distance_m({lat_deg, 0}, {lat_deg, piece_deg}) /

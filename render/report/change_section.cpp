@@ -14,7 +14,8 @@ namespace {
 constexpr double interval_90 = 1.645; // two-sided, normal distribution
 constexpr double by_chance = 0.05;    // past 1.96 sd, either side
 
-/// "worse" or "better", as in ids and keys of the catalogue.
+/// Builds an id such as "worse-1"; `side` is "worse" or "better", as in ids and keys of the
+/// catalogue.
 std::string id_of(const std::string& side, std::size_t rank) {
     return fmt::format("{}-{}", side, rank);
 }

@@ -10,12 +10,12 @@
 namespace macadam {
 namespace {
 
-/// Whether the style states a word that is not the default.
+/// Returns true if the style overrides the default word.
 bool is_own(const Report& report, std::string LegendWords::*word) {
     return report.words.*word != LegendWords{}.*word;
 }
 
-/// The words with a value in the place of their {}.
+/// Replaces the {} in the words by a value.
 std::string with_value(std::string words, const std::string& value) {
     const auto place = words.find("{}");
     return place == std::string::npos ? words : words.replace(place, 2, value);

@@ -9,44 +9,46 @@
 
 namespace macadam {
 
-// What several sections of the report share.
+// Common helpers of the report's sections.
 
-/// "living_street" as "Living street".
+/// Converts "living_street" to "Living street".
 std::string sentence_case(std::string_view name);
 
-/// A kind of road in the report's language; what the catalogue has no word for, as it came.
+/// Returns a kind of road in the report's language; unchanged if the catalogue has no word for it.
 std::string kind_name(const Report& report, std::string_view kind);
 
-/// Likewise a class of roughness.
+/// Returns the name of a roughness class in the report's language.
 std::string class_name(const Report& report, std::size_t i);
 
-/// What values a class has, "1.50 – 2.68", in the style's words if it has any.
+/// Returns the values of a class, "1.50 – 2.68", in the style's own words if it has any.
 std::string class_range(const Report& report, const Localisation& wording, std::size_t i);
 
-/// The legend's words for roads with few passes and for those without, as the style has them; in
-/// the language of the report where the style says nothing of its own.
+/// Return the legend's words for roads with few passes and for roads without a measurement, from
+/// the style, or by default in the language of the report.
 std::string few_passes_words(const Report& report);
 std::string unmeasured_words(const Report& report);
 
-/// The road's name, or what kind of road has none.
+/// Returns the road's name, or its kind if it has no name.
 std::string road_name(const Report& report, const WorstSection& stretch);
 
-/// Metres along its ways, as driven: they fall where a way is driven against.
+/// Returns the chainage along its ways, as driven: it decreases where a way is driven in reverse
+/// direction.
 std::string reference_text(const Report& report, const WorstSection& stretch);
 
-/// "2", or "2 – 5": the least that a segment has, and the median.
+/// Returns "2", or "2 – 5": minimum and median per segment.
 std::string passes_text(const Localisation& wording, std::int32_t least, double median);
 
-/// The map with a scale bar that is as wide as its length, whatever a page makes of the picture.
+/// Builds the map figure, with a scale bar that keeps its relative length at any size of the
+/// picture.
 document::MapFigure map_figure(const Report& report,
                                const ReportPicture& picture,
                                double width_m,
                                const std::string& words);
 
-/// Cars, each once, however many models and methods it was read with.
+/// Counts the distinct cars, regardless of the number of models and methods used.
 std::size_t cars_in(const std::vector<ReportVehicle>& vehicles);
 
-/// The sum of their numbers, without a name.
+/// Returns the sum of their numbers, without a name.
 ReportVehicle total_of(const std::vector<ReportVehicle>& vehicles);
 
 } // namespace macadam

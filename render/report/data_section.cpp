@@ -11,9 +11,9 @@ using namespace document;
 
 namespace {
 
-constexpr std::size_t max_vehicles = 30; // a page of them; the rest stands in one row
+constexpr std::size_t max_vehicles = 30; // one page; the remaining ones are summed in one row
 
-/// \param model  what is said of the model that it was read with
+/// \param model  description of the vehicle model
 std::vector<Cell> row_of(const Localisation& say,
                          const ReportVehicle& vehicle,
                          const std::string& name,
@@ -116,7 +116,7 @@ void add_quality(DocumentSection& section, const Report& report) {
     }
 }
 
-/// The reasons, the most frequent first, and the rows of which none is known.
+/// Returns the reasons, the most frequent first, and the count of rows without a known reason.
 std::vector<std::pair<std::string, std::size_t>> reasons_of(const Report& report,
                                                             std::size_t rejected) {
     std::vector<std::pair<std::string, std::size_t>> reasons;

@@ -14,7 +14,7 @@ using namespace document;
 
 namespace {
 
-/// Text in which words that are longer than a column may break, and no others; '\n' as a break.
+/// Escapes text and allows breaks only in words longer than a column; '\n' becomes a break.
 std::string breakable(std::string_view text) {
     constexpr std::size_t longest_word = 24; // letters
     std::string html, piece;
@@ -82,8 +82,8 @@ std::string words_of(const RichText& rich) {
     return words;
 }
 
-/// A little square of a colour. Says nothing to those who listen.
-/// \param dark_rgb  on dark pages; nothing: the same
+/// Returns a small coloured square, hidden from screen readers.
+/// \param dark_rgb  on dark pages; `std::nullopt`: the same
 std::string swatch_html(std::uint32_t rgb, std::optional<std::uint32_t> dark_rgb = {}) {
     const auto square = [](const char* pages, std::uint32_t colour) {
         return fmt::format(
@@ -284,7 +284,7 @@ std::string html_of(const DocumentSection& section, const char* element) {
 } // namespace
 
 std::string html_of(const Document& document) {
-    // The policy is a promise to the reader: the page asks nobody for anything.
+    // The content security policy guarantees that the page loads no external resources.
     auto html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

@@ -16,7 +16,7 @@ using namespace document;
 
 namespace {
 
-// Sizes of the histogram in its own units; a phone shows 400 of them on about 330 px.
+// Sizes of the histogram in its own units; a phone shows 400 units on about 330 px.
 constexpr double width = 400;
 constexpr double height = 230;
 constexpr double left = 40;
@@ -28,7 +28,7 @@ double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Where values stand in the figure.
+/// Axes of the figure.
 struct Axes {
     double max_iri; ///< mm/m
     double max_km;
@@ -49,7 +49,7 @@ Axes axes_of(const IriHistogram& histogram) {
             step_km};
 }
 
-/// Between two numbers under the axis, in the report's unit.
+/// Returns the step between two numbers under the axis, in the report's unit.
 double iri_step(const Axes& axes, IriUnit unit) {
     return unit == IriUnit::mm_per_m ? (axes.max_iri > 8 ? 2 : 1)
                                      : nice_step(in_unit(axes.max_iri, unit), 6);

@@ -7,10 +7,11 @@ namespace macadam {
 
 // Figures of the report, in the colours of the classes.
 
-/// The classes of a road beside each other, as wide as they are long. Nothing covered: empty.
+/// Returns a bar of the classes of a road, with widths in proportion to their lengths. Empty if no
+/// length is covered.
 document::Cell share_bar(const Report& report, const RoadSummary& roads);
 
-/// Kilometres of road by roughness, with the mean.
+/// Draws kilometres of road by roughness, with the mean.
 document::Drawing histogram_drawing(const Report& report);
 
 } // namespace macadam

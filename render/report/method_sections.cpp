@@ -16,7 +16,7 @@ bool uses(const Report& report, const std::string& method) {
     });
 }
 
-/// A feel for size needs no more digits than this.
+/// Rounds a value to the precision of an approximate size.
 std::string rounded(const Report& report, double mm_per_m) {
     const double value = in_unit(mm_per_m, report.wording.unit);
     const double step = value < 20 ? 1 : value < 200 ? 10 : 50;

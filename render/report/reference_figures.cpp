@@ -18,8 +18,7 @@ using namespace document;
 
 namespace {
 
-constexpr std::uint32_t ink = 0x2c7bb6; // of the best class of the default ramp: readable on both
-                                        // light and dark pages
+constexpr std::uint32_t ink = 0x2c7bb6; // default ramp, readable on light and dark pages
 
 // ------------------------------------------------------------------------------------- scatter
 
@@ -34,7 +33,7 @@ struct Square {
     double y(double iri) const { return scatter_top + scatter_size * (1 - iri / most); }
 };
 
-/// As large as the pieces need, up to a round number of the unit.
+/// Returns the square that contains all intervals, up to a round number of the unit.
 Square square_of(std::span<const SurveyPair> pairs, const Localisation& say) {
     double most = 1;
     for (const auto& pair : pairs) {
@@ -65,7 +64,7 @@ void add_axes(Drawing& drawing, const Square& square, const Localisation& say) {
                {{square.x(0), square.y(0)}, {square.x(square.most), square.y(square.most)}}});
 }
 
-/// Dots on a grid of half a unit, each once.
+/// Returns the dots on a grid of half a unit, without duplicates.
 Dots dots(std::span<const SurveyPair> pairs, const Square& square) {
     std::set<std::pair<long, long>> places;
     for (const auto& pair : pairs) {
@@ -91,7 +90,8 @@ constexpr int bins = 30;
 constexpr double reach_sds = 3.5;
 constexpr double min_reach_mm_per_m = 0.1;
 
-/// The differences of a band between -reach and reach, and the curve of their mean and sd.
+/// Histogram of a band's differences between -reach and reach, and the normal curve of their mean
+/// and sd.
 struct Panel {
     SurveyScore score;
     double reach; ///< mm/m, a round number of the page's unit
@@ -125,7 +125,7 @@ Panel panel_of(std::span<const SurveyPair> pairs,
     return panel;
 }
 
-/// Share of a bin by the normal curve.
+/// Returns the share of a bin under the normal curve.
 double curve(const Panel& panel, double difference) {
     const double z = (difference - panel.score.bias) / panel.score.sd;
     const double density =
@@ -133,7 +133,7 @@ double curve(const Panel& panel, double difference) {
     return density * 2 * panel.reach / bins;
 }
 
-/// Where a panel stands in the figure.
+/// Corner of a panel in the figure.
 struct Corner {
     double x;
     double y;

@@ -61,7 +61,7 @@ Table scores_table(const Localisation& say,
     return table;
 }
 
-/// "12 days after", in the words of the language.
+/// Returns "12 days after", in the report's language.
 std::string days_text(const Localisation& say, double days) {
     constexpr double days_a_month = 30.44, days_a_year = 365.25;
     const double far = std::abs(days);

@@ -13,7 +13,7 @@
 
 namespace macadam {
 
-/// A reference survey, and how near the cars come to it over pieces of 100 m.
+/// Reference survey, with the agreement of the cars over intervals of 100 m.
 struct ComparedSurvey {
     std::string name;
     std::string day; ///< "2026-03-01", "" = not known
@@ -21,19 +21,19 @@ struct ComparedSurvey {
     double row_m;
     std::size_t segments;
     double km;
-    double alone_km; ///< where no car has been
+    double alone_km; ///< without any passes
     SurveyScore score;
 };
 
-/// How near the cars come to the references, at one length of the pieces.
+/// Comparison of the cars with the references, at one interval length.
 struct ComparedPieces {
     std::vector<ReferencePair> pairs;
     ReferenceScores headline;
-    ReferenceScores left; ///< without pieces where no track is known to both
+    ReferenceScores left; ///< without intervals in which either side lacks tracks
     ReferenceScores right;
 };
 
-/// A control section, what is known of it and what the cars say.
+/// Control section, with its known roughness and the cars' estimate.
 struct ComparedControl {
     std::string name;
     double known;
@@ -44,20 +44,20 @@ struct ComparedControl {
     std::optional<Drift> drift;
 };
 
-/// First and last day of something, "2026-03-01"; "" where it is not dated.
+/// First and last day of a period, "2026-03-01"; "" if not dated.
 struct ComparedDays {
     std::string first;
     std::string last;
 };
 
-/// From the references to the newest passes, in days: less than 0 where the cars came first.
+/// Days from the references to the newest passes: negative if the cars came first.
 struct DaysAfter {
     double least;
-    double middle; ///< of all segments
+    double middle; ///< median over all segments
     double most;
 };
 
-/// What the cars alone say beside what references say, as plain values.
+/// Comparison of the cars' own estimates with references, as plain values.
 struct ReferenceReport {
     Localisation wording{};
     std::string title;
@@ -65,20 +65,20 @@ struct ReferenceReport {
     std::vector<ComparedSurvey> surveys;
     ComparedDays passed;
     ComparedDays surveyed;
-    std::optional<DaysAfter> days_after; ///< nothing: not known
+    std::optional<DaysAfter> days_after; ///< `std::nullopt`: not known
     ComparedPieces segments;             ///< of surveys whose rows are not much longer
     ComparedPieces hundreds;
     std::vector<ComparedControl> controls;
     bool is_own = true; ///< as Report::is_own
 };
 
-/// What the report says, in its language and unit, for any kind of page.
+/// Builds the document in the report's language and unit, for any kind of page.
 Document reference_document(const ReferenceReport& report);
 
-/// One HTML page that needs nothing else, like report_html. The same values give the same bytes.
+/// Returns one self-contained HTML page, like report_html. The same values give the same bytes.
 std::string reference_html(const ReferenceReport& report);
 
-/// How far the cars' values are from the references in time, a sentence; "" = not known.
+/// Returns a sentence on the time between the cars' values and the references; "" = not known.
 std::string days_after_text(const ReferenceReport& report, const Localisation& say);
 
 } // namespace macadam

@@ -19,7 +19,7 @@
 
 namespace macadam {
 
-/// First and last day of something, "2026-03-01"; "" where it is not dated.
+/// First and last day of a period, "2026-03-01"; "" if not dated.
 struct ReportDays {
     std::string first;
     std::string last;
@@ -32,20 +32,20 @@ struct ReportStretch {
     ReportPicture map;
 };
 
-/// A section of the reader's own roads.
+/// Section of the user's own list.
 struct ReportSection {
     std::string name;
-    double from_m; ///< stations; they fall where the road is driven against them
+    double from_m; ///< stations; decreasing where the road is driven against them
     double to_m;
     double excluded_m;
-    double open_share; ///< measured length by what is not excluded
+    double open_share; ///< measured length over length without exclusions
     CorrelatedMean measured;
 };
 
-/// What the trips of one car gave.
+/// Summary of the trips of one car.
 struct ReportVehicle {
-    std::string name;  ///< number of the car in the store; "" = trips that name none
-    std::string model; ///< name of a built-in one; "" = the user's own
+    std::string name;  ///< number of the car in the database; "" = trips without a car
+    std::string model; ///< built-in model; "" = the user's own
     std::string method;
     std::size_t trips = 0;
     std::size_t undated_trips = 0;
@@ -56,80 +56,80 @@ struct ReportVehicle {
     std::size_t rows_used = 0;
 };
 
-/// A stretch that has become rougher or smoother.
+/// Road section that has become rougher or smoother.
 struct ReportChangedStretch {
     ChangedStretch stretch;
     std::string heading;
     ReportPicture map;
 };
 
-/// What has changed since a day.
+/// Changes since a day.
 struct ReportChange {
     std::string since; ///< day, "2026-03-01"
     ChangeSince change;
     std::array<std::uint32_t, 3> colours;    ///< of the map, in the order of Verdict
-    std::vector<ReportChangedStretch> worse; ///< the most first
+    std::vector<ReportChangedStretch> worse; ///< largest change first
     std::vector<ReportChangedStretch> better;
     ReportPicture map;
     double map_width_m = 0;
 };
 
-/// Roads that the maps draw in grey, because fewer passes of cars are known than were asked for.
+/// Roads drawn in grey because they have fewer passes than required.
 struct ReportFewPasses {
     int min_passes;
     std::uint32_t rgb;
     std::uint32_t dark_rgb; ///< on dark pages
 };
 
-/// What a crowd's publication tells in all. Trips and cars: at least so many.
+/// Totals of a crowd's publication. Trips and cars are lower bounds.
 struct ReportPublication {
-    std::string month; ///< "2026-11"; "" = nothing was published yet
+    std::string month; ///< "2026-11"; "" = not yet published
     std::size_t trips = 0;
     std::size_t cars = 0;
     std::size_t passes = 0;
-    std::size_t left_out = 0; ///< segments that too few cars drove, up to tens
-    double left_out_m = 0;    ///< of them
+    std::size_t left_out = 0; ///< segments with too few cars, rounded to tens
+    double left_out_m = 0;    ///< length of these segments
 };
 
-/// All that a report says, as plain values. Texts are as they came.
+/// Content of a report, as plain values. Texts are unprocessed.
 struct Report {
     Localisation wording{};
     std::string title;
     ReportDays period;
-    std::string network_source; ///< what the roads were read from; "" = traced from the trips
-    std::string attribution;    ///< whom to name for the map data, with the licence
+    std::string network_source; ///< source of the roads; "" = traced from the trips
+    std::string attribution;    ///< copyright notice of the map data, with the licence
     double segment_length_m = 20;
     const ClassTable* classes = nullptr;
-    std::vector<std::uint32_t> colours; ///< one a class, 0xRRGGBB
-    LegendWords words{};                ///< of classes; what is as by default is in the language
-    std::optional<ReportFewPasses> few_passes; ///< nothing: no road is drawn so
+    std::vector<std::uint32_t> colours;        ///< one per class, 0xRRGGBB
+    LegendWords words{};                       ///< of classes; defaults are translated
+    std::optional<ReportFewPasses> few_passes; ///< `std::nullopt`: not used
     NetworkSummary summary;
     IriHistogram histogram;
     std::size_t segments = 0;
     std::size_t segments_with_passes = 0;
     ReportPicture map;
-    double map_width_m = 0; ///< of the ground, from side to side of the map
+    double map_width_m = 0; ///< ground distance from side to side of the map
     double poor_above_mm_per_m = 0;
     double min_stretch_m = 0;
-    std::size_t stretches = 0;           ///< poor ones in all
-    double stretches_m = 0;              ///< and their length
-    std::vector<ReportStretch> worst;    ///< the worst of them, worst first
-    std::optional<ReportChange> change;  ///< nothing: not asked for
-    std::vector<ReportSection> sections; ///< none: not asked for
-    std::vector<ReportVehicle> vehicles; ///< in the order in which they are listed
+    std::size_t stretches = 0;           ///< number of poor sections
+    double stretches_m = 0;              ///< their total length
+    std::vector<ReportStretch> worst;    ///< worst of them, roughest first
+    std::optional<ReportChange> change;  ///< `std::nullopt`: not requested
+    std::vector<ReportSection> sections; ///< empty: not requested
+    std::vector<ReportVehicle> vehicles; ///< in listing order
     DataQuality quality;
-    std::size_t lateral_passes = 0;                 ///< from lateral vibration alone
-    std::map<std::string, std::size_t> row_reasons; ///< why rows of the logs entered no estimate
-    std::optional<ReportPublication> publication;   ///< of a crowd: it tells of no single car
-    bool is_own = true; ///< of the operator's own cars: nothing is anonymised
+    std::size_t lateral_passes = 0;                 ///< from lateral acceleration alone
+    std::map<std::string, std::size_t> row_reasons; ///< reasons for rejected rows of the logs
+    std::optional<ReportPublication> publication;   ///< of a crowd; excludes single cars
+    bool is_own = true;                             ///< of the operator's own cars: not anonymised
 };
 
-/// What the report says, in its language and unit, for any kind of page.
+/// Builds the document in the report's language and unit, for any kind of page.
 Document report_document(const Report& report);
 
-/// The document as one HTML page that needs nothing else: style, figures and pictures stand in it,
-/// no script, no address of anything outside. It adapts to a phone's width, to paper (A4) and to
-/// dark screens. The same document gives the same bytes.
+/// Returns the document as one self-contained HTML page: style, figures and pictures are embedded,
+/// without scripts or external addresses. It adapts to a phone's width, to paper (A4) and to dark
+/// screens. The same document gives the same bytes.
 std::string html_of(const Document& document);
 
 std::string report_html(const Report& report);

@@ -13,7 +13,7 @@ using namespace document;
 
 namespace {
 
-/// The first of the classes that count as poor; as many as there are: none does.
+/// Returns the index of the first poor class, or the number of classes if there is none.
 std::size_t first_poor(const Report& report) {
     std::size_t c = 1;
     while (c < report.colours.size() &&
@@ -23,7 +23,7 @@ std::size_t first_poor(const Report& report) {
     return std::min(c, report.colours.size());
 }
 
-/// Length in the classes that count as poor.
+/// Returns the length in the poor classes.
 double poor_m(const Report& report) {
     double length_m = 0;
     for (std::size_t c = first_poor(report); c < report.colours.size(); ++c) {
@@ -32,7 +32,7 @@ double poor_m(const Report& report) {
     return length_m;
 }
 
-/// What is poor, by the names of the classes.
+/// Returns the definition of poor by the names of the classes.
 std::string poor_words(const Report& report) {
     const auto last = report.colours.size() - 1;
     const auto first = first_poor(report);
@@ -40,7 +40,7 @@ std::string poor_words(const Report& report) {
     return first < last ? report.wording("key.poor.or_worse", {{"class", name}}) : name;
 }
 
-/// Beside mm/m a report says in/mi, too; who asked for in/mi wants nothing else.
+/// Returns true if the report also gives in/mi beside mm/m; reports in in/mi give that unit only.
 bool says_both_units(const Report& report) {
     return report.wording.unit == IriUnit::mm_per_m;
 }
@@ -169,7 +169,7 @@ Table kinds_table(const Report& report) {
     return table;
 }
 
-/// Length of each class in each kind of road, with what it may be.
+/// Builds a table of the length of each class by kind of road, with its uncertainty.
 Table kind_classes_table(const Report& report) {
     const auto& say = report.wording;
     const auto& all = report.summary.all;

@@ -7,19 +7,19 @@
 
 namespace macadam {
 
-// Parts of the report. Those of condition and worst stretches need something measured.
+// Parts of the report. Condition and worst sections require measurements.
 document::RichText subtitle_of(const Report& report);
 document::KeyNumbers key_numbers(const Report& report);
 document::DocumentSection condition_section(const Report& report);
 document::DocumentSection map_section(const Report& report);
 document::DocumentSection worst_section(const Report& report);
-document::DocumentSection change_section(const Report& report); ///< needs report.change
-document::DocumentSection own_sections(const Report& report);   ///< needs some
+document::DocumentSection change_section(const Report& report); ///< requires report.change
+document::DocumentSection own_sections(const Report& report);   ///< requires sections
 document::DocumentSection coverage_section(const Report& report);
 document::DocumentSection data_section(const Report& report);
 document::DocumentSection reading_section(const Report& report);
 document::DocumentSection method_section(const Report& report);
 document::DocumentSection limits_section(const Report& report);
-document::DocumentSection source_section(const Report& report); ///< whose map it is
+document::DocumentSection source_section(const Report& report); ///< data sources
 
 } // namespace macadam

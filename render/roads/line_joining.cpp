@@ -10,10 +10,10 @@
 namespace macadam {
 namespace {
 
-constexpr double min_cosine = 0.342; // of the turn from a line into the next: 70 degrees
-constexpr std::size_t max_arms = 64; // a place where more lines end is no junction
+constexpr double min_cosine = 0.342; // of the turn between two lines: 70 degrees
+constexpr std::size_t max_arms = 64; // a position with more line ends is not a junction
 
-/// Places nearer than 1e-7 degrees, a centimetre, are one.
+/// Rounds a position to 1e-7 degrees, a centimetre; equal keys are the same position.
 std::uint64_t place_key(const GeoPoint& point) {
     const auto lat = std::uint32_t(std::llround(point.lat_deg * 1e7));
     const auto lon = std::uint32_t(std::llround(point.lon_deg * 1e7));
@@ -30,7 +30,8 @@ bool has_direction(const MapLine& line) {
     });
 }
 
-/// Longitudes of a map over the antimeridian go on beyond 180 degrees, by a turn at most.
+/// Returns true if all positions are valid. Longitudes of a map over the antimeridian may exceed
+/// 180 degrees by one turn.
 bool on_the_globe(const MapLine& line) {
     constexpr double farthest_deg = 540;
     return std::ranges::all_of(line.line, [](const GeoPoint& point) {
@@ -45,7 +46,7 @@ PointEn unit_step(const GeoPoint& a, const GeoPoint& b) {
     return {step.east_m / length, step.north_m / length};
 }
 
-/// Where a line leaves its first place for, or its last if it is turned round.
+/// Returns the direction in which a line leaves its first position, or its last if it is reversed.
 PointEn departure(const MapLine& line, bool reversed) {
     const auto& from = first_place(line, reversed);
     const auto differs = [&](const GeoPoint& point) { return place_key(point) != place_key(from); };
@@ -62,8 +63,8 @@ Kind kind_of(const MapLine& line) {
     return {line.rank, line.both_ways, line.iri_class < 0};
 }
 
-/// Which of two directions is shown where there is room for one: a class before the grey of few
-/// passes, that before no measurement, and the worse of two classes.
+/// Returns the priority of a direction where only one can be shown: a class before the grey of few
+/// passes, and that before no measurement; among classes, the worse.
 int weight_of(const MapLine& line) {
     return line.iri_class < 0 ? 0 : line.few_passes ? 1 : 2 + line.iri_class;
 }
@@ -72,7 +73,7 @@ struct Arm {
     std::uint64_t place;
     std::size_t use;
     bool leaves;
-    PointEn onward; ///< driving direction at the place
+    PointEn onward; ///< driving direction at the position
 };
 
 std::vector<Arm> arms_of(std::span<const MapLine> lines, const std::vector<LineUse>& uses) {
@@ -96,7 +97,7 @@ struct Pair {
     std::size_t from, to;
 };
 
-/// The straightest first.
+/// Returns the pairs, the straightest first.
 std::vector<Pair> pairs_at(std::span<const Arm> arms,
                            std::span<const MapLine> lines,
                            const std::vector<LineUse>& uses) {
@@ -137,7 +138,7 @@ std::vector<LineUse> worse_of_both_ways(std::span<const MapLine> lines) {
     for (const auto& [index, unused] : all_lines(lines)) {
         const auto& line = lines[index];
         const bool reversed = line.both_ways && !line.forward;
-        // Ends, number of points and second point tell pieces apart that share their ends.
+        // Ends, number of points and second point distinguish intervals with the same ends.
         const auto second = reversed ? line.line[line.line.size() - 2] : line.line[1];
         const Track track{place_key(first_place(line, reversed)),
                           place_key(first_place(line, !reversed)),

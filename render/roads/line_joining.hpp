@@ -8,33 +8,32 @@
 
 namespace macadam {
 
-/// A MapLine, perhaps taken against its direction.
+/// Reference to a MapLine, optionally reversed.
 struct LineUse {
     std::size_t line;
     bool reversed = false;
     friend bool operator==(const LineUse&, const LineUse&) = default;
 };
 
-/// Every line that has a direction (two places that differ).
+/// Returns every line that has a direction (two different positions).
 std::vector<LineUse> all_lines(std::span<const MapLine> lines);
 
-/// The same where of two directions of one piece of road only the worse is left, laid along its
-/// way.
+/// Returns the lines, with only the worse direction of two-way roads, oriented along its way.
 std::vector<LineUse> worse_of_both_ways(std::span<const MapLine> lines);
 
-/// For each use the one that it goes on into and the one that goes on into it, or no_neighbour.
+/// Successor and predecessor of each use, or no_neighbour.
 struct Neighbours {
     std::vector<std::size_t> next, previous;
 };
 
 inline constexpr std::size_t no_neighbour = SIZE_MAX;
 
-/// Lines go on into each other end to end, on roads of one rank. Where more than two meet the
-/// straightest pairs go on; nothing turns by more than 70 degrees. What goes on at a place depends
-/// on the lines that end there and on their order, on nothing else.
+/// Finds lines that continue each other end to end, on roads of one rank. Where more than two meet,
+/// the straightest pairs are joined; turns are limited to 70 degrees. The result at a position
+/// depends only on the lines that end there and on their order.
 Neighbours neighbours_of(std::span<const MapLine> lines, const std::vector<LineUse>& uses);
 
-/// Neighbours in a row become chains.
+/// Joins neighbours to chains.
 std::vector<std::vector<LineUse>> joined(std::span<const MapLine> lines,
                                          const std::vector<LineUse>& uses);
 

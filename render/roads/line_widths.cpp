@@ -10,18 +10,18 @@
 namespace macadam {
 namespace {
 
-// A pixel at zoom 0 of web maps with tiles of 256 px: the equator of WGS 84 / 256.
+// Size of a pixel at zoom 0 of web maps with tiles of 256 px: the equator of WGS 84 / 256.
 constexpr double metres_per_px_at_zoom_0 = 2 * std::numbers::pi * 6378137.0 / 256;
 constexpr double zoom_base = 1.5;
 constexpr double separate_zoom = 13;
-constexpr double max_ink = 0.5; // of the ground near roads
+constexpr double max_ink = 0.5; // share of the ground near roads
 constexpr double ink_to_separate = 0.6;
-constexpr double min_core_px = 1.3; // a thinner line is more casing than colour
+constexpr double min_core_px = 1.3; // a thinner line is mostly casing
 constexpr double thinnest_core_px = 0.9;
 constexpr double thinnest_casing_px = 0.35;
-constexpr double uncertain_part = 0.55;  // of the width of a certain one
-constexpr double unmeasured_core = 0.75; // of a measured one: quieter
-constexpr double cell_px = 64;           // "near", in a picture of 1000 px
+constexpr double uncertain_part = 0.55;  // relative width of uncertain lines
+constexpr double unmeasured_core = 0.75; // relative width, less prominent
+constexpr double cell_px = 64;           // neighbourhood size, in a picture of 1000 px
 
 double grown_width_px(double zoom) {
     const double share = (std::pow(zoom_base, zoom - 10) - 1) / (std::pow(zoom_base, 6) - 1);
@@ -85,7 +85,7 @@ LineWidths uncrowded(const LineWidths& widths, double ink_per_px, double unit) {
         return widths;
     }
     const double thinner = max_ink / ink;
-    // Lines of less than a pixel of the final picture lose their colour.
+    // Lines thinner than a pixel of the final picture lose their colour.
     const double real_px = std::max(1.0, std::sqrt(unit));
     return {.core_px = std::max(std::min(widths.core_px, thinnest_core_px * real_px),
                                 widths.core_px * thinner),
@@ -111,7 +111,7 @@ double unmeasured_edge_radius_px(const LineWidths& widths, int rank) {
 }
 
 double way_offset_px(const LineWidths& widths, int rank) {
-    // The casings of the two ways overlap to a line as wide as each of them.
+    // The casings of the two directions overlap to one line, as wide as each of them.
     return widths.core_px * rank_factor(rank) / 2 + widths.casing_px / 2;
 }
 

@@ -6,41 +6,42 @@
 
 namespace macadam {
 
-/// Line widths of a map, px, for a road of middling rank.
+/// Line widths of a map, px, for a road of medium rank.
 struct LineWidths {
     double core_px;
     double casing_px;           ///< on each side
-    bool separate_ways = false; ///< both directions of a road have room beside each other
+    bool separate_ways = false; ///< both directions of a road fit side by side
 };
 
-/// By scale: 1 px at zoom 10 to 6 px at zoom 16 and on to 9, growing by half per zoom, in a picture
-/// of 1000 px; in others in proportion.
+/// Returns the widths by scale: 1 px at zoom 10 to 6 px at zoom 16 and on to 9, growing by half per
+/// zoom, in a picture of 1000 px; in others in proportion.
 ///
 /// \param unit  size of the picture, in thousands of pixels of its shorter side
 LineWidths line_widths(double metres_per_px, double unit);
 
-/// The same for tiles, by zoom alone, so that what is on one tile never shows on the next.
+/// Returns the widths for tiles, by zoom alone, so that adjacent tiles match.
 ///
 /// \param zoom  of tiles of 256 px
 LineWidths tile_widths(double zoom);
 
-/// A motorway is a little wider than a service road.
+/// Returns the width factor of a rank: a motorway is slightly wider than a service road.
 double rank_factor(int rank);
 
-/// Part of the ground near roads that lines of width 1 px would cover.
+/// Returns the share of the ground near roads that lines of width 1 px would cover.
 double ink_per_px(std::span<const Polyline> strands, const PixelBox& visible, double unit);
 
-/// The widths made narrower where roads are so dense that they would run into a blot.
+/// Reduces the widths where roads are so dense that they would merge.
 LineWidths uncrowded(const LineWidths& widths, double ink_per_px, double unit);
 
 double core_radius_px(const LineWidths& widths, int rank, bool certain);
 double casing_radius_px(const LineWidths& widths, int rank, bool certain);
 
-/// Of a road without a measurement, which is quieter, and of its edge on a base map.
+/// Return the radii of a road without a measurement, which is less prominent, and of its edge on a
+/// base map.
 double unmeasured_radius_px(const LineWidths& widths, int rank);
 double unmeasured_edge_radius_px(const LineWidths& widths, int rank);
 
-/// From the centre line of the road to that of one direction.
+/// Returns the distance from the centre line of the road to that of one direction.
 double way_offset_px(const LineWidths& widths, int rank);
 
 } // namespace macadam

@@ -20,7 +20,7 @@ bool is_measured(const Polyline& strand) {
     return strand.looks.front() != unmeasured_look;
 }
 
-/// All classes, and what is drawn as wide as they.
+/// Returns all classes, and the other looks of the same width.
 std::uint64_t looks_of(bool certain) {
     std::uint64_t looks = certain ? only(few_passes_look) : 0;
     for (int i = 0; i < max_classes; ++i) {
@@ -29,7 +29,7 @@ std::uint64_t looks_of(bool certain) {
     return looks;
 }
 
-/// A part of the sheet that OpenGL draws at once.
+/// Part of the sheet that OpenGL draws at once.
 struct Window {
     int left_px, top_px, width_px, height_px;
 };
@@ -78,7 +78,7 @@ struct Road {
     PixelBox box;
 };
 
-/// What is painted together.
+/// Roads painted together.
 struct Layer {
     std::vector<Road> measured, unmeasured;
 };
@@ -95,7 +95,7 @@ std::array<Layer, lowest_rank + 1> layers_of(std::span<const Polyline> strands) 
     return layers;
 }
 
-/// Beyond the line itself: half a pixel of antialiasing, the overlap of looks, and some rounding.
+/// Margin beyond the line itself: half a pixel of antialiasing, the overlap of looks, and rounding.
 constexpr double beyond_line_px = 4;
 
 Strands near(const std::vector<Road>& roads, const PixelBox& box, double radius_px) {
@@ -112,7 +112,8 @@ void draw(StrokePainter& painter,
           const Strands& strands,
           const StrokePass& pass,
           std::uint32_t rgb) {
-    // A few strands at a time, so that the quads of a large city need not be held at once.
+    // Polylines are drawn in batches, so that the quads of a large city need not be in memory at
+    // once.
     constexpr std::size_t enough = 16384;
     std::vector<StrokeQuad> quads;
     for (const auto* strand : strands) {
@@ -126,7 +127,7 @@ void draw(StrokePainter& painter,
     painter.draw(quads, rgb, pass.radius_px);
 }
 
-/// OpenGL, and the memory that it draws into.
+/// OpenGL painter with its memory.
 struct GlRoadPainter {
     GlRoadPainter(int width, int height)
         : width_px{width}, height_px{height}, rgba(std::size_t(width) * std::size_t(height) * 4),
@@ -139,7 +140,7 @@ struct GlRoadPainter {
     PixelPainter pixels;
 };
 
-/// Four bytes a pixel to three, onto a band of the sheet, `down` rows below its first.
+/// Copies four bytes per pixel to three, onto a band of the sheet, `down` rows below its first.
 void lay(const GlRoadPainter& easel, const Window& window, int down, Image& band) {
     for (int y = 0; y < window.height_px; ++y) {
         const auto* from = easel.rgba.data() + std::size_t(y) * std::size_t(easel.width_px) * 4;
@@ -169,7 +170,7 @@ struct RoadPainter::Impl {
     std::unique_ptr<GlRoadPainter> easel{};
 };
 
-/// The easel is kept as long as it is large enough.
+/// Reuses the painter if it is large enough.
 void RoadPainter::Impl::prepare(int width_px, int height_px) {
     if (easel == nullptr || easel->width_px < width_px || easel->height_px < height_px) {
         easel.reset();
@@ -178,7 +179,7 @@ void RoadPainter::Impl::prepare(int width_px, int height_px) {
     easel->context.make_current();
 }
 
-/// Some rows at a time: their pixels are held three times.
+/// Copies the ground in bands, since their pixels are held three times.
 void RoadPainter::Impl::lay_ground(const Window& window, const PixelBox& map) {
     constexpr int pixels = 2'097'152;
     const int left = int(map.left);

@@ -12,23 +12,23 @@
 
 namespace macadam {
 
-/// Where the roads are painted.
+/// Size and ground of the picture on which roads are painted.
 struct Sheet {
     int width_px, height_px;
     PixelBox map; ///< whole pixels; the rest is page
 
-    /// The map's pixels under the roads, opaque; empty: all are of the palette's ground. Then roads
-    /// without a measurement, which are quiet, have an edge in that colour.
+    /// Pixels of the map under the roads, opaque; empty: the palette's ground colour. With pixels,
+    /// roads without a measurement get an edge in that colour for contrast.
     PaintPart ground{};
 };
 
-/// Paints a sheet with its roads, as many rows at a time as wanted: those without a measurement
-/// below all others; then rank by rank, service roads first, all casings of a rank before all its
-/// cores. A row is the same, to the last byte, whichever rows are painted with it.
+/// Paints a sheet with its roads, any number of rows at a time: those without a measurement below
+/// all others; then rank by rank, service roads first, all casings of a rank before all its cores.
+/// The bytes of a row do not depend on the rows painted with it.
 class RoadPainter {
 public:
-    /// \param strands        to live longer than the painter
-    /// \param class_colours  of the classes that the strands' looks speak of
+    /// \param strands        must outlive the painter
+    /// \param class_colours  of the classes in the polylines' looks
     RoadPainter(const Sheet& sheet,
                 std::span<const Polyline> strands,
                 const LineWidths& widths,
@@ -36,7 +36,7 @@ public:
                 std::span<const std::uint32_t> class_colours);
     ~RoadPainter();
 
-    /// Some rows of the sheet, which lie on it.
+    /// Paints some rows of the sheet, which must lie on it.
     ///
     /// \throws InputError  if OSMesa is missing or cannot draw.
     Image rows(int top_px, int count);
@@ -46,7 +46,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// All rows of the sheet.
+/// Paints all rows of the sheet.
 Image painted_roads(const Sheet& sheet,
                     std::span<const Polyline> strands,
                     const LineWidths& widths,

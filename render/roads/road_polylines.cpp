@@ -8,8 +8,8 @@ namespace {
 
 constexpr double min_piece_px = 0.3;
 constexpr double flat_px =
-    0.05; // a point this near the line between its neighbours does not bend it
-constexpr std::size_t max_passed = 64; // so that long straights cost no more than others
+    0.05; // maximum distance of a removable point from the line between its neighbours
+constexpr std::size_t max_passed = 64; // bounds the cost of long straights
 
 double apart_px(const PixelPoint& a, const PixelPoint& b) {
     return std::hypot(a.x - b.x, a.y - b.y);
@@ -24,7 +24,7 @@ bool between(const PixelPoint& from, const PixelPoint& to, const PixelPoint& poi
     return along > 0 && along < length && aside < flat_px;
 }
 
-/// A strand that grows by a point at a time.
+/// Polyline under construction, point by point.
 class Growing {
 public:
     explicit Growing(int rank) { strand_.rank = rank; }
@@ -32,7 +32,7 @@ public:
     void begin(const PixelPoint& point) { strand_.points.push_back(point); }
 
     void go_on(const PixelPoint& point, int look) {
-        // A piece too short to see must not lend its look to a long one after it.
+        // An invisibly short line segment must not pass its look to a long one after it.
         if (waiting_look_ != nothing_ && waiting_look_ != look &&
             apart_px(strand_.points.back(), waiting_) > 1e-6 &&
             apart_px(strand_.points.back(), point) >= min_piece_px) {
@@ -46,7 +46,7 @@ public:
     }
 
     Polyline finished() && {
-        // What is left over is too short to see but closes the gap to the next road.
+        // The remainder is too short to see but closes the gap to the next road.
         if (waiting_look_ != nothing_ && apart_px(strand_.points.back(), waiting_) > 1e-6) {
             take();
         }
@@ -82,7 +82,7 @@ private:
     Polyline strand_;
     PixelPoint waiting_;
     int waiting_look_ = nothing_;
-    std::vector<PixelPoint> passed_; // points that the last piece goes straight past
+    std::vector<PixelPoint> passed_; // points skipped by the last line segment
 };
 
 } // namespace

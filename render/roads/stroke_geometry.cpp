@@ -8,13 +8,13 @@
 namespace macadam {
 namespace {
 
-constexpr double fringe_px = 0.75;  // half a pixel of antialiasing and a little for rounding
-constexpr double overlap_px = 1.0;  // of neighbours that look different
-constexpr float far_px = 1e5;       // more than any picture
+constexpr double fringe_px = 0.75;  // half a pixel of antialiasing, and rounding
+constexpr double overlap_px = 1.0;  // of neighbours with different looks
+constexpr float far_px = 1e5;       // larger than any picture
 constexpr double max_mitre = 0.6;   // tan of half the bend: 62 degrees
-constexpr double max_stretch = 2.0; // of a mitre when a line is moved aside
-constexpr double part_px = 1024;    // of a quad: long ones would be cut by OpenGL, each half anew
-constexpr double grid_per_px = 256; // where OSMesa's rasteriser puts corners
+constexpr double max_stretch = 2.0; // of a mitre when a line is offset
+constexpr double part_px = 1024;    // of a quad: OpenGL would clip longer ones, with rounding
+constexpr double grid_per_px = 256; // vertex grid of OSMesa's rasteriser
 
 PixelPoint plus(const PixelPoint& a, const PixelPoint& b, double times) {
     return {a.x + b.x * times, a.y + b.y * times};
@@ -28,7 +28,7 @@ double dot(const PixelPoint& a, const PixelPoint& b) {
     return a.x * b.x + a.y * b.y;
 }
 
-/// To the right of a direction; y grows downwards.
+/// Returns the vector to the right of a direction; y points downwards.
 PixelPoint right_of(const PixelPoint& direction) {
     return {-direction.y, direction.x};
 }
@@ -51,9 +51,9 @@ Piece piece_at(const Polyline& strand, std::size_t i) {
     return {from, to, {step.x / length_px, step.y / length_px}, length_px};
 }
 
-/// Where two pieces meet, if they can share an edge.
+/// Joint of two line segments that share an edge.
 struct Mitre {
-    PixelPoint forward; ///< unit, across the shared edge
+    PixelPoint forward; ///< unit vector, across the shared edge
     PixelPoint right;   ///< from the joint to the edge's end, for a half width of 1
 };
 
@@ -75,11 +75,11 @@ std::optional<Mitre> mitre(const Piece& a, const Piece& b, double reach_px) {
 
 enum class Join { round, shared, under, over };
 
-/// One end of a piece: its two corners, and how far beyond the end a place is.
+/// End of a line segment: its two corners, and the distance function beyond it.
 struct End {
     Join join = Join::round;
     PixelPoint at;
-    PixelPoint outward; ///< unit, the direction that counts as beyond
+    PixelPoint outward; ///< unit vector, the direction regarded as beyond
     PixelPoint left, right;
 };
 
@@ -105,7 +105,7 @@ Join join_of(const Polyline& strand, const StrokePass& pass, std::size_t mine, s
     return strand.looks[mine] > strand.looks[other] ? Join::over : Join::under;
 }
 
-/// Along `direction`, from a line through `origin`.
+/// Returns the distance along `direction` from a line through `origin`.
 LineDistance
 distance(const PixelPoint& origin, const PixelPoint& direction, const PixelPoint& anchor) {
     return {float(direction.x), float(direction.y), float(dot(minus(anchor, origin), direction))};
@@ -120,7 +120,7 @@ PixelPoint between(const PixelPoint& a, const PixelPoint& b, double share) {
     return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share)};
 }
 
-/// A part of a piece, of its length from 0 to 1.
+/// Part of a line segment, as fractions of its length from 0 to 1.
 struct Part {
     double begin, end;
 };
@@ -160,10 +160,10 @@ bool outside(const Piece& piece, const PixelBox& box, double reach_px) {
            bottom + reach_px < box.top || top - reach_px > box.bottom;
 }
 
-/// Narrows a part to where a + (b - a) t lies between low and high.
+/// Narrows a part to the range where a + (b - a) t lies between low and high.
 void narrow(Part& part, double a, double b, double low, double high) {
     if (a == b) {
-        return; // all of it or, where `outside` has not said so, none
+        return; // all of it, or none if `outside` says so
     }
     const double at_low = (low - a) / (b - a);
     const double at_high = (high - a) / (b - a);
@@ -171,13 +171,15 @@ void narrow(Part& part, double a, double b, double low, double high) {
     part.end = std::min(part.end, std::max(at_low, at_high));
 }
 
-/// Which of its `parts` equal parts of a piece can be seen: from the first to before the last.
+/// Returns the visible ones of the `parts` equal parts of a line segment: first and past-the-end
+/// index.
 std::pair<int, int>
 seen_parts(const Piece& piece, int parts, const PixelBox& box, double reach_px) {
     Part seen{0, 1};
     narrow(seen, piece.from.x, piece.to.x, box.left - reach_px, box.right + reach_px);
     narrow(seen, piece.from.y, piece.to.y, box.top - reach_px, box.bottom + reach_px);
-    // Some more at either side: ends reach beyond their piece, and slanting ones across parts.
+    // A margin on either side is needed: ends reach beyond their line segment, and slanted ones
+    // across parts.
     return {std::max(0, int(std::floor(seen.begin * parts)) - 2),
             std::min(parts, int(std::ceil(seen.end * parts)) + 2)};
 }
@@ -228,7 +230,7 @@ Polyline beside(const Polyline& strand, double right_px) {
         const auto after = right_of(piece_at(strand, i == last ? last - 1 : i).direction);
         const auto sum = plus(before, after, 1);
         const double squared = dot(sum, sum);
-        // Exact for gentle bends; a hairpin would throw its corner to infinity.
+        // Exact for gentle bends; limited for hairpins, whose corner would lie at infinity.
         const double stretch =
             squared > 0 ? std::min(2 / squared, max_stretch / std::sqrt(squared)) : 0.0;
         moved.points[i] = plus(strand.points[i], sum, stretch * right_px);

@@ -17,9 +17,9 @@
 namespace macadam {
 namespace {
 
-// OpenGL cuts what leaves its view, and cut triangles need not meet as the whole ones do. So the
-// view is larger than the window by more than a quad is long. Its side is a power of two, so that
-// places in 1/256 px come to the rasteriser without a rounding.
+// OpenGL clips at its view, and clipped triangles need not meet as the original ones do. The view
+// is therefore larger than the window by more than the length of a quad. Its side is a power of
+// two, so that positions in 1/256 px reach the rasteriser without rounding.
 constexpr int view_px = max_window_px;
 constexpr int beyond_px = (view_px - max_stroke_window_px) / 2;
 
@@ -31,7 +31,7 @@ constexpr std::array vertex_parts{VertexPart{floats, 2, offsetof(StrokeVertex, x
                                   VertexPart{floats, 3, offsetof(StrokeVertex, after)},
                                   VertexPart{floats, 2, offsetof(StrokeVertex, round_before)}};
 
-// The picture's first row is OpenGL's bottom row, so y needs no turning over.
+// The picture's first row is OpenGL's bottom row, so y is not flipped.
 constexpr const char* vertex_shader = R"(#version 330 core
 uniform float half_views_per_px;
 uniform float beyond_px;
@@ -56,9 +56,9 @@ void main() {
 }
 )";
 
-// Coverage is the part of a one pixel wide window across the line that lies on the ribbon: right
-// for lines thinner than a pixel too. Nothing is interpolated: the pixel's place less the anchor's
-// is exact, so the outcome does not depend on where in the window both are.
+// Coverage is the part of a one pixel wide window across the line that lies on the ribbon, which is
+// also right for lines thinner than a pixel. Values are not interpolated: the pixel's position
+// relative to the anchor is exact, so the result does not depend on their position in the window.
 constexpr const char* fragment_shader = R"(#version 330 core
 uniform vec3 colour;
 uniform float radius_px;

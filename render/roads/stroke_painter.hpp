@@ -9,23 +9,22 @@
 
 namespace macadam {
 
-inline constexpr int max_stroke_window_px = 8192; ///< side of a context's picture
+inline constexpr int max_stroke_window_px = 8192; ///< maximum side of a context's picture
 
-/// Draws ribbons into a context's picture. A pixel's share of the ribbon is computed from its
-/// distance to the centre line, so edges are smooth without drawing more pixels than the picture
-/// has.
+/// Draws ribbons into a context's picture. Coverage is computed from a pixel's distance to the
+/// centre line, so edges are smooth without supersampling.
 class StrokePainter {
 public:
-    /// \param context  of max_stroke_window_px a side at most
+    /// \param context  at most max_stroke_window_px a side
     explicit StrokePainter(const GlContext& context);
     ~StrokePainter();
 
-    /// Fills a box of whole pixels with a colour; what is drawn later stays inside it.
+    /// Fills a box of whole pixels with a colour; later drawing is clipped to it.
     void clear(const PixelBox& box, std::uint32_t rgb);
 
     void draw(std::span<const StrokeQuad> quads, std::uint32_t rgb, double radius_px);
 
-    /// Returns when the memory holds the picture.
+    /// Waits until the memory contains the picture.
     void finish();
 
 private:

@@ -8,25 +8,25 @@
 
 namespace macadam {
 
-/// The colours of a style's classes, from its own ramp or a shipped one.
-/// \throws InputError for an unknown ramp.
+/// Returns the colours of a style's classes, from its own ramp or a built-in one.
+/// \throws InputError  for an unknown ramp.
 std::vector<std::uint32_t> class_colours(const MapStyle& style, std::size_t classes);
 
-/// Colours of all that is not a class, 0xRRGGBB.
+/// Colours of all elements except the classes, 0xRRGGBB.
 struct Palette {
-    std::uint32_t page;       ///< under title, scale bar and legend
-    std::uint32_t ground;     ///< under the roads
+    std::uint32_t page;       ///< background of title, scale bar and legend
+    std::uint32_t ground;     ///< background of the roads
     std::uint32_t border;     ///< hairlines
-    std::uint32_t ink;        ///< text that counts
-    std::uint32_t quiet_ink;  ///< text that does not
-    std::uint32_t casing;     ///< beside every measured road
-    std::uint32_t unmeasured; ///< roads nobody drove
-    std::uint32_t few_passes; ///< roads driven too seldom, inside a casing
+    std::uint32_t ink;        ///< primary text
+    std::uint32_t quiet_ink;  ///< secondary text
+    std::uint32_t casing;     ///< of every measured road
+    std::uint32_t unmeasured; ///< roads without passes
+    std::uint32_t few_passes; ///< roads with too few passes, inside a casing
 };
 
 Palette palette(MapStyle::Theme theme);
 
-/// The theme's with the style's own colours in their places.
+/// Returns the theme's palette with the style's own colours.
 Palette palette(const MapStyle& style);
 
 } // namespace macadam

@@ -58,7 +58,7 @@ Triple linear_rgb(std::uint32_t rgb) {
     return {channel(16), channel(8), channel(0)};
 }
 
-/// CIE 1976 L*a*b*, white D65.
+/// Converts to CIE 1976 L*a*b*, white D65.
 Lab lab_of(const Triple& linear) {
     constexpr Matrix xyz_of_srgb{{{0.4124564, 0.3575761, 0.1804375},
                                   {0.2126729, 0.7151522, 0.0721750},
@@ -107,12 +107,12 @@ double weight_of_hue(double mean_deg) {
            0.32 * cos_deg(3 * mean_deg + 6) - 0.20 * cos_deg(4 * mean_deg - 63); // eq. 15
 }
 
-/// Rises from 0 for greys to 1 for strong colours.
+/// Increases from 0 for greys to 1 for saturated colours.
 double strength(double chroma) {
     return std::sqrt(std::pow(chroma, 7) / (std::pow(chroma, 7) + std::pow(25.0, 7)));
 }
 
-/// Sharma, Wu and Dalal's eqs. 2 to 22, with k_L = k_C = k_H = 1.
+/// Computes Sharma, Wu and Dalal's eqs. 2 to 22, with k_L = k_C = k_H = 1.
 double ciede2000(const Lab& one, const Lab& two) {
     const double g =
         0.5 * (1 - strength((std::hypot(one.a, one.b) + std::hypot(two.a, two.b)) / 2));

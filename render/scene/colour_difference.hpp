@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// How a reader sees colours.
+/// Colour vision of a reader.
 enum class ColourVision { normal, protanopia, deuteranopia, tritanopia };
 
 inline constexpr std::array all_sights{ColourVision::normal,
@@ -17,26 +17,28 @@ inline constexpr std::array all_sights{ColourVision::normal,
 
 std::string_view name_of(ColourVision sight);
 
-/// How different two sRGB colours (0xRRGGBB) look to a reader: CIEDE2000, 0 for the same, about 1
-/// where a careful eye begins to see it, 10 where classes of a map are told apart at a glance.
+/// Computes the perceived difference of two sRGB colours (0xRRGGBB), CIEDE2000: 0 for identical
+/// colours, about 1 for a just noticeable difference, 10 for map classes that are distinguished at
+/// a glance.
 ///
 /// Source: G. Sharma, W. Wu, E. N. Dalal, "The CIEDE2000 color-difference formula", Color Research
-/// and Application 30 (2005), pp. 21-30; full deficiencies after G. M. Machado, M. M. Oliveira,
-/// L. A. F. Fernandes, "A physiologically-based model for simulation of color vision deficiency",
-/// IEEE TVCG 15 (2009), pp. 1291-1298, on linear RGB.
+/// and Application 30 (2005), pp. 21-30; full deficiencies after G. M. Machado, M. M. Oliveira, L.
+/// A. F. Fernandes, "A physiologically-based model for simulation of color vision deficiency", IEEE
+/// TVCG 15 (2009), pp. 1291-1298, on linear RGB.
 double colour_difference(std::uint32_t a, std::uint32_t b, ColourVision sight);
 
-/// Two colours that look nearest to each other.
+/// Pair of colours with the smallest difference.
 struct NearestColours {
     std::size_t a = 0, b = 0; ///< a < b
     ColourVision sight = ColourVision::normal;
     double difference = 0;
 };
 
-/// Of all pairs and sights. \param colours  at least two
+/// Finds the pair over all colours and kinds of vision. \param colours  at least two
 NearestColours nearest_colours(std::span<const std::uint32_t> colours);
 
-/// Of lightness, 1 (none) to 21: W3C, "Web Content Accessibility Guidelines 2.1", contrast ratio.
+/// Returns the contrast ratio of lightness, 1 (none) to 21: W3C, "Web Content Accessibility
+/// Guidelines 2.1", contrast ratio.
 double contrast_ratio(std::uint32_t a, std::uint32_t b);
 
 } // namespace macadam

@@ -10,7 +10,7 @@ namespace {
 constexpr double metres_per_mile = 1609.344;
 constexpr double metres_per_foot = 0.3048;
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above `most`.
+/// Returns the largest of 1, 2 and 5 times a power of ten that does not exceed `most`.
 double round_below(double most) {
     const double power = std::pow(10.0, std::floor(std::log10(most)));
     for (const double digit : {5.0, 2.0}) {
@@ -27,7 +27,7 @@ ScaleBar scale_bar(double metres_per_px, double room_px, bool miles) {
     const double room_m = metres_per_px * room_px;
     const double large_m = miles ? metres_per_mile : 1000;
     const double small_m = miles ? metres_per_foot : 1;
-    // Half a mile reads better than 2000 ft.
+    // Half a mile is easier to read than 2000 ft.
     const bool large = room_m >= (miles ? large_m / 2 : large_m);
     const double unit_m = large ? large_m : small_m;
     const double count = round_below(room_m / unit_m);

@@ -20,16 +20,16 @@
 namespace macadam {
 namespace {
 
-constexpr double units = 64; // FreeType counts in 1/64 px
+constexpr double units = 64; // FreeType uses 1/64 px
 
 struct FontFile {
-    std::string_view script; ///< ISO 15924; "" for those that every script tries
-    std::string_view name;   ///< below the folder of fonts
+    std::string_view script; ///< ISO 15924; "" for fonts tried for every script
+    std::string_view name;   ///< path relative to the font folder
     std::string_view regular;
-    std::string_view bold; ///< the regular one where there is none
+    std::string_view bold; ///< the regular one if there is none
     std::string_view package;
     std::string_view kind = ".ttf";
-    long face = 0; ///< of a file of several
+    long face = 0; ///< index in a file with several faces
 };
 
 constexpr FontFile noto(std::string_view script, std::string_view name) {
@@ -45,17 +45,17 @@ constexpr long korean = 1;
 constexpr long simplified_chinese = 2;
 constexpr long traditional_chinese = 3;
 
-/// Which of the shapes that Han characters have in China, Japan and Korea (order of the faces: Noto
-/// CJK's README).
+/// Returns the font of the shapes that Han characters have in China, Japan or Korea (order of the
+/// faces: Noto CJK's README).
 constexpr FontFile noto_cjk(std::string_view script, long face) {
     return {
         script, "opentype/noto/NotoSansCJK", "-Regular", "-Bold", "fonts-noto-cjk", ".ttc", face};
 }
 
-// Where a script has several fonts in the package the one for plain running text is taken.
+// For scripts with several fonts in the package, the one for plain running text is listed.
 constexpr std::array files{
     FontFile{"", "truetype/dejavu/DejaVuSans", "", "-Bold", "fonts-dejavu-core"},
-    noto("", "truetype/noto/NotoSans"), // what DejaVu lacks of Latin, Greek and Cyrillic
+    noto("", "truetype/noto/NotoSans"), // Latin, Greek and Cyrillic characters missing from DejaVu
     noto_without_bold("Zyyy", "truetype/noto/NotoSansSymbols2"),
     noto("Zyyy", "truetype/noto/NotoSansSymbols"),
     noto_without_bold("Zyyy", "truetype/noto/NotoSansMath"),
@@ -115,7 +115,7 @@ constexpr std::array files{
     noto_without_bold("Yiii", "truetype/noto/NotoSansYi"),
 };
 
-/// Fonts are numbered regular, bold, regular, bold, ... in the order of the table.
+/// Returns a font's number: regular, bold, regular, bold, ... in the order of the table.
 constexpr int number_of(std::size_t file, bool bold) {
     return static_cast<int>(2 * file + (bold ? 1 : 0));
 }

@@ -13,32 +13,33 @@ struct hb_font_t;
 
 namespace macadam {
 
-/// The fonts that text is set in: a fixed list of files of known packages, so that a picture is the
-/// same on every machine that has them. DejaVu Sans comes first; what it lacks comes from Noto's
-/// font for the script, then from Noto's symbols. Each is opened when it is first needed.
+/// Set of fonts for text: a fixed list of files of known packages, so that a picture is the same on
+/// every machine that has them. DejaVu Sans comes first; characters that it lacks come from Noto's
+/// font for the script, then from Noto's symbols. Fonts are opened on first use.
 class FontSet {
 public:
-    /// \param folder  /usr/share/fonts, laid out as Debian's packages lay it out
-    /// \throws InputError  if DejaVu Sans is not there.
+    /// \param folder  /usr/share/fonts, with the layout of Debian's packages
+    /// \throws InputError  if DejaVu Sans is missing.
     explicit FontSet(std::filesystem::path folder);
     ~FontSet();
     FontSet(const FontSet&) = delete;
     FontSet& operator=(const FontSet&) = delete;
 
-    /// The fonts to try for a script, the best first.
+    /// Returns the candidate fonts for a script, the best first.
     ///
-    /// \param script  four letters of ISO 15924 as a number, as HarfBuzz has them
+    /// \param script  four letters of ISO 15924 as a number, as in HarfBuzz
     std::vector<int> fonts_for(std::uint32_t script, bool bold);
 
-    /// The fonts to try for signs that belong to no script.
+    /// Returns the candidate fonts for symbols that belong to no script.
     static std::vector<int> symbol_fonts();
 
-    /// \throws InputError  naming the package, if the font's file is not there.
+    /// \throws InputError  naming the package, if the font's file is missing.
     bool has(int font, char32_t character);
 
     FontSource source(int font) const;
 
-    /// A font at a size, until the next call for it. \throws InputError  likewise.
+    /// Returns a font at a size, valid until the next call for that font. \throws InputError
+    /// likewise.
     FT_FaceRec_* face(int font, double size_px);
     hb_font_t* shaper(int font, double size_px);
 
@@ -53,11 +54,11 @@ private:
 
     std::filesystem::path folder_;
     FT_LibraryRec_* library_ = nullptr;
-    std::vector<Open> open_; ///< by number of the font
+    std::vector<Open> open_; ///< by font number
 };
 
-/// How glyphs are fitted to pixels where text stands level: in height only, so that strokes are
-/// crisp and letters keep their distances at any size.
+/// Returns the load flags for horizontal text: hinting in height only, so that strokes are crisp
+/// and letter spacing is the same at any size.
 std::int32_t level_load_flags();
 
 } // namespace macadam

@@ -5,10 +5,10 @@
 
 namespace macadam {
 
-/// Where a font is read from.
+/// File of a font.
 struct FontSource {
     std::string file;
-    long face = 0; ///< of a file that holds several
+    long face = 0; ///< index in a file with several faces
     friend auto operator<=>(const FontSource&, const FontSource&) = default;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 struct Character {
     std::uint32_t script;
-    int level; ///< of embedding; odd: from right to left
+    int level; ///< embedding level; odd: right to left
     int font = -1;
 };
 
@@ -23,8 +23,8 @@ bool belongs_to_no_script(hb_script_t script) {
            script == HB_SCRIPT_UNKNOWN;
 }
 
-/// Han characters look otherwise in Japan, Korea, Taiwan and China. Which is meant shows in the
-/// letters beside them: they take their script. By themselves they are taken for China's.
+/// Returns the script of Han characters, whose shapes differ between Japan, Korea, Taiwan and
+/// China. They take the script of adjacent letters, and by default that of China.
 std::uint32_t script_of_han(std::u32string_view text) {
     auto* const unicode = hb_unicode_funcs_get_default();
     for (const auto script :
@@ -37,7 +37,8 @@ std::uint32_t script_of_han(std::u32string_view text) {
     return HB_SCRIPT_HAN;
 }
 
-/// Signs and marks take the script of what stands before them, at the start of what comes.
+/// Assigns scripts to characters. Signs and marks take the script of the preceding character, or at
+/// the start that of the following one.
 std::vector<std::uint32_t> scripts_of(std::u32string_view text) {
     auto* const unicode = hb_unicode_funcs_get_default();
     const auto han = script_of_han(text);
@@ -57,9 +58,9 @@ std::vector<std::uint32_t> scripts_of(std::u32string_view text) {
     return scripts;
 }
 
-/// What the bidirectional algorithm says of a line.
+/// Result of the bidirectional algorithm for a line.
 struct LineOrder {
-    std::vector<FriBidiLevel> levels; ///< of embedding
+    std::vector<FriBidiLevel> levels; ///< embedding levels
     std::vector<FriBidiCharType> types;
     FriBidiParType direction;
 };
@@ -72,7 +73,7 @@ LineOrder order_of(std::u32string_view text) {
     std::vector<FriBidiLevel> levels(text.size());
     fribidi_get_bidi_types(characters.data(), length, types.data());
     fribidi_get_bracket_types(characters.data(), length, types.data(), brackets.data());
-    FriBidiParType direction = FRIBIDI_PAR_ON; // that of the first letter
+    FriBidiParType direction = FRIBIDI_PAR_ON; // direction of the first letter
     if (fribidi_get_par_embedding_levels_ex(
             types.data(), brackets.data(), length, &direction, levels.data()) == 0) {
         throw std::bad_alloc{}; // its only failure
@@ -80,7 +81,7 @@ LineOrder order_of(std::u32string_view text) {
     return {std::move(levels), std::move(types), direction};
 }
 
-/// Characters that only steer the others and have no shape of their own.
+/// Returns true for control characters without a shape of their own.
 bool is_silent(char32_t c) {
     return c == 0xAD || (0x200B <= c && c <= 0x200F) || (0x202A <= c && c <= 0x202E) ||
            (0x2060 <= c && c <= 0x206F) || (0xFE00 <= c && c <= 0xFE0F) || c == 0xFEFF;
@@ -91,8 +92,8 @@ int first_with(const std::vector<int>& fonts, char32_t c, FontSet& shelf) {
     return found == fonts.end() ? -1 : *found;
 }
 
-/// The first font that has all letters of a script's run, or most of them: letters of one word
-/// should come from one font.
+/// Returns the first font that has all letters of a script's run, or most of them, so that the
+/// letters of one word come from one font.
 int main_font(std::u32string_view run, const std::vector<int>& fonts, FontSet& shelf) {
     int best = fonts.front();
     std::ptrdiff_t most = -1;
@@ -151,8 +152,7 @@ struct LevelRun {
     int level;
 };
 
-/// Rule L2: from the highest level to the lowest odd one, what stands at that level or above is
-/// turned round.
+/// Rule L2: from the highest level to the lowest odd one, reverses all runs at that level or above.
 void order(std::vector<LevelRun>& runs) {
     int highest = 0;
     for (const auto& run : runs) {
@@ -185,7 +185,7 @@ std::u32string characters_of(std::string_view utf8) {
 }
 
 std::string utf8_of(std::u32string_view characters) {
-    constexpr std::size_t max_bytes = 4; // of a character
+    constexpr std::size_t max_bytes = 4; // per character
     std::string utf8(characters.size() * max_bytes + 1, '\0');
     const std::vector<FriBidiChar> plain(characters.begin(), characters.end());
     const auto size = fribidi_unicode_to_charset(

@@ -16,8 +16,8 @@
 namespace macadam {
 namespace {
 
-constexpr const char* fonts_folder = "/usr/share/fonts"; // of Debian's packages
-constexpr double units = 64;                             // FreeType counts in 1/64 px
+constexpr const char* fonts_folder = "/usr/share/fonts"; // as in Debian's packages
+constexpr double units = 64;                             // FreeType uses 1/64 px
 
 bool continues_character(char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
@@ -30,7 +30,7 @@ std::string without_controls(std::string_view utf8) {
     return clean;
 }
 
-/// Glyphs of one character come one after the other.
+/// Adds a glyph. Glyphs of one character are consecutive.
 void add_glyph(SetLine& line, const SetGlyph& glyph, bool new_cluster, double right_px) {
     if (new_cluster) {
         line.clusters.push_back({line.glyphs.size(), 0, line.width_px, line.width_px});
@@ -42,7 +42,7 @@ void add_glyph(SetLine& line, const SetGlyph& glyph, bool new_cluster, double ri
 
 void add_run(SetLine& line, const TextRun& run, std::u32string_view text, hb_font_t* font) {
     hb_buffer_t* buffer = hb_buffer_create();
-    // The whole text, so that letters at the run's ends know their neighbours.
+    // The whole text provides context for letters at the run's ends.
     hb_buffer_add_utf32(buffer,
                         reinterpret_cast<const std::uint32_t*>(text.data()), // NOLINT
                         int(text.size()),
@@ -50,7 +50,7 @@ void add_run(SetLine& line, const TextRun& run, std::u32string_view text, hb_fon
                         int(run.count));
     hb_buffer_set_direction(buffer, run.leftwards ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
     hb_buffer_set_script(buffer, hb_script_from_iso15924_tag(run.script));
-    hb_buffer_set_language(buffer, hb_language_from_string("und", -1)); // not the machine's
+    hb_buffer_set_language(buffer, hb_language_from_string("und", -1)); // on every machine
     hb_shape(font, buffer, nullptr, 0);
 
     unsigned count = 0;
@@ -126,7 +126,7 @@ TextMask TypeSetter::stamp(const SetGlyph& glyph, const TextLook& look, const Gl
         const FT_Matrix turn{fixed(pose.along_x),
                              fixed(pose.along_y),
                              fixed(-pose.along_y),
-                             fixed(pose.along_x)}; // FreeType's y goes upwards
+                             fixed(pose.along_x)}; // FreeType's y axis points upwards
         FT_Outline_Transform(outline, &turn);
     }
     const double left = std::floor(pose.x_px);
@@ -169,7 +169,7 @@ TypeSetter::wrapped(std::string_view utf8, const TextLook& look, double room_px)
     std::vector<std::string> lines;
     std::string line;
     for (std::size_t at = 0; at < text.size();) {
-        // A word with the blank before it.
+        // Takes a word with the blank before it.
         const auto end = std::min(text.size(), text.find(' ', at + 1));
         auto word = text.substr(at, end - at);
         at = end;

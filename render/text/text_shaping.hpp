@@ -16,25 +16,25 @@ struct TextLook {
     bool bold = false;
 };
 
-/// A line of text as it will be blended: how much of each pixel is ink. Its origin is the left end
-/// of the base line.
+/// Rendered line of text: the coverage of each pixel by ink. Its origin is the left end of the
+/// baseline.
 struct TextMask {
-    int left = 0, top = 0; ///< of the mask, from the origin; top is negative
+    int left = 0, top = 0; ///< offset of the mask from the origin; top is negative
     int width = 0, height = 0;
     std::vector<std::uint8_t> coverage;
-    std::string text{}; ///< what it says, and how, for pens that set text themselves
+    std::string text{}; ///< content and look, for targets that set text themselves
     TextLook look{};
 };
 
-/// A glyph of a line that has been set, from the left end of its base line.
+/// Glyph of a typeset line, relative to the left end of the baseline.
 struct SetGlyph {
-    int font = 0;            ///< of the setter's
+    int font = 0;            ///< font number of the setter
     std::uint32_t index = 0; ///< in the font
     double x_px = 0;
     double y_px = 0; ///< upwards
 };
 
-/// A letter with its marks, or letters that are one glyph: what turns as one where a line bends.
+/// Letter with its marks, or ligature: the unit that is rotated on a curved line.
 struct SetCluster {
     std::size_t first = 0, count = 0; ///< of the glyphs
     double left_px = 0, right_px = 0;
@@ -44,27 +44,27 @@ struct SetLine {
     std::vector<SetGlyph> glyphs;
     std::vector<SetCluster> clusters; ///< from left to right
     double width_px = 0;
-    bool whole = true; ///< false: no font has some of its characters, which are left out
+    bool whole = true; ///< false: characters missing from all fonts are omitted
 };
 
-/// Where a glyph goes on a picture, x to the right and y downwards.
+/// Position of a glyph on a picture, x to the right and y downwards.
 struct GlyphPose {
-    double x_px = 0, y_px = 0;       ///< of its origin on the base line
-    double along_x = 1, along_y = 0; ///< direction of the base line, of length 1
+    double x_px = 0, y_px = 0;       ///< of its origin on the baseline
+    double along_x = 1, along_y = 0; ///< direction of the baseline, of length 1
     friend bool operator==(const GlyphPose&, const GlyphPose&) = default;
 };
 
-/// Sets lines of text in any script of the fonts on the shelf (render/text/font_set.hpp): glyphs
-/// are chosen and placed by HarfBuzz and drawn by FreeType, lines that mix directions are ordered
-/// by FriBidi. Bytes that are not UTF-8 become replacement characters; what no font has is left
-/// out.
+/// Typesets lines of text in any script of the font set (render/text/font_set.hpp): HarfBuzz
+/// selects and positions glyphs, FreeType renders them, and FriBidi orders lines with mixed
+/// directions. Bytes that are not UTF-8 become replacement characters; characters missing from all
+/// fonts are omitted.
 ///
 /// Source: Unicode Standard Annex 9, "Unicode Bidirectional Algorithm", revision 46 (2022), rule L2
 /// for the order of runs.
 class TypeSetter {
 public:
-    /// \throws InputError  if DejaVu Sans is not installed. So do the other functions for the font
-    ///                     of a script that a text needs.
+    /// \throws InputError  if DejaVu Sans is not installed. The other functions throw it for the
+    ///                     font of a script that a text needs.
     TypeSetter();
     explicit TypeSetter(const std::filesystem::path& fonts);
     ~TypeSetter();
@@ -74,19 +74,17 @@ public:
     double width_px(std::string_view utf8, const TextLook& look);
     TextMask mask(std::string_view utf8, const TextLook& look);
 
-    /// Its characters in the order in which they stand, from left to right: the other way round
-    /// where they are read from right to left.
+    /// Returns the characters in visual order from left to right: reversed for right-to-left text.
     static std::string as_it_stands(std::string_view utf8);
 
-    /// Where a SetGlyph's font is read from.
+    /// Returns the source of a SetGlyph's font.
     FontSource source(int font) const;
 
-    /// One glyph at its place on the picture; left and top of the mask count from the picture's
-    /// corner. Level glyphs are fitted to the rows of pixels, turned ones are not.
+    /// Renders one glyph at its position on the picture; left and top of the mask are relative to
+    /// the picture's corner. Horizontal glyphs are hinted to pixel rows, rotated ones are not.
     TextMask stamp(const SetGlyph& glyph, const TextLook& look, const GlyphPose& pose);
 
-    /// Words broken into lines of at most `room_px`; a word that is wider itself is broken
-    /// anywhere.
+    /// Wraps words into lines of at most `room_px`; a word that is wider is broken anywhere.
     std::vector<std::string> wrapped(std::string_view utf8, const TextLook& look, double room_px);
 
 private:
@@ -94,7 +92,7 @@ private:
     std::unique_ptr<ShapingCache> desk_;
 };
 
-/// Several masks as one; where they overlap the denser counts.
+/// Merges several masks; where they overlap, the higher coverage counts.
 TextMask merged(const std::vector<TextMask>& masks);
 
 } // namespace macadam

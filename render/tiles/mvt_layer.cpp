@@ -16,7 +16,7 @@
 namespace macadam {
 namespace {
 
-// Numbers of the specification's vector_tile.proto.
+// Field numbers of the specification's vector_tile.proto.
 namespace tag {
 constexpr protozero::pbf_tag_type layer = 3;
 constexpr protozero::pbf_tag_type name = 1, feature = 2, key = 3, value = 4, extent = 5;
@@ -25,8 +25,8 @@ constexpr protozero::pbf_tag_type id = 1, tags = 2, type = 3, geometry = 4;
 constexpr protozero::pbf_tag_type text = 1, real = 3, whole = 6;
 } // namespace tag
 
-// Features and values are put together by hand: by protozero's writers, which make room for lengths
-// and close it again, they take four times as long.
+// Features and values are encoded by hand: protozero's writers, which reserve space for lengths and
+// remove it again, take four times as long.
 constexpr char key_of(protozero::pbf_tag_type tag, protozero::pbf_wire_type type) {
     return static_cast<char>(tag << 3U | static_cast<std::uint32_t>(type));
 }
@@ -51,7 +51,7 @@ std::size_t varint_bytes(std::uint64_t value) {
     return 1 + (static_cast<std::size_t>(std::bit_width(value | 1U)) - 1) / 7;
 }
 
-/// A message or text of that size, with its key and length.
+/// Returns the size of a message or text field, including its key and length.
 std::size_t field_bytes(std::size_t size) {
     return 1 + varint_bytes(size) + size;
 }
@@ -68,8 +68,9 @@ std::uint32_t zigzag(std::int32_t value) {
     return (static_cast<std::uint32_t>(value) << 1U) ^ static_cast<std::uint32_t>(value >> 31);
 }
 
-/// Every bit depends on every other: numbers with two decimals share the pattern of their last 40
-/// bits with 1 in 25 others. (The finalizer of splitmix64: S. Vigna, prng.di.unimi.it, 2015.)
+/// Mixes the bits so that each depends on every other: numbers with two decimals share the pattern
+/// of their last 40 bits with 1 in 25 others. (The finalizer of splitmix64: S. Vigna,
+/// prng.di.unimi.it, 2015.)
 std::uint64_t mixed(std::uint64_t bits, std::uint64_t kind) {
     std::uint64_t hash = bits ^ (kind << 61U);
     hash = (hash ^ (hash >> 30U)) * 0xbf58476d1ce4e5b9U;
@@ -81,8 +82,8 @@ std::uint32_t upper_half(std::uint64_t hash) {
     return static_cast<std::uint32_t>(hash >> 32U);
 }
 
-/// The part of the way from one place to another that lies within least..most, cut further.
-/// \returns false if nothing is left.
+/// Clips the part of a line to least..most along one axis.
+/// \returns  false if no part is left.
 bool cut(double from, double step, std::pair<double, double>& part) {
     constexpr double least = -tile_buffer, most = tile_extent + tile_buffer;
     if (step == 0) {
@@ -163,10 +164,10 @@ bool VectorLayer::lies_within(const Place& place) {
     return is_within(place.x) && is_within(place.y);
 }
 
-/// Liang and Barsky, "A new concept and method for line clipping", ACM Transactions on Graphics 3
-/// (1984), pp. 1-22.
+/// Source: Liang and Barsky, "A new concept and method for line clipping", ACM Transactions on
+/// Graphics 3 (1984), pp. 1-22.
 void VectorLayer::put_clipped(const Place& from, const Place& to) {
-    if (lies_within(from) && lies_within(to)) { // as most do
+    if (lies_within(from) && lies_within(to)) { // the usual case
         go_on(from, to);
         return;
     }
@@ -247,7 +248,7 @@ std::uint32_t VectorLayer::put_value(Value::Kind kind, std::uint64_t bits, std::
         break;
     }
     values_.append(head.data(), at);
-    values_ += text; // the end of its message
+    values_ += text; // end of the message
     const auto size = static_cast<std::uint32_t>(text.size());
     known_.push_back({kind, bits, static_cast<std::uint32_t>(values_.size()) - size, size});
     return static_cast<std::uint32_t>(known_.size()) - 1;
@@ -300,7 +301,7 @@ void VectorLayer::put_tag(std::uint32_t key, std::uint32_t value) {
     last_[key] = value + 1;
 }
 
-/// Neighbours share most of their values, which are then not looked up.
+/// Reuses the last value of a key without a look-up, since neighbours share most values.
 bool VectorLayer::repeat_last(std::uint32_t key, Value::Kind kind, std::uint64_t bits) {
     const auto last = last_[key];
     const bool is_alike =
@@ -335,7 +336,7 @@ void VectorLayer::add(std::uint32_t key, std::int64_t whole) {
 }
 
 void VectorLayer::add_real(std::uint32_t key, double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value + 0.0); // -0 as 0
+    const auto bits = std::bit_cast<std::uint64_t>(value + 0.0); // maps -0 to 0
     if (!repeat_last(key, Value::Kind::real, bits)) {
         put_tag(key, number_of(Value::Kind::real, bits, {}));
     }

@@ -61,7 +61,7 @@ constexpr bool is_text(std::uint32_t field) {
            field == iri_class || field == last_seen || field == is_valid || field == first_seen;
 }
 
-/// To 0.01 mm/m, which many segments share: a tenth of what one is known to.
+/// Rounds to 0.01 mm/m, which makes many values equal: a tenth of their uncertainty.
 double rounded_mm_per_m(double mm_per_m) {
     return static_cast<double>(std::llround(mm_per_m * 100)) / 100;
 }
@@ -85,7 +85,7 @@ std::array<char, 10> text_of(const chr::year_month_day& day) {
     return text;
 }
 
-/// A property that is a day, as most neighbours have the same.
+/// Property with a day, cached because most neighbours have the same.
 class DayField {
 public:
     explicit DayField(std::uint32_t key) : key_{key} {}
@@ -165,7 +165,7 @@ enum PartField : std::uint32_t {
     part_validity,
     part_worst,
     part_length_m,
-    part_of_class ///< the first of as many as there are classes
+    part_of_class ///< first of one per class
 };
 constexpr std::array<std::string_view, part_of_class> part_keys{
     "name", "highway", "iri", "class", "passes", "last_seen", "validity", "iri_worst", "length_m"};
@@ -203,7 +203,7 @@ void add_part(VectorLayer& layer,
               const RoadPart& part,
               const VectorTileContext& context,
               DayField& last_seen_day) {
-    if (part.is_directed) { // from zoom 12 on: below it no name has room
+    if (part.is_directed) { // from zoom 12 on: below, names do not fit
         add_word(layer, part_name, context.words->word(part.name));
         last_seen_day.add_to(layer, part.last_seen_ms);
     }
@@ -236,7 +236,7 @@ std::vector<VectorField> vector_fields(const ClassTable& classes) {
 
 std::optional<std::uint64_t> feature_id(const SegmentKey& key) {
     constexpr int index_bits = 18,
-                  way_bits = 34; // and one for the direction: 53, what doubles tell
+                  way_bits = 34; // plus one for the direction: 53, the precision of doubles
     const bool fits = key.way_id >= 0 && key.way_id < std::int64_t{1} << way_bits &&
                       key.index < std::uint32_t{1} << index_bits;
     if (!fits) {

@@ -11,7 +11,7 @@ namespace macadam {
 namespace {
 
 constexpr std::array named_from_zoom{11, 11, 13, 13, 15, 15}; // by rank
-constexpr double max_labelled_zoom = 22; // a pixel of the world is an int to labels
+constexpr double max_labelled_zoom = 22; // labels store a pixel of the world as an int
 
 bool is_named(const MapLine& line, const WorldWindow& window) {
     const int rank = std::clamp(line.rank, 0, 5);

@@ -10,11 +10,11 @@
 
 namespace macadam {
 
-/// The names of roads in a window of the world, in pixels of the world: motorways and primary roads
-/// from zoom 11 on, secondary and tertiary ones from 13, the others from 15 to 22 (of tiles of 256
-/// px).
+/// Returns the names of roads in a window of the world, in pixels of the world: motorways and
+/// primary roads from zoom 11 on, secondary and tertiary ones from 13, the others from 15 to 22 (of
+/// tiles of 256 px).
 ///
-/// \param lines  all of every label cell that the window touches
+/// \param lines  all lines of every label cell that the window touches
 std::vector<Label> tile_labels(std::span<const MapLine> lines,
                                const WorldWindow& window,
                                const LineWidths& widths,

@@ -25,8 +25,9 @@ constexpr int min_tile_px = 64;
 constexpr int max_tile_px = 4096;
 constexpr int max_side_px = 8192;
 
-// OpenGL cuts what leaves its view, and cut triangles need not meet as the whole ones do. So the
-// view is larger than the window by more than a piece is long, and the window is cut out of it.
+// OpenGL clips at its view, and clipped triangles need not meet as the original ones do. The view
+// is therefore larger than the window by more than the length of a line segment, and the window is
+// cut out of it.
 constexpr int beyond_px = 512;
 
 constexpr auto floats = VertexPart::Kind::floats;
@@ -62,9 +63,9 @@ void main() {
 }
 )";
 
-// Coverage is the part of a one pixel wide window across the line that lies on it: right for lines
-// thinner than a pixel too. Nothing is interpolated: the pixel's place less the piece's is exact,
-// so the outcome does not depend on where in the window both are.
+// Coverage is the part of a one pixel wide window across the line that lies on it, which is also
+// right for lines thinner than a pixel. Values are not interpolated: the pixel's position relative
+// to the line segment is exact, so the result does not depend on their position in the window.
 constexpr const char* fragment_shader = R"(#version 330 core
 flat in vec4 ends;
 flat in vec2 direction;
@@ -117,7 +118,8 @@ LineWidths widths_of(const MapStyle& style, const WorldScale& scale) {
     return widths;
 }
 
-/// Mesa's threads wait for each other more than they draw; whoever wants more draws in processes.
+/// Limits Mesa to one thread, since its threads mostly wait for each other; use processes for
+/// parallel drawing.
 const TileLook& with_one_thread(const TileLook& look) {
     setenv("LP_NUM_THREADS", "0", 0);
     return look;
@@ -144,7 +146,7 @@ std::vector<std::uint8_t> rgb_of(std::span<const std::uint8_t> rgba) {
     std::vector<std::uint8_t> rgb(rgba.size() / 4 * 3 + 1);
     auto* to = rgb.data();
     for (std::size_t i = 0; i < rgba.size(); i += 4, to += 3) {
-        std::memcpy(to, rgba.data() + i, 4); // of which the last is written over
+        std::memcpy(to, rgba.data() + i, 4); // the fourth byte is overwritten
     }
     rgb.pop_back();
     return rgb;
@@ -204,7 +206,7 @@ TilePainter::Impl::Impl(const TileLook& wanted)
     ClearColor(part(16), part(8), part(0), 1);
 }
 
-/// All in one go: colours and widths come with the corners.
+/// Draws all quads in one call: colours and widths are part of the vertices.
 void TilePainter::Impl::paint(std::span<const TileQuad> shown) const {
     context.make_current();
     Clear(GL_COLOR_BUFFER_BIT);
@@ -253,7 +255,7 @@ Image TilePainter::draw(const TileId& first, std::span<const MapLine> lines) {
 
 double TilePainter::reach_px(int zoom) const {
     const auto widths = widths_of(impl_->look.style, {zoom, impl_->look.tile_px});
-    // A line that is moved aside is thrown out to twice its way at most where it bends.
+    // At bends, the offset of a line is at most doubled.
     return 2 * way_offset_px(widths, 0) + casing_radius_px(widths, 0, true) + 1;
 }
 

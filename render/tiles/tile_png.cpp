@@ -16,9 +16,9 @@
 namespace macadam {
 namespace {
 
-// Of libdeflate: thin lines on a flat ground gain a tenth from level 6 and take twice the time.
+// For libdeflate: with thin lines on a flat ground, level 6 saves a tenth and takes twice the time.
 constexpr int compression = 4;
-constexpr std::size_t max_colours = 255; // index 0 of the table below says "not yet looked up"
+constexpr std::size_t max_colours = 255; // index 0 of the table below means "not yet looked up"
 
 struct Channels {
     int red, green, blue;
@@ -46,7 +46,7 @@ std::uint32_t mixed(std::uint32_t a, std::uint32_t b, double share) {
     return part(red_a, red_b) << 16 | part(green_a, green_b) << 8 | part(blue_a, blue_b);
 }
 
-/// The colours of a style, then steps between those that lie side by side on a tile.
+/// Returns the colours of a style, then steps between those that are adjacent on a tile.
 std::vector<std::uint32_t> palette_of(const MapStyle& style) {
     const auto other = palette(style);
     const auto* classes = style.classes != nullptr ? style.classes : class_table("fhwa");
@@ -60,7 +60,8 @@ std::vector<std::uint32_t> palette_of(const MapStyle& style) {
                                                                {other.casing, other.few_passes},
                                                                {other.ground, other.quiet_ink},
                                                                {other.ground, other.ink}};
-    // Any two classes can meet, but of many only the neighbours have room for their steps.
+    // Any two classes can meet, but with many classes there is room for the steps of neighbours
+    // only.
     const std::size_t apart = ramp.size() <= 5 ? ramp.size() : 1;
     for (std::size_t i = 0; i < ramp.size(); ++i) {
         colours.push_back(ramp[i]);
@@ -105,8 +106,8 @@ struct Free {
     }
 };
 
-/// The nearest colour of a palette for each of 2^24, looked up when it is first asked for. Pages of
-/// the table that no tile needs take no memory.
+/// Nearest colour of a palette for each of 2^24, computed on first use. Unused pages of the table
+/// take no memory.
 class NearestColour {
 public:
     explicit NearestColour(std::vector<std::uint32_t> palette)
@@ -154,12 +155,12 @@ struct TilePng::Impl {
     NearestColour nearest;
     std::uint32_t ground;
     std::unique_ptr<libdeflate_compressor, Free> compressor;
-    Bytes rows; ///< of the tile: for each its filter, 0, and an index for each pixel
+    Bytes rows; ///< of the tile: for each, its filter 0 and one index per pixel
     Bytes stream;
 };
 
-/// The colours of the palette that the rows use, and the rows by their numbers. The first byte of
-/// a row is its filter.
+/// Returns the palette colours that the rows use, and renumbers the rows. The first byte of a row
+/// is its filter.
 Bytes TilePng::Impl::used_colours(int side_px) {
     const auto row = std::size_t(side_px) + 1;
     const auto each_row = [&](const auto& use) {
@@ -201,7 +202,7 @@ Bytes TilePng::Impl::file(int side_px) {
     Bytes head;
     put_number(head, std::uint32_t(side_px));
     put_number(head, std::uint32_t(side_px));
-    // Eight bits a pixel, by palette; the only compression and the only filter method; no passes.
+    // Eight bits per pixel, palette; the only compression and filter methods; no interlacing.
     head.insert(head.end(), {8, 3, 0, 0, 0});
     put_chunk(bytes, "IHDR", head);
     put_chunk(bytes, "PLTE", colours);
@@ -224,7 +225,7 @@ Bytes TilePng::encode(const Image& image, const PictureCut& cut) {
     std::uint32_t last = impl_->ground;
     std::uint8_t index = impl_->nearest.index(last);
     for (int y = cut.top_px; y < cut.top_px + cut.side_px; ++y) {
-        *pixel++ = 0; // the row as it is: differences of palette indices mean nothing
+        *pixel++ = 0; // no filter: differences of palette indices are meaningless
         const auto* rgb =
             image.rgb.data() + (std::size_t(y) * image.width + std::size_t(cut.left_px)) * 3;
         for (int x = 0; x < cut.side_px; ++x, rgb += 3) {

@@ -9,9 +9,9 @@
 namespace macadam {
 namespace {
 
-constexpr double flat_px = 0.05;     // a point this near the line past it does not bend it
-constexpr double max_piece_px = 256; // so that no piece reaches far out of the window
-constexpr double max_stretch = 2.0;  // of a mitre when a line is moved aside
+constexpr double flat_px = 0.05;     // maximum distance of a removable point from the line past it
+constexpr double max_piece_px = 256; // limits the reach of a line segment out of the window
+constexpr double max_stretch = 2.0;  // of a mitre when a line is offset
 
 struct Vector {
     double x, y;
@@ -30,7 +30,7 @@ double off_line_px(const SubpixelPoint& from, const SubpixelPoint& to, const Sub
     return std::hypot(part.x - along * way.x, part.y - along * way.y);
 }
 
-/// Douglas and Peucker's choice of points; both ends stay.
+/// Simplifies lines by the Douglas-Peucker algorithm; both ends stay.
 class Thinning {
 public:
     void thin(std::vector<SubpixelPoint>& points) {
@@ -75,7 +75,7 @@ PolylineSegment piece_of(const SubpixelPoint& from, const SubpixelPoint& to) {
     return {from, to, step.x / length_px, step.y / length_px, length_px};
 }
 
-/// The window and what may reach into it.
+/// Window with the surroundings that may reach into it.
 class Neighbourhood {
 public:
     explicit Neighbourhood(const WorldWindow& window)
@@ -93,7 +93,7 @@ private:
     std::int64_t left_, top_, side_;
 };
 
-/// A long piece in even parts, of which only those near the window are kept.
+/// Divides a long line segment into equal parts and keeps those near the window.
 void add_parts(std::vector<PolylineSegment>& pieces,
                const SubpixelPoint& from,
                const SubpixelPoint& to,
@@ -109,7 +109,7 @@ void add_parts(std::vector<PolylineSegment>& pieces,
         return SubpixelPoint{from.x + std::llround(double(to.x - from.x) * share),
                              from.y + std::llround(double(to.y - from.y) * share)};
     };
-    // Halves that are far are left out whole: a line round the world has millions of parts.
+    // Distant halves are skipped as a whole: a line round the world has millions of parts.
     std::vector<std::pair<std::int64_t, std::int64_t>> spans{{0, parts}};
     while (!spans.empty()) {
         const auto [first, past] = spans.back();
@@ -159,7 +159,7 @@ public:
         }
     }
 
-    /// Moves the strands from `first` on to the right of their directions.
+    /// Offsets the polylines from index `first` on to the right of their directions.
     void move_aside(std::size_t first, const LineWidths& widths, double sign) {
         if (first == made_.strands.size()) {
             return;
@@ -213,8 +213,8 @@ private:
         return true;
     }
 
-    /// A joint at the side of both pieces, exact for gentle bends; a hairpin would throw its corner
-    /// to infinity.
+    /// Returns the offset joint of two line segments, exact for gentle bends; limited for hairpins,
+    /// whose corner would lie at infinity.
     static SubpixelPoint moved(const SubpixelPoint& joint,
                                const PolylineSegment& before,
                                const PolylineSegment& after,

@@ -10,21 +10,21 @@
 
 namespace macadam {
 
-/// A straight piece of a strand, `from` before `to`.
+/// Line segment of a polyline, `from` before `to`.
 struct PolylineSegment {
     SubpixelPoint from, to;
-    double dx = 0, dy = 0; ///< unit, from `from` to `to`
+    double dx = 0, dy = 0; ///< unit vector from `from` to `to`
     double length_px = 0;
-    bool drawn = true; ///< false: it has no length, or was turned round when it was moved aside
+    bool drawn = true; ///< false: zero length, or reversed by the offset
 };
 
-/// One line, as pieces that follow each other.
+/// Line as a sequence of line segments.
 struct TilePolyline {
-    std::uint32_t first; ///< of the pieces
+    std::uint32_t first; ///< index range of the line segments
     std::uint32_t past;
     std::int8_t look; ///< render/roads/road_polylines.hpp
     std::int8_t rank; ///< 0 .. 5
-    /// Pieces of other strands that go on from this one's ends; no_piece: none.
+    /// Line segments of other polylines that continue this one at its ends; no_piece: none.
     std::uint32_t piece_before, piece_after;
 };
 
@@ -36,8 +36,8 @@ struct TilePolylines {
     std::vector<std::uint32_t> strand_of; ///< of each piece
 };
 
-/// The piece that goes on into `piece` where it starts, and that into which it goes on; no_piece if
-/// there is none, or it was far from the window and left out.
+/// Return the predecessor and the successor of `piece`; no_piece if there is none, or if it was
+/// omitted because it is far from the window.
 std::uint32_t piece_before(std::span<const PolylineSegment> pieces,
                            const TilePolyline& strand,
                            std::uint32_t piece);
@@ -45,11 +45,12 @@ std::uint32_t piece_after(std::span<const PolylineSegment> pieces,
                           const TilePolyline& strand,
                           std::uint32_t piece);
 
-/// The lines on the world's pixels: where they are the same in two windows, so are their pieces.
+/// Converts the lines to line segments on the world's pixels: lines that are the same in two
+/// windows give the same line segments.
 ///
-/// Points that bend a line by less than 0.05 px are left out; of long pieces only what is near the
-/// window is there. Where the widths separate the ways, both directions of a road are moved to
-/// their sides; else the worse is taken.
+/// Points that bend a line by less than 0.05 px are omitted; long line segments are cut to the part
+/// near the window. If the widths separate the ways, both directions of a road are offset to their
+/// sides; else the worse is used.
 ///
 /// \param lines  in the same order in every window
 TilePolylines tile_strands(std::span<const MapLine> lines,

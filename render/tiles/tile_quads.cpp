@@ -10,8 +10,8 @@
 namespace macadam {
 namespace {
 
-constexpr double fringe_px = 0.75; // half a pixel of antialiasing and a little for rounding
-constexpr double overlap_px = 1.0; // of neighbours that look different
+constexpr double fringe_px = 0.75; // half a pixel of antialiasing, and rounding
+constexpr double overlap_px = 1.0; // of neighbours with different looks
 constexpr int ranks = 6;
 
 struct Vector {
@@ -19,16 +19,16 @@ struct Vector {
 };
 
 struct Paint {
-    int layer; ///< painted in the order of these
+    int layer; ///< painting order
     double radius_px;
     std::uint32_t rgb;
 };
 
 bool is_certain(int look) {
-    return look % 2 == 1; // few passes are drawn as wide as what is certain
+    return look % 2 == 1; // few passes have the width of certain lines
 }
 
-/// What a strand is painted with, in how many layers, and how they follow each other.
+/// Layers of a polyline's painting, with their order.
 class PaintLayers {
 public:
     PaintLayers(const LineWidths& widths, const TileColours& colours)
@@ -75,9 +75,9 @@ Paint paint_of(const PaintLayers& coats, const TilePolyline& strand, PaintLayer 
     return {};
 }
 
-/// The line that halves the bend from one piece into the next.
+/// Bisector of the bend between two line segments.
 struct Bend {
-    Vector onward;    ///< unit, across that line
+    Vector onward;    ///< unit vector, across the bisector
     double sine_half; ///< of half the bend
 };
 
@@ -90,10 +90,10 @@ Bend bend_of(const PolylineSegment& before, const PolylineSegment& after) {
     return {{sum.x / length, sum.y / length}, std::sqrt(std::max(0.0, 1 - length * length / 4))};
 }
 
-/// One end of a piece.
+/// End of a line segment.
 struct End {
     Vector outward;
-    float limit_px = 1; ///< any that is above zero: there is no line to be beyond of
+    float limit_px = 1; ///< any value above zero: no bisector limits it
     double reach_px;    ///< of the rectangle, beyond the end
 };
 
@@ -101,11 +101,11 @@ End open_end(double reach_px) {
     return {{}, 1, reach_px};
 }
 
-/// \param sign  1 at the end of the piece, -1 at its start
+/// \param sign  1 at the end of the line segment, -1 at its start
 End joined_end(const Bend& bend, double sign, int own_layer, int other_layer, double reach_px) {
     End end{{bend.onward.x * sign, bend.onward.y * sign}, 0, reach_px * bend.sine_half + fringe_px};
     if (own_layer == other_layer) {
-        // Pixels on the very line belong to the piece before it.
+        // Pixels exactly on the bisector belong to the earlier line segment.
         end.limit_px = sign > 0 ? std::numeric_limits<float>::min() : 0.F;
     } else if (own_layer < other_layer) {
         end.limit_px = float(overlap_px);
@@ -222,7 +222,7 @@ private:
                 corner(to, end.reach_px, reach_px)};
     }
 
-    /// Exact in a float: a piece near the window has 15 bits of whole and 8 of broken pixels.
+    /// Exact in a float: near the window, coordinates have 15 integer bits and 8 fractional bits.
     Vector in_window(const SubpixelPoint& point) const {
         return {double(point.x - window_.left_px * grid_per_px) / grid_per_px,
                 double(point.y - window_.top_px * grid_per_px) / grid_per_px};
@@ -231,7 +231,7 @@ private:
     const TilePolylines& strands_;
     const WorldWindow& window_;
     PaintLayers coats_;
-    std::vector<std::size_t> counts_; ///< of each layer, then where its next quad goes
+    std::vector<std::size_t> counts_; ///< size of each layer, then the index of its next quad
     double radius_px_ = 0;
 };
 

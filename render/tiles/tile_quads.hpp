@@ -10,17 +10,17 @@
 
 namespace macadam {
 
-/// A corner of the rectangle in which a piece is drawn. All but the place is the same for the four
-/// corners: the shader works from the piece itself, so that a pixel comes out the same wherever it
-/// stands in the window.
+/// Vertex of the rectangle that covers a line segment. All values except the position are equal for
+/// the four corners: the shader computes with the line segment itself, so that a pixel is the same
+/// at any position in the window.
 struct QuadVertex {
     float x_px, y_px; ///< in the window
     float from_x_px, from_y_px, to_x_px, to_y_px;
-    float dx, dy; ///< unit, along the piece
-    /// Unit, beyond the piece's start and end, across the line that halves the bend there; zero
-    /// where nothing goes on.
+    float dx, dy; ///< unit vector along the line segment
+    /// Unit vectors beyond the line segment's start and end, across the bisector of the bend there;
+    /// zero if no other follows.
     float start_x, start_y, end_x, end_y;
-    /// How far beyond that line the piece is drawn, px; below zero: it ends there softly.
+    /// Distance beyond that bisector up to which the line segment is drawn, px; negative: soft end.
     float start_limit_px, end_limit_px;
     float radius_px;
     std::array<std::uint8_t, 4> rgba;
@@ -33,13 +33,13 @@ struct TileColours {
     std::vector<std::uint32_t> classes; ///< 0xRRGGBB
 };
 
-/// The rectangles of all pieces that reach into the window, in painting order: roads without a
-/// measurement; then rank by rank, service roads first, all casings before all cores, what is
-/// better before what is worse. In each of these the order is that of the strands.
+/// Returns the rectangles of all line segments that reach into the window, in painting order: roads
+/// without a measurement; then rank by rank, service roads first, all casings before all cores,
+/// better classes before worse ones. Within each of these the order is that of the polylines.
 ///
-/// Where a piece goes on into another that is painted with it, each has the pixels on its side of
-/// the line that halves the bend, so none is painted twice. Where the look changes the piece that
-/// is painted later ends softly on that line, over its neighbour.
+/// If a line segment continues in another that is painted with it, each has the pixels on its
+/// side of the bisector of the bend, so that none is painted twice. Where the look changes, the one
+/// that is painted later ends softly on the bisector, over its neighbour.
 std::vector<TileQuad> tile_quads(const TilePolylines& strands,
                                  const WorldWindow& window,
                                  const LineWidths& widths,

@@ -17,7 +17,7 @@
 namespace macadam {
 namespace {
 
-constexpr mode_t mode = 0666; // less the umask
+constexpr mode_t mode = 0666; // reduced by the umask
 constexpr const char* name_in_folder = "file";
 
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
@@ -28,7 +28,7 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path{"."};
 }
 
-/// What the system says of syncing a folder: 0 or an errno.
+/// Syncs a folder. \returns 0 or an errno.
 int sync_folder(const std::filesystem::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) {
@@ -39,7 +39,7 @@ int sync_folder(const std::filesystem::path& folder) {
     return error;
 }
 
-/// By which a file without a name is given one.
+/// Path by which an unnamed file can be linked to a name.
 std::string way_to(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
 }
@@ -52,7 +52,7 @@ int link_to(int descriptor, const std::filesystem::path& name) {
                : errno;
 }
 
-/// A file without a name; -1 where there are none, or where it could not be given one later.
+/// Opens an unnamed file; -1 if they are unsupported, or cannot be linked to a name later.
 int nameless_file(const std::filesystem::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
     if (descriptor >= 0 && ::access(way_to(descriptor).c_str(), F_OK) != 0) {
@@ -96,7 +96,7 @@ int AtomicFile::opened() {
 }
 
 void AtomicFile::write(std::string_view text) {
-    if (text.empty()) { // which may lie nowhere
+    if (text.empty()) { // its data may be null
         return;
     }
     if (std::fwrite(text.data(), 1, text.size(), out_) != text.size()) {
@@ -104,7 +104,7 @@ void AtomicFile::write(std::string_view text) {
     }
 }
 
-/// A link replaces no file; only a file with a name can take the place of another.
+/// Replaces an existing file by renaming, because a link cannot replace one.
 void AtomicFile::put_in_place() {
     if (folder_) {
         const auto whole = folder_->path() / name_in_folder;
@@ -116,7 +116,7 @@ void AtomicFile::put_in_place() {
     const int descriptor = ::fileno(out_);
     int error = link_to(descriptor, file_);
     if (error == EEXIST) {
-        ::flock(descriptor, LOCK_SH | LOCK_NB); // it is worked on
+        ::flock(descriptor, LOCK_SH | LOCK_NB); // marks it as in use
         const auto name = temporary_name(file_);
         const RemovedIfCutOff removed{name};
         error = link_to(descriptor, name);

@@ -9,10 +9,10 @@
 
 namespace macadam {
 
-/// A file that appears when it is whole, or not at all: written into a file without a name in the
-/// same folder, synced, then put in its place. Without commit() nothing is left, whatever becomes
-/// of the program. Where the file system has no files without a name, it is one in a
-/// TemporaryFolder. For libraries that write by name: AtomicFileSet.
+/// File that appears complete or not at all. It is written to an unnamed file in the same folder,
+/// synced, then linked under its name by commit(). Without commit() no file remains, even if the
+/// program is killed. On file systems without unnamed files, it is written in a TemporaryFolder.
+/// For libraries that write by name, use AtomicFileSet.
 ///
 /// \throws InputError  from every call that fails; the message names the file and the cause.
 class AtomicFile {
@@ -30,7 +30,7 @@ private:
     void put_in_place();
 
     std::filesystem::path file_;
-    std::optional<TemporaryFolder> folder_; ///< where it cannot be without a name
+    std::optional<TemporaryFolder> folder_; ///< used where the file system has no unnamed files
     std::FILE* out_ = nullptr;
 };
 

@@ -42,7 +42,7 @@ fs::path parent_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path{"."};
 }
 
-/// Moves that can be taken back, the last first.
+/// Moves that can be undone in reverse order.
 class Moves {
 public:
     Moves() = default;
@@ -70,7 +70,7 @@ private:
     std::vector<std::pair<fs::path, fs::path>> moves_;
 };
 
-/// Syncs what is in the folder. \returns names, in order.
+/// Syncs the files in the folder. \returns their names, in order.
 std::vector<std::string> synced_names(const fs::path& folder, const fs::path& place) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator{folder}) {
@@ -114,8 +114,8 @@ void move_together(const std::vector<std::string>& names,
     moves.are_final();
 }
 
-/// The folder that files are moved into. It is open from before the first is moved: what was moved
-/// can be synced whatever the limit of open files.
+/// Target folder of the moves. It is opened before the first move, so that it can be synced even if
+/// the limit of open files is reached.
 class TargetFolder {
 public:
     TargetFolder(const fs::path& folder, fs::path file)
@@ -129,7 +129,7 @@ public:
     TargetFolder& operator=(const TargetFolder&) = delete;
     ~TargetFolder() { ::close(descriptor_); }
 
-    /// Until the end of this object.
+    /// Locks the folder for the lifetime of this object.
     void lock() {
         constexpr auto wait_policy = std::chrono::milliseconds{1500};
         constexpr auto pause = std::chrono::milliseconds{5};
@@ -172,8 +172,8 @@ void AtomicFileSet::commit(const std::vector<std::string>& stale) {
     const auto place = parent_of(main_file_);
     const auto names = synced_names(folder(), place);
     TargetFolder opened{place, main_file_};
-    opened.lock();              // one at a time
-    folder_->keep_if_cut_off(); // what was there before is in it for a moment
+    opened.lock();              // one program at a time
+    folder_->keep_if_cut_off(); // it briefly holds the replaced files
     if (names.size() == 1 && stale.empty()) {
         replace(folder() / names.front(), place / names.front());
     } else {
@@ -193,7 +193,7 @@ void AtomicFileSet::commit_new() {
                                          "expected the name of a new file",
                                          main_file_.string())};
         }
-        if (errno != EINVAL && errno != ENOSYS) { // not every file system can
+        if (errno != EINVAL && errno != ENOSYS) { // not supported by every file system
             fail(main_file_, std::strerror(errno));
         }
         replace(main_file(), main_file_);

@@ -9,32 +9,33 @@
 
 namespace macadam {
 
-/// Files of one folder that belong together and appear when all of them are whole, or none of them:
-/// written into a TemporaryFolder beside their places, which commit() empties. Without commit()
-/// nothing is left. If the program is killed while it moves them, that folder holds what is not in
-/// its place yet, and what was there before. A file that is alone takes the place of another at
-/// once. Also for a single file that a library writes by name.
+/// Set of files in one folder that appear all together or not at all. They are written to a
+/// TemporaryFolder beside the target, and commit() moves them to their final names. Without
+/// commit() nothing remains. If the program is killed during the move, the temporary folder holds
+/// the files not moved yet and the replaced ones. A single file replaces an existing one
+/// atomically. Also for a single file that a library writes by name.
 ///
 /// \throws InputError  from every call that fails; the message names the file and the cause.
 class AtomicFileSet {
 public:
-    /// \param main_file  the one that the user named; the others stand beside it.
+    /// \param main_file  file that the user named; the others are created beside it.
     explicit AtomicFileSet(std::filesystem::path main_file);
     AtomicFileSet(const AtomicFileSet&) = delete;
     AtomicFileSet& operator=(const AtomicFileSet&) = delete;
-    /// Where to write them, each under the name that it will have.
+    /// Folder in which to write the files, each under its final name.
     const std::filesystem::path& folder() const { return folder_->path(); }
 
-    /// The same for the file that the user named.
+    /// Path at which to write the file that the user named.
     std::filesystem::path main_file() const { return folder() / main_file_.filename(); }
 
-    /// Moves them to their places; where that fails, those that were there stand there again. Two
-    /// programs that make the same files take turns, so that the files of one of them stand there.
+    /// Moves the files to their final names; on failure, replaced files are restored. Programs that
+    /// write the same set take turns, so that all files come from one of them.
     ///
-    /// \param stale  names of files beside them that the new ones make wrong (an index): removed.
+    /// \param stale  names of existing files, such as an index, that the new files make invalid;
+    ///               they are removed.
     void commit(const std::vector<std::string>& stale = {});
 
-    /// The same for a file that is alone and must not take the place of another.
+    /// Commits a set of a single file that must not replace an existing one.
     void commit_new();
 
 private:

@@ -24,7 +24,7 @@ void require(const std::error_code& error, const fs::path& folder) {
     }
 }
 
-/// "fleet/" as "fleet", so that a name can be made of it.
+/// Converts "fleet/" to "fleet", so that a name can be derived from it.
 fs::path without_slash(const fs::path& folder) {
     return folder.has_filename() ? folder : folder.parent_path();
 }
@@ -42,7 +42,7 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
 
 } // namespace
 
-/// \returns whether it is there.
+/// \returns whether it exists.
 bool expect_new_or_empty(const fs::path& folder) {
     std::error_code none;
     if (!fs::exists(fs::symlink_status(folder, none))) {
@@ -75,12 +75,12 @@ AtomicFolder::AtomicFolder(fs::path folder)
         require(error, folder_);
     }
     try {
-        // The parent of a folder that is there may belong to somebody else, or to another disk.
+        // The parent of an existing folder may belong to another user, or be on another disk.
         temporary_.emplace(exists_ ? folder_ / "" : folder_);
     } catch (const std::system_error& failure) {
         fail(folder_, failure.code().message());
     }
-    content_ = temporary_->path() / "content"; // with the rights of an ordinary folder
+    content_ = temporary_->path() / "content"; // with ordinary permissions
     fs::create_directory(content_, error);
     require(error, folder_);
 }

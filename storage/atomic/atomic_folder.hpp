@@ -7,15 +7,15 @@
 
 namespace macadam {
 
-/// Whether a folder is there, and empty; false: nothing is.
+/// Tests that a folder can be created or filled.
 ///
-/// \throws InputError  for a folder with something in it, and for what is no folder.
+/// \returns true if it exists and is empty, false if it does not exist.
+/// \throws InputError  for a folder that is not empty, and for anything that is not a folder.
 bool expect_new_or_empty(const std::filesystem::path& folder);
 
-/// A folder that is filled when all of it is there, or not at all: work goes on in a
-/// TemporaryFolder, whose content commit() moves into place. Without commit() nothing is left. If
-/// the program is killed, that folder lies beside the place, or in it if the place was there
-/// before.
+/// Folder that is filled completely or not at all. The content is written to a TemporaryFolder, and
+/// commit() moves it into place. Without commit() no file remains. If the program is killed, the
+/// temporary folder remains beside the target, or inside it if the target existed before.
 ///
 /// \throws InputError  from every call that fails; the message names the folder and the cause.
 class AtomicFolder {
@@ -25,7 +25,7 @@ public:
     AtomicFolder(const AtomicFolder&) = delete;
     AtomicFolder& operator=(const AtomicFolder&) = delete;
 
-    /// Where to work before commit().
+    /// Folder in which to write before commit().
     const std::filesystem::path& temporary() const { return content_; }
 
     void commit();

@@ -22,7 +22,7 @@ namespace {
         fmt::format("{}: cannot be {}: {}", beside.string(), deed, std::strerror(error))};
 }
 
-/// Not every file system has files without a name.
+/// Opens an unnamed file, which not every file system supports.
 int nameless_file(const std::filesystem::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) {

@@ -7,19 +7,19 @@
 
 namespace macadam {
 
-/// Where bytes lie in a Spool.
+/// Position of bytes in a TempFile.
 struct ByteRange {
     std::uint64_t at = 0;
     std::uint32_t size = 0;
 };
 
-/// Bytes laid aside on disk while work goes on, in a file without a name that goes with this
-/// object. One thread appends at a time; what is there can be read by many.
+/// Unnamed temporary file on disk, deleted with this object. One thread at a time may append; many
+/// may read what was appended.
 ///
-/// \throws InputError  from every call that fails; the message names the file that the work is for.
+/// \throws InputError  from every call that fails; the message names the file `beside`.
 class TempFile {
 public:
-    /// \param beside  a file in the folder that has room, most often the one that is made.
+    /// \param beside  file in the folder that has room, usually the output file.
     explicit TempFile(std::filesystem::path beside);
     TempFile(const TempFile&) = delete;
     TempFile& operator=(const TempFile&) = delete;

@@ -36,7 +36,7 @@ std::string random_characters() {
     return text;
 }
 
-/// What all temporary names of a file begin with; short enough for every file system.
+/// Common prefix of all temporary names of a file; short enough for every file system.
 std::string begin_of_names(const fs::path& made) {
     constexpr std::size_t max_bytes = 200;
     return made.filename().string().substr(0, max_bytes) + std::string{mark};
@@ -49,7 +49,7 @@ fs::path folder_of(const fs::path& file) {
 fs::path made_folder(const fs::path& beside) {
     for (;;) {
         auto name = temporary_name(beside);
-        if (::mkdir(name.c_str(), 0700) == 0) { // follows no link, takes nothing that is there
+        if (::mkdir(name.c_str(), 0700) == 0) { // follows no link and fails if the name exists
             return name;
         }
         if (errno != EEXIST) {
@@ -58,7 +58,7 @@ fs::path made_folder(const fs::path& beside) {
     }
 }
 
-/// Where the file system knows no locks, nothing is told.
+/// Locks the folder; file systems without locks are tolerated.
 int locked(const fs::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor < 0) {
@@ -111,7 +111,7 @@ TemporaryFolder::~TemporaryFolder() {
     fs::remove_all(path_, error);
     ::close(lock_);
     if (error) {
-        fs::remove_all(path_, error); // the last descriptor was the lock's
+        fs::remove_all(path_, error); // its last descriptor was that of the lock
     }
 }
 

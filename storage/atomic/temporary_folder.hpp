@@ -9,13 +9,13 @@
 
 namespace macadam {
 
-/// A folder to work in that nobody else can foresee or enter (mode 0700), named `NAME.part-` and
-/// twelve random characters. It goes with this object, with all that is in it, and also where the
-/// program is cut off by a signal. Only a program that is killed leaves it; see leftovers_of().
+/// Private working folder (mode 0700) named `NAME.part-` and twelve random characters, which others
+/// can neither predict nor enter. It is removed with its content when this object is destroyed or
+/// when a signal ends the program. It remains only if the program is killed; see leftovers_of().
 class TemporaryFolder {
 public:
-    /// \param beside  the file or folder that is made, NAME: it stands beside that.
-    /// \throws std::system_error  if it cannot be made.
+    /// \param beside  file or folder NAME that is being made; the folder is created beside it.
+    /// \throws std::system_error  if the folder cannot be created.
     explicit TemporaryFolder(const std::filesystem::path& beside);
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -23,33 +23,35 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
 
-    /// From now on it holds what must not be lost, and is only removed by this object.
+    /// Keeps the folder when a signal ends the program, because it now holds data that must not be
+    /// lost; only this object removes it.
     void keep_if_cut_off() { removed_.release(); }
 
 private:
     std::filesystem::path path_;
-    int lock_; ///< tells other programs that its owner lives
+    int lock_; ///< tells other programs that the owner is alive
     RemovedIfCutOff removed_;
 };
 
-/// A name beside a file that nobody has: `NAME.part-` and twelve random characters.
-/// \throws std::system_error  if the system gives no random numbers.
+/// Unused name beside a file: `NAME.part-` and twelve random characters.
+/// \throws std::system_error  if the system provides no random numbers.
 std::filesystem::path temporary_name(const std::filesystem::path& beside);
 
-/// An unfinished file or folder whose maker was killed.
+/// Unfinished file or folder of a program that was killed.
 struct Leftover {
     std::filesystem::path name;
     std::uintmax_t bytes;
 };
 
-/// What killed programs that made this file or folder left beside it, and in it; in the order of
-/// names. What living programs work on is not among them.
+/// Lists what killed programs left beside and inside the file or folder `made`, in the order of
+/// names. Files that running programs still use are not included.
 std::vector<Leftover> leftovers_of(const std::filesystem::path& made);
 
-/// Whether a name is that of an unfinished file or folder.
+/// Tests whether a name is that of an unfinished file or folder.
 bool is_temporary_name(const std::filesystem::path& name);
 
-/// Whether a program that lives works on it; also where that cannot be told.
+/// Tests whether a running program uses the unfinished file or folder; true if that cannot be
+/// determined.
 bool is_worked_on(const std::filesystem::path& temporary);
 
 } // namespace macadam

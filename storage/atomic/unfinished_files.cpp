@@ -15,34 +15,34 @@
 namespace macadam {
 namespace {
 
-/// A place for a name. `turn` is odd while the name is valid and changes with every change of it,
-/// so that a signal handler never takes half of one name with half of another.
+/// Slot for a name. `turn` is odd while the name is valid and changes with the name, so that a
+/// signal handler never combines halves of two names.
 struct Slot {
     std::atomic<bool> is_taken;
     std::atomic<std::uint32_t> turn;
-    std::atomic<pid_t> owner; ///< a forked process inherits names that are not its own
+    std::atomic<pid_t> owner; ///< a forked process inherits names that it does not own
     std::array<char, PATH_MAX> name;
 };
 
-constexpr std::size_t slot_count = 32; // names beyond them are not removed
+constexpr std::size_t slot_count = 32; // names beyond this limit are not removed
 std::array<Slot, slot_count> slots;
 
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 
-/// As the kernel gives them, getdents64(2); readdir() takes memory.
+/// Directory entry of the kernel, getdents64(2); readdir() would allocate.
 struct Entry {
     std::uint64_t inode;
     std::int64_t offset;
     std::uint16_t size;
     unsigned char type;
-    char name[1]; ///< and more
+    char name[1]; ///< variable length
 };
 
-constexpr int deepest = 8; // folders in folders: tiles have three
+constexpr int deepest = 8; // levels of folders; tiles need three
 
 bool remove_all(int at, const char* name, int depth);
 
-/// One pass over the entries of an open folder. \returns whether any of them went.
+/// Makes one pass over the entries of an open folder. \returns whether any was removed.
 bool remove_entries(int folder, int depth) {
     alignas(Entry) std::array<char, 4096> block{};
     bool any_went = false;
@@ -61,7 +61,7 @@ bool remove_entries(int folder, int depth) {
     return any_went;
 }
 
-/// Follows no link. \param name  in the open folder `at`
+/// Removes a file or folder without following links. \param name  in the open folder `at`
 bool remove_all(int at, const char* name, int depth) {
     if (::unlinkat(at, name, 0) == 0) {
         return true;
@@ -71,7 +71,7 @@ bool remove_all(int at, const char* name, int depth) {
     if (folder < 0) {
         return false;
     }
-    while (remove_entries(folder, depth + 1)) { // some are passed over while others go
+    while (remove_entries(folder, depth + 1)) { // entries may be skipped while others are removed
     }
     ::close(folder);
     return ::unlinkat(at, name, AT_REMOVEDIR) == 0;
@@ -106,7 +106,7 @@ void RemovedIfCutOff::release() {
 }
 
 void remove_unfinished() noexcept {
-    static std::array<char, PATH_MAX> name; // one signal handler at a time
+    static std::array<char, PATH_MAX> name; // only one signal handler runs at a time
     for (auto& slot : slots) {
         const auto turn = slot.turn.load();
         if (turn % 2 == 0 || slot.owner != ::getpid()) {

@@ -4,8 +4,8 @@
 
 namespace macadam {
 
-/// The name of an unfinished file or folder, which goes also where the program is cut off: see
-/// remove_unfinished(). Not of what must not be lost.
+/// Registers an unfinished file or folder for removal when a signal ends the program; see
+/// remove_unfinished(). Not for data that must not be lost.
 class RemovedIfCutOff {
 public:
     explicit RemovedIfCutOff(const std::filesystem::path& name);
@@ -13,15 +13,15 @@ public:
     RemovedIfCutOff& operator=(const RemovedIfCutOff&) = delete;
     ~RemovedIfCutOff() { release(); }
 
-    /// From now on it stays.
+    /// Keeps the file from now on.
     void release();
 
 private:
     int slot_;
 };
 
-/// Removes all files and folders of that kind that this process has at the moment, with what is in
-/// them. May be called by a signal handler: it takes no memory and no lock.
+/// Removes all files and folders that this process has registered, with their content. Safe in a
+/// signal handler: it neither allocates nor locks.
 void remove_unfinished() noexcept;
 
 } // namespace macadam

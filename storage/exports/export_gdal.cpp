@@ -56,9 +56,9 @@ std::vector<LineFileColumn> flatgeobuf_columns() {
 
 // ----------------------------------------------------------------------------------- Shapefile
 
-// ESRI Shapefile Technical Description (1998), pp. 4-10: a file header of 100 bytes; before each
-// record 8; of a PolyLine 44 and 4 for each part and 16 for each point. dBASE III: 32 bytes of
-// header and 32 for each column, an end mark, a deletion mark before each row, and an end mark.
+// ESRI Shapefile Technical Description (1998), pp. 4-10: a file header of 100 bytes; 8 bytes before
+// each record; for a PolyLine, 44 bytes plus 4 per part and 16 per point. dBASE III: 32 bytes of
+// header and 32 per column, an end mark, a deletion mark before each row, and an end mark.
 constexpr std::uint64_t shp_header_bytes = 100;
 constexpr std::uint64_t shp_record_bytes = 8 + 44;
 constexpr std::uint64_t shp_part_bytes = 4;
@@ -69,22 +69,22 @@ constexpr std::uint64_t dbf_end_bytes = 1;
 constexpr std::uint64_t dbf_column_bytes = 32;
 constexpr std::uint64_t max_file_bytes = std::numeric_limits<std::int32_t>::max();
 
-constexpr int max_text_bytes = 254; // of a column of characters
+constexpr int max_text_bytes = 254; // of a character column
 constexpr int day_bytes = 8;
-constexpr int integer_bytes = 18; // more digits and GDAL reads the column as real numbers
-constexpr int real_bytes = 13;    // 2147483.647 mm/m, and metres along a way of any length
+constexpr int integer_bytes = 18; // with more digits, GDAL reads the column as real numbers
+constexpr int real_bytes = 13;    // 2147483.647 mm/m, and positions along a way of any length
 
-/// Of most fields the name itself, which must not be longer.
+/// Shapefile column name, of at most 10 bytes: mostly the field name itself.
 std::string_view short_name(const Field& field) {
     constexpr std::size_t max_bytes = 10;
     return field.name.size() <= max_bytes ? field.name : "trend_year";
 }
 
-/// What a Shapefile has to know before its first row.
+/// Sizes that must be known before the first row of a Shapefile.
 struct Measure {
     std::uint64_t shp_bytes = shp_header_bytes;
     std::uint64_t rows = 0;
-    std::array<std::size_t, 32> widest{}; ///< bytes of each field
+    std::array<std::size_t, 32> widest{}; ///< max bytes of each field
     std::optional<std::int64_t> last_seen_ms;
 };
 
@@ -164,16 +164,15 @@ void expect_room(const SegmentExport& what,
     }
 }
 
-/// The day that a .dbf says it was changed: that of the last pass, so that the same roads make the
-/// same bytes.
+/// Modification day in the .dbf: that of the last pass, so that equal roads give equal bytes.
 std::string day_of(const Measure& measure) {
-    constexpr std::int64_t earliest_ms = -2'208'988'800'000; // 1900: a .dbf counts years from there
-    constexpr std::int64_t latest_ms = 5'837'097'599'999;    // 2154, in one byte
+    constexpr std::int64_t earliest_ms = -2'208'988'800'000; // 1900: the first year of a .dbf
+    constexpr std::int64_t latest_ms = 5'837'097'599'999;    // 2154: the last year in one byte
     const auto utc_ms = std::clamp(measure.last_seen_ms.value_or(0), earliest_ms, latest_ms);
     return utc_day(utc_ms);
 }
 
-/// Indexes that other programs put beside a Shapefile: of other lines than the new ones.
+/// Indexes that other programs create beside a Shapefile; they do not match the new lines.
 std::vector<std::string> stale_beside(const std::string& stem) {
     std::vector<std::string> names;
     for (const auto* suffix : {".qix", ".sbn", ".sbx", ".idm", ".ind", ".atx"}) {
@@ -182,8 +181,8 @@ std::vector<std::string> stale_beside(const std::string& stem) {
     return names;
 }
 
-/// GDAL is silent where the end of a Shapefile did not reach a full disk, and its own reader too;
-/// but how long the files must be is known before the first row.
+/// Checks the file sizes, which are known before the first row: GDAL does not report a Shapefile
+/// that is truncated by a full disk, and its reader does not notice.
 bool is_whole_shapefile(const std::filesystem::path& shp,
                         const Measure& measure,
                         const std::vector<LineFileColumn>& columns) {
@@ -208,7 +207,7 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
                    .columns = flatgeobuf_columns()};
     std::vector<GeoBox> boxes;
     const auto parts_of = [&](const SegmentRecord& record) -> LineParts {
-        const auto& line = record.segment.line; // of a layer of lines, which have one part
+        const auto& line = record.segment.line; // line layers have single-part lines only
         LineParts parts{crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line};
         boxes.emplace_back();
         for (const auto& point : parts.front()) {
@@ -218,7 +217,7 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
     };
     const auto written = write_lines(what, plain, parts_of);
     if (written == 0) {
-        // Without features GDAL writes a header only where it is to write an index.
+        // Without features, GDAL writes a header only if it is to write an index.
         plain.file = place;
         plain.options.front().second = "YES";
         write_lines(what, plain, parts_of);

@@ -43,13 +43,14 @@ CREATE TABLE roughness (
 );
 )";
 
-/// A table of lines takes none in parts: over the antimeridian longitudes go on.
+/// Line with continuous longitudes across the antimeridian, because the table does not allow
+/// multi-part lines.
 std::vector<GeoPoint> smooth_line(const SegmentRecord& record) {
     const auto& line = record.segment.line;
     return crosses_antimeridian(line) ? unwrapped(line, line.front().lon_deg) : line;
 }
 
-/// The fields' texts become numbers by the columns' affinity.
+/// Writes a row; column affinity converts the texts to numbers.
 void write_row(Statement& insert,
                const SegmentRecord& record,
                std::span<const GeoPoint> line,
@@ -62,8 +63,8 @@ void write_row(Statement& insert,
     insert.step();
 }
 
-/// Not the time of the export but the day of the last pass, so that the same roads make the same
-/// bytes.
+/// Dates the database by its last pass, not by the time of the export, so that equal roads give
+/// equal bytes.
 void date_by_content(Database& database, const ObservedPeriod& seen) {
     const auto day = utc_text(seen.last_ms.value_or(0)).substr(0, 10);
     const auto time = day + "T00:00:00.000Z";

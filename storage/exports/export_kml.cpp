@@ -20,7 +20,7 @@ constexpr int line_px = 4;
 constexpr std::uint32_t unmeasured_rgb = 0x8a8a8a;
 constexpr std::string_view unmeasured_style = "none";
 
-/// KML writes alpha, blue, green, red.
+/// Style with a colour, which KML writes as alpha, blue, green, red.
 std::string style(std::string_view id, std::uint32_t rgb) {
     return fmt::format("<Style id=\"{}\"><LineStyle><color>ff{:02x}{:02x}{:02x}</color>"
                        "<width>{}</width></LineStyle></Style>\n",
@@ -31,8 +31,8 @@ std::string style(std::string_view id, std::uint32_t rgb) {
                        line_px);
 }
 
-/// A placemark has a name of its own, which is the road's. Whole numbers have 32 bits in KML: too
-/// few for a way's id.
+/// Tests for a field that is a member of the Placemark itself: the name, which is that of the road.
+/// A way id does not fit the 32-bit integers of KML.
 bool is_own_member(const Field& field) {
     return field.name == "name";
 }

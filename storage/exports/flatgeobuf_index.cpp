@@ -16,14 +16,14 @@
 namespace macadam {
 namespace {
 
-static_assert(std::endian::native == std::endian::little); // as the file's numbers are
+static_assert(std::endian::native == std::endian::little); // byte order of the file
 
 constexpr std::size_t magic_bytes = 8;
 constexpr std::uint16_t children = 16;
 constexpr std::size_t max_header_bytes = 10'000'000; // GDAL's own limit
 
-/// A node as the file has it. The place is that of its first child in the tree, or of a leaf's
-/// feature after the tree, in bytes.
+/// Node as stored in the file. Its place is the position in bytes of its first child in the tree,
+/// or, for a leaf, of its feature after the tree.
 struct Node {
     double west = std::numeric_limits<double>::infinity();
     double south = std::numeric_limits<double>::infinity();
@@ -49,8 +49,8 @@ Number number_in(std::string_view bytes, std::size_t at) {
 
 // ---------------------------------------------------------------------------------- the header
 
-/// Where in a size-prefixed header the size of nodes stands: field 9 of the table, which its vtable
-/// places (FlatBuffers, "Internals"). 0 there says that there is no index.
+/// Position of the node size in a size-prefixed header: field 9 of the table, found through its
+/// vtable (FlatBuffers, "Internals"). The value 0 means no index.
 std::size_t node_size_place(std::string_view header) {
     constexpr std::size_t field = 9;
     const std::size_t table = sizeof(std::uint32_t) + number_in<std::uint32_t>(header, 4);
@@ -82,8 +82,8 @@ std::string announced(std::ifstream& plain) {
 
 // ------------------------------------------------------------------------------------ the tree
 
-/// Place of a cell of 65536 x 65536 along a Hilbert curve, quarter by quarter from the whole: each
-/// quarter is the whole turned or mirrored.
+/// Position of a cell of a 65536 x 65536 grid along a Hilbert curve, by recursive division into
+/// quarters, each a rotated or mirrored copy of the whole.
 std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
     constexpr std::uint32_t side = 1U << 16U;
     std::uint32_t place = 0;
@@ -109,7 +109,7 @@ void include(Node& whole, const Node& part) {
     whole.north = std::max(whole.north, part.north);
 }
 
-/// Sizes of the levels, leaves first; there is a root above a single leaf too.
+/// Sizes of the levels, leaves first; even a single leaf has a root above it.
 std::vector<std::size_t> levels_of(std::size_t leaves) {
     std::vector<std::size_t> levels{leaves};
     do {
@@ -118,7 +118,8 @@ std::vector<std::size_t> levels_of(std::size_t leaves) {
     return levels;
 }
 
-/// The leaves at the end of the tree, along the curve; their place is the feature's number.
+/// Writes the leaves at the end of the tree, in the order of the curve; their place is the number
+/// of the feature.
 void put_leaves(std::span<Node> leaves, const std::vector<GeoBox>& boxes) {
     Node all;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -133,7 +134,7 @@ void put_leaves(std::span<Node> leaves, const std::vector<GeoBox>& boxes) {
     for (auto& leaf : leaves) {
         const auto along = hilbert_place(cell(all.west, all.east, (leaf.west + leaf.east) / 2),
                                          cell(all.south, all.north, (leaf.south + leaf.north) / 2));
-        leaf.place |= std::uint64_t{along} << 32U; // numbers of features have 32 bits
+        leaf.place |= std::uint64_t{along} << 32U; // feature numbers have 32 bits
     }
     std::ranges::sort(leaves, {}, &Node::place);
     for (auto& leaf : leaves) {
@@ -141,7 +142,7 @@ void put_leaves(std::span<Node> leaves, const std::vector<GeoBox>& boxes) {
     }
 }
 
-/// Levels above the leaves, each from the one below. The root stands first.
+/// Fills the levels above the leaves, each from the one below. The root comes first.
 void put_parents(std::vector<Node>& tree, const std::vector<std::size_t>& levels) {
     std::size_t below = tree.size() - levels.front();
     for (std::size_t level = 1; level < levels.size(); ++level) {
@@ -161,7 +162,7 @@ void put_parents(std::vector<Node>& tree, const std::vector<std::size_t>& levels
 
 // -------------------------------------------------------------------------------- the features
 
-/// Where each begins in the file, and where the last ends.
+/// Positions of the features in the file, and the end of the last one.
 std::vector<std::uint64_t> starts_of(std::ifstream& plain, std::uint64_t at, std::size_t count) {
     std::vector<std::uint64_t> starts;
     starts.reserve(count + 1);

@@ -9,29 +9,29 @@
 
 namespace macadam {
 
-// The writers behind export_segments, one for each kind of file.
+// Writers behind export_segments, one per format.
 
 struct SegmentExport {
     const RoadStore& store;
     const SegmentFilter& filter;
-    const std::filesystem::path& file; ///< as the user named it
+    const std::filesystem::path& file; ///< as named by the user
     const Progress& progress;
-    const ClassTable& classes; ///< the store's
+    const ClassTable& classes; ///< of the database
 };
 
-/// Visits, counts and tells how far it is. \returns how many.
+/// Visits the segments and reports progress. \returns the number of segments.
 ///
-/// \throws InputError  when a stop is wanted, so that no half file takes its place.
+/// \throws InputError  if a stop is requested, so that no partial file is committed.
 std::size_t each_segment(const SegmentExport& what,
                          const std::function<void(const SegmentRecord&)>& write);
 
-/// "Roughness (IRI, mm/m)." and whose roads they are.
+/// "Roughness (IRI, mm/m)." and the attribution of the roads.
 std::string description_of(const SegmentExport& what);
 
 std::size_t export_geopackage(const SegmentExport& what);
 std::size_t write_kml(const SegmentExport& what, AtomicFile& file);
 
-/// These two let GDAL write, in a folder beside the place.
+/// Written by GDAL, in a folder beside the output file.
 std::size_t export_flatgeobuf(const SegmentExport& what);
 std::size_t export_shapefile(const SegmentExport& what);
 

@@ -45,7 +45,7 @@ Text day_text(const std::optional<std::int64_t>& utc_ms) {
     return utc_ms ? Text{utc_day(*utc_ms)} : std::nullopt;
 }
 
-/// From `iri` on, in the order of the fields.
+/// Values of the fields from `iri` on, in their order.
 std::vector<Text> state_values(const SegmentState& state, const ClassTable& classes) {
     return {um_text(state.iri_um),
             um_text(state.sd_um),
@@ -68,7 +68,7 @@ std::vector<Text> state_values(const SegmentState& state, const ClassTable& clas
 
 std::vector<Text> values_without_state() {
     std::vector<Text> values(17);
-    values[8] = values[9] = "0"; // passes and vehicles are known: none
+    values[8] = values[9] = "0"; // passes and vehicles: 0 is a known value
     return values;
 }
 
@@ -97,7 +97,7 @@ GeoPoint middle_of(const std::vector<GeoPoint>& line) {
     return {middle.lat_deg, std::remainder(middle.lon_deg, 360.0)};
 }
 
-/// A spreadsheet would take such text for a formula, in quotes or not.
+/// Tests for text that a spreadsheet would interpret as a formula, even in quotes.
 bool looks_like_formula(std::string_view text) {
     return text.find_first_of("=+-@\t\r") == 0;
 }
@@ -188,8 +188,7 @@ std::string csv_header() {
 
 std::string csv_text(std::string_view text) {
     if (looks_like_formula(text)) {
-        return quoted_cell(
-            fmt::format("'{}", text)); // what spreadsheets themselves begin text with
+        return quoted_cell(fmt::format("'{}", text)); // prefix with which spreadsheets mark text
     }
     const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos;
     return plain ? std::string{text} : quoted_cell(text);

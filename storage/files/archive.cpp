@@ -26,13 +26,13 @@ struct ArchiveFiles::Reader {
         return (archive_format(handle.get()) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_ZIP;
     }
 
-    /// Of the file on disk.
+    /// Position in the file on disk.
     std::uint64_t position() const {
         return static_cast<std::uint64_t>(
             std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), -1)));
     }
 
-    /// Of the archive, when its own compression is off.
+    /// Bytes of the archive after removing its own compression.
     std::uint64_t unpacked() const {
         return static_cast<std::uint64_t>(
             std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), 0)));
@@ -45,7 +45,7 @@ constexpr std::size_t input_block = 64 << 10;
 
 std::string name_of(archive_entry* entry) {
     const char* name = archive_entry_pathname(entry);
-    if (name == nullptr) { // not to be spelled in this locale
+    if (name == nullptr) { // not representable in this locale
         name = archive_entry_pathname_utf8(entry);
     }
     return name != nullptr ? name : "";
@@ -60,7 +60,7 @@ InputError expands(const std::string& name) {
 
 } // namespace
 
-/// The file at hand, as it stands in the archive.
+/// Current file as stored in the archive.
 class ArchiveFiles::Bytes final : public ByteStream {
 public:
     explicit Bytes(ArchiveFiles& from) : from_{from}, before_{from.reader_->position()} {}
@@ -75,7 +75,7 @@ public:
         return static_cast<std::size_t>(count);
     }
 
-    // The block that holds the file's header was read before it.
+    // The block with the file's header was read before.
     std::uint64_t consumed() const override {
         const auto now = from_.reader_->position();
         return (now > before_ ? now - before_ : 0) + std::min<std::uint64_t>(before_, input_block);
@@ -97,7 +97,7 @@ ArchiveFiles::ArchiveFiles(std::filesystem::path archive, std::size_t max_files)
     std::error_code unknown;
     size_ = std::filesystem::file_size(archive_, unknown);
     if (archive_read_open_filename(reader, archive_.c_str(), input_block) != ARCHIVE_OK) {
-        if (std::ifstream{archive_}) { // it is there, but no archive
+        if (std::ifstream{archive_}) { // it exists, but is not an archive
             fail(archive_.string());
         }
         const char* const cause = archive_error_string(reader);
@@ -117,8 +117,8 @@ void ArchiveFiles::fail(const std::string& name) {
                                  cause != nullptr ? cause : "its structure is broken")};
 }
 
-/// Files may overlap in an archive, so that more comes out of it than of each of them: what is read
-/// twice counts once.
+/// Checks the expansion of the whole archive: files may overlap in it, so that their total is
+/// larger than each of them; bytes read twice count once.
 void ArchiveFiles::expect_modest() {
     const auto out = std::max(came_, reader_->unpacked());
     const auto in = std::min(reader_->position(), size_);
@@ -128,8 +128,7 @@ void ArchiveFiles::expect_modest() {
     }
 }
 
-/// Over the rest of the file at hand. A file of a .zip is not decompressed for that; one of a
-/// .tar.gz cannot but be.
+/// Skips the rest of the current file. In a .zip it is not decompressed, in a .tar.gz it must be.
 void ArchiveFiles::skip() {
     const void* block = nullptr;
     std::size_t size = 0;

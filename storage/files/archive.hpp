@@ -11,28 +11,30 @@ namespace macadam {
 
 inline constexpr std::size_t max_archive_files = 1000;
 
-/// The regular files of a .zip, .tar, .tar.gz or .tar.zst archive, one after the other, each read
-/// where it stands: in one pass, and two files of one name are two. Nothing is written to disk, so
-/// a file's name can be anything.
+/// Reads the regular files of a .zip, .tar, .tar.gz or .tar.zst archive in one pass, in the order
+/// of the archive. Files may have equal names. Nothing is extracted to disk, so file names need no
+/// checks.
 ///
-/// An archive that as a whole grows beyond max_expansion when it is decompressed (byte_stream.hpp)
-/// is refused, and so is what follows its first `max_files` files.
+/// An archive whose total decompressed size exceeds max_expansion (byte_stream.hpp) is refused, and
+/// so is every file after the first `max_files`.
 class ArchiveFiles {
 public:
-    /// \throws InputError  if it cannot be read or is no archive.
+    /// \throws InputError  if the file cannot be read or is not an archive.
     ArchiveFiles(std::filesystem::path archive, std::size_t max_files);
     ArchiveFiles(const ArchiveFiles&) = delete;
     ArchiveFiles& operator=(const ArchiveFiles&) = delete;
     ~ArchiveFiles();
 
-    /// The name of the next file; nothing at the end, or after an error that leaves no way on.
+    /// Name of the next file; `std::nullopt` at the end, or after an error from which reading
+    /// cannot continue.
     ///
-    /// \throws InputError  if the archive is damaged or one of its limits is reached.
+    /// \throws InputError  if the archive is damaged or exceeds one of its limits.
     std::optional<std::string> next();
 
-    /// What the file at hand holds, decompressed if it is itself compressed. Once.
+    /// Content of the current file, decompressed if the file is itself compressed. Callable once
+    /// per file.
     ///
-    /// \throws InputError  if it is damaged or beyond the limits of byte_stream.hpp.
+    /// \throws InputError  if the file is damaged or exceeds the limits of byte_stream.hpp.
     std::string content();
 
     class Bytes;
@@ -50,7 +52,7 @@ private:
     std::size_t max_files_;
     std::size_t files_ = 0;
     std::size_t others_ = 0; ///< folders, links and the like
-    std::uint64_t came_ = 0; ///< out of files, decompressed
+    std::uint64_t came_ = 0; ///< decompressed bytes of all files so far
     bool ended_ = false;
 };
 

@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// Bytes that come once, from front to back.
+/// Sequential, single-pass source of bytes.
 class ByteStream {
 public:
     ByteStream() = default;
@@ -17,19 +17,20 @@ public:
     ByteStream& operator=(const ByteStream&) = delete;
     virtual ~ByteStream() = default;
 
-    /// Fills the front of `into`. \returns how many bytes; 0 only at the end, or for an empty span.
+    /// Fills the front of `into`.
+    /// \returns the number of bytes; 0 only at the end, or for an empty span.
     ///
     /// \throws InputError  with the name of the file and the cause.
     virtual std::size_t read(std::span<char> into) = 0;
 
-    /// Bytes of the file on disk that were read so far, as they stand there: perhaps compressed.
+    /// Bytes of the file on disk that were read so far, before decompression.
     virtual std::uint64_t consumed() const = 0;
 };
 
-/// The bytes of a file.
+/// Opens a file as a stream.
 std::unique_ptr<ByteStream> file_bytes(const std::filesystem::path& file);
 
-/// What is piped into the program.
+/// Opens the standard input as a stream.
 std::unique_ptr<ByteStream> standard_input_bytes();
 
 inline constexpr std::uint64_t max_decompressed_bytes = std::uint64_t{1} << 30; // 30 h at 100 Hz

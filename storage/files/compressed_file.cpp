@@ -15,7 +15,7 @@ public:
     Encoder& operator=(const Encoder&) = delete;
     virtual ~Encoder() = default;
 
-    /// \param last  nothing follows: the end of the stream goes out as well.
+    /// \param last  ends the stream and writes its trailer.
     virtual void encode(std::string_view bytes, bool last, AtomicFile& to) = 0;
 };
 
@@ -41,7 +41,7 @@ public:
         for (; bytes.size() > most_at_once; bytes.remove_prefix(most_at_once)) {
             encode(bytes.substr(0, most_at_once), false, to);
         }
-        // zlib reads what it is told is not const.
+        // zlib takes a pointer to non-const, but does not write to it.
         state_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())); // NOLINT
         state_.avail_in = static_cast<uInt>(bytes.size());
         do {
@@ -74,7 +74,7 @@ public:
             const auto left =
                 ZSTD_compressStream2(state_.get(), &out, &in, last ? ZSTD_e_end : ZSTD_e_continue);
             if (ZSTD_isError(left) != 0) {
-                throw std::bad_alloc{}; // with parameters that are right, memory is what can lack
+                throw std::bad_alloc{}; // with valid parameters, only memory can be short
             }
             to.write({block_.data(), out.pos});
             if (last ? left == 0 : in.pos == in.size) {

@@ -11,11 +11,11 @@ namespace macadam {
 
 enum class Compression : std::uint8_t { none, gzip, zstd };
 
-/// gzip for a name that ends in .gz, zstd for .zst, otherwise none.
+/// Compression by file suffix: gzip for .gz, zstd for .zst, otherwise none.
 Compression compression_of(const std::filesystem::path& file);
 
-/// An AtomicFile whose content is compressed on its way. The bytes depend on what is written and on
-/// the level alone: no time, no name.
+/// AtomicFile that compresses its content. The output depends only on the content and the level: it
+/// contains no time and no name.
 ///
 /// \throws InputError  as AtomicFile does.
 class CompressedFile {
@@ -33,7 +33,7 @@ public:
 
 private:
     AtomicFile file_;
-    std::unique_ptr<Encoder> encoder_; ///< null: none
+    std::unique_ptr<Encoder> encoder_; ///< null without compression
 };
 
 } // namespace macadam

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t input_block = 256 << 10;
 
-/// A stream of which a few bytes were read already, to see what it is.
+/// Stream whose first bytes were already read to detect its format.
 class PrefixedStream final : public ByteStream {
 public:
     PrefixedStream(std::string head, std::unique_ptr<ByteStream> from)
@@ -41,13 +41,13 @@ private:
     std::unique_ptr<ByteStream> from_;
 };
 
-/// A block of the stream that a decoder reads from.
+/// Input block of a decoder.
 class Input {
 public:
     explicit Input(std::unique_ptr<ByteStream> from)
         : from_{std::move(from)}, block_(input_block) {}
 
-    /// What is left of the block; the next one if nothing is. Empty at the end.
+    /// Unread bytes of the block, or the next block; empty at the end.
     std::span<char> rest() {
         if (rest_.empty()) {
             rest_ = std::span{block_}.first(from_->read(block_));
@@ -82,7 +82,7 @@ public:
             if (rest.empty() && !within_) {
                 return 0;
             }
-            inflate_some(rest); // some may come out yet when nothing is left to go in
+            inflate_some(rest); // output may remain when all input was consumed
             if (rest.empty() && state_.avail_out == into.size()) {
                 throw InputError{fmt::format("{}: the gzip data is truncated", name_)};
             }
@@ -101,7 +101,7 @@ private:
         within_ = true;
         const auto result = inflate(&state_, Z_NO_FLUSH);
         input_.keep_last(state_.avail_in);
-        if (result == Z_STREAM_END) { // another one may follow: "cat a.gz b.gz"
+        if (result == Z_STREAM_END) { // another member may follow: "cat a.gz b.gz"
             within_ = false;
             inflateReset(&state_);
         } else if (result != Z_OK && result != Z_BUF_ERROR) {
@@ -143,7 +143,7 @@ public:
                 throw InputError{fmt::format("{}: the zstd data is truncated", name_)};
             }
             input_.keep_last(rest.size() - in.pos);
-            within_ = result != 0; // 0: a frame ends here, and all of it has come out
+            within_ = result != 0; // 0: the frame has ended and is fully decoded
         }
         return out.pos;
     }

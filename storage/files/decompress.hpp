@@ -4,15 +4,15 @@
 
 namespace macadam {
 
-/// What `from` holds: decompressed if it begins like gzip or Zstandard, and otherwise as it is. A
-/// compressed stream that ends too early or fails its checksum is an error, and so is one that
-/// grows beyond all reason (a bomb): over 1 GiB, or over 100 times what was read from disk
-/// once 16 MiB have come out.
+/// Decompresses `from` if it begins like gzip or Zstandard, and passes it through otherwise. A
+/// truncated stream and a checksum error are errors, and so is a decompression bomb: more than 1
+/// GiB, or more than 100 times the bytes read from disk once 16 MiB have been decompressed.
 ///
 /// \param name  for messages.
 std::unique_ptr<ByteStream> decompressed(std::unique_ptr<ByteStream> from, const std::string& name);
 
-/// `from`, limited in the same way: for what an archive has decompressed already.
+/// Applies the same limits to `from` without decompressing it, for content that an archive has
+/// already decompressed.
 std::unique_ptr<ByteStream> bounded(std::unique_ptr<ByteStream> from, const std::string& name);
 
 } // namespace macadam

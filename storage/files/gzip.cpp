@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-constexpr int level = 5; // of 1 to 12: 6 takes a third longer and saves hardly anything
+constexpr int level = 5; // from 1 to 12; 6 takes a third longer and saves almost nothing
 
 struct Free {
     void operator()(libdeflate_compressor* compressor) const {
@@ -43,7 +43,7 @@ Decompressor new_decompressor() {
     return decompressor;
 }
 
-/// The last four bytes of a gzip member, the lowest first (RFC 1952, ISIZE).
+/// Size of the content: the last four bytes of a gzip member, little endian (RFC 1952, ISIZE).
 std::size_t size_of_content(std::string_view bytes) {
     std::size_t size = 0;
     for (std::size_t i = 1; i <= 4; ++i) {
@@ -55,8 +55,8 @@ std::size_t size_of_content(std::string_view bytes) {
 } // namespace
 
 std::string gzipped(std::string_view bytes) {
-    thread_local const auto compressor = new_compressor(); // dear to make, small to keep
-    thread_local std::vector<char> room;                   // which only grows
+    thread_local const auto compressor = new_compressor(); // slow to create, small to keep
+    thread_local std::vector<char> room;                   // only grows
     const auto most = libdeflate_gzip_compress_bound(compressor.get(), bytes.size());
     room.resize(std::max(room.size(), most));
     const auto size = libdeflate_gzip_compress(

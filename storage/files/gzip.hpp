@@ -5,10 +5,11 @@
 
 namespace macadam {
 
-/// Bytes as a gzip member (RFC 1952) without name and time: the same bytes in, the same out.
+/// Compresses bytes into a gzip member (RFC 1952) without name and time, so that equal input gives
+/// equal output.
 std::string gzipped(std::string_view bytes);
 
-/// What `gzipped` was given. \param bytes  as it gave them.
+/// Decompresses the output of gzipped().
 std::string gunzipped(std::string_view bytes);
 
 } // namespace macadam

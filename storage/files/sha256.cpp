@@ -16,7 +16,7 @@ struct Sha256::State {
     std::unique_ptr<EVP_MD_CTX, Free> context{EVP_MD_CTX_new()};
 };
 
-// OpenSSL's digest calls fail for want of memory only.
+// OpenSSL's digest calls fail only for lack of memory.
 Sha256::Sha256() : state_{std::make_unique<State>()} {
     if (!state_->context || EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) != 1) {
         throw std::bad_alloc{};

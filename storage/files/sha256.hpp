@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// SHA-256 of bytes that come piece by piece.
+/// Computes the SHA-256 of bytes that arrive in blocks.
 class Sha256 {
 public:
     Sha256();
@@ -16,7 +16,7 @@ public:
 
     void add(std::string_view bytes);
 
-    /// 64 lower-case hex digits of everything added; nothing can be added after it.
+    /// 64 lower-case hex digits over everything added so far; nothing can be added afterwards.
     std::string hex();
 
 private:

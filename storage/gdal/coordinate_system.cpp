@@ -28,7 +28,7 @@ bool is_path(std::string_view name) {
     return name.find_first_of("/\\") != name.npos;
 }
 
-/// In values of PROJ strings ("+nadgrids=@a.gsb,b.gsb") that stand inside of WKT.
+/// Finds paths in values of PROJ strings ("+nadgrids=@a.gsb,b.gsb") inside WKT.
 bool names_path_in_proj_string(std::string_view wkt) {
     for (auto at = wkt.find('='); at != wkt.npos; at = wkt.find('=', at + 1)) {
         if (is_path(wkt.substr(at, wkt.find_first_of(" \"", at) - at))) {
@@ -38,7 +38,7 @@ bool names_path_in_proj_string(std::string_view wkt) {
     return false;
 }
 
-/// In PARAMETERFILE["Latitude and longitude difference file","a.gsb"].
+/// Finds paths in PARAMETERFILE["Latitude and longitude difference file","a.gsb"].
 bool names_path_in_parameter(std::string_view wkt) {
     constexpr std::string_view word = "PARAMETERFILE[";
     for (auto at = wkt.find(word); at != wkt.npos; at = wkt.find(word, at + 1)) {

@@ -6,10 +6,10 @@ class OGRSpatialReference;
 
 namespace macadam {
 
-/// A coordinate system may name grids of shifts, which PROJ opens as files. Only those are let
-/// through that have a plain name, which PROJ looks up among its own.
+/// Checks the grid files of a coordinate system. PROJ opens the shift grids that a definition
+/// names; only plain names are accepted, which PROJ looks up in its own folders.
 ///
-/// \throws InputError  "FILE: ..." if one leads elsewhere.
+/// \throws InputError  "FILE: ..." if a grid is named by a path.
 void expect_grids_of_proj(const OGRSpatialReference& system, const std::string& file);
 
 } // namespace macadam

@@ -27,12 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is kept of the files' blocks: several rows of tiles under the widest picture. GDAL would
-/// take a share of the machine's memory.
+/// Size of GDAL's block cache: several rows of tiles below the widest picture. By default, GDAL
+/// uses a share of the machine's memory.
 constexpr GIntBig cache_bytes = 128 << 20;
 
-// One by one: GDALAllRegister() takes some 200 drivers and the plug-ins of folders that the
-// environment names. Among them are drivers that ask servers, load libraries or open other files.
+// Registered one by one: GDALAllRegister() would add some 200 drivers and the plug-ins of folders
+// named in the environment, including drivers that contact servers, load libraries or open other
+// files.
 constexpr std::array drivers{RegisterOGRShape,
                              RegisterOGRFlatGeobuf,
                              RegisterOGRGeoPackage,
@@ -53,18 +54,18 @@ constexpr std::array raster_drivers{GDALRegister_GTiff,
                                     GDALRegister_WEBP,
                                     GDALRegister_MBTiles};
 
-// What the environment could say otherwise.
+// Options that the environment could override.
 constexpr std::array<std::pair<const char*, const char*>, 8> settings{
     {{"GDAL_DRIVER_PATH", "disable"},
      {"GDAL_VRT_ENABLE_PYTHON", "NO"},
      {"OGR_SQLITE_LOAD_EXTENSIONS", ""},
      {"GML_DOWNLOAD_SCHEMA", "NO"},
-     {"GML_PARSER", "EXPAT"}, // the other one fetches what a document type names
+     {"GML_PARSER", "EXPAT"}, // the other parser fetches what a document type names
      {"GML_SKIP_RESOLVE_ELEMS", "ALL"},
      {"LIBKML_EXTERNAL_STYLE", "NO"},
      {"LIBKML_RESOLVE_STYLE", "NO"}}};
 
-/// GDAL asks the server itself where it gets no answer here.
+/// Refuses network requests; without an answer here, GDAL would contact the server.
 CPLHTTPResult* fetch_nothing(const char* /*url*/,
                              CSLConstList /*options*/,
                              GDALProgressFunc /*progress*/,
@@ -124,7 +125,7 @@ std::shared_ptr<GDALDataset> opened(const fs::path& file, MapKind kind, unsigned
                           nullptr)};
 }
 
-/// Of a file and of those beside it that share its stem, or of all in a folder.
+/// Size of a file and of those beside it with the same stem, or of all files in a folder.
 std::uintmax_t bytes_of(const fs::path& file) {
     const bool is_folder = fs::is_directory(file);
     const auto stem = file.stem().string() + ".";

@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// GDAL's complaints go into our messages, not to the console.
+/// Captures GDAL's error messages for our own messages and keeps them off the console.
 class GdalErrorScope {
 public:
     GdalErrorScope() {

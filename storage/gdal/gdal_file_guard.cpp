@@ -27,11 +27,11 @@ bool is_below(const fs::path& folder, const fs::path& file) {
 }
 
 fs::path plain(const fs::path& file) {
-    std::error_code no_name; // the empty one
+    std::error_code no_name; // empty path
     return fs::absolute(file, no_name).lexically_normal();
 }
 
-/// What leads GDAL on to other files: a file that lies beside another one is never of these kinds.
+/// Tests for formats that refer to other files; sidecar files must not be of these kinds.
 bool leads_on(const fs::path& file) {
     std::array<char, 2048> head{};
     std::ifstream in{file, std::ios::binary};
@@ -41,11 +41,11 @@ bool leads_on(const fs::path& file) {
            text.find("<OGRVRT") != text.npos;
 }
 
-/// What GDAL may open.
+/// Paths that GDAL may open.
 class Permissions {
 public:
     static Permissions& of_process() {
-        static auto* const one = new Permissions; // GDAL asks until the process ends
+        static auto* const one = new Permissions; // GDAL uses it until the process ends
         return *one;
     }
 
@@ -101,8 +101,8 @@ public:
     }
 
 private:
-    /// Where files of that stem may lie when all links are followed: in the folder of the file that
-    /// was let through, or in that of the file that it is a link to.
+    /// Folders in which files of a stem may lie after all links are followed: that of the allowed
+    /// file, or that of its link target.
     using Homes = std::array<fs::path, 2>;
 
     const Homes* homes_of(const fs::path& path) const {
@@ -133,7 +133,7 @@ int refuse() {
     return -1;
 }
 
-/// A file system without a file.
+/// File system without files.
 class NoFiles : public VSIFilesystemHandler {
 public:
     VSIVirtualHandle* Open(const char* /*name*/,
@@ -148,7 +148,7 @@ public:
     }
 };
 
-/// The disk, as far as it is let through.
+/// Disk access restricted to the permitted paths.
 class GuardedDisk : public VSIFilesystemHandler {
 public:
     explicit GuardedDisk(VSIFilesystemHandler* disk) : disk_{disk} {}
@@ -198,18 +198,18 @@ private:
 };
 
 void install() {
-    // GDAL's own tables of coordinate systems, wherever it was told to look for them.
+    // GDAL's own tables of coordinate systems, wherever they are installed.
     if (const char* const own = CPLFindFile("gdal", "gdalvrt.xsd")) {
         let_read_folder(fs::path{own}.parent_path());
     }
     VSIFileManager::InstallHandler("", new GuardedDisk{VSIFileManager::GetHandler("")});
-    // GDAL forgets whom it had before; nobody may free them, for copies of their pointers are
-    // about.
+    // Keeps the replaced handlers alive: GDAL forgets them, but copies of the pointers remain in
+    // use.
     static auto* const before = new std::vector<VSIFilesystemHandler*>;
     const CPLStringList systems{VSIGetFileSystemsPrefixes()};
     for (int i = 0; i < systems.Count(); ++i) {
         const std::string system = systems[i];
-        // Files in memory, which drivers make themselves, and parts of files.
+        // Memory files, which drivers create themselves, and parts of files stay available.
         if (!system.empty() && system != "/vsimem/" && system != "/vsisubfile/") {
             before->push_back(VSIFileManager::GetHandler(system.c_str()));
             VSIFileManager::InstallHandler(system, new NoFiles);

@@ -4,19 +4,19 @@
 
 namespace macadam {
 
-// GDAL opens what a file names: sources, overviews, schemas, definitions of coordinates. The guard
-// stands between GDAL and the disk, so that it opens what it was given and no other file.
+// GDAL opens files that other files name: sources, overviews, schemas, coordinate definitions. The
+// guard sits between GDAL and the disk and blocks everything except the files allowed below.
 
-/// Closes GDAL's file systems: those of the network, of archives and of streams for good, the disk
-/// but for what is let through below. Once; later calls change nothing.
+/// Closes GDAL's virtual file systems: network, archives and streams entirely, the disk except for
+/// the paths allowed below. Later calls have no effect.
 void guard_files();
 
-/// Lets GDAL read a file, and those beside it that have its stem in common ("roads.dbf" of
-/// "roads.shp", "map.tif.aux.xml" of "map.tif"), if they are regular files, do not lead out of the
-/// folder by a link, and are neither databases nor virtual files.
+/// Lets GDAL read a file and its sidecar files with the same stem ("roads.dbf" of "roads.shp",
+/// "map.tif.aux.xml" of "map.tif"), provided that they are regular files, do not leave the folder
+/// through a link, and are neither databases nor virtual files.
 void let_read(const std::filesystem::path& file);
 
-/// Lets GDAL read all regular files of a folder, which is one data set.
+/// Lets GDAL read all regular files of a folder that forms one data set.
 void let_read_folder(const std::filesystem::path& folder);
 
 /// Lets GDAL read and write in a folder of ours.

@@ -88,8 +88,8 @@ std::string in_lower_case(std::string_view text) {
     return lower;
 }
 
-/// Whether another JSON text follows the first: features line by line. A first feature of more
-/// than the head is told by the file's name.
+/// Tests whether another JSON text follows the first, that is for one feature per line. If the
+/// first feature is longer than the head, the file name decides.
 bool are_json_lines(std::string_view text, const fs::path& file) {
     int depth = 0;
     bool quoted = false;
@@ -111,7 +111,7 @@ bool are_json_lines(std::string_view text, const fs::path& file) {
     return suffix == ".geojsonl" || suffix == ".geojsons" || suffix == ".ndjson";
 }
 
-/// By the first element. A document type, which may declare entities, is of no kind that is read.
+/// Format by root element. XML with a document type, which may declare entities, is not supported.
 MapKind kind_of_xml(std::string_view text) {
     auto at = text.find('<');
     while (at != text.npos &&

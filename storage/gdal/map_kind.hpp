@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// Kinds of map files that are read by GDAL, each by one driver of it.
+/// Map file formats read through GDAL, each by one driver.
 enum class MapKind : std::uint8_t {
     unknown,
     geopackage,
@@ -28,14 +28,14 @@ enum class MapKind : std::uint8_t {
     virtual_raster,
 };
 
-/// The kind of a file by its first bytes, whatever its name; databases that are no GeoPackage and
-/// no MBTiles are `sqlite`.
+/// Detects the format of a file from its first bytes, regardless of its name. SQLite databases
+/// other than GeoPackage and MBTiles are `sqlite`.
 ///
-/// \throws InputError  if the file cannot be read or is a database that others' code could run in
+/// \throws InputError  if the file cannot be read or is a database that could execute foreign code
 ///                     (storage/gdal/sqlite_map.hpp).
 MapKind kind_of_map(const std::filesystem::path& file);
 
-/// The name of the driver, as GDAL calls it.
+/// GDAL's name of the driver.
 const char* driver_of(MapKind kind);
 
 bool may_hold_lines(MapKind kind);

@@ -15,7 +15,7 @@ namespace macadam {
 namespace {
 
 [[noreturn]] void fail() {
-    // GDAL calls a full disk "Unexpected I/O failure".
+    // GDAL reports a full disk as "Unexpected I/O failure".
     throw InputError{fmt::format("cannot be written: {}; the disk may be full",
                                  gdal_error("unknown GDAL error"))};
 }
@@ -103,7 +103,7 @@ void put_line(OGRLayer& layer,
     expect(layer.CreateFeature(&feature));
 }
 
-/// GDAL says nothing of a full disk that shows only when the file is closed.
+/// Checks the number of written lines, because GDAL does not report a full disk on closing.
 void expect_lines(const LineFile& what, std::size_t count) {
     const auto dataset = reopen_lines(what.file, what.driver);
     std::size_t found = 0;
@@ -134,7 +134,7 @@ void write(const LineFile& what, const std::function<void(const LinePut& put)>& 
         ++count;
     });
     CPLErrorReset();
-    dataset.reset(); // some kinds of file are written only now
+    dataset.reset(); // some formats are written only on closing
     if (CPLGetLastErrorType() == CE_Failure) {
         fail();
     }

@@ -30,7 +30,7 @@ std::string text_in(sqlite3_stmt* row, int column) {
     return text == nullptr ? std::string{} : reinterpret_cast<const char*>(text);
 }
 
-/// The URI of a file (https://sqlite.org/uri.html, 3).
+/// Builds the URI of a file (https://sqlite.org/uri.html, 3).
 std::string uri_of(const fs::path& file, const char* options) {
     std::string uri = "file:";
     for (const char c : fs::absolute(file).string()) {
@@ -39,7 +39,7 @@ std::string uri_of(const fs::path& file, const char* options) {
     return uri + options;
 }
 
-/// A database of unknown origin, read without modules and functions but SQLite's own.
+/// Untrusted database, read with only SQLite's own modules and functions.
 class ForeignDatabase {
 public:
     ForeignDatabase(const fs::path& file, const char* options) : name_{file.string()} {
@@ -67,7 +67,7 @@ public:
         throw InputError{fmt::format("{}: {}", name_, what)};
     }
 
-    /// Empty if it cannot be prepared.
+    /// Prepares a query; empty on failure.
     Query prepared(const char* sql) const {
         sqlite3_stmt* statement = nullptr;
         sqlite3_prepare_v2(database_.get(), sql, -1, &statement, nullptr);
@@ -104,8 +104,9 @@ std::string in_lower_case(std::string text) {
     return text;
 }
 
-/// Takes the words that SQLite puts before the name of a virtual table, the name, and " USING
-/// rtree(" with names of columns: whatever is written otherwise, by comments say, is no R-tree.
+/// Recognises an R-tree by its definition: SQLite's words before the name of a virtual table, the
+/// name, and " USING rtree(" with column names. Any other spelling, for example with comments, is
+/// rejected.
 bool is_rtree(const std::string& sql) {
     auto text = std::string_view{sql};
     constexpr std::string_view start = "create virtual table ";
@@ -143,10 +144,10 @@ int allow_looking_up(void* /*data*/,
                      const char* /*view*/) {
     return action == SQLITE_SELECT || action == SQLITE_READ || action == SQLITE_FUNCTION
                ? SQLITE_OK
-               : SQLITE_DENY; // of recursion, above all
+               : SQLITE_DENY; // recursion, above all
 }
 
-/// A look-up of a tile reads one table at most from end to end.
+/// Tests whether a view is a plain look-up, which scans at most one table per tile.
 bool is_lookup(const ForeignDatabase& database, const std::string& view) {
     sqlite3_set_authorizer(database.handle(), allow_looking_up, nullptr);
     std::string quoted;
@@ -221,7 +222,7 @@ MapKind kind_of(const ForeignDatabase& database) {
 
 constexpr const char* as_it_stands = "?mode=ro";
 
-/// SQLite calls it for each database that is opened, GDAL's as well.
+/// Called by SQLite for each database that is opened, including by GDAL.
 int distrust(sqlite3* database, char** /*error*/, const sqlite3_api_routines* /*unused*/) {
     return sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
 }
@@ -233,7 +234,7 @@ MapKind kind_of_sqlite_map(const fs::path& file) {
     log += "-wal";
     std::error_code none;
     if (fs::exists(log, none)) {
-        kind_of({file, "?mode=ro&immutable=1"}); // so it is read where the log cannot be
+        kind_of({file, "?mode=ro&immutable=1"}); // thus readable where the WAL is not
     }
     return kind_of({file, as_it_stands});
 }

@@ -6,23 +6,23 @@
 
 namespace macadam {
 
-/// Whether a database is a GeoPackage, MBTiles, or any other one, by its tables.
+/// Classifies a database as GeoPackage, MBTiles or other SQLite by its tables.
 ///
-/// A database can hold what runs when it is read: virtual tables, whose modules open other files or
-/// ask servers, and views, which call functions or never end. Only R-trees are let through, and in
-/// MBTiles views that are no more than a look-up.
+/// A database may contain code that runs when it is read: virtual tables, whose modules open other
+/// files or contact servers, and views, which call functions or never terminate. Only R-trees are
+/// accepted, and in MBTiles also views that are plain look-ups.
 ///
-/// \throws InputError  if it holds others or cannot be read.
+/// \throws InputError  if the database contains other virtual tables or views, or cannot be read.
 MapKind kind_of_sqlite_map(const std::filesystem::path& file);
 
-/// Whether MBTiles hold vector tiles.
+/// Tests whether an MBTiles file holds vector tiles.
 bool holds_vector_tiles(const std::filesystem::path& mbtiles);
 
-/// Whether a GeoPackage has tables of tiles that are pictures.
+/// Tests whether a GeoPackage has tables of image tiles.
 bool holds_pictures(const std::filesystem::path& geopackage);
 
-/// From now on no view, index or column of any database of this process can call functions that
-/// are not SQLite's own harmless ones.
+/// Restricts the schemas of all databases of this process: from now on, views, indexes and columns
+/// can call only SQLite's own harmless functions.
 void distrust_schemas();
 
 } // namespace macadam

@@ -20,8 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In small letters: GDAL does not tell them from large ones, nor attributes from elements. What
-// names files by other ways (raw bands, OpenOptions, warped and derived bands) is not among them.
+// In lower case: GDAL ignores case and does not distinguish attributes from elements. Elements that
+// name files in other ways (raw bands, OpenOptions, warped and derived bands) are missing on
+// purpose.
 constexpr std::array<std::string_view, 51> known_elements{"vrtdataset",
                                                           "srs",
                                                           "geotransform",
@@ -127,7 +128,7 @@ std::string in_lower_case(std::string_view text) {
     return lower;
 }
 
-/// Takes what stands in a virtual raster.
+/// Parses a virtual raster.
 class VrtParser {
 public:
     struct Source {

@@ -5,11 +5,11 @@
 
 namespace macadam {
 
-/// The sources of a virtual raster (.vrt), which are plain files of rasters below its own folder,
-/// and those of sources that are virtual themselves.
+/// Lists the source files of a virtual raster (.vrt), including those of nested virtual rasters.
+/// All must be plain raster files in or below its own folder.
 ///
-/// \throws InputError  if it holds anything that is not as gdalbuildvrt and gdal_translate write
-///                     it, or leads elsewhere.
+/// \throws InputError  if it contains anything that gdalbuildvrt and gdal_translate do not write,
+///                     or refers to files outside its folder.
 std::vector<std::filesystem::path> sources_of_vrt(const std::filesystem::path& file);
 
 } // namespace macadam

@@ -62,8 +62,8 @@ INSERT INTO gpkg_spatial_ref_sys VALUES
      'longitude/latitude in degrees on the WGS 84 ellipsoid');
 )";
 
-// The same source, annex F.3 (R-tree spatial indexes); {0} is the table. The specification words
-// these triggers; another wording would not be one that readers know.
+// Same source, annex F.3 (R-tree spatial indexes); {0} is the table. The triggers have the wording
+// of the specification, which readers recognise.
 constexpr const char* index_tables = R"(
 CREATE VIRTUAL TABLE rtree_{0}_geom USING rtree(id, minx, maxx, miny, maxy);
 INSERT INTO gpkg_extensions VALUES (

@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-static_assert(std::endian::native == std::endian::little); // numbers go to the file as they are
+static_assert(std::endian::native == std::endian::little); // byte order of the file
 
 // OGC 12-128r18, table 5 (GeoPackageBinary header) and OGC 06-103r4, 8.2 (well-known binary).
 constexpr std::uint8_t header_flags = 0x03; // little endian, envelope of min x, max x, min y, max y
@@ -37,14 +37,14 @@ Number number_at(std::string_view bytes, std::size_t place) {
     return number;
 }
 
-/// Geometries of our own making; those of other programs have no place in our tables.
+/// Tests for a geometry in the form that we write; others do not occur in our tables.
 bool is_ours(std::string_view geometry) {
     return geometry.size() >= header_bytes + envelope_bytes + line_head_bytes &&
            geometry.substr(0, 3) == std::string_view{"GP\0", 3} &&
            (static_cast<std::uint8_t>(geometry[3]) & ~empty_flag) == header_flags;
 }
 
-/// The n-th number of the envelope.
+/// n-th number of the envelope.
 std::optional<double> limit(std::string_view geometry, std::size_t n) {
     if (!is_ours(geometry)) {
         return std::nullopt;
@@ -87,7 +87,7 @@ constexpr GeometryFunction geometry_functions[] = {{"ST_MinX", st_limit<0>},
 
 void add_geometry_functions(Database& database) {
     for (const auto& [name, body] : geometry_functions) {
-        // Harmless, or triggers could not call them where the schema is not trusted.
+        // Innocuous, so that triggers can call them in an untrusted schema.
         sqlite3_create_function_v2(database.handle(),
                                    name,
                                    1,

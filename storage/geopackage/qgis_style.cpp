@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-// The columns that QGIS looks for.
+// Columns that QGIS expects.
 constexpr const char* style_table = R"(
 CREATE TABLE layer_styles (
     id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,
@@ -32,10 +32,10 @@ INSERT INTO gpkg_contents (table_name, data_type, identifier, description)
     VALUES ('layer_styles', 'attributes', 'layer_styles', 'Styles that QGIS loads');
 )";
 
-constexpr const char* casing_colour = "38,38,38"; // pale classes need an outline on a light map
+constexpr const char* casing_colour = "38,38,38"; // outlines pale classes on a light map
 constexpr double core_mm = 0.7;
 constexpr double casing_mm = 1.1;
-constexpr double side_mm = 0.6; // to the right: each direction on its own side
+constexpr double side_mm = 0.6; // to the right, so that each direction has its own side
 
 std::string colour_of(std::size_t index, std::size_t count) {
     const auto rgb = class_rgb(index, count);

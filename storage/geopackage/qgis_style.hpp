@@ -4,10 +4,11 @@
 
 namespace macadam {
 
-/// The table in which QGIS looks for styles.
+/// Creates the table in which QGIS looks for styles.
 void add_style_table(Database& database);
 
-/// A default style for QGIS, in that table: lines coloured by the column `class`, with a casing.
+/// Adds a default style for QGIS to that table: lines with a casing, coloured by the column
+/// `class`.
 void add_default_style(Database& database, std::string_view table, const ClassTable& classes);
 
 } // namespace macadam

@@ -17,9 +17,9 @@
 namespace macadam {
 namespace {
 
-// A node: depth of the tree (in the root, else 0) and number of cells, two bytes each; then the
-// cells, each a number of eight bytes (of a row, or of a node below) and a box of four floats. All
-// of it has the highest byte first.
+// Format of a node, big endian: depth of the tree (in the root, else 0) and number of cells, two
+// bytes each; then the cells, each a number of eight bytes (of a row, or of a child node) and a box
+// of four floats.
 constexpr std::size_t head_bytes = 4;
 constexpr std::size_t cell_bytes = 24;
 constexpr std::uint32_t root = 1;
@@ -54,7 +54,7 @@ Limits around(std::span<const Cell> cells) {
     return whole;
 }
 
-/// By the middle in one dimension; the same order on every machine.
+/// Sorts cells by their centre in one dimension, in the same order on every machine.
 void sort_by_place(std::span<Cell> cells, std::size_t dimension) {
     std::ranges::sort(cells, {}, [=](const Cell& cell) {
         return std::pair{cell.limits[2 * dimension] + cell.limits[2 * dimension + 1], cell.number};
@@ -65,13 +65,13 @@ std::size_t parts_of(std::size_t count, std::size_t most) {
     return (count + most - 1) / most;
 }
 
-/// The part of some cells when they are shared out evenly.
+/// Part of the cells when they are divided evenly.
 std::span<Cell> part(std::span<Cell> cells, std::size_t number, std::size_t parts) {
     const auto first = number * cells.size() / parts;
     return cells.subspan(first, (number + 1) * cells.size() / parts - first);
 }
 
-/// Chunks from north to south, each cut into nodes.
+/// Slices from north to south, each divided into nodes.
 std::vector<std::span<Cell>> tiles_of(std::span<Cell> cells, std::size_t most) {
     const auto nodes = parts_of(cells.size(), most);
     const auto chunks = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(nodes))));
@@ -97,10 +97,11 @@ char* put(char* to, Whole value) {
     return to;
 }
 
-/// Nodes of a level were written one after the other.
+/// Nodes of the level below, which were written consecutively.
 struct Below {
     std::int64_t first;
-    std::span<const std::int64_t> rows; ///< instead of nodes, at the bottom; else none
+    /// Row ids of the lowest level; empty for other levels.
+    std::span<const std::int64_t> rows;
 
     std::int64_t id_of(std::size_t number) const {
         return rows.empty() ? first + static_cast<std::int64_t>(number) : rows[number];
@@ -167,7 +168,7 @@ private:
         return above;
     }
 
-    /// \param parents  nodes of what is below, by its number.
+    /// \param parents  node of each child, by the number of the child.
     void write_parents(const std::vector<std::uint32_t>& parents) {
         auto& add = below_.rows.empty() ? add_parent_ : add_row_;
         for (std::size_t i = 0; i < parents.size(); ++i) {

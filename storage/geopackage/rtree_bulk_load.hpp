@@ -10,25 +10,25 @@
 
 namespace macadam {
 
-/// An R-tree of SQLite in two dimensions (x, then y) that is made from the bottom up, which takes a
-/// tenth of the time of putting in row after row, and has full nodes.
+/// Bulk load of a two-dimensional SQLite R-tree (x, then y). The tree is built bottom-up with full
+/// nodes, in a tenth of the time of inserting row by row.
 ///
-/// Its nodes are written to the tables that SQLite keeps an R-tree in, as its "rtree" module would
-/// (https://sqlite.org/rtree.html, 6). Boxes are tiled by place: S. T. Leutenegger, M. A. Lopez and
-/// J. Edgington, "STR: a simple and efficient algorithm for R-tree packing", Proceedings of the
-/// 13th International Conference on Data Engineering (1997), pp. 497-506.
+/// Nodes are written to the shadow tables in the format of SQLite's "rtree" module
+/// (https://sqlite.org/rtree.html, 6). Boxes are packed by sort-tile-recursive: S. T. Leutenegger,
+/// M. A. Lopez and J. Edgington, "STR: a simple and efficient algorithm for R-tree packing",
+/// Proceedings of the 13th International Conference on Data Engineering (1997), pp. 497-506.
 class RtreeBulkLoad {
 public:
-    /// \param id  of a row; rising from one to the next.
+    /// \param id  row of the box; rising from call to call.
     void add(std::int64_t id, const GeoBox& box);
 
-    /// \param rtree  an empty one, of a database that is not in defensive mode; a name of ours, for
-    ///               it stands in SQL as it is.
+    /// \param rtree  name of an empty R-tree of a database that is not in defensive mode. It is
+    ///               inserted into SQL unquoted and must never come from a user.
     void write_to(Database& database, std::string_view rtree) &&;
 
     struct Cell {
-        std::array<float, 4> limits; ///< least x, most x, least y, most y
-        std::uint32_t number;        ///< of the row added, or of the node below within its level
+        std::array<float, 4> limits; ///< min x, max x, min y, max y
+        std::uint32_t number; ///< number of the added row, or of the child node within its level
     };
 
 private:

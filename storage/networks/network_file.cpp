@@ -44,7 +44,7 @@ private:
     int number_;
 };
 
-/// A file's bytes in memory, to be read only; as long as this lives, whatever becomes of its name.
+/// Read-only memory map of a file, valid during its lifetime even if the file is removed.
 class MappedFile {
 public:
     explicit MappedFile(const std::filesystem::path& file) {
@@ -151,7 +151,7 @@ RoadNetwork load_or_build_network(const RoadStore& store,
 bool cache_network(const RoadStore& store, const RoadNetwork& roads) {
     constexpr std::size_t digits = 64;
     const auto source = store.network_hash();
-    if (source.size() != digits) { // the store was changed
+    if (source.size() != digits) { // the database was modified
         return false;
     }
     try {

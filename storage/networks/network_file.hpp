@@ -10,11 +10,13 @@
 
 namespace macadam {
 
-// A network as a file that is mapped into memory and read in place (docs/reference/road-maps.md).
-// It is a cache: whatever it holds can be made again from the map or from the store.
+// Network as a file that is memory-mapped and read in place (docs/reference/road-maps.md). It is a
+// cache: it can always be rebuilt from the map or from the database.
 
-/// \param source  64 hex digits that say what the network was made of
-/// \throws InputError  if the file cannot be written; then nothing is left.
+/// Writes a network file.
+///
+/// \param source  64 hex digits that identify the origin of the network.
+/// \throws InputError  if the file cannot be written; then no file is left.
 void write_network_file(const RoadNetwork& roads,
                         std::string_view source,
                         const std::filesystem::path& file);
@@ -24,24 +26,26 @@ struct NetworkFile {
     std::string source;
 };
 
-/// \throws InputError  if the file is missing, no network file, one of another version, or damaged.
+/// Opens a network file.
+///
+/// \throws InputError  if the file is missing, not a network file, of another version, or damaged.
 NetworkFile open_network_file(const std::filesystem::path& file);
 
-/// Whether the file begins as write_network_file begins it. False for a file that is not there.
+/// Tests whether a file begins like a network file; false if it does not exist.
 bool is_network_file(const std::filesystem::path& file);
 
-/// Where a store's network lies: beside it, as STORE-network.
+/// Network file of a database, beside it: DATABASE-network.
 std::filesystem::path network_file_of(const std::filesystem::path& store);
 
-/// The network of a store. Taken from the file beside it, if that was made of the store's own ways;
-/// else built from them, and written there if the folder can be written.
+/// Loads the network of a database from the file beside it if that was made of the same ways;
+/// otherwise builds it from the database, and writes the file if the folder is writable.
 ///
-/// \param warn  is told if there is a file that is not to be used
+/// \param warn  called if the existing file cannot be used.
 RoadNetwork load_or_build_network(const RoadStore& store,
                                   const std::function<void(const std::string&)>& warn = {});
 
-/// Writes the network of a store beside it. \returns false if that cannot be done: the store serves
-/// without it, a little slower.
+/// Writes the network of a database beside it. \returns false if that fails; the database works
+/// without it, slightly slower.
 bool cache_network(const RoadStore& store, const RoadNetwork& roads);
 
 } // namespace macadam

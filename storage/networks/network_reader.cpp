@@ -17,7 +17,7 @@ namespace macadam {
 
 namespace {
 
-/// GDAL takes names that begin so for addresses, connections or documents, not for files.
+/// Rejects names that GDAL takes for URLs, connections or documents.
 void expect_plain_name(const std::string& name) {
     static constexpr std::array<std::string_view, 5> others{"/vsi", "PG:", "MYSQL:", "<", "{"};
     const bool other = std::any_of(
@@ -38,10 +38,11 @@ void expect_present(const std::filesystem::path& file) {
     }
 }
 
-/// Of the files that make up a layer: a Shapefile is several of one stem, a geodatabase a folder.
+/// Size of the files of a layer: a Shapefile consists of several with one stem, a geodatabase is a
+/// folder.
 std::uint64_t bytes_of_layer(const std::filesystem::path& file) {
     namespace fs = std::filesystem;
-    std::error_code none; // what cannot be seen counts nothing
+    std::error_code none; // unreadable files do not count
     const bool is_folder = fs::is_directory(file, none);
     const auto folder = is_folder ? file : fs::absolute(file).parent_path();
     std::uint64_t bytes = is_folder ? 0 : fs::file_size(file, none);
@@ -58,8 +59,8 @@ std::uint64_t bytes_of_layer(const std::filesystem::path& file) {
     return bytes;
 }
 
-/// Holds what comes out of a layer to what can be in it: a view of a database, or a packed file,
-/// gives as much as it likes.
+/// Limits on the output of a layer, because a view of a database or a compressed file can produce
+/// any amount of data.
 class LayerBounds {
 public:
     explicit LayerBounds(const std::filesystem::path& file)
@@ -103,7 +104,7 @@ bool has_far_step(const Way& way) {
                }) != way.line.end();
 }
 
-/// What was left out, in words; "" if nothing was.
+/// Describes the omitted ways; "" if there are none.
 std::string words_of(const LeftOutWays& left_out, const std::filesystem::path& file) {
     const auto counted = [](std::size_t count) {
         return fmt::format("{} {}", count, count == 1 ? "way" : "ways");

@@ -26,11 +26,12 @@ namespace macadam {
 
 namespace {
 
-/// Kinds of files that say an arc in a few bytes make some points of each.
+/// Maximum number of points per byte, for formats that store an arc in a few bytes and expand it to
+/// points.
 constexpr std::uintmax_t max_points_per_byte = 4;
 
-/// From 0 to a coordinate in whatever unit maps have. GDAL brings an x of spherical Mercator back
-/// to the globe turn by turn: from far enough away for ever.
+/// Maximum absolute coordinate in the units of any map. GDAL wraps an x of spherical Mercator one
+/// revolution at a time, which would never end for huge values.
 constexpr double farthest = 1e10;
 
 bool is_of_lines(OGRLayer& layer) {
@@ -53,7 +54,7 @@ OGRLayer& layer_of(GDALDataset& dataset, const std::string& name, const std::str
     throw InputError{fmt::format("{}: has no layer '{}', only {}", file, name, names)};
 }
 
-/// The number of the column that is asked for, or of the first usual one there is; -1 for none.
+/// Index of the requested column, or of the first usual one that exists; -1 if there is none.
 int column(OGRLayer& layer,
            const std::string& asked,
            std::initializer_list<const char*> usual,
@@ -85,7 +86,8 @@ std::optional<Oneway> parse_oneway(std::string_view text) {
         std::string_view text;
         Oneway oneway;
     };
-    // OSM's words, osmnx's and other flags, Geofabrik's letters, and from-to as in Esri's networks.
+    // Spellings of OSM, flags of osmnx and others, letters of Geofabrik, and from-to of Esri's
+    // networks.
     static constexpr Spelling spellings[] = {
         {"", Oneway::no},
         {"no", Oneway::no},
@@ -114,8 +116,8 @@ std::optional<Oneway> parse_oneway(std::string_view text) {
     return {};
 }
 
-/// Two vertices that are no farther apart than 1e-7 degrees (1 cm) in latitude and in longitude are
-/// one node, at the place of the first that was met.
+/// Numbers the nodes. Vertices within 1e-7 degrees (1 cm) in latitude and longitude are one node,
+/// at the position of the first.
 class Nodes {
 public:
     struct Node {
@@ -125,8 +127,8 @@ public:
 
     Node node_at(const GeoPoint& point) {
         const auto cell = cell_of(point);
-        // A cell is twice as wide as the distance, so that what is near lies in it or beyond the
-        // nearer of its borders.
+        // A cell is twice as wide as the distance, so that all close points are in the same cell or
+        // in the neighbour at the nearer border.
         const auto beyond = [](double deg, std::int64_t index) {
             return deg / cell_deg - static_cast<double>(index) < 0.5 ? index - 1 : index + 1;
         };
@@ -169,7 +171,8 @@ private:
                 static_cast<std::int64_t>(std::floor(point.lon_deg / cell_deg))};
     }
     static bool are_one(const GeoPoint& a, const GeoPoint& b) {
-        constexpr double rounding = 1 + 1e-6; // of degrees in doubles: one_deg itself still counts
+        // Rounding error of degrees in doubles: one_deg itself still counts.
+        constexpr double rounding = 1 + 1e-6;
         return std::abs(a.lat_deg - b.lat_deg) <= one_deg * rounding &&
                std::abs(a.lon_deg - b.lon_deg) <= one_deg * rounding;
     }
@@ -187,7 +190,7 @@ struct Columns {
 
 class LayerReader {
 public:
-    /// \param max_points  more of them are no map.
+    /// \param max_points  limit for a plausible map.
     LayerReader(std::string file,
                 OGRLayer& layer,
                 const LayerColumns& asked,
@@ -201,7 +204,7 @@ public:
               .oneway = column(layer, asked.oneway, {"oneway", "one_way"}, file_)} {
         auto* const system = layer.GetSpatialRef();
         if (system == nullptr) {
-            return; // taken for degrees; whatever is none is found out below
+            return; // taken for degrees; invalid values are detected below
         }
         expect_grids_of_proj(*system, file_);
         OGRSpatialReference wgs84;
@@ -285,9 +288,10 @@ private:
         return id;
     }
 
-    /// Of a column of reals, as which Shapefiles keep long integers.
+    /// Converts an id from a real column, in which Shapefiles store long integers.
     std::int64_t whole(double id, const OGRFeature& feature) const {
-        constexpr double most = 9007199254740992; // 2^53: a double holds every integer up to it
+        // 2^53: largest range of exact integers in a double.
+        constexpr double most = 9007199254740992;
         if (!(std::abs(id) <= most && id == std::floor(id))) {
             refuse_id(feature);
         }

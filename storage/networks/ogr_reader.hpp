@@ -7,13 +7,13 @@
 
 namespace macadam {
 
-// What storage/networks/network_reader.cpp asks of the plug-in macadam_gdal.
+// Interface between storage/networks/network_reader.cpp and the plug-in macadam_gdal.
 
-/// Hands over the drivable lines of a layer, feature by feature, with ids that occur once and nodes
-/// numbered from 1 in the order in which they first appear; also those of fewer than two points.
+/// Passes the drivable lines of a layer on, feature by feature, including those of fewer than two
+/// points. Ids are unique, and nodes are numbered from 1 in the order of their first appearance.
 ///
-/// \throws InputError  if the file is no line layer that we know, or has ids that are not whole
-///                     numbers or occur twice.
+/// \throws InputError  if the file is not a supported line layer, or has ids that are not whole
+///                     numbers or not unique.
 using OgrReadLines = void(const std::filesystem::path& file,
                           const LayerColumns& columns,
                           const std::function<void(Way)>& take);

@@ -58,7 +58,7 @@ std::optional<OsmBlobs::Blob> OsmBlobs::next() {
         return std::nullopt;
     }
     std::uint32_t header_bytes = 0;
-    for (const char byte : length) { // the most significant first
+    for (const char byte : length) { // big endian
         header_bytes = header_bytes << 8U | static_cast<unsigned char>(byte);
     }
     if (header_bytes > max_header_bytes) {
@@ -73,7 +73,7 @@ std::optional<OsmBlobs::Blob> OsmBlobs::next() {
     return Blob{std::move(type), unpacked()};
 }
 
-/// \returns false if nothing at all is left and that may be.
+/// \returns false at the end of the file, if that is allowed here.
 bool OsmBlobs::fill(std::span<char> into, bool may_end) {
     std::size_t have = 0;
     while (have < into.size()) {

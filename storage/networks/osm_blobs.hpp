@@ -11,23 +11,23 @@
 
 namespace macadam {
 
-/// The blobs of an .osm.pbf file, one after the other: raw or in zlib, of at most 32 MiB.
+/// Reads the blobs of an .osm.pbf file in sequence: raw or zlib, of at most 32 MiB.
 ///
-/// \throws InputError  where the file is cut off, damaged or packed otherwise, or unpacks to more
-///                     than a map does.
+/// \throws InputError  if the file is truncated, damaged or compressed differently, or decompresses
+///                     to more than a map would.
 class OsmBlobs {
 public:
     explicit OsmBlobs(const std::filesystem::path& file);
 
     struct Blob {
         std::string type;
-        std::string_view content; ///< unpacked; until the next call
+        std::string_view content; ///< decompressed; valid until the next call
     };
 
-    /// Empty at the end of the file.
+    /// Returns the next blob; `std::nullopt` at the end of the file.
     std::optional<Blob> next();
 
-    /// Bytes of the file that were read.
+    /// Bytes of the file read so far.
     std::uint64_t consumed() const { return bytes_->consumed(); }
 
 private:

@@ -11,32 +11,33 @@
 
 namespace macadam {
 
-/// Takes the objects of an OSM file as they come. What it is given is valid during the call alone;
-/// objects for which there is no function are passed over.
+/// Callbacks for the objects of an OSM file. Arguments are valid only during the call; objects
+/// without a callback are skipped.
 struct OsmVisitor {
-    std::function<void(std::int64_t id, const PackedPoint& at)> node; ///< with a place on the globe
+    std::function<void(std::int64_t id, const PackedPoint& at)> node; ///< with valid coordinates
     std::function<void(std::int64_t id, const OsmTags& tags, std::span<const std::int64_t> nodes)>
         way;
     std::function<void(const OsmTags& tags, std::span<const OsmMember> members)> relation;
-    std::function<void(std::uint64_t bytes)> pace; ///< of the file that are read; may throw
+    std::function<void(std::uint64_t bytes)> pace; ///< bytes of the file read so far; may throw
 };
 
-// Compressed maps are held to what maps are: a few times smaller than what they hold. Beyond the
-// free bytes more is a bomb, and refused.
+// Limits on the decompressed size of maps, against decompression bombs. Up to the free bytes, any
+// ratio is accepted.
 
 inline constexpr std::uint64_t max_pbf_expansion = 20; // real maps reach 4
 inline constexpr std::uint64_t free_pbf_bytes = std::uint64_t{1} << 20U;
 inline constexpr std::uint64_t max_xml_expansion = 100; // real maps reach 25
 inline constexpr std::uint64_t free_xml_bytes = std::uint64_t{16} << 20U;
 
-/// Reads .osm.pbf, block by block: raw or zlib blobs of at most 32 MiB, as the format has it.
+/// Reads .osm.pbf block by block: raw or zlib blobs of at most 32 MiB, as the format specifies.
 ///
-/// \throws std::exception  with words for a file that is damaged or something else.
+/// \throws std::exception  with a message, for a damaged or different file.
 void visit_osm_pbf(const std::filesystem::path& file, const OsmVisitor& visitor);
 
-/// Reads .osm, .osm.gz and .osm.bz2, also with the root <osmChange>, less what that deletes.
+/// Reads .osm, .osm.gz and .osm.bz2. A file with the root <osmChange> is read without the objects
+/// that it deletes.
 ///
-/// \throws std::exception  with words for a file that is damaged or something else.
+/// \throws std::exception  with a message, for a damaged or different file.
 void visit_osm_xml(const std::filesystem::path& file, const OsmVisitor& visitor);
 
 } // namespace macadam

@@ -56,7 +56,7 @@ void expect_known_features(Bytes bytes) {
 
 // -------------------------------------------------------------------------------------- blocks
 
-/// The texts of a block, each ended by a zero.
+/// String table of a block, with each text terminated by zero.
 class Texts {
 public:
     void read(Bytes bytes) {
@@ -66,7 +66,7 @@ public:
                 table.skip();
                 continue;
             }
-            first_.push_back(static_cast<std::uint32_t>(letters_.size())); // of at most 64 MiB
+            first_.push_back(static_cast<std::uint32_t>(letters_.size())); // at most 64 MiB
             letters_ += bytes_of(table.get_view());
             letters_ += '\0';
         }
@@ -89,7 +89,7 @@ private:
     std::vector<std::uint32_t> first_;
 };
 
-/// A sum of differences, as ids and places are written. Rolls over, for what is not to be trusted.
+/// Decodes delta-coded ids and positions. Overflow wraps around, because the input is untrusted.
 class Running {
 public:
     std::int64_t add(std::int64_t difference) {
@@ -224,7 +224,7 @@ private:
         }
     }
 
-    /// In 1e-7 degrees; nothing where there is no such place.
+    /// Position in 1e-7 degrees; `std::nullopt` if it is invalid.
     std::optional<std::int32_t>
     place_e7(std::int64_t steps, std::int64_t offset, std::int64_t max_deg) const {
         constexpr std::int64_t nano_per_e7 = 100;
@@ -248,13 +248,13 @@ private:
         }
     }
 
-    /// Keys and values of an object by the numbers of their texts.
+    /// Keys and values of an object, as indexes into the string table.
     struct Tags {
         Packed keys;
         Packed values;
     };
 
-    /// As many keys as values, each a text of the block.
+    /// Looks up the tags; there must be as many keys as values, all in the string table.
     OsmTags tags_of(const Tags& tags) {
         tags_.clear();
         auto [keys, values] = tags;
@@ -355,7 +355,7 @@ private:
     std::int32_t granularity_ = 100; ///< nanodegrees
     std::int64_t lat_offset_ = 0;
     std::int64_t lon_offset_ = 0;
-    std::vector<std::pair<const char*, const char*>> tags_; ///< of the object that is read
+    std::vector<std::pair<const char*, const char*>> tags_; ///< of the current object
     std::vector<std::int64_t> refs_;
     std::vector<OsmMember> members_;
 };

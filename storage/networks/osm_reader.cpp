@@ -34,8 +34,8 @@ NodeIds without_repeats(std::span<const std::int64_t> nodes) {
     return ids;
 }
 
-/// Whether a way goes over its own nodes again and again, as no road does: a few bytes that would
-/// take very much memory. Those of OSM itself have at most 2,000 nodes.
+/// Tests whether a way visits its own nodes again and again, as no road does: a few bytes could
+/// need a huge amount of memory. Ways of OSM itself have at most 2,000 nodes.
 bool runs_in_circles(NodeIds nodes) {
     constexpr std::size_t usual_nodes = 2000;
     constexpr std::size_t max_rounds = 4;
@@ -48,9 +48,9 @@ bool runs_in_circles(NodeIds nodes) {
     return count > max_rounds * nodes.size();
 }
 
-/// What a file says of ways, yet without places.
+/// Ways and turn rules of a file, without positions.
 struct WaysAndTurns {
-    std::vector<Way> ways; ///< the drivable ones
+    std::vector<Way> ways; ///< drivable ways
     std::vector<TurnOutOfWay> turns;
 };
 
@@ -109,17 +109,17 @@ NodeIds used_nodes(const std::vector<Way>& ways) {
     return ids;
 }
 
-/// Stands for the place of a node that the file does not have.
+/// Placeholder for nodes that are missing in the file.
 constexpr PackedPoint nowhere{std::numeric_limits<std::int32_t>::max(), 0};
 
-/// Places of the nodes `ids`, which rise; `nowhere` where the file has none.
+/// Positions of the nodes `ids`, in rising order; `nowhere` if missing in the file.
 std::vector<PackedPoint>
 places_of(const NodeIds& ids, const std::filesystem::path& file, const ProgressThrottle& pace) {
     std::vector<PackedPoint> places(ids.size(), nowhere);
     auto at = ids.begin();
     std::int64_t last = 0;
     const auto take = [&](std::int64_t id, const PackedPoint& place) {
-        // Nearly every file has its nodes in order: then one step forward finds the next.
+        // Most files have their nodes in order; then one step forward finds the next.
         if (id < last) {
             at = std::lower_bound(ids.begin(), ids.end(), id);
         }
@@ -135,7 +135,7 @@ places_of(const NodeIds& ids, const std::filesystem::path& file, const ProgressT
     return places;
 }
 
-/// The longest part of `way`, by points, all of whose places are known.
+/// Reduces `way` to its longest part, by points, with known positions.
 Way placed(Way way, const NodeIds& ids, const std::vector<PackedPoint>& places) {
     NodeIds best_ids;
     std::vector<GeoPoint> best_line;
@@ -174,7 +174,7 @@ placed(std::vector<Way> ways, const NodeIds& ids, const std::vector<PackedPoint>
     return ways;
 }
 
-/// Extracts that were put together may hold a way of their border twice.
+/// Sorts ways by id and drops duplicates, which merged extracts may have at their borders.
 std::vector<Way> in_order(std::vector<Way> ways) {
     const auto by_id = [](const Way& a, const Way& b) { return a.id < b.id; };
     const auto same_id = [](const Way& a, const Way& b) { return a.id == b.id; };
@@ -183,7 +183,7 @@ std::vector<Way> in_order(std::vector<Way> ways) {
     return ways;
 }
 
-/// Gives each turn rule to its way. \param ways  in the order of their ids
+/// Assigns each turn rule to its way. \param ways  in the order of their ids
 std::vector<Way> with_turns(std::vector<Way> ways, std::vector<TurnOutOfWay> turns) {
     std::sort(turns.begin(), turns.end(), [](const auto& a, const auto& b) {
         return std::tie(a.from_way, a.rule.via_node, a.rule.to_way, a.rule.only) <

@@ -80,10 +80,10 @@ std::string_view access_of(const OsmTags& tags) {
 
 constexpr double mps_per_kmh = 1 / 3.6;
 constexpr double mps_per_mph = 0.44704;
-constexpr double no_limit_kmh = 250; // what the faster makes of car limit themselves to
-constexpr double walking_kmh = 7;    // as far as German courts go; OSM wiki, Key:maxspeed
+constexpr double no_limit_kmh = 250; // usual electronic limit of fast cars
+constexpr double walking_kmh = 7;    // upper value of German courts; OSM wiki, Key:maxspeed
 
-/// 0 for what is no speed.
+/// Speed in m/s; 0 if the text is not a speed.
 double speed_mps(std::string_view text) {
     if (text == "none") {
         return no_limit_kmh * mps_per_kmh;
@@ -127,7 +127,7 @@ Oneway oneway_of(const OsmTags& tags) {
     if (oneway == "-1" || oneway == "reverse") {
         return Oneway::backward;
     }
-    if (!oneway.empty()) { // no, and what changes by the hour: reversible, alternating
+    if (!oneway.empty()) { // no, and values that depend on time: reversible, alternating
         return Oneway::no;
     }
     const auto junction = value(tags, "junction");

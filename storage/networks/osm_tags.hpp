@@ -8,28 +8,29 @@
 
 namespace macadam {
 
-/// The value of a key of an OSM way; null if it has none.
+/// Returns the value of a key of an OSM way; null if the way lacks the key.
 using OsmTags = std::function<const char*(const char* key)>;
 
-/// May an ordinary car drive here? By class: motorway to residential with their links, living
-/// streets, roads of unknown class, service roads, and tracks of grade1 (the paved ones). Not where
-/// the most particular of motorcar, motor_vehicle, vehicle, access forbids it (no, agricultural,
-/// forestry, emergency, bus, psv and the like). `private` shuts service roads and tracks only:
-/// yards and driveways are nobody's to report on, but whoever drives on a private street may go
+/// Tests whether an ordinary car may drive on a way. Accepted classes: motorway to residential with
+/// their links, living streets, roads of unknown class, service roads, and tracks of grade1
+/// (paved). The most specific of motorcar, motor_vehicle, vehicle and access can forbid it (no,
+/// agricultural, forestry, emergency, bus, psv and the like). `private` excludes only service roads
+/// and tracks, that is yards and driveways; private streets remain, because their users may drive
 /// there.
 bool is_drivable(const OsmTags& tags);
 
-/// By `oneway`; without it roundabouts and motorways run forward.
+/// Direction by `oneway`; without that tag, roundabouts and motorways are one-way forward.
 Oneway oneway_of(const OsmTags& tags);
 
-/// `maxspeed` in cm/s, of the faster direction where they differ: km/h, or as it says mph. 0 where
-/// there is none, or one that changes by the hour. `none` is 250 km/h, `walk` 7 km/h.
+/// Speed limit by `maxspeed` in cm/s, of the faster direction if they differ: km/h, or mph where
+/// stated. 0 if the limit is missing or depends on the time of day. `none` is 250 km/h, `walk` 7
+/// km/h.
 std::uint16_t speed_limit_cmps_of(const OsmTags& tags);
 
-/// `name`, or failing that `ref`.
+/// Value of `name`, otherwise of `ref`.
 std::string_view name_of(const OsmTags& tags);
 
-/// Values of `highway` that no car drives on: footway, cycleway and the like.
+/// Tests for values of `highway` without car traffic: footway, cycleway and the like.
 bool is_for_others(std::string_view highway);
 
 } // namespace macadam

@@ -24,7 +24,7 @@ std::string_view value(const OsmTags& tags, const char* key) {
     return found == nullptr ? std::string_view{} : found;
 }
 
-/// Whether cars stand in a list as `psv;motorcar`.
+/// Tests whether cars are in a list such as `psv;motorcar`.
 bool names_cars(std::string_view list) {
     constexpr std::string_view between_words = "; ";
     while (!list.empty()) {
@@ -37,7 +37,7 @@ bool names_cars(std::string_view list) {
     return false;
 }
 
-/// What is said of cars; "" if nothing, or only at some hours.
+/// Restriction that applies to cars; "" if there is none, or only at certain hours.
 std::string_view said_of_cars(const OsmTags& tags) {
     for (const char* const key : {"restriction:motorcar", "restriction:motor_vehicle"}) {
         if (const auto own = value(tags, key); !own.empty()) {
@@ -72,7 +72,7 @@ std::vector<TurnOutOfWay> turns_in(const OsmTags& tags, std::span<const OsmMembe
     const auto all_from = ids_of(members, OsmKind::way, "from");
     const auto all_to = ids_of(members, OsmKind::way, "to");
     if (all_from.size() > 1 && all_to.size() > 1) {
-        return {}; // only no_entry and no_exit have several, on one side
+        return {}; // only no_entry and no_exit may have several ways, on one side
     }
     std::vector<TurnOutOfWay> turns;
     for (const auto from : all_from) {

@@ -12,21 +12,21 @@ namespace macadam {
 
 enum class OsmKind : std::uint8_t { node, way, relation };
 
-/// Of a relation.
+/// Member of a relation.
 struct OsmMember {
     OsmKind kind;
     std::int64_t id;
     std::string_view role;
 };
 
-/// A turn rule with the way that it is for.
+/// Turn rule with the way to which it applies.
 struct TurnOutOfWay {
     std::int64_t from_way;
     TurnRule rule;
 };
 
-/// The turns that a relation of OSM forbids to cars, or of which it leaves only one: those of type
-/// restriction over one node, from one way or to one, that hold at all hours. None for other
+/// Extracts the turn rules for cars from an OSM relation of type restriction, no_* and only_*, if
+/// it applies over one node, has a single from or to way, and holds at all hours. Empty for other
 /// relations.
 std::vector<TurnOutOfWay> turns_in(const OsmTags& tags, std::span<const OsmMember> members);
 

@@ -50,7 +50,7 @@ std::map<std::int64_t, osmium::Location> nodes_of(std::span<const Way> ways) {
     return nodes;
 }
 
-/// A text as long as libosmium takes it for a tag: 256 characters of up to 4 bytes.
+/// Checks that libosmium accepts a text as a tag: 256 characters of up to 4 bytes.
 void expect_short(const std::string& text, std::string_view what, std::int64_t way) {
     constexpr std::size_t max_bytes = 256 * 4;
     if (text.size() > max_bytes) {
@@ -62,7 +62,7 @@ void expect_short(const std::string& text, std::string_view what, std::int64_t w
     }
 }
 
-/// The way's class, if readers of OSM know it for a road of cars.
+/// Class of the way, if OSM readers accept it as a road for cars.
 std::string class_of(const Way& way) {
     const OsmTags tags = [&](std::string_view key) -> const char* {
         return key == "highway" ? way.highway.c_str() : key == "tracktype" ? "grade1" : nullptr;
@@ -70,7 +70,7 @@ std::string class_of(const Way& way) {
     return is_drivable(tags) ? way.highway : "road";
 }
 
-/// Kilometres an hour as signs have them, or with as many digits as the centimetres need.
+/// Speed in km/h as on signs, or with as many digits as the centimetres need.
 std::string kmh_text(std::uint16_t speed_cmps) {
     constexpr double kmh_per_cmps = 0.036;
     const double kmh = speed_cmps * kmh_per_cmps;
@@ -83,7 +83,7 @@ std::vector<std::pair<std::string, std::string>> tags_of(const Way& way) {
     std::vector<std::pair<std::string, std::string>> tags;
     tags.emplace_back("highway", class_of(way));
     if (way.highway == "track") {
-        tags.emplace_back("tracktype", "grade1"); // the only ones that are read
+        tags.emplace_back("tracktype", "grade1"); // only such tracks are read
     }
     if (!way.name.empty()) {
         tags.emplace_back("name", way.name);
@@ -91,7 +91,7 @@ std::vector<std::pair<std::string, std::string>> tags_of(const Way& way) {
     if (way.speed_limit_cmps > 0) {
         tags.emplace_back("maxspeed", kmh_text(way.speed_limit_cmps));
     }
-    // Said of every way, because some classes are oneway unless they say that they are not.
+    // Written for every way, because some classes are oneway by default.
     tags.emplace_back("oneway",
                       way.oneway == Oneway::no        ? "no"
                       : way.oneway == Oneway::forward ? "yes"
@@ -104,7 +104,7 @@ void add_way(osmium::memory::Buffer& buffer, const Way& way) {
     osmium::builder::add_way(buffer, _id(way.id), _nodes(way.node_ids), _tags(tags));
 }
 
-/// The value of `restriction` names a direction, but readers go by its first word.
+/// Adds a turn restriction. Its value names a direction, but readers evaluate only its first word.
 void add_turn(osmium::memory::Buffer& buffer,
               std::int64_t id,
               std::int64_t from_way,
@@ -120,7 +120,7 @@ void add_turn(osmium::memory::Buffer& buffer,
     osmium::builder::add_relation(buffer, _id(id), _members(members), _tags(tags));
 }
 
-/// Hands a full buffer over to the writer.
+/// Passes a full buffer to the writer.
 osmium::memory::Buffer flushed(osmium::io::Writer& writer, osmium::memory::Buffer buffer) {
     if (buffer.committed() < buffer_bytes / 2) {
         return buffer;

@@ -29,7 +29,7 @@ std::optional<Number> number_in(std::string_view text) {
     return whole ? std::optional{number} : std::nullopt;
 }
 
-/// Null if the element has none of that name.
+/// Value of an attribute; null if it is missing.
 const char* attribute(const XML_Char** attributes, std::string_view name) {
     for (; *attributes != nullptr; attributes += 2) {
         if (attributes[0] == name) {
@@ -39,7 +39,7 @@ const char* attribute(const XML_Char** attributes, std::string_view name) {
     return nullptr;
 }
 
-/// In 1e-7 degrees; nothing where there is no such place.
+/// Coordinate in 1e-7 degrees; `std::nullopt` if it is invalid.
 std::optional<std::int32_t> place_e7(const char* text, double max_deg) {
     const auto deg = text == nullptr ? std::nullopt : number_in<double>(text);
     return deg && std::abs(*deg) <= max_deg
@@ -47,7 +47,7 @@ std::optional<std::int32_t> place_e7(const char* text, double max_deg) {
                : std::nullopt;
 }
 
-/// Takes the objects out of XML that comes piece by piece.
+/// Extracts the objects from XML that arrives in blocks.
 class OsmParser {
 public:
     explicit OsmParser(const OsmVisitor& visitor)
@@ -75,7 +75,8 @@ private:
 
     static OsmParser& self(void* data) { return *static_cast<OsmParser*>(data); }
 
-    /// Exceptions must not pass through the C library: it is stopped, and `add` throws.
+    /// Runs a callback. Exceptions must not pass through the C library: the parser is stopped, and
+    /// `add` throws.
     template <typename Call>
     void guarded(Call call) {
         if (refusal_) {
@@ -180,7 +181,7 @@ private:
                             role_of(role == nullptr ? "" : role)});
     }
 
-    /// One of the few roles that mean something, which outlive the element.
+    /// Canonical text of the few supported roles, which outlives the element.
     static std::string_view role_of(std::string_view role) {
         for (const std::string_view known : {"from", "via", "to"}) {
             if (role == known) {

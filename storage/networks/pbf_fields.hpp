@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-// Fields of messages in Protocol Buffers with the types that they must have: one of another type
-// is another field, to be passed over.
+// Protocol Buffers fields with their expected wire types. A field of another wire type counts as a
+// different field and is skipped.
 
 template <typename Tag>
 constexpr std::uint32_t number_field(Tag tag) {

@@ -22,9 +22,9 @@ constexpr std::string_view first_line = "ERDFILEV2.00";
 constexpr std::size_t keyword_width = 8;
 constexpr std::size_t short_width = 8; // of SHORTNAM and UNITSNAM
 constexpr std::size_t long_width = 32; // of LONGNAME
-constexpr double max_channels = 1000;  // those of a vehicle simulation; profiles have 1 to 5
+constexpr double max_channels = 1000;  // of a vehicle simulation; profiles have 1 to 5
 
-/// Text of each keyword, as it stands from column 9 on.
+/// Text of each keyword, from column 9 on.
 using Keywords = std::map<std::string, std::string, std::less<>>;
 
 std::string_view required_line(TextLines& lines, const char* expected) {
@@ -42,7 +42,7 @@ std::string upper(std::string_view text) {
     return word;
 }
 
-/// Numbers with commas or blanks between, up to the first word that is none.
+/// Numbers separated by commas or blanks, up to the first word that is not a number.
 std::vector<double> leading_numbers(std::string_view text) {
     constexpr std::string_view between = " \t,";
     std::vector<double> numbers;
@@ -58,8 +58,8 @@ std::vector<double> leading_numbers(std::string_view text) {
     }
 }
 
-/// The second line: channels, samples, records, bytes of a record, key number, step, and a key
-/// that profiles do not need.
+/// Second line: channels, samples, records, bytes per record, key number, step, and a key that
+/// profiles do not use.
 struct Layout {
     std::size_t channels;
     std::optional<std::size_t> samples;
@@ -103,7 +103,8 @@ Layout read_layout(TextLines& lines) {
             .step = numbers[5]};
 }
 
-/// A keyword that begins with & goes on with the one before it, at the next whole field.
+/// Reads the keywords. A keyword that begins with & continues the previous one at the next whole
+/// field.
 Keywords read_keywords(TextLines& lines) {
     Keywords keywords;
     auto current = keywords.end();

@@ -19,7 +19,7 @@ namespace macadam {
 
 namespace {
 
-/// What profilers measure in units of length beside elevation.
+/// Names of quantities other than elevation that profilers measure in units of length.
 constexpr std::array no_elevations{"dist", "stat", "rut", "mpd", "mtd", "text"};
 
 bool names_no_elevation(std::string_view name) {
@@ -30,10 +30,10 @@ bool names_no_elevation(std::string_view name) {
                                [&](std::string_view word) { return lower.starts_with(word); });
 }
 
-/// A channel of the file that is the elevation of a track.
+/// Channel with the elevation of a track.
 struct Elevation {
     std::size_t channel;
-    double metres; ///< in a unit of it
+    double metres; ///< per unit of the channel
 };
 
 std::vector<Elevation> elevations_of(const ErdHeader& header, const std::string& file) {
@@ -57,7 +57,7 @@ std::vector<Elevation> elevations_of(const ErdHeader& header, const std::string&
     return elevations;
 }
 
-/// Whether a name begins with that letter, and no other does.
+/// Tests whether only the name at `index` begins with that letter.
 bool alone_with(const std::vector<std::string>& names, std::size_t index, char letter) {
     const auto begins = [&](const std::string& name) {
         return !name.empty() && std::tolower(static_cast<unsigned char>(name.front())) == letter;
@@ -65,8 +65,8 @@ bool alone_with(const std::vector<std::string>& names, std::size_t index, char l
     return begins(names[index]) && std::ranges::count_if(names, begins) == 1;
 }
 
-/// "left" and "right" where just one name begins with L and just one with R ("LElev.", "RElev.") or
-/// two channels have no name; otherwise as the file has them.
+/// Names the tracks "left" and "right" if exactly one name begins with L and one with R ("LElev.",
+/// "RElev."), or if two channels are unnamed; otherwise by the names in the file.
 std::vector<std::string> track_names(const ErdHeader& header,
                                      const std::vector<Elevation>& elevations) {
     std::vector<std::string> names;
@@ -93,7 +93,7 @@ std::vector<std::string> track_names(const ErdHeader& header,
     return told;
 }
 
-/// One sample after the other: a number for each channel.
+/// Reads samples in sequence: one number per channel.
 class Samples {
 public:
     Samples() = default;
@@ -101,7 +101,7 @@ public:
     Samples& operator=(const Samples&) = delete;
     virtual ~Samples() = default;
 
-    /// Good until the next call; empty where the file ends.
+    /// Returns the next sample, valid until the next call; empty at the end.
     virtual std::span<const double> next() = 0;
 };
 
@@ -139,7 +139,7 @@ std::vector<double> fixed_numbers(std::string_view line, const std::vector<Fixed
     return numbers;
 }
 
-/// Numbers in the lines after END, however many a line has.
+/// Numbers in the lines after END, with any count per line.
 class TextSamples final : public Samples {
 public:
     TextSamples(TextLines lines, std::size_t channels, std::vector<FixedField> format)
@@ -169,8 +169,8 @@ public:
 private:
     static constexpr char end_of_dos_text = '\x1a';
 
-    /// What stands apart is read as it stands, as the program published with the standard does;
-    /// the format tells apart what runs together.
+    /// Parses a line. Separated numbers are read as they are, like in the program published with
+    /// the standard; the format is used to split adjacent numbers.
     std::vector<double> numbers_of(std::string_view line) const {
         auto numbers = free_numbers(line);
         if (!format_.empty()) {
@@ -192,7 +192,7 @@ private:
     std::size_t used_ = 0;
 };
 
-/// Little-endian numbers, sample by sample.
+/// Little-endian binary numbers, sample by sample.
 class BinarySamples final : public Samples {
 public:
     BinarySamples(const std::filesystem::path& file, std::size_t channels, ErdNumbers numbers)
@@ -204,7 +204,7 @@ public:
         while (filled < buffer_.size()) {
             const auto count = bytes_->read(std::span{buffer_}.subspan(filled));
             if (count == 0) {
-                return {}; // the last record may be filled up
+                return {}; // the last record may be padded
             }
             filled += count;
         }

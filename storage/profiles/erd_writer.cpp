@@ -17,8 +17,8 @@ namespace {
 
 constexpr int field_width = 8; // of names and units in the header
 constexpr int number_width = 15;
-constexpr int decimals = 4;       // of millimetres: a tenth of what the best profilers resolve
-constexpr double highest_m = 1e4; // more than any road; keeps a blank between the numbers
+constexpr int decimals = 4;       // of millimetres: a tenth of the resolution of the best profilers
+constexpr double highest_m = 1e4; // higher than any road; keeps the numbers separated
 
 std::string short_name(std::string_view name) {
     if (name == "left") {
@@ -30,7 +30,7 @@ std::string short_name(std::string_view name) {
     return std::string{name.substr(0, field_width)};
 }
 
-/// A title goes on one line; other programs cut it at 80 characters.
+/// Replaces line breaks of a title, which other programs cut at 80 characters.
 std::string one_line(std::string text) {
     std::ranges::replace_if(
         text, [](unsigned char c) { return c < 0x20; }, ' ');
@@ -47,7 +47,7 @@ std::string header_of(const ErdProfile& profile) {
         units += fmt::format("{:<{}}", "mm", field_width);
     }
     std::string text = "ERDFILEV2.00\n";
-    // Neither records nor bytes of them in a file of text; 5 says that it is one.
+    // A text file has no records and no bytes per record; 5 marks it as text.
     text += fmt::format("{}, {}, -1, 1, 5, {}, -1\n", channels, samples, profile.step_m);
     if (!profile.title.empty()) {
         text += fmt::format("TITLE   {}\n", one_line(profile.title));

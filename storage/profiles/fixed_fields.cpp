@@ -12,11 +12,11 @@ namespace macadam {
 
 namespace {
 
-constexpr std::size_t max_fields = 10'000; // of a line; a format of a few letters can ask for more
+constexpr std::size_t max_fields = 10'000; // per line; a short format can ask for more
 constexpr std::size_t longest_line = 100'000;
-constexpr int deepest = 20; // brackets in brackets
+constexpr int deepest = 20; // nested brackets
 
-/// Reads a format from left to right. After anything that it does not know, failed() is true.
+/// Parses a format from left to right. After an unknown descriptor, failed() is true.
 class FormatReader {
 public:
     explicit FormatReader(std::string_view format) : rest_{format} {}
@@ -50,7 +50,7 @@ private:
         } else if (std::string_view{"FEDGI"}.find(letter) != std::string_view::npos &&
                    letter != '\0') {
             numbers(times);
-        } else if (letter != 'P') { // 1P moves the point of what is written, not of what is read
+        } else if (letter != 'P') { // 1P shifts the decimal point of output only
             failed_ = true;
         }
     }
@@ -69,7 +69,7 @@ private:
         rest_.remove_prefix(std::min<std::size_t>(1, rest_.size()));
     }
 
-    /// Fw.d, or Ew.dEe.
+    /// Parses Fw.d or Ew.dEe.
     void numbers(std::size_t times) {
         if (rest_.starts_with('S') || rest_.starts_with('N')) {
             rest_.remove_prefix(1);

@@ -7,19 +7,20 @@
 
 namespace macadam {
 
-/// A number at a fixed place of a line.
+/// Number at a fixed position of a line.
 struct FixedField {
     std::size_t from;
     std::size_t width;
-    int decimals; ///< that a number without a point has
+    int decimals; ///< implied decimals of a number without a decimal point
 };
 
-/// The fields of a line that was written with a Fortran FORMAT of F, E, D, G and I, X, scale
-/// factors, repetition and brackets: "(2F8.3)", "(1X,3(E12.4,2X))". Empty if it is none of these.
+/// Parses a Fortran FORMAT of F, E, D, G and I, X, scale factors, repetition and brackets:
+/// "(2F8.3)", "(1X,3(E12.4,2X))". Empty for any other format.
 std::vector<FixedField> fields_of_format(std::string_view format);
 
-/// A number as Fortran writes it: D for E, too. Without a point and an exponent, the last
-/// `decimals` of its digits stand behind the point. Nothing if it is none, or not finite.
+/// Parses a number in Fortran notation, in which D may replace E. Without a decimal point and an
+/// exponent, the last `decimals` digits are the fraction. Returns `std::nullopt` if the text is not
+/// a finite number.
 std::optional<double> fortran_number(std::string_view text, int decimals = 0);
 
 } // namespace macadam

@@ -5,8 +5,8 @@
 
 namespace macadam {
 
-/// Metres in a unit of length as profile files abbreviate them (m, mm, in, ft, mil, ...), whatever
-/// its case; of a word that was cut off after 8 characters, too. Nothing for any other unit.
+/// Metres per unit of length, for the abbreviations of profile files (m, mm, in, ft, mil, ...) in
+/// any case, including words truncated to 8 characters. Returns `std::nullopt` for any other unit.
 std::optional<double> metres_in(std::string_view unit);
 
 } // namespace macadam

@@ -17,7 +17,7 @@ namespace macadam {
 
 namespace {
 
-// A line of points has the elevations, a comment, and from profilers with a receiver latitude,
+// Columns of a line: elevations, a comment, and, from profilers with a GNSS receiver, latitude,
 // longitude, height, heading and speed.
 constexpr std::size_t one_path = 2;
 constexpr std::size_t one_path_with_fix = 7;
@@ -36,7 +36,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     }
 }
 
-/// "left", "right" or "profile": what the head says of the one path that there is.
+/// Names a single path "left", "right" or "profile", as stated in the header.
 std::string name_of_path(std::string_view path) {
     const auto letter = path.empty() ? '\0' : std::tolower(static_cast<unsigned char>(path[0]));
     return letter == 'l' ? "left" : letter == 'r' ? "right" : "profile";
@@ -49,7 +49,7 @@ public:
         expect_record("HEAD3");
         expect_record("CMET3");
         read_units(step_m);
-        lines_.next(); // where the receiver was when it began
+        lines_.next(); // initial position of the receiver
         lines_.next(); // a comment
         first_is_read_ = read_line();
         if (!first_is_read_) {
@@ -79,7 +79,7 @@ private:
         }
     }
 
-    /// Maker, unit of elevation, wheel path, distance between points, its unit.
+    /// Reads the manufacturer, unit of elevation, wheel path, point spacing and its unit.
     void read_units(std::optional<double> step_m) {
         constexpr std::size_t needed = 5;
         const auto line = lines_.next().value_or("");
@@ -99,7 +99,7 @@ private:
         head_.step_m = step_m ? step_m : *step * *step_unit_m;
     }
 
-    /// The elevations of the next line, in row_ from its second place on. False at the end.
+    /// Reads the elevations of the next line into row_, from index 1 on. Returns false at the end.
     bool read_line() {
         auto line = lines_.next();
         while (line && (trimmed(*line).empty() || *line == "\x1a")) { // the end of a DOS text
@@ -129,7 +129,7 @@ private:
     std::size_t tracks_in(const std::vector<std::string_view>& cells, std::string_view line) const {
         switch (cells.size()) {
         case one_path:
-            // Without a comment: two elevations, unless the head says that there is but one.
+            // Without a comment: two elevations, unless the header states a single path.
             return name_of_path(path_) == "profile" && parse_number(cells[1]) ? 2 : 1;
         case one_path_with_fix:
             return 1;

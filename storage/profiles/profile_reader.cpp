@@ -26,7 +26,7 @@ constexpr std::array forms{Form{".csv", open_csv_profile},
                            Form{".erd", open_erd_profile},
                            Form{".pro", open_pro_profile}};
 
-/// What is seen of the points while they pass.
+/// Statistics of the points read so far.
 struct Passed {
     std::size_t points = 0;
     double first_m = 0;
@@ -45,14 +45,14 @@ struct Passed {
     }
 
     std::optional<double> even_step_m() const {
-        constexpr double max_deviation = 1e-3; // of the step: what rounding stations to mm leaves
+        constexpr double max_deviation = 1e-3; // of the step: rounding of stations to mm
         const double mean_m = (last_m - first_m) / static_cast<double>(points - 1);
         const double deviation_m = std::max(longest_m - mean_m, mean_m - shortest_m);
         return deviation_m <= max_deviation * mean_m ? std::optional{mean_m} : std::nullopt;
     }
 };
 
-/// Passes every point to `take`.
+/// Passes each point to `take`.
 template <typename Take>
 ProfileExtent read_through(const std::filesystem::path& file, ProfileRows& rows, Take take) {
     Passed passed;

@@ -10,13 +10,13 @@
 
 namespace macadam {
 
-/// What a profile file says before its first point.
+/// Information in a profile file that precedes its first point.
 struct ProfileHead {
-    std::vector<std::string> tracks; ///< "left", "right", "profile", or as the file has it
-    std::optional<double> step_m;    ///< the file or the caller states it; else stations tell
+    std::vector<std::string> tracks; ///< "left", "right", "profile", or the name in the file
+    std::optional<double> step_m;    ///< stated by file or caller; otherwise see the stations
 };
 
-/// The points of a profile file from front to back, in the memory of one.
+/// Reads the points of a profile file in sequence, with memory for one point.
 class ProfileRows {
 public:
     ProfileRows() = default;
@@ -26,21 +26,22 @@ public:
 
     virtual const ProfileHead& head() const = 0;
 
-    /// The station and an elevation for each track, in metres; stations rise. Good until the next
-    /// call. Empty at the end.
+    /// Returns the station and one elevation per track, in metres; stations rise. Valid until the
+    /// next call; empty at the end.
     ///
-    /// \throws InputError  "file:line: ..." for what is no number, or a row of another length.
+    /// \throws InputError  "file:line: ..." for a value that is not a number, or a row of another
+    ///                     length.
     virtual std::span<const double> next() = 0;
 };
 
-/// By the name's ending, whatever its case: .csv, .txt, .erd, .pro.
+/// Opens a profile file by its suffix, in any case: .csv, .txt, .erd, .pro.
 ///
-/// \param step_m  .csv and .txt: the file has no stations, and its rows are this far apart.
-///                .erd and .pro: stands for the step in the file's head.
+/// \param step_m  .csv and .txt: the file has no stations, and its rows have this spacing. .erd and
+///                .pro: replaces the step in the header of the file.
 std::unique_ptr<ProfileRows> open_profile(const std::filesystem::path& file,
                                           std::optional<double> step_m);
 
-// One for each form; see docs/reference/profiles.md.
+// Readers of each format; see docs/reference/profiles.md.
 std::unique_ptr<ProfileRows> open_csv_profile(const std::filesystem::path& file,
                                               std::optional<double> step_m);
 std::unique_ptr<ProfileRows> open_txt_profile(const std::filesystem::path& file,
@@ -50,7 +51,7 @@ std::unique_ptr<ProfileRows> open_erd_profile(const std::filesystem::path& file,
 std::unique_ptr<ProfileRows> open_pro_profile(const std::filesystem::path& file,
                                               std::optional<double> step_m);
 
-/// The words of metres_in, for messages.
+/// Units of metres_in, for messages.
 inline constexpr std::string_view length_units = "m, cm, mm, um, ft, in or mil";
 
 } // namespace macadam

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view station_column = "station_m";
 
-/// Where the first cell of a line ends, and how much of the line the cell and its separator take.
+/// First cell of a line, and the number of characters that it takes with its separator.
 struct Cut {
     std::string_view cell;
     std::size_t taken;
@@ -28,14 +28,14 @@ Cut first_of_commas(std::string_view line) {
     return {trimmed(line.substr(0, size)), size + 1};
 }
 
-/// `line` has no blanks at its ends.
+/// First cell of a line separated by blanks. \param line  without blanks at its ends.
 Cut first_of_blanks(std::string_view line) {
     const auto size = std::min(line.find_first_of(" \t"), line.size());
     const auto next = std::min(line.find_first_not_of(" \t", size), line.size());
     return {line.substr(0, size), std::max(next, size + 1)};
 }
 
-/// Calls `take` with every cell; a comma at the end of a line has an empty one behind it.
+/// Calls `take` with each cell; a comma at the end of a line is followed by an empty cell.
 template <typename First, typename Take>
 void each_cell(std::string_view line, First first, Take take) {
     for (;;) {
@@ -74,7 +74,7 @@ std::vector<std::string> header_of(TextLines& lines) {
     return names;
 }
 
-/// The header must begin with station_m, or not have it where a step stands for it.
+/// Checks that the header begins with station_m, or lacks it if a step is given.
 void expect_stations(const std::vector<std::string>& names,
                      const std::string& where,
                      bool has_stations) {
@@ -95,7 +95,7 @@ void expect_stations(const std::vector<std::string>& names,
     }
 }
 
-/// Without names one track is "profile", two are left and right.
+/// Names of unnamed tracks: "profile" for one, left and right for two.
 std::vector<std::string> names_of(std::size_t tracks) {
     if (tracks == 1) {
         return {"profile"};
@@ -110,7 +110,7 @@ std::vector<std::string> names_of(std::size_t tracks) {
     return names;
 }
 
-/// "left_m" is "left".
+/// Converts "left_m" to "left".
 std::string track_name(std::string_view column) {
     if (column.ends_with("_m")) {
         column.remove_suffix(2);
@@ -162,7 +162,7 @@ public:
     }
 
 private:
-    /// The numbers of the next line, in cells_. False at the end.
+    /// Reads the numbers of the next line into cells_. Returns false at the end.
     bool read_line() {
         const auto line = next_not_blank(lines_);
         if (!line) {
@@ -214,7 +214,7 @@ private:
     TextLines lines_;
     bool commas_;
     ProfileHead head_;
-    std::size_t columns_ = 0; ///< of the file; 0 before the first line of one without a header
+    std::size_t columns_ = 0; ///< of the file; 0 before the first line of a file without a header
     std::vector<double> cells_;
     std::vector<double> row_;
     std::size_t count_ = 0;

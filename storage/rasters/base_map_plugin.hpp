@@ -6,9 +6,11 @@
 
 namespace macadam {
 
-// What storage/rasters/base_map_file.cpp asks of the plug-in macadam_gdal.
+// Interface between storage/rasters/base_map_file.cpp and the plug-in macadam_gdal.
 
-/// \throws InputError  with the file's name.
+/// Opens `file` into `map`.
+///
+/// \throws InputError  with the name of the file.
 using BaseMapOpen = void(const std::filesystem::path& file, BaseMap& map);
 inline constexpr const char* base_map_open_name = "macadam_base_map_open";
 

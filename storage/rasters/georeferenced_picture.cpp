@@ -34,7 +34,7 @@ GiveBytes all_of(std::string text) {
     return [text = std::move(text)](const auto& take) { take(text); };
 }
 
-/// Six lines, for the middle of the first pixel.
+/// World file: six lines, for the centre of the first pixel.
 std::string world_text(const PlacedPicture& picture) {
     return fmt::format("{}\n0\n0\n{}\n{}\n{}\n",
                        picture.per_px,
@@ -43,7 +43,7 @@ std::string world_text(const PlacedPicture& picture) {
                        picture.top - picture.per_px / 2);
 }
 
-/// GDAL's Persistent Auxiliary Metadata, of which QGIS reads the system too.
+/// GDAL's Persistent Auxiliary Metadata, from which QGIS also reads the coordinate system.
 std::string auxiliary_text(const PlacedPicture& picture) {
     return fmt::format("<PAMDataset>\n  <SRS dataAxisToSRSAxisMapping=\"1,2\">{}</SRS>\n"
                        "</PAMDataset>\n",

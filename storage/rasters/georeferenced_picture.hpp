@@ -9,44 +9,44 @@
 
 namespace macadam {
 
-/// Where a picture lies on the plane of a coordinate reference system.
+/// Position of a picture in the plane of a coordinate reference system.
 struct PlacedPicture {
     int width_px, height_px;
-    double left, top;      ///< of the top left corner, in units of the plane
-    double per_px;         ///< side of a pixel
-    std::string wkt;       ///< of the system
-    std::string copyright; ///< whose data
+    double left, top;      ///< top left corner, in units of the plane
+    double per_px;         ///< side of a pixel, in units of the plane
+    std::string wkt;       ///< coordinate reference system
+    std::string copyright; ///< copyright notice of the data
 };
 
-/// Hands the rows of a picture to who takes them, from the top, some whole ones at a time:
-/// eight-bit RGB.
+/// Passes the rows of a picture to a callback from the top, several whole rows at a time: eight-bit
+/// RGB.
 using GiveRows =
     std::function<void(const std::function<void(std::span<const std::uint8_t> rgb)>& take)>;
 
-/// Writes a Cloud Optimized GeoTIFF: tiled, deflated, with smaller copies of itself. It appears
-/// when it is whole, or not at all. Held meanwhile is some three times what it takes on the disk.
+/// Writes a Cloud Optimized GeoTIFF: tiled, deflated, with overviews. The file appears complete or
+/// not at all. Memory during the call is about three times the file size.
 ///
-/// \throws InputError  if it cannot be written; what `give` throws.
+/// \throws InputError  if the file cannot be written; exceptions of `give` pass through.
 void write_geotiff(const PlacedPicture& picture,
                    const GiveRows& give,
                    const std::filesystem::path& file);
 
-/// Hands the bytes of a file to who takes them, some at a time.
+/// Passes the bytes of a file to a callback in blocks.
 using GiveBytes = std::function<void(const std::function<void(std::string_view)>& take)>;
 
-/// Writes a PNG file, beside it the world file that says where its pixels lie (map.png: map.pgw),
-/// and map.png.aux.xml that says on which plane, as GDAL reads it. All three or none.
+/// Writes a PNG file with its world file (map.pgw for map.png) and map.png.aux.xml with the
+/// coordinate system, as GDAL reads it. Either all three files appear or none.
 ///
-/// \param png      the bytes of the PNG file
-/// \throws InputError  if one of them cannot be written.
+/// \param png  bytes of the PNG file.
+/// \throws InputError  if one of the files cannot be written.
 void write_png_with_world_file(const GiveBytes& png,
                                const PlacedPicture& picture,
                                const std::filesystem::path& file);
 
-/// The name of the world file of a picture: map.pgw for map.png.
+/// Name of the world file of a picture: map.pgw for map.png.
 std::filesystem::path world_file_of(const std::filesystem::path& picture);
 
-/// The name of the file that says its coordinate system: map.png.aux.xml for map.png.
+/// Name of the file with the coordinate system of a picture: map.png.aux.xml for map.png.
 std::filesystem::path auxiliary_file_of(std::filesystem::path picture);
 
 } // namespace macadam

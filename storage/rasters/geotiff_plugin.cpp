@@ -41,8 +41,8 @@ void place(GDALDataset& dataset, const PlacedPicture& picture) {
     dataset.SetMetadataItem("TIFFTAG_SOFTWARE", "macadam");
 }
 
-/// A file that GDAL keeps in memory. The driver comes to no good end where a disk is full (GDAL 3.6
-/// crashes while it makes overviews), so that it never meets one.
+/// In-memory file of GDAL. The driver fails badly on a full disk (GDAL 3.6 crashes while it builds
+/// overviews), so it never writes to the disk.
 class FileInMemory {
 public:
     explicit FileInMemory(std::string name) : name_{"/vsimem/macadam/" + std::move(name)} {}
@@ -62,8 +62,7 @@ private:
     std::string name_;
 };
 
-/// Bounds what GDAL holds of its files as pixels, which else is a twentieth of the machine's
-/// memory.
+/// Limits GDAL's block cache, which by default is a twentieth of the machine's memory.
 class SmallCache {
 public:
     SmallCache() { GDALSetCacheMax64(bytes); }
@@ -76,7 +75,7 @@ private:
     GIntBig before_ = GDALGetCacheMax64();
 };
 
-/// Takes rows of a picture, from the top.
+/// Writes the rows of a picture, from the top.
 class RowWriter {
 public:
     RowWriter(const PlacedPicture& picture, const char* name) {
@@ -85,7 +84,7 @@ public:
         options.SetNameValue("BLOCKXSIZE", "512");
         options.SetNameValue("BLOCKYSIZE", "512");
         options.SetNameValue("COMPRESS", "DEFLATE");
-        options.SetNameValue("ZLEVEL", "1"); // it is read once, a moment later
+        options.SetNameValue("ZLEVEL", "1"); // read only once, shortly afterwards
         options.SetNameValue("INTERLEAVE", "PIXEL");
         options.SetNameValue("BIGTIFF", "IF_SAFER");
         dataset_.reset(driver_in_memory("GTiff").Create(
@@ -99,7 +98,7 @@ public:
     void add(std::span<const std::uint8_t> rgb) {
         const int width = dataset_->GetRasterXSize();
         const int rows = int(rgb.size() / (std::size_t(bands) * std::size_t(width)));
-        // GDAL takes no pointer to const; it only reads.
+        // GDAL takes a pointer to non-const, but only reads.
         auto* const bytes = const_cast<std::uint8_t*>(rgb.data()); // NOLINT(*-const-cast)
         if (dataset_->RasterIO(GF_Write,
                                0,
@@ -151,7 +150,7 @@ void write(const PlacedPicture& picture, const GiveRows& give, const std::filesy
         const FileInMemory drawn{"rows.tif"};
         RowWriter writer{picture, drawn.name()};
         give([&](auto rows) { writer.add(rows); });
-        CPLErrorReset(); // what was said while it was drawn is of others
+        CPLErrorReset(); // errors reported during drawing are unrelated
         const auto source = std::move(writer).finished();
         if (CPLGetLastErrorType() == CE_Failure) {
             fail();

@@ -4,12 +4,11 @@
 
 namespace macadam {
 
-// What storage/rasters/georeferenced_picture.cpp asks of the plug-in macadam_gdal.
+// Interface between storage/rasters/georeferenced_picture.cpp and the plug-in macadam_gdal.
 
-/// \param file  not there yet, in a folder of its own.
-/// \throws InputError  with GDAL's complaint, without the file's name, and as `give` throws. Half a
-/// file may be
-///                     left.
+/// \param file  must not exist; in a folder of its own.
+/// \throws InputError  with GDAL's message, without the file name; also exceptions of `give`. A
+///                     partial file may remain.
 using GeotiffWrite = void(const PlacedPicture& picture,
                           const GiveRows& give,
                           const std::filesystem::path& file);

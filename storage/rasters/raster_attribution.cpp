@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-/// What is no UTF-8 is of older pictures, which mostly say "©" in Latin 1.
+/// Converts text to UTF-8. Other encodings occur in older pictures, mostly for "©" in Latin 1.
 std::string as_utf8(const char* text) {
     if (CPLIsUTF8(text, -1) != 0) {
         return text;
@@ -21,7 +21,7 @@ std::string as_utf8(const char* text) {
     return utf8;
 }
 
-/// MBTiles have it in HTML, for the corner of a web page.
+/// Removes mark-up; MBTiles state their attribution in HTML, for a web page.
 std::string without_markup(std::string_view html) {
     std::string text;
     bool inside = false;
@@ -56,7 +56,7 @@ std::string attribution_of(GDALDataset& raster) {
         const char* const text = raster.GetMetadataItem(key);
         return text == nullptr ? std::string{} : as_utf8(text);
     };
-    auto owner = on_one_line(without_markup(named("attribution"))); // of MBTiles
+    auto owner = on_one_line(without_markup(named("attribution"))); // key of MBTiles
     for (const char* const key : {"TIFFTAG_COPYRIGHT", "Copyright", "EXIF_Copyright"}) {
         if (owner.empty()) {
             owner = on_one_line(named(key));

@@ -6,7 +6,7 @@ class GDALDataset;
 
 namespace macadam {
 
-/// Whose a raster is, on one line, without mark-up; "" = it names nobody.
+/// Copyright notice of a raster, on one line, without mark-up; "" if it has none.
 std::string attribution_of(GDALDataset& raster);
 
 } // namespace macadam

@@ -20,7 +20,7 @@ std::optional<double> no_data_of(GDALRasterBand& band) {
     return is_there != FALSE ? std::optional{value} : std::nullopt;
 }
 
-/// Of bands with fewer bits than a byte, such as scans in black and white.
+/// Maximum value of a band, which may have fewer bits than a byte, such as black and white scans.
 int most_of(GDALRasterBand& band) {
     const char* const bits = band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE");
     const int count = bits != nullptr ? std::atoi(bits) : 8; // NOLINT(cert-err34-c): GDAL wrote it
@@ -39,7 +39,7 @@ std::vector<Rgba> grey_table(GDALRasterBand& band) {
 
 std::vector<Rgba> palette_table(const GDALColorTable& colours) {
     const auto byte = [](short value) { return std::uint8_t(std::clamp<int>(value, 0, 255)); };
-    std::vector<Rgba> table(colours_of_a_byte); // what has no entry is transparent
+    std::vector<Rgba> table(colours_of_a_byte); // values without an entry are transparent
     for (int i = 0; i < std::min(colours_of_a_byte, colours.GetColorEntryCount()); ++i) {
         GDALColorEntry entry{};
         colours.GetColorEntryAsRGB(i, &entry);
@@ -58,7 +58,7 @@ std::vector<Rgba> table_of(GDALRasterBand& band) {
     return table;
 }
 
-/// The number of the band of that meaning; 0 if there is none.
+/// Number of the band with a given meaning; 0 if there is none.
 int band_of(GDALDataset& raster, GDALColorInterp meaning) {
     for (int number = 1; number <= raster.GetRasterCount(); ++number) {
         if (raster.GetRasterBand(number)->GetColorInterpretation() == meaning) {
@@ -85,7 +85,7 @@ std::vector<int> bands_of(GDALDataset& raster, const std::string& file) {
     }
     const int without_alpha =
         raster.GetRasterCount() - (band_of(raster, GCI_AlphaBand) != 0 ? 1 : 0);
-    if (without_alpha == 3 || without_alpha == 4) { // four: with near infrared, as of the air
+    if (without_alpha == 3 || without_alpha == 4) { // four: with near infrared, as in aerial images
         return {1, 2, 3};
     }
     if (without_alpha == 1) {

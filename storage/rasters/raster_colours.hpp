@@ -12,18 +12,20 @@ namespace macadam {
 
 using Rgba = std::array<std::uint8_t, 4>;
 
-/// How the numbers of a raster's bands become colours.
+/// Mapping of the band values of a raster to colours.
 struct RasterColours {
     std::vector<int> bands;  ///< one with a table, or red, green and blue; GDAL's numbers, from 1
-    std::vector<Rgba> table; ///< of 256 colours, where there is one band
+    std::vector<Rgba> table; ///< 256 colours, for a single band
 
-    /// Of three bands: where all of them have their number, the raster is transparent.
+    /// No-data values of three bands: a pixel is transparent where all bands have their value.
     std::array<std::optional<double>, 3> no_data{};
-    int alpha_band = 0;  ///< 0: none
-    bool masked = false; ///< GDAL's mask of the first band says where it is transparent
+    int alpha_band = 0;  ///< 0 = none
+    bool masked = false; ///< GDAL's mask of the first band gives the transparency
 };
 
-/// \throws InputError  with the file's name, if they are no colours of eight bits.
+/// Reads the colour mapping of a raster.
+///
+/// \throws InputError  with the name of the file, if the values are not colours of eight bits.
 RasterColours colours_of(GDALDataset& raster, const std::string& file);
 
 } // namespace macadam

@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double tolerated = 1.05; // of a level's pixels: nobody sees it
+constexpr double tolerated = 1.05; // of a level's pixels: not visible
 
-/// As GDAL has it: from pixel and line to x and y, and back.
+/// Geotransforms of GDAL: from pixel and line to x and y, and back.
 struct Transforms {
     std::array<double, 6> forward{}, backward{};
 };
@@ -56,7 +56,7 @@ std::size_t bytes_of(const RasterBox& box) {
     return std::size_t(box.width_px) * std::size_t(box.height_px) * 4;
 }
 
-/// Sums of colours that count as much as they are opaque.
+/// Sum of colours weighted by opacity.
 struct ColourSum {
     std::array<std::uint64_t, 3> rgb{};
     std::uint64_t alpha = 0;
@@ -79,7 +79,7 @@ struct ColourSum {
     }
 };
 
-/// The mean of each square of `side` pixels of a row of squares.
+/// Writes the mean of each square of `side` pixels in a row of squares.
 void put_means(const std::vector<std::uint8_t>& rgba,
                const RasterBox& box,
                int side,
@@ -153,7 +153,7 @@ void RasterFile::Impl::read(GDALRasterBand& from, const RasterBox& box, std::uin
     }
 }
 
-/// Numbers of bands to colours, in place.
+/// Converts band values to colours in place.
 void RasterFile::Impl::colour(std::vector<std::uint8_t>& rgba) const {
     const auto& none = colours.no_data;
     for (std::size_t at = 0; at < rgba.size(); at += 4) {
@@ -183,8 +183,8 @@ std::vector<std::uint8_t> RasterFile::Impl::pixels(int overview, const RasterBox
     return rgba;
 }
 
-/// Row by row and some columns at a time, so that little is held of a large raster without smaller
-/// copies.
+/// Averages row by row and a limited number of columns at a time, to save memory for large rasters
+/// without overviews.
 std::vector<std::uint8_t> RasterFile::Impl::means(const RasterLevel& level,
                                                   const RasterBox& box) const {
     constexpr int pixels_at_once = 1 << 22; // 16 MB

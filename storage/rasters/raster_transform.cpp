@@ -18,10 +18,10 @@ namespace {
 
 constexpr int square_px = feet_square_px;
 constexpr int half_square_px = square_px / 2;
-constexpr double straight_px = 0.05; // of the picture: nobody sees it
+constexpr double straight_px = 0.05; // of the picture: not visible
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
-/// On the picture or on the raster, in pixels.
+/// Position on the picture or the raster, in pixels.
 struct PixelPlace {
     double x, y;
 };
@@ -41,7 +41,8 @@ OGRSpatialReference system_of(const std::string& wkt) {
     return system;
 }
 
-/// What x grows by on a way around the globe; 0 where that is no straight line.
+/// Growth of x per revolution around the globe; 0 if the projection does not wrap in a straight
+/// line.
 double turn_of(const OGRSpatialReference& system) {
     if (system.IsGeographic() != 0) {
         return 2 * std::numbers::pi / system.GetAngularUnits();
@@ -60,7 +61,7 @@ PixelPlace middle_of(const PixelPlace& a, const PixelPlace& b) {
     return {(a.x + b.x) / 2, (a.y + b.y) / 2};
 }
 
-/// What one pixel to the right or down on the picture is on the raster.
+/// Displacement on the raster for one pixel to the right or down on the picture.
 struct PixelStep {
     double x, y;
     double length() const { return std::hypot(x, y); }
@@ -70,12 +71,12 @@ PixelStep between(const PixelPlace& from, const PixelPlace& to, double px) {
     return {(to.x - from.x) / px, (to.y - from.y) / px};
 }
 
-/// Of two neighbours the one that is near: the other may be on the far side of a seam.
+/// Selects the shorter of two steps, because a neighbour may be on the far side of a seam.
 PixelStep shorter(const PixelStep& a, const PixelStep& b) {
     return a.length() <= b.length() || !std::isfinite(b.length()) ? a : b;
 }
 
-/// Of a pixel whose neighbours are nowhere no more is known than its place.
+/// Footprint of a pixel; only its position if its neighbours are undefined.
 PixelFootprint foot(const PixelPlace& at, const PixelStep& right, const PixelStep& down) {
     const auto reach_px = [](double a, double b) {
         const double px = std::hypot(a, b);
@@ -84,7 +85,8 @@ PixelFootprint foot(const PixelPlace& at, const PixelStep& right, const PixelSte
     return {at.x, at.y, reach_px(right.x, down.x), reach_px(right.y, down.y)};
 }
 
-/// Of a square of the picture: its corners, the middles of its sides and its own, row by row.
+/// Positions of a square of the picture: its corners, the midpoints of its sides, and its centre,
+/// row by row.
 using SquarePlaces = std::array<PixelPlace, 9>;
 
 bool are_straight(const SquarePlaces& at) {
@@ -92,7 +94,7 @@ bool are_straight(const SquarePlaces& at) {
     const auto down = between(at[0], at[6], square_px);
     const double tolerated_px = straight_px * std::max(right.length(), down.length());
     const auto is_near = [&](const PixelPlace& a, const PixelPlace& b) {
-        return between(a, b, 1).length() <= tolerated_px; // false where one is nowhere
+        return between(a, b, 1).length() <= tolerated_px; // false if a position is undefined
     };
     return is_near(at[1], middle_of(at[0], at[2])) && is_near(at[3], middle_of(at[0], at[6])) &&
            is_near(at[5], middle_of(at[2], at[8])) && is_near(at[7], middle_of(at[6], at[8])) &&
@@ -114,7 +116,7 @@ std::vector<PixelPlace> grid_over(int width_px, int height_px) {
     return places;
 }
 
-/// Of a square's pixels, row by row.
+/// Footprints of the pixels of a square, row by row.
 using SquareFeet = std::array<PixelFootprint, square_px * square_px>;
 
 SquareFeet bilinear(const SquarePlaces& at) {
@@ -136,7 +138,8 @@ SquareFeet bilinear(const SquarePlaces& at) {
     return feet;
 }
 
-/// Into the feet of `part`, what it shares with a square at `left_px`, `top_px`.
+/// Copies the overlap of `part` and the square at `left_px`, `top_px` into the footprints of
+/// `part`.
 void copy_shared(const SquareFeet& square,
                  int left_px,
                  int top_px,
@@ -168,7 +171,7 @@ struct RasterPlace::Impl {
 
     PicturePlane plane;
     int width_px, height_px;
-    std::array<double, 6> forward, backward; ///< of the raster
+    std::array<double, 6> forward, backward; ///< geotransforms of the raster
     double plane_turn, raster_turn;
     Way to_raster, to_plane;
 };
@@ -181,7 +184,7 @@ bool RasterPlace::Impl::is_shown(const PixelPlace& place) const {
     return place.x >= 0 && place.x <= plane.width_px && place.y >= 0 && place.y <= plane.height_px;
 }
 
-/// The raster may be of any turn: 0 to 360 degrees, or over the antimeridian.
+/// Finds the pixel in any revolution: the raster may span 0 to 360 degrees or the antimeridian.
 PixelPlace RasterPlace::Impl::pixel_at(double x, double y) const {
     const auto with_turns = [&](int turns) {
         const double there = x + turns * raster_turn;
@@ -199,8 +202,8 @@ PixelPlace RasterPlace::Impl::pixel_at(double x, double y) const {
     return here;
 }
 
-/// A place that does not come back to where it was is not on the plane: it is beyond the horizon,
-/// or in a fold.
+/// Transforms positions to the raster. A position that does not transform back to itself is not on
+/// the plane: it is beyond the horizon, or in a fold.
 std::vector<PixelPlace> RasterPlace::Impl::on_raster(std::vector<PixelPlace> of_picture) const {
     const auto count = of_picture.size();
     std::vector<double> x(count);
@@ -241,7 +244,7 @@ std::vector<PixelPlace> RasterPlace::Impl::on_picture(std::vector<PixelPlace> of
     return of_raster;
 }
 
-/// Without a look at the corners.
+/// Projects each pixel of a square, without the corner check.
 SquareFeet RasterPlace::Impl::each_projected(int left_px, int top_px) const {
     constexpr int side = square_px + 2; // with neighbours on all sides
     std::vector<PixelPlace> places;
@@ -324,7 +327,7 @@ std::vector<PixelFootprint> RasterPlace::feet(const PicturePart& part) const {
     return feet;
 }
 
-/// Places of the picture, spread over it and over what it shows of the raster.
+/// Sample positions on the picture, spread over it and over its overlap with the raster.
 std::vector<PixelPlace> RasterPlace::Impl::sample() const {
     auto places = on_picture(grid_over(width_px, height_px));
     std::erase_if(places, [&](const PixelPlace& place) { return !is_shown(place); });

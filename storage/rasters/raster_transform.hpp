@@ -9,35 +9,35 @@
 
 namespace macadam {
 
-/// Where a pixel of a picture lies on a raster: its middle, in pixels of the raster from the top
-/// left corner of its first one, and how far it reaches there to the right and down.
+/// Footprint of a picture pixel on a raster: its centre, in raster pixels from the top left corner
+/// of the raster, and its extent there to the right and down.
 struct PixelFootprint {
-    double x, y; ///< not a number where the projections do not reach
+    double x, y; ///< NaN outside the domain of the projections
     float width_px, height_px;
 };
 
 inline constexpr int feet_square_px = 16;
 
-/// How the pixels of a picture lie on a raster.
+/// Transform from the pixels of a picture to those of a raster.
 ///
-/// The projections are asked at the corners of squares of 16 px that begin at the picture's own
-/// corner, so that a pixel's foot does not depend on the part of the picture that is asked for.
-/// Between them it is bilinear where the middles of the square's sides and its own are so to a
-/// twentieth of a pixel; else each pixel is projected.
+/// The projections are evaluated at the corners of squares of 16 px that start at the corner of the
+/// picture, so that the footprint of a pixel does not depend on the requested part. Within a
+/// square, the footprint is interpolated bilinearly if the midpoints of the sides and the centre
+/// agree with that to a twentieth of a pixel; otherwise each pixel is projected.
 ///
-/// Where the plane or the raster's system goes around the globe (degrees, spherical Mercator),
-/// places one turn apart are the same place.
+/// Where the plane or the coordinate system of the raster wraps around the globe (degrees,
+/// spherical Mercator), positions one revolution apart are the same position.
 class RasterPlace {
 public:
-    /// \throws InputError  if PROJ finds no way from the plane to the raster.
+    /// \throws InputError  if PROJ finds no transformation from the plane to the raster.
     RasterPlace(const PicturePlane& plane, const RasterFile& raster);
     ~RasterPlace();
 
-    /// Row by row.
+    /// Footprints of a part, row by row.
     std::vector<PixelFootprint> feet(const PicturePart& part) const;
 
-    /// The least pixel of the picture in pixels of the raster, of some hundred places that they
-    /// share: the side of a square of its area. Nothing where they share none.
+    /// Smallest footprint, sampled at some hundred positions that picture and raster share: the
+    /// side of a square of equal area, in raster pixels. `std::nullopt` if they do not overlap.
     std::optional<double> min_foot_px() const;
 
 private:

@@ -9,19 +9,19 @@
 namespace macadam {
 namespace {
 
-constexpr int feet_at_once = 1 << 19;            // 13 MB of feet
+constexpr int feet_at_once = 1 << 19;            // 13 MB of footprints
 constexpr std::int64_t pixels_at_once = 1 << 23; // of the raster, 32 MB
-constexpr double farthest_px = 32; // of a level: near a pole a pixel may reach around the globe
+constexpr double farthest_px = 32; // of a level: near a pole, a pixel may extend around the globe
 
 constexpr auto max_foot_px = std::int64_t(4 * farthest_px * farthest_px);
 
-/// As std::floor, which is a call.
+/// Inline replacement of std::floor, which is a function call.
 int floor_of(double value) {
     const int truncated = int(value);
     return truncated - (value < truncated ? 1 : 0);
 }
 
-/// Along one axis of a level: pixels from `first` to before `end`, around `middle`.
+/// Filter support along one axis of a level: pixels [first, end) around `middle`.
 struct Reach {
     double middle, per_radius;
     int first, end;
@@ -37,7 +37,7 @@ Reach reach_of(double middle_px, double foot_px, int level_px) {
             std::min(level_px, -floor_of(0.5 - middle_px - radius))};
 }
 
-/// Colours that count as much as they are opaque and near.
+/// Mean of colours weighted by opacity and distance.
 class ColourMean {
 public:
     void add(const std::uint8_t* rgba, double weight) {
@@ -63,7 +63,7 @@ private:
     double red_ = 0, green_ = 0, blue_ = 0, alpha_ = 0, weight_ = 0;
 };
 
-/// Some rows of a picture, part by part.
+/// Renders some rows of a picture, part by part.
 class RowPainting {
 public:
     RowPainting(const RasterFile& raster,
@@ -75,8 +75,8 @@ public:
           height_px_{raster.height_px()}, level_{level}, per_raster_px_x_{1 / level.per_px_x},
           per_raster_px_y_{1 / level.per_px_y}, rows_{rows}, feet_{std::move(feet)}, rgba_{rgba} {}
 
-    /// Paints a part in halves if it needs too much of the raster at once, or if its pixels lie so
-    /// far apart in the raster that most of what lies between them is not looked at. The work
+    /// Renders a part, in halves if it needs too many pixels of the raster, or if its own pixels
+    /// lie so far apart in the raster that most pixels between them are not used. The work
     /// therefore grows with the picture, not with the size that a file claims.
     void paint(const PicturePart& part) {
         const auto box = box_of(part);
@@ -105,7 +105,7 @@ private:
                std::size_t(x - rows_.left_px);
     }
 
-    bool is_inside(const PixelFootprint& foot) const { // false where it is nowhere
+    bool is_inside(const PixelFootprint& foot) const { // false if it is undefined
         return foot.x >= 0 && foot.x <= width_px_ && foot.y >= 0 && foot.y <= height_px_;
     }
 
@@ -128,7 +128,7 @@ private:
         }
     }
 
-    /// All that a part needs of the level, and a little more where its feet are not alike.
+    /// Pixels of the level that a part needs, with a margin if its footprints differ.
     RasterBox box_of(const PicturePart& part) const {
         constexpr double far = std::numeric_limits<double>::infinity();
         PixelFootprint least{far, far, 0, 0};
@@ -195,7 +195,7 @@ RasterWarper::RasterWarper(std::shared_ptr<const RasterFile> raster, const Pictu
 std::vector<std::uint8_t> RasterWarper::rgba(const PicturePart& part) const {
     const auto row_bytes = std::size_t(part.width_px) * 4;
     std::vector<std::uint8_t> rgba(row_bytes * std::size_t(part.height_px));
-    // Whole squares of feet where they fit, so that few are projected twice.
+    // Whole squares of footprints if possible, so that few are projected twice.
     const int most =
         std::max(feet_square_px, feet_at_once / part.width_px / feet_square_px * feet_square_px);
     for (int down = 0, rows = 0; down < part.height_px; down += rows) {

@@ -7,13 +7,13 @@
 
 namespace macadam {
 
-/// Paints parts of a picture with a raster that lies on its plane.
+/// Renders parts of a picture from a raster that is warped to the plane of the picture.
 class RasterWarper {
 public:
-    /// \throws InputError  if PROJ finds no way from the plane to the raster.
+    /// \throws InputError  if PROJ finds no transformation from the plane to the raster.
     RasterWarper(std::shared_ptr<const RasterFile> raster, const PicturePlane& plane);
 
-    /// As PaintPart says.
+    /// Pixels of a part, in the form that PaintPart requires.
     std::vector<std::uint8_t> rgba(const PicturePart& part) const;
 
 private:

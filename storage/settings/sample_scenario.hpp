@@ -4,8 +4,8 @@
 
 namespace macadam {
 
-/// A recipe to start from, with a remark on every key: five cars on roads as they are. What a
-/// recipe leaves out is as here.
+/// Sample scenario with a comment on every key: five cars on existing roads. Its values are the
+/// defaults of every scenario.
 std::string_view sample_recipe();
 
 } // namespace macadam

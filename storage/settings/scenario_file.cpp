@@ -16,9 +16,9 @@
 namespace macadam {
 namespace {
 
-using namespace recipe_keys; // NOLINT(google-build-using-namespace): nothing but tables
+using namespace recipe_keys; // only tables
 
-/// The keys of one table, as they are asked for: what is left over is refused.
+/// Reads the keys of a table; the remaining keys are rejected.
 class Reader {
 public:
     explicit Reader(TomlTable table) : table_{std::move(table)} {}
@@ -172,7 +172,7 @@ Vehicle car_like(Reader& reader) {
     return vehicle;
 }
 
-/// An id becomes part of file names.
+/// Tests for characters allowed in an id, which becomes part of file names.
 bool is_plain(const std::string& id) {
     return std::ranges::all_of(id, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -241,7 +241,7 @@ ImuRecipe imu_of(Reader& reader, ImuRecipe imu) {
     return imu;
 }
 
-/// A recipe on its way: cars are made once all is read that holds for all of them.
+/// Scenario under construction: cars are added after all common settings were read.
 struct Draft {
     FleetScenario recipe;
     ImuRecipe imu;
@@ -266,7 +266,7 @@ Draft with_sensors(Draft draft, const TomlTable& top) {
     return draft;
 }
 
-/// What the tables of a recipe say, over what was said before.
+/// Applies the tables of a scenario to the current values.
 Draft with_tables(Draft draft, const TomlTable& top) {
     constexpr std::array<std::string_view, 8> tables{
         "trips", "speed_kmh", "gnss", "imu", "odometer", "knowledge", "road", "car"};
@@ -298,7 +298,7 @@ Draft with_tables(Draft draft, const TomlTable& top) {
     return with_sensors(std::move(draft), top);
 }
 
-/// A recipe over the sample's, which stands for all that it leaves out.
+/// Applies a scenario to the sample, which provides the defaults.
 FleetScenario recipe_of(const TomlTable& top) {
     const auto sample = parse_toml(sample_recipe(), "the sample recipe");
     auto draft = with_tables(with_tables(Draft{}, sample), top);

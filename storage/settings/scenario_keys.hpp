@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-/// The numbers of a recipe: under which key they stand, what they may be, and where they go.
+/// Numeric keys of a scenario: name, valid range and target field.
 namespace macadam::recipe_keys {
 
 inline constexpr TomlRange share{[](double x) { return x >= 0 && x <= 1; }, "a number from 0 to 1"};
@@ -19,8 +19,8 @@ inline constexpr TomlRange wheelbase{[](double x) { return x > 0 && x <= 20; },
 inline constexpr TomlRange trip_km{[](double x) { return x >= 0 && x <= 300; },
                                    "a number from 0 to 300"}; // ten hours in a town
 inline constexpr TomlRange iri{[](double x) { return x >= 0.01 && x <= 50; },
-                               "a number from 0.01 to 50"}; // as check() of a RoadRecipe has it
-// How long a drive takes, and how many events fall on it, stays within what memory holds.
+                               "a number from 0.01 to 50"}; // as in check() of a RoadRecipe
+// Limits that keep the duration of a drive, and the number of events in it, within memory.
 inline constexpr TomlRange gain{[](double x) { return x >= 0.05 && x <= 100; },
                                 "m/s2, from 0.05 to 100"};
 inline constexpr TomlRange duration{[](double x) { return x >= 0 && x <= 86400; },
@@ -35,7 +35,7 @@ inline constexpr TomlRange some_way{[](double x) { return x >= 0.1 && x <= 100'0
 inline constexpr TomlRange rate{[](double x) { return x > 0 && x <= 1000; },
                                 "a number of hertz, above 0 and at most 1000"};
 
-/// Where a key's number goes, and what it may be.
+/// Numeric key with its valid range and target field.
 template <typename Recipe>
 struct NumberKey {
     std::string_view name;

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 2> line_keys{"width", "casing"};
 constexpr std::int64_t max_passes = 1'000'000;
 constexpr std::size_t max_ramp_colours = 64;
 constexpr double min_mm_per_m = 0.01;
-constexpr double max_mm_per_m = 100; // no road is as rough
+constexpr double max_mm_per_m = 100; // rougher than any road
 
 constexpr TomlRange line_factor{[](double x) { return 0.25 <= x && x <= 4; },
                                 "a number from 0.25 to 4"};
@@ -46,7 +46,7 @@ constexpr std::array colour_keys{ColourKey{"page", &ThemeColours::page},
 struct WordKey {
     std::string_view name;
     std::string LegendWords::*word;
-    bool has_value; ///< {} stands for one
+    bool has_value; ///< whether {} occurs
 };
 constexpr std::array word_keys{WordKey{"few_passes", &LegendWords::few_passes, true},
                                WordKey{"uncertain", &LegendWords::uncertain, false},
@@ -66,7 +66,7 @@ std::vector<std::string_view> names_of(const Keys& keys) {
     return names;
 }
 
-/// "#2c7bb6"; nothing for what is no colour.
+/// Parses "#2c7bb6"; `std::nullopt` if it is not a colour.
 std::optional<std::uint32_t> colour_of(std::string_view text) {
     if (text.size() != 7 || text[0] != '#') {
         return {};
@@ -114,7 +114,7 @@ OwnClass class_of(const TomlTable& table, double least, double scale) {
     return {table.text("name"), to, open};
 }
 
-/// \param scale  of the file's unit, to mm/m
+/// \param scale  from the unit of the file to mm/m
 OwnClassTable own_table(const TomlTable& top, const std::string& name, double scale) {
     const auto rows = top.tables("class");
     if (rows.size() < 2 || rows.size() > max_own_classes) {
@@ -146,7 +146,7 @@ OwnClassTable own_table(const TomlTable& top, const std::string& name, double sc
     return {name, name, std::move(classes)};
 }
 
-/// ramp = "viridis", or [ramp] with colours.
+/// Reads ramp = "viridis", or [ramp] with colours.
 void read_ramp(const TomlTable& top, MapLook& look) {
     if (top.is_text("ramp")) {
         std::vector<std::string_view> names;

@@ -6,13 +6,13 @@
 
 namespace macadam {
 
-inline constexpr std::size_t max_own_classes = 12; ///< more colours nobody tells apart
+inline constexpr std::size_t max_own_classes = 12; ///< more colours are hard to distinguish
 
-/// Reads how a map is to look: a TOML file with classes, colours, widths and words of the legend.
+/// Reads the style of a map from a TOML file: classes, colours, widths and legend texts.
 /// docs/reference/pictures.md lists the keys.
 ///
-/// \throws InputError  "file:line: ..." for a key that is not known, a colour that is none, borders
-///                     that do not rise, more than max_own_classes, or words without their {}.
+/// \throws InputError  "file:line: ..." for an unknown key, an invalid colour, class limits that do
+///                     not rise, more than max_own_classes, or texts without their {}.
 MapLook read_style(const std::filesystem::path& file);
 
 } // namespace macadam

@@ -15,16 +15,16 @@ namespace {
 
 constexpr TomlRange order{[](double x) { return x >= 1 && x <= 8 && x == std::floor(x); },
                           "a whole number from 1 to 8"};
-// Sensors sit in cars; metres that are not are millimetres.
+// Sensors are inside the car; larger values are probably millimetres.
 constexpr TomlRange long_car{[](double x) { return x > 0 && x <= 20; },
                              "metres, above 0 and at most 20"};
 constexpr TomlRange in_car{[](double x) { return std::abs(x) <= 20; }, "metres, from -20 to 20"};
 
 struct Key {
-    std::string_view table; ///< "" = at the top
+    std::string_view table; ///< "" = root table
     std::string_view name;
     TomlRange range;
-    bool needed; ///< where its table stands
+    bool needed; ///< if its table exists
     double& (*place)(Vehicle&);
 };
 
@@ -53,7 +53,7 @@ constexpr Key number_keys[] = {
     {"imu", "noise_radps", positive_number, false, [](Vehicle& v) -> double& { return v.imu.noise_radps; }},
 };
 // clang-format on
-constexpr std::string_view order_key = "lowpass_order"; // of [imu]: the one whole number
+constexpr std::string_view order_key = "lowpass_order"; // of [imu]; the only integer
 constexpr std::string_view table_names[] = {"half_car", "axles", "imu", "uncertainty"};
 
 bool is_number_key(std::string_view table, std::string_view name) {
@@ -82,7 +82,7 @@ void expect_only(const TomlTable& table, Known is_known) {
     }
 }
 
-/// `vehicle` with the numbers of one of the file's tables.
+/// Copy of `vehicle` with the numbers of one table of the file.
 Vehicle with_numbers(Vehicle vehicle, const TomlTable& section, std::string_view table) {
     for (const auto& key : number_keys) {
         if (key.table != table) {
@@ -97,7 +97,7 @@ Vehicle with_numbers(Vehicle vehicle, const TomlTable& section, std::string_view
     return vehicle;
 }
 
-/// The same of a table that holds nothing but numbers.
+/// Same for a table that holds only numbers.
 Vehicle with_table(Vehicle vehicle, const TomlTable& section, std::string_view table) {
     expect_only(section, [&](std::string_view name) {
         return is_number_key(table, name) || (table == "imu" && name == order_key);

@@ -6,10 +6,10 @@
 
 namespace macadam {
 
-/// A vehicle from its TOML file (docs/reference/vehicles.md).
+/// Reads a vehicle from its TOML file (docs/reference/vehicles.md).
 ///
-/// \throws InputError  "file:line: ..." for a key that is not known, is missing, or has a value out
-///                     of its range.
+/// \throws InputError  "file:line: ..." for a key that is unknown, missing, or has a value out of
+///                     range.
 Vehicle read_vehicle(const std::filesystem::path& file);
 
 } // namespace macadam

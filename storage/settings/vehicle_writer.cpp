@@ -11,7 +11,7 @@ std::string line(std::string_view key, double value) {
     return fmt::format("{} = {:.6g}\n", key, value);
 }
 
-/// Text in the quotes of TOML.
+/// Quotes text as a TOML string.
 std::string in_quotes(std::string_view text) {
     std::string quoted{'"'};
     for (const char letter : text) {

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// A vehicle as the text of its TOML file, which read_vehicle reads back: numbers to six digits.
+/// Formats a vehicle as TOML that read_vehicle() reads back: numbers to six digits.
 std::string vehicle_text(const Vehicle& vehicle);
 
 } // namespace macadam

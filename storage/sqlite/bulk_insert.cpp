@@ -9,14 +9,14 @@
 namespace macadam {
 namespace {
 
-constexpr int max_values = 400; // more rows at a time are no quicker
+constexpr int max_values = 400; // inserting more at once is no faster
 constexpr int max_rows = 50;
 
 int rows_of(int columns) {
     return std::clamp(max_values / columns, 1, max_rows);
 }
 
-/// Rows whose first value is not bound are none.
+/// Builds the INSERT. Rows whose first value is not bound are skipped.
 std::string statement(std::string_view into, int columns) {
     std::string row = "(?";
     for (int i = 1; i < columns; ++i) {

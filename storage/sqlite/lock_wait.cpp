@@ -23,15 +23,15 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// Every waiting program asks equally often, so that each finds the pauses between the transactions
-// of another (strip_fusion.cpp); SQLite's own pauses grow to 100 ms.
+// All waiting programs poll equally often, so that each finds the pauses between the transactions
+// of another (dirty_fusion.cpp); SQLite's own pauses grow to 100 ms.
 constexpr auto pause = 5ms;
-constexpr auto look_every = 200ms; // at who holds the lock
+constexpr auto look_every = 200ms; // interval of checking the lock holder
 
-// Who is asked to end while he works ends his work first, and may have to wait a moment for that.
+// A stopped program first completes its work, for which it may briefly need the lock.
 constexpr auto wait_though_stopped = 1s;
 
-/// Bytes of a file.
+/// Byte range of a file.
 struct Range {
     std::int64_t first;
     std::int64_t last;
@@ -41,13 +41,13 @@ bool meet(const Range& a, const Range& b) {
     return a.first <= b.last && b.first <= a.last;
 }
 
-constexpr Range log_writer{120, 122}; // of "-shm": who writes, brings the log in, recovers it
+constexpr Range log_writer{120, 122};                // of "-shm": writing, checkpointing, recovery
 constexpr Range file_writer{0x40000000, 0x40000001}; // pending and reserved
 constexpr Range file_users{0x40000002, 0x40000002 + 510 - 1};
 
 struct Lock {
     int process;
-    bool excludes; ///< or is shared
+    bool excludes; ///< false: shared
     std::uint64_t inode;
     Range bytes;
 };
@@ -58,8 +58,8 @@ std::int64_t whole_number(std::string_view text) {
     return error == std::errc{} && end == text.data() + text.size() ? number : -1;
 }
 
-/// A line such as "1: POSIX  ADVISORY  WRITE 19780 fe:00:10952885 120 120"; nothing for a lock that
-/// is only waited for.
+/// Parses a line such as "1: POSIX  ADVISORY  WRITE 19780 fe:00:10952885 120 120"; `std::nullopt`
+/// for a lock that is only waited for.
 std::optional<Lock> lock_in(const std::string& line) {
     std::istringstream in{line};
     std::array<std::string, 8> words;
@@ -71,7 +71,7 @@ std::optional<Lock> lock_in(const std::string& line) {
         return std::nullopt;
     }
     constexpr auto to_end = std::int64_t{1} << 62;
-    // Devices are left out: some file systems give others here than to stat().
+    // Devices are ignored: on some file systems they differ from those of stat().
     return Lock{.process = static_cast<int>(whole_number(process)),
                 .excludes = mode == "WRITE",
                 .inode = static_cast<std::uint64_t>(
@@ -123,7 +123,7 @@ bool runs_this_program(int process, const std::string& name) {
            fs::equivalent(folder_of(process) / "exe", "/proc/self/exe", ignored);
 }
 
-/// With its command, the word after its name.
+/// Name of a process with its command, the word after the name.
 std::string name_text(int process, const std::string& name) {
     const auto words = content_of(folder_of(process) / "cmdline");
     const auto begin = words.find('\0');
@@ -134,21 +134,21 @@ std::string name_text(int process, const std::string& name) {
     return command.empty() ? name : name + " " + command;
 }
 
-/// The fields of proc_pid_stat(5) from the third on; the second holds a name in brackets, in which
-/// anything may stand.
+/// Fields of proc_pid_stat(5) from the third on; the second holds a name in brackets with arbitrary
+/// characters.
 std::istringstream fields_of(int process) {
     const auto text = content_of(folder_of(process) / "stat");
     return std::istringstream{text.substr(std::min(text.size(), text.rfind(')') + 1))};
 }
 
-/// By SIGSTOP, Ctrl-Z or a debugger.
+/// Tests whether a process is stopped by SIGSTOP, Ctrl-Z or a debugger.
 bool is_stopped(int process) {
     std::string state;
     fields_of(process) >> state;
     return state == "T" || state == "t";
 }
 
-/// Ticks of the CPU. Fields 14 and 15 of proc_pid_stat(5).
+/// CPU ticks of a process: fields 14 and 15 of proc_pid_stat(5).
 std::uint64_t cpu_time_of(int process) {
     auto in = fields_of(process);
     std::string skipped;
@@ -160,7 +160,7 @@ std::uint64_t cpu_time_of(int process) {
     return user + system;
 }
 
-/// Changes with every commit.
+/// Fingerprint of a file that changes with every commit.
 std::uint64_t print_of(const fs::path& file) {
     struct stat status {};
     if (stat(file.c_str(), &status) != 0) {

@@ -10,53 +10,56 @@
 
 namespace macadam {
 
-/// The process that keeps others from a file of SQLite's.
+/// Process that holds a lock on an SQLite file.
 struct LockHolder {
     int process;
-    std::string name; ///< "macadam calibrate"; of other programs their own short name
-    bool is_ours;     ///< the same program
+    std::string name; ///< "macadam calibrate"; for other programs their short name
+    bool is_ours;     ///< whether it is the same program
 };
 
-/// Who holds the lock that keeps others from writing the file, as the system tells it. Nothing
-/// where nobody does, or where it does not tell: on network drives, and beyond Linux.
+/// Identifies the process whose lock prevents others from writing the file. Returns `std::nullopt`
+/// if there is none, or if the system does not tell: on network drives, and on systems other than
+/// Linux.
 ///
-/// Asks for no lock itself and opens no file, for who closes a file gives up all locks that his
-/// process has on it.
+/// Takes no lock and does not open the file, because closing a file drops all locks that the
+/// process holds on it.
 ///
-/// Source: proc_locks(5); where SQLite's locks lie: https://sqlite.org/fileformat2.html, 1.6, and
-/// https://sqlite.org/walformat.html, 2.3.
+/// Source: proc_locks(5); positions of SQLite's locks: https://sqlite.org/fileformat2.html, 1.6,
+/// and https://sqlite.org/walformat.html, 2.3.
 std::optional<LockHolder> holder_of_lock(const std::filesystem::path& file);
 
-/// How a program waits for its turn at a file that another one writes.
+/// Rules for waiting while another program writes a file.
 struct LockWaitPolicy {
-    std::function<void(const std::string& words)> tell{}; ///< once a wait that lasts
+    std::function<void(const std::string& words)> tell{}; ///< called once, in a long wait
     std::stop_token stop{};                               ///< ends the wait
     std::chrono::milliseconds tell_after{1'000};
-    /// For a holder that gives no sign of life: a process of ours that takes no CPU time, any other
-    /// program that commits nothing.
+    /// Limit for an idle holder: a process of ours that uses no CPU time, or another program that
+    /// commits nothing.
     std::chrono::milliseconds idle_limit{600'000};
 };
 
-/// Waits for a lock as long as its holder works.
+/// Waits for a lock for as long as its holder makes progress.
 class LockWait {
 public:
     LockWait(std::filesystem::path file, LockWaitPolicy wait_policy);
 
     void set_lock_wait(LockWaitPolicy wait_policy) { wait_policy_ = std::move(wait_policy); }
 
-    /// Sleeps a moment. \param pauses  how many there were before in this wait.
-    /// \returns false if it is over: a stop was asked for, or the holder stands still.
+    /// Sleeps briefly.
+    ///
+    /// \param pauses  number of pauses before in this wait.
+    /// \returns false if the wait is over: a stop was requested, or the holder is idle.
     bool wait(int pauses);
 
     bool is_stop_wanted() const { return wait_policy_.stop.stop_requested(); }
 
-    /// Of the wait that was given up, for a message; "is locked by ...".
+    /// Reason for which the wait was given up, for a message: "is locked by ...".
     std::string reason() const;
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    /// What changes while a holder works.
+    /// Values that change while a holder makes progress.
     struct Sign {
         int process;
         std::uint64_t work;

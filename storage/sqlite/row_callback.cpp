@@ -26,7 +26,7 @@ bool VisitedRow::is_null(int column) const {
     return sqlite3_value_type(values_[static_cast<std::size_t>(column)]) == SQLITE_NULL;
 }
 
-/// An aggregate whose outcome nobody needs. No exception may pass through SQLite.
+/// Aggregate function whose result is unused. Exceptions must not pass through SQLite.
 struct RowVisitFunction {
     static constexpr const char* name = "visit_row";
 

@@ -13,7 +13,7 @@ struct sqlite3_value;
 
 namespace macadam {
 
-/// The values of a row that is visited, from column 0; they last until the visit ends.
+/// Column values of the visited row, counted from 0; valid until the visit ends.
 class VisitedRow {
 public:
     explicit VisitedRow(std::span<sqlite3_value* const> values) : values_{values} {}
@@ -29,22 +29,24 @@ private:
 
 using VisitRow = std::function<void(const VisitedRow&)>;
 
-/// Teaches a database to visit rows; once, before select_visited() is prepared.
+/// Registers the SQL function that visits rows. Call it once, before a select_visited() is
+/// prepared.
 void register_row_callback(Database& database);
 
-/// The beginning of a SELECT, up to its FROM, whose rows are visited instead of given. They come as
-/// SQLite finds them: an ORDER BY has no effect.
+/// Builds the beginning of a SELECT, up to its FROM, whose rows are visited instead of returned.
+/// Rows come in the order in which SQLite finds them: ORDER BY has no effect.
 std::string select_visited(std::string_view columns);
 
-/// Visits rows from inside of SQLite, which reads their values where they lie: two thirds of the
-/// time of fetching them one by one.
+/// Visits rows from inside SQLite and reads their values without a copy, in two thirds of the time
+/// of fetching them one by one.
 class RowCallback {
 public:
     explicit RowCallback(const VisitRow& visit) : visit_{&visit} {}
 
-    /// \param select  begun by select_visited()
-    /// \param values  of its parameters from the second on; the first is taken.
-    /// \throws        what `visit` throws.
+    /// \param select  statement that begins with select_visited().
+    /// \param values  its parameters from the second on; the first is reserved.
+    ///
+    /// Rethrows exceptions of `visit`.
     template <typename... Values>
     void run(Statement& select, const Values&... values) {
         select.bind(Statement::Pointer{this, pointer_type}, values...);

@@ -12,10 +12,10 @@
 namespace macadam {
 namespace {
 
-// Readers wait only in the moments in which a log is begun or brought in.
+// Readers wait only while WAL is being enabled or checkpointed.
 constexpr std::chrono::milliseconds idle_limit_of_readers{20'000};
 
-// Of SQLite's virtual machine, between two looks at whether a reader is to stop: about 1 ms.
+// Instructions of SQLite's virtual machine between two stop checks of a reader: about 1 ms.
 constexpr int instructions_between_looks = 20'000;
 
 std::atomic<int> open_for_writing = 0;
@@ -30,7 +30,7 @@ int wait_for_turn(void* wait, int pauses) {
 
 std::string cause_of_io_error(sqlite3* database, int code) {
     const bool reads = code == SQLITE_IOERR_READ || code == SQLITE_IOERR_SHORT_READ;
-    const int error = sqlite3_system_errno(database); // not always kept until here
+    const int error = sqlite3_system_errno(database); // not always preserved until here
     return fmt::format("cannot be {}: {} ({})",
                        reads ? "read" : "written",
                        error != 0 ? std::strerror(error) : sqlite3_errmsg(database),
@@ -44,7 +44,7 @@ constexpr const char* unfinished =
 constexpr const char* moved = "was removed or replaced while this command was using it; run "
                               "the command again";
 
-/// What only a program that may write can put in order.
+/// Tests for an interrupted transaction that only a program with write access can recover.
 bool is_unfinished(int code) {
     return code == SQLITE_READONLY_ROLLBACK || code == SQLITE_READONLY_RECOVERY;
 }
@@ -84,7 +84,7 @@ void check(sqlite3* database, const OpenFile& file, int code) {
     }
 }
 
-/// Settings that SQLite forgets between two openings.
+/// Settings that do not persist in the file.
 constexpr const char* guarded = "PRAGMA trusted_schema = OFF;"
                                 "PRAGMA foreign_keys = ON;"
                                 "PRAGMA cell_size_check = ON;";
@@ -93,8 +93,8 @@ bool is_of_ours(Database::Access access) {
     return access == Database::Access::create || access == Database::Access::memory;
 }
 
-/// EXTRA is FULL, and also syncs the folder when the journal goes: without it a power loss could
-/// bring the journal back and with it undo what was committed.
+/// Settings for an access mode. EXTRA is FULL plus a sync of the folder when the journal is
+/// deleted: otherwise a power loss could restore the journal and undo a commit.
 const char* settings_for(Database::Access access) {
     switch (access) {
     case Database::Access::read:
@@ -110,8 +110,8 @@ const char* settings_for(Database::Access access) {
     return "";
 }
 
-/// Also readers ask for writing: SQLite then falls back to reading where it must, and can undo
-/// what an import that was cut off has left behind where it may.
+/// Opens a file, also readers for writing: SQLite falls back to read-only if necessary, and can
+/// otherwise roll back an interrupted import.
 sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file) {
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
                       (access == Database::Access::create ? SQLITE_OPEN_CREATE : 0) |
@@ -126,11 +126,10 @@ sqlite3* opened(const std::string& name, Database::Access access, OpenFile& file
         throw;
     }
     sqlite3_busy_handler(database, wait_for_turn, &file.wait);
-    if (!is_of_ours(access)) { // whose R-tree is written node by node
+    if (!is_of_ours(access)) { // its R-tree is written node by node
         guard_from_others(database);
     }
-    if (access ==
-        Database::Access::read) { // who writes looks himself, between what belongs together
+    if (access == Database::Access::read) { // writers check it themselves, between units of work
         sqlite3_progress_handler(database, instructions_between_looks, is_to_stop, &file.wait);
     }
     return database;
@@ -143,8 +142,9 @@ LockWaitPolicy wait_policy_of(Database::Access access, LockWaitPolicy wait_polic
     return wait_policy;
 }
 
-/// A store that was copied while it was written is in the mode of a write-ahead log, which cannot
-/// be read without making files beside it. Where none can be made, nobody writes it either.
+/// Tests whether a file must be read as immutable. A database copied while it was written is in WAL
+/// mode, which cannot be read without creating files beside it. Where that is impossible, nobody
+/// writes it either.
 bool must_be_taken_as_it_is(sqlite3* database,
                             const std::filesystem::path& file,
                             const std::filesystem::path& known_as) {
@@ -164,7 +164,7 @@ bool must_be_taken_as_it_is(sqlite3* database,
     return true;
 }
 
-/// The URI of a file that does not change (https://sqlite.org/uri.html, 3).
+/// URI of an immutable file (https://sqlite.org/uri.html, 3).
 std::string as_it_is(const std::string& name) {
     std::string uri = "file:";
     for (const char c : name) {
@@ -195,7 +195,8 @@ bool Statement::step() {
 }
 
 void Statement::reset() {
-    sqlite3_reset(statement_.get()); // repeats the error of the last step, which is told already
+    // Repeats the error of the last step, which was already reported.
+    sqlite3_reset(statement_.get());
 }
 
 int Statement::position_of(const char* name) const {
@@ -219,7 +220,7 @@ void Statement::bind_one(int position, std::string_view value) {
           *file_,
           sqlite3_bind_text64(statement_.get(),
                               position,
-                              value.empty() ? "" : value.data(), // a null pointer would be NULL
+                              value.empty() ? "" : value.data(), // a null pointer would bind NULL
                               value.size(),
                               SQLITE_TRANSIENT,
                               SQLITE_UTF8));
@@ -285,7 +286,7 @@ std::optional<std::int64_t> Statement::known_integer(int column) const {
 // ------------------------------------------------------------------------------------ Database
 
 void Database::Close::operator()(sqlite3* database) const {
-    if (takes_log_away) { // unless another has the file open, who does it then
+    if (takes_log_away) { // unless another connection is open, which then does it
         sqlite3_busy_handler(database, nullptr, nullptr);
         sqlite3_exec(database, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
     }
@@ -346,7 +347,7 @@ void Database::ensure_wal() {
     if (!wants_log_ || in_transaction()) {
         return;
     }
-    // Who waits inside SQLite for readers to end lets no others begin.
+    // Waiting for readers inside SQLite would block new readers.
     sqlite3_busy_handler(handle(), nullptr, nullptr);
     const int code = sqlite3_exec(handle(), "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
     sqlite3_busy_handler(handle(), wait_for_turn, &file_->wait);
@@ -357,7 +358,7 @@ void Database::ensure_wal() {
 }
 
 bool Database::checkpoint_wal() {
-    sqlite3_busy_handler(handle(), nullptr, nullptr); // readers may take as long as they like
+    sqlite3_busy_handler(handle(), nullptr, nullptr); // do not wait for readers
     const int code =
         sqlite3_wal_checkpoint_v2(handle(), "main", SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
     sqlite3_busy_handler(handle(), wait_for_turn, &file_->wait);
@@ -430,7 +431,7 @@ Transaction::Transaction(Database& database, Kind kind)
     : database_{&database}, is_outermost_{!database.in_transaction()} {
     if (kind == Kind::write) {
         database.ensure_wal();
-        database.run("BEGIN IMMEDIATE"); // waits for its turn here, not in the middle of its work
+        database.run("BEGIN IMMEDIATE"); // waits for the lock here, not in the middle of the work
     } else if (is_outermost_) {
         database.run("BEGIN");
     }
@@ -443,7 +444,7 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
-    if (is_outermost_) { // a lost file would take the commit without a word
+    if (is_outermost_) { // a removed file would accept the commit silently
         database_->expect_in_place();
     }
     database_->run("COMMIT");

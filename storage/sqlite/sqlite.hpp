@@ -18,29 +18,30 @@ struct sqlite3_value;
 
 namespace macadam {
 
-/// Bytes that SQLite keeps as they are.
+/// Bytes that SQLite stores unchanged.
 struct Blob {
     std::string_view bytes;
 };
 
-/// A file as messages call it, and how its users wait for each other.
+/// File name for messages, and the lock wait of its users.
 struct OpenFile {
     std::filesystem::path name;
     LockWait wait;
 };
 
-/// One SQL statement, compiled. Parameters are bound from the first; columns count from 0.
+/// Prepared SQL statement. Parameters are bound from the first; columns count from 0.
 class Statement {
 public:
     Statement(sqlite3* database, const OpenFile& file, const char* sql);
 
-    /// A value that only functions of ours see, and no SQL. \param type  lasts for ever.
+    /// Pointer passed to our own SQL functions and invisible to SQL. \param type  string with
+    /// static lifetime.
     struct Pointer {
         void* to;
         const char* type;
     };
 
-    /// Binds all parameters anew.
+    /// Resets the statement and binds all parameters.
     template <typename... Values>
     Statement& bind(const Values&... values) {
         reset();
@@ -49,13 +50,13 @@ public:
         return *this;
     }
 
-    /// Binds the parameter at a position from 1 and leaves the others.
+    /// Binds the parameter at a position, counted from 1, and leaves the others.
     template <typename Value>
     void bind_at(int position, const Value& value) {
         bind_one(position, value);
     }
 
-    /// Binds the parameter of that name, ":name".
+    /// Binds the parameter of a name, ":name".
     template <typename Value>
     void bind_named(const char* name, const Value& value) {
         bind_one(position_of(name), value);
@@ -64,7 +65,7 @@ public:
     /// \returns true if there is a row.
     bool step();
 
-    /// Binds, and runs a statement that gives no rows.
+    /// Binds all parameters and runs a statement that returns no rows.
     template <typename... Values>
     void run(const Values&... values) {
         bind(values...);
@@ -75,9 +76,9 @@ public:
     std::int64_t integer(int column) const;
     double real(int column) const;
     std::string text(int column) const;
-    std::string_view blob(int column) const; ///< until the next step
+    std::string_view blob(int column) const; ///< valid until the next step
     bool is_null(int column) const;
-    std::vector<sqlite3_value*> values() const; ///< of all columns, until the next step
+    std::vector<sqlite3_value*> values() const; ///< all columns, valid until the next step
     std::optional<std::int64_t> known_integer(int column) const;
 
     void reset();
@@ -112,42 +113,42 @@ private:
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// An SQLite file.
+/// SQLite database.
 ///
 /// \throws InputError  "FILE: cause" from every call that fails.
 class Database {
 public:
     enum class Access {
-        read,   ///< works on media that cannot be written
+        read,   ///< also works on read-only media
         write,  ///< each commit is on disk when it returns
-        create, ///< a new file that nobody sees before it is whole: no journal on disk, no syncs
-        memory, ///< no file at all: the name is for messages alone
+        create, ///< new file, invisible to others until complete: no journal on disk, no syncs
+        memory, ///< in memory; the name is used in messages only
     };
-    /// `known_as`: what messages call it, where that is not its name.
-    /// \param patience  how it waits for others, also to be opened; its stop also ends a reader's
-    ///                  statements.
+    /// \param known_as  name for messages, if it differs from the file name.
+    /// \param wait_policy  rules for waiting for other processes, also while opening; its stop
+    ///                     token also interrupts the statements of a reader.
     Database(const std::filesystem::path& file,
              Access access,
              const std::filesystem::path& known_as = {},
              LockWaitPolicy wait_policy = {});
 
-    /// How it waits from now on where another process keeps it from its turn.
+    /// Sets the rules for waiting for other processes.
     void set_lock_wait(LockWaitPolicy wait_policy);
 
-    /// From now on, commits go to a log beside the file ("FILE-wal"): readers go on with the last
-    /// commit and neither they nor the writer wait for each other. When the file is closed, the log
-    /// is brought in and goes away, if nobody else has the file open. Where there can be no such
-    /// log (some network drives), writing goes on without, and each commit waits for the readers.
+    /// Switches to a write-ahead log beside the file ("FILE-wal"): readers keep seeing the last
+    /// commit, and readers and the writer do not wait for each other. When the last connection
+    /// closes, the log is checkpointed and removed. Where WAL is impossible (some network drives),
+    /// writing continues without it, and each commit waits for the readers.
     ///
-    /// The log can only be begun in a moment in which nobody reads. If there is none for so long,
-    /// writing goes on without, and each transaction tries again.
+    /// WAL can only be enabled while there are no readers. If readers remain for the whole time
+    /// `wait_policy`, writing continues without it, and each transaction tries again.
     void enable_wal(std::chrono::milliseconds wait_policy = std::chrono::seconds{20});
 
-    /// Brings all commits of the log into the file and empties it, now. \returns false if somebody
-    /// reads what is in it: the last one to close the file does it then.
+    /// Checkpoints the whole log into the file and truncates it. \returns false if a reader still
+    /// uses the log; then the last connection to close does it.
     bool checkpoint_wal();
 
-    /// One or more statements without parameters or rows.
+    /// Runs one or more statements without parameters or rows.
     void run(const char* sql);
     void run(const std::string& sql) { run(sql.c_str()); }
 
@@ -156,19 +157,20 @@ public:
 
     std::int64_t number(const char* sql);
 
-    /// Rows that the last statement inserted, changed or deleted.
+    /// Number of rows that the last statement inserted, changed or deleted.
     std::int64_t changes() const;
 
-    /// Before a transaction that writes; see enable_wal().
+    /// Enables WAL if it was requested and is still off; called before a write transaction. See
+    /// enable_wal().
     void ensure_wal();
 
     bool in_transaction() const;
-    /// As messages call it.
+    /// File name for messages.
     const std::filesystem::path& file() const { return file_->name; }
     sqlite3* handle() const { return database_.get(); }
 
-    /// \throws InputError  if its name no longer leads to it: it was removed, or another file has
-    /// taken its place.
+    /// \throws InputError  if the path no longer leads to the open file: it was removed or
+    ///                     replaced.
     void expect_in_place() const;
 
     void close();
@@ -179,20 +181,20 @@ private:
         bool takes_log_away;
         void operator()(sqlite3* database) const;
     };
-    std::unique_ptr<OpenFile> file_; ///< stays where it is: statements and SQLite point at it
+    std::unique_ptr<OpenFile> file_; ///< fixed address: statements and SQLite point to it
     std::unique_ptr<sqlite3, Close> database_;
     bool wants_log_ = false;
 };
 
-/// How many this process has open with Access::write. A signal handler may ask.
+/// Number of databases that this process has open with Access::write. Safe in a signal handler.
 int databases_open_for_writing() noexcept;
 
-/// Removes what another file of that name has left beside it, journal and log: SQLite would bring
-/// them into a new file that takes the name.
+/// Removes the journal and the log of a former file of this name, which SQLite would otherwise
+/// apply to a new file of the same name.
 void remove_leftovers_of(const std::filesystem::path& file);
 
-/// Foreign keys are not checked while this lives: where all keys are looked up before rows are
-/// written, SQLite would look them up again. Without effect if it begins in a transaction.
+/// Disables foreign key checks during its lifetime, for callers that look up all keys before
+/// writing rows, so that SQLite need not look them up again. Has no effect within a transaction.
 class ForeignKeysOff {
 public:
     explicit ForeignKeysOff(Database& database);
@@ -204,8 +206,8 @@ private:
     Database* database_;
 };
 
-/// All of what is done until commit(), or nothing. A reader sees one moment until its end; within
-/// another transaction it is that one's moment.
+/// Transaction that is rolled back unless committed. A reader sees one snapshot until its end; a
+/// nested transaction joins the outer one.
 class Transaction {
 public:
     enum class Kind { read, write };

@@ -20,7 +20,7 @@ constexpr std::array defences{Setting{SQLITE_DBCONFIG_DEFENSIVE, 1},
                               Setting{SQLITE_DBCONFIG_ENABLE_VIEW, 0},
                               Setting{SQLITE_DBCONFIG_WRITABLE_SCHEMA, 0}};
 
-/// Far above what our own statements need (https://sqlite.org/limits.html).
+/// Limits far above the needs of our own statements (https://sqlite.org/limits.html).
 constexpr std::array limits{Setting{SQLITE_LIMIT_LENGTH, 512 << 20}, // a value, or a row
                             Setting{SQLITE_LIMIT_SQL_LENGTH, 1'000'000},
                             Setting{SQLITE_LIMIT_COLUMN, 100},

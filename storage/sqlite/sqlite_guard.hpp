@@ -4,12 +4,13 @@ struct sqlite3;
 
 namespace macadam {
 
-/// Defends against a database that others made: it may hold triggers, views and rows made to harm.
+/// Defends against a database from an untrusted source, which may hold malicious triggers, views
+/// and rows.
 ///
-/// The schema check (storage/store/schema/schema_check.hpp) finds views and triggers that are not
-/// ours, but they cannot run even before it: all of the file are off (those in temp, which are
-/// ours, are not), no function runs from the schema that is not declared harmless, no extension is
-/// loaded, and no SQL writes what only SQLite writes.
+/// The schema check (storage/store/schema/schema_check.hpp) finds foreign views and triggers, but
+/// they cannot run even before it: all views and triggers of the file are disabled (those in temp,
+/// which are ours, are not), the schema can only call functions that are declared innocuous,
+/// extensions are not loaded, and SQL cannot write SQLite's internal tables.
 void guard_from_others(sqlite3* database);
 
 } // namespace macadam

@@ -22,7 +22,7 @@ struct Kind {
 
 constexpr std::string_view sqlite_head = "SQLite format 3\0"sv; // SQLite's file format, 1.3.1
 
-/// What people have beside their stores and trips.
+/// Formats that are likely to lie beside databases and trips.
 constexpr std::array kinds{Kind{"\x89PNG", "a PNG picture"},
                            Kind{"\xff\xd8\xff", "a JPEG picture"},
                            Kind{"%PDF", "a PDF"},

@@ -4,9 +4,10 @@
 
 namespace macadam {
 
-/// Looks at the first bytes of a file that should be a store, before SQLite does.
+/// Checks the first bytes of a file that should be a road database, before SQLite opens it.
 ///
-/// \throws InputError  if there is none, or it is no SQLite database; says what it is.
+/// \throws InputError  if the file does not exist or is not an SQLite database; the message says
+///                     what it is.
 void expect_store_file(const std::filesystem::path& file);
 
 } // namespace macadam

@@ -12,7 +12,7 @@ StatementCache::Loan::~Loan() {
     statement_.reset();
     try {
         keeper_->idle_.insert_or_assign(std::move(sql_), std::move(statement_));
-    } catch (const std::bad_alloc&) { // then it is compiled anew
+    } catch (const std::bad_alloc&) { // it is then compiled again
     }
 }
 

@@ -7,12 +7,12 @@
 
 namespace macadam {
 
-/// Statements of one database that are asked again and again, each compiled once. They go before
-/// the database does.
+/// Statement cache of a database: each statement is compiled once and reused. Destroy it before the
+/// database.
 class StatementCache {
 public:
-    /// A statement on loan. It ends its reading when it goes back: one that stays in the middle of
-    /// its rows keeps the moment that it reads alive.
+    /// Borrowed statement, which is reset when it is returned. A statement left in the middle of
+    /// its rows would keep its read snapshot open.
     class Loan {
     public:
         Loan(StatementCache& keeper, std::string sql);
@@ -32,11 +32,11 @@ public:
     explicit StatementCache(Database& database) : database_{&database} {}
 
 private:
-    /// Who asks while another has the statement gets one of his own.
+    /// Returns a cached statement, or a new one if it is missing or in use.
     Statement taken(const std::string& sql);
 
     Database* database_;
-    std::map<std::string, Statement> idle_; ///< by their text
+    std::map<std::string, Statement> idle_; ///< by their SQL text
 };
 
 } // namespace macadam

@@ -19,7 +19,7 @@
 namespace macadam {
 namespace {
 
-// Segments of ways that are not kept, by the rows that passes and traces know them by.
+// Segments of removed ways, by the rows to which passes and traces refer.
 constexpr const char* make_old_segments =
     "CREATE TEMP TABLE old_segment (fid INTEGER PRIMARY KEY, way_id INTEGER NOT NULL,"
     " direction TEXT NOT NULL, seq INTEGER NOT NULL)";
@@ -37,7 +37,7 @@ SegmentKey key_in(const Statement& row, int column) {
             static_cast<std::uint32_t>(row.integer(column + 2))};
 }
 
-/// Takes the segments of ways that are not kept out, but remembers their rows.
+/// Removes the segments of removed ways and remembers their rows.
 void set_old_segments_aside(Database& database, const SegmentCorrespondences& correspondences) {
     database.run(make_old_segments);
     auto note = database.prepare("INSERT INTO temp.old_segment SELECT fid, way_id, direction, seq"
@@ -86,7 +86,7 @@ std::vector<RoughnessCode> codes_in(std::string_view bytes) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// Reads what trips left on old segments, and takes it out.
+/// Reads and removes the data of trips on old segments.
 class OldReadings {
 public:
     OldReadings(Database& database, double segment_length_m)
@@ -108,7 +108,7 @@ public:
 
     TripPasses take(std::int64_t trip) {
         TripPasses readings;
-        std::vector<std::int64_t> rows; // of the passes' segments
+        std::vector<std::int64_t> rows; // rows of the passes' segments
         for (passes_.bind(trip); passes_.step();) {
             readings.passes.push_back(pass_in(passes_, 4, key_in(passes_, 0)));
             rows.push_back(passes_.integer(3));
@@ -187,7 +187,7 @@ std::vector<OldRow> old_rows_in(Database& database, const char* table, const cha
     return rows;
 }
 
-/// States and their history stay with segments that only got another name.
+/// Renames rows in place where a segment only got another key, to keep states and their history.
 void rename_rows(Database& database,
                  const SegmentCorrespondences& correspondences,
                  const char* table,
@@ -206,8 +206,8 @@ void rename_rows(Database& database,
     }
 }
 
-/// A day from which passes count holds for a new segment if it held for half of it; of two days the
-/// later one.
+/// Moves the dates from which passes count. A new segment inherits a date that applied to half of
+/// it, or the later of two dates.
 void move_valid_from(Database& database, const SegmentCorrespondences& correspondences) {
     SegmentRowids segments{
         database, std::int64_t{segments_per_chunk(correspondences.after().segment_length_m)}};
@@ -225,7 +225,8 @@ void move_valid_from(Database& database, const SegmentCorrespondences& correspon
     }
 }
 
-/// \returns the names of those whose road is gone; so are they.
+/// Moves control sections and removes those whose road is gone. \returns the names of the removed
+/// ones.
 std::vector<std::string> move_control_sections(Database& database,
                                                const SegmentCorrespondences& correspondences) {
     struct Section {

@@ -11,19 +11,19 @@
 
 namespace macadam {
 
-/// How many passes were on the ways that a new network has not kept, and what became of them.
+/// Counts of the passes on ways that the new network does not keep, by their outcome.
 struct MovedPasses {
-    std::size_t carried = 0; ///< something is left of them
+    std::size_t carried = 0; ///< at least partly transferred
     std::size_t lost = 0;
-    std::size_t now = 0;                      ///< made of those carried
-    std::vector<std::string> lost_sections{}; ///< control sections whose road is gone, by name
+    std::size_t now = 0;                      ///< passes that they became
+    std::vector<std::string> lost_sections{}; ///< control sections whose road is gone
 };
 
-/// Makes tables way and segment hold another network and takes all that belongs to segments over to
-/// it; what has to be fused is marked. Within the caller's transaction, in which keys are checked
-/// at its end.
+/// Replaces the network in the tables way and segment, transfers all data of the segments to it,
+/// and marks the chunks to be fused. Runs within the caller's transaction, with foreign keys
+/// checked at its end.
 ///
-/// \throws InputError  if it was asked to stop.
+/// \throws InputError  if a stop is requested.
 MovedPasses move_to_network(Database& database,
                             const SegmentCorrespondences& correspondences,
                             const Progress& progress);

@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// Keeps why rows of a trip entered no estimate. `trip` is its row.
+/// Stores the reasons for which log rows of a trip were not used. \param trip  row of the trip.
 void write_row_reasons(Database& database,
                        std::int64_t trip,
                        const std::map<std::string, std::size_t>& reasons);

@@ -36,7 +36,7 @@ std::int64_t row_of_vehicle(Database& database, const std::string& pseudonym) {
     return select.integer(0);
 }
 
-/// \param car  pseudonym; of no survey.
+/// \param car  pseudonym; unused for a survey.
 std::int64_t write_trip(Database& database, const TripRecord& trip, const std::string& car) {
     std::optional<std::int64_t> vehicle, reference_ppm, reference_row_mm;
     if (trip.reference) {

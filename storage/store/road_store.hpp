@@ -29,30 +29,34 @@
 
 namespace macadam {
 
-/// Where the passes of many cars meet: one GeoPackage file (docs/reference/database.md). Each call
-/// that writes is one transaction, all of it or nothing, on disk when it returns; only refresh()
-/// takes several, so that others get their turn, and goes on where it was cut off.
+/// Road database that collects the passes of many cars in one GeoPackage file
+/// (docs/reference/database.md). Each call that writes is one atomic transaction, durable on
+/// return; only refresh() takes several, so that other writers get their turn, and resumes after an
+/// interruption.
 ///
-/// Readers see the last commit and neither wait for a writer nor make it wait.
+/// Readers see the last commit; readers and the writer do not wait for each other.
 ///
-/// \throws InputError  from every call, if the file is missing, no store, kept locked by a
-///                     program that does nothing with it, or cannot be written (the message names
-///                     the file and the cause).
+/// \throws InputError  from every call, if the file is missing, not a road database, locked by an
+///                     idle program, or not writable (the message names the file and the cause).
 class RoadStore {
 public:
-    /// Makes a new store with the segments of a network, and its key
-    /// (storage/store/privacy/privacy_key.hpp); a key that lies there already is taken. \throws
-    /// InputError if the file exists; leaves nothing behind if it fails.
+    /// Creates a database with the segments of a network, and its key
+    /// (storage/store/privacy/privacy_key.hpp); an existing key file is used.
+    ///
+    /// \throws InputError  if the file exists. Nothing remains after a failure.
     static RoadStore create(const std::filesystem::path& file,
                             const RoadNetwork& roads,
                             const StoreSettings& settings,
                             const Progress& progress = {});
 
     enum class Access { read, write };
-    /// \param patience  how it waits, from its opening on, while another process writes, and what
-    /// ends the wait: what then was to be written is not. Without a word from here it waits as long
-    /// as the other works. Its stop also ends what is read.
-    /// \param reader  for whom a store is read; who writes it sees all.
+    /// Opens a database.
+    ///
+    /// \param wait_policy  rules for waiting while another process writes, from opening on; its
+    ///                     stop token ends the wait, without the write, and also interrupts
+    ///                     reading. By default, it waits for as long as the other process makes
+    ///                     progress.
+    /// \param reader  audience for which the database is read; writers see everything.
     static RoadStore open(const std::filesystem::path& file,
                           Access access,
                           LockWaitPolicy wait_policy = {},
@@ -66,58 +70,62 @@ public:
 
     const std::filesystem::path& file() const;
 
-    /// Whether the key of the store lies beside it, for this user to read: who has it is the
-    /// operator, and sees of a crowd more than is published.
+    /// Tests whether the key of the database lies beside it and is readable by this user. The
+    /// holder of the key is the operator, who sees unpublished data of a crowd database.
     bool is_operator() const { return key() != nullptr; }
 
-    /// Null for all others than the operator. \throws InputError from open(), if the key that lies
-    /// there is of another store.
+    /// Key of the database; null without it. open() throws InputError if the key file belongs to
+    /// another database.
     const PrivacyKey* key() const;
 
-    /// Makes a new key if none lies there; add_trips() does it where a car has to be named.
-    /// \returns true if cars of the store were named under one that is gone: those that come from
-    /// now on cannot be joined to them.
+    /// Creates a new key if there is none; add_trips() does so when it has to name a car.
+    /// \returns true if cars of the database were named under a lost key: cars imported from now on
+    /// cannot be linked to them.
     bool make_missing_key();
 
-    /// Whether all that is read here comes from the latest publication of a crowd.
+    /// Tests whether all data read here comes from the latest publication of a crowd database.
     bool shows_published_alone() const;
 
-    /// None if nothing was published yet.
+    /// Latest publication; `std::nullopt` if nothing was published yet.
     std::optional<Publication> latest_publication() const;
 
-    /// Makes a crowd's publication of this month, from passes of at least five cars a figure
-    /// (mapping/privacy/release_batches.hpp); it is what leaves the store until the next one. In
-    /// one transaction. \param roads  the store's network.
+    /// Makes this month's publication of a crowd database, from passes of at least five cars per
+    /// value (mapping/privacy/release_batches.hpp), in one transaction. Only published data leaves
+    /// the database until the next publication.
     ///
-    /// \throws InputError  if the store is no crowd's, the caller not its operator, or there is a
-    /// publication of this month.
+    /// \param roads  network of the database.
+    /// \throws InputError  if it is not a crowd database, the caller is not its operator, or this
+    ///                     month's publication exists.
     Published
     publish(const RoadNetwork& roads, std::int64_t now_utc_ms, const Progress& progress = {});
 
-    /// Makes a crowd's of a database of one's own cars, for good: takes out what is near the ends
-    /// and long stops of its trips and overwrites the bytes, in one transaction.
-    /// \throws InputError  if it is one, or its roads were traced from trips.
+    /// Turns a database of own cars into a crowd database, irreversibly: removes the data near the
+    /// ends and long stops of all trips and overwrites the bytes, in one transaction.
+    ///
+    /// \throws InputError  if it is already one, or its roads were traced from trips.
     CrowdMade make_crowd(const Progress& progress = {});
-    /// To be asked at the end of what was read. \throws InputError  if the file was removed, or
-    /// another one has taken its place, since it was opened.
+    /// Checks at the end of reading that the data is current.
+    ///
+    /// \throws InputError  if the file was removed or replaced since it was opened.
     void expect_in_place() const;
 
-    /// The network this store was made for; its segments are cut from it. Built from the ways that
-    /// the store holds: load_or_build_network (storage/networks/network_file.hpp) has it quicker.
+    /// Network of this database, from which its segments are cut, built from the stored ways.
+    /// load_or_build_network (storage/networks/network_file.hpp) is faster.
     RoadNetwork roads() const;
 
-    /// SHA-256 of these ways, in hex digits.
+    /// SHA-256 of the ways, in hex digits.
     std::string network_hash() const;
 
-    /// Puts another network in the place of the store's own, as a new generation: passes and traces
-    /// go to where the new one has their roads (mapping/transfer/transferred_passes.hpp), and what
-    /// they come to is fused. All of it is one transaction: readers see the old roads until it is
-    /// done. Nothing is done if the ways are the same.
+    /// Replaces the network and begins a new generation: passes and traces move to their roads in
+    /// the new network (mapping/transfer/transferred_passes.hpp), and the affected chunks are
+    /// fused. Runs in one transaction: readers see the old roads until it is committed. Has no
+    /// effect if the ways are equal.
     ///
-    /// \param before  roads(), \param change  between the two.
-    /// \throws InputError  if hardly any road is the same, or the store has got another network
-    /// since it was opened; it stays as it is. So does every later add_trip() of who opened it
-    /// before.
+    /// \param before  roads().
+    /// \param change  from `before` to `after`.
+    /// \throws InputError  if hardly any road is the same, or the network of the database was
+    ///                     replaced since it was opened; the database is unchanged. Instances
+    ///                     opened before the replacement then fail in add_trip().
     NetworkUpdate update_network(const RoadNetwork& before,
                                  const RoadNetwork& after,
                                  const NetworkChange& change,
@@ -126,138 +134,144 @@ public:
 
     bool contains_trip(const std::string& sha256) const;
 
-    /// \returns false, and changes nothing, if the trip is already there, or was forgotten.
+    /// Adds a trip. \returns false, without any change, if the trip is already stored or was
+    /// forgotten.
     bool add_trip(const TripRecord& trip,
                   std::span<const Pass> passes,
                   std::span<const RoughnessTrace> traces = {});
 
-    /// Many at once, which is quicker: all of them or, if one fails, none. \returns for each
+    /// Adds many trips, which is faster: all of them or, on failure, none. \returns for each trip
     /// whether it is new.
     std::vector<bool> add_trips(std::span<const NewTrip> trips);
 
-    /// Notes that an import has begun; `name` stands for what was asked, so that the same request
-    /// finds its note again. \returns what an import of that name has done that began and did not
-    /// end: it was killed, stopped, or still runs.
+    /// Records the start of an import in a journal.
+    ///
+    /// \param name  identifies the request, so that a repeated request finds its journal entry.
+    /// \returns the progress of an import of that name that started and did not finish: it was
+    /// killed, stopped, or is still running.
     std::optional<OpenImport> begin_import(const std::string& name, std::size_t trips_asked);
 
-    /// Takes the note away: there is nothing left to do.
+    /// Removes the journal entry of a finished import.
     void end_import(const std::string& name);
 
-    /// Lays the passes of every chunk with passes newer than their segments' states on each other
-    /// and fuses them (mapping/alignment/alignment.hpp, mapping/fusion/fusion.hpp) by the rules of
-    /// the store's generation. \returns how many segments had new passes.
+    /// Aligns and fuses the passes of every chunk that has passes newer than its segment states
+    /// (mapping/alignment/alignment.hpp, mapping/fusion/fusion.hpp), by the rules of the current
+    /// generation. \returns the number of segments with new passes.
     std::size_t refresh(const Progress& progress = {});
 
-    /// Finds how the cars read from what they read of the same roads, and of what their errors are
-    /// made; with `keep`, and if any car could be calibrated, begins a generation with these rules
-    /// and puts all passes fused by them in place, in one transaction: readers see the numbers of
-    /// before until all are made. Like all that follow here, it works them out beside the store
-    /// and keeps others from writing only while it puts them in place; trips that come in
-    /// meanwhile are fused by the new rules, and no car is calibrated from them.
+    /// Calibrates the cars against each other from their readings of the same roads, and estimates
+    /// the components of their errors. With `keep`, and if any car could be calibrated, begins a
+    /// generation with these rules and all passes fused by them, in one transaction: readers see
+    /// the old values until then. Like all calls that follow, it computes in shadow tables and
+    /// locks out other writers only to apply the result; trips imported meanwhile are fused by the
+    /// new rules, but do not enter the calibration.
     CalibrationReport calibrate(bool keep, const Progress& progress = {});
 
-    /// Lays aside what a trip of the store says now that it was worked out anew; nobody sees it
-    /// before commit_staged(), and it goes with this object. \returns false if there is no such
-    /// trip.
+    /// Stages the new results of a trip of the database, invisible until commit_staged() and
+    /// discarded with this object. \returns false if there is no such trip.
     bool stage_trip(const TripRecord& trip,
                     std::span<const Pass> passes,
                     std::span<const RoughnessTrace> traces);
 
-    /// Begins a generation with the trips that were laid aside in place of what they said before,
-    /// and the others as they were, in one transaction. Cars that were calibrated are calibrated
-    /// anew from the trips that they were calibrated from. \param how  for the audit.
+    /// Begins a generation in which the staged trips replace their former results and the other
+    /// trips are unchanged, in one transaction. Calibrated cars are recalibrated from the trips
+    /// used before.
+    ///
+    /// \param how  description for the audit.
     Reprocessed commit_staged(std::string_view how, const Progress& progress = {});
 
-    /// Takes trips and all that came of them out, in one transaction: passes, states, notes of
-    /// numbers that they changed. What is left is what a store holds that never saw them; if cars
-    /// were calibrated from them, they are calibrated anew from the others. Of each trip a mark is
-    /// left by which it is known again (docs/reference/database.md). Bytes are overwritten.
+    /// Deletes trips and everything derived from them, in one transaction: passes, states, and
+    /// records of values that they changed. The result is the database that never contained them;
+    /// if cars were calibrated from them, the cars are recalibrated from the others. A tombstone of
+    /// each trip remains, by which it is recognised (docs/reference/database.md). Bytes are
+    /// overwritten.
     ///
-    /// \throws InputError  if there is no trip or vehicle of a name; nothing is changed.
+    /// \throws InputError  if a name matches no trip or vehicle; nothing is changed.
     Forgotten forget(const ForgetRequest& request, const Progress& progress = {});
 
-    /// Whether the trip was here and was forgotten; add_trip() leaves it out.
+    /// Tests whether the trip was forgotten; add_trip() skips such trips.
     bool has_forgotten(const std::string& sha256) const;
 
-    /// Lets a forgotten trip in again.
+    /// Lets a forgotten trip be imported again.
     void readmit(const std::string& sha256);
 
-    /// From that time on, ms since 1970 UTC, passes speak of these segments; older ones, and
-    /// undated ones, are of a road that is no more. Nothing: all do. Fuses them, in one
-    /// transaction. \returns how many of them the store has.
+    /// Sets the time, ms since 1970 UTC, from which passes over these segments count; older and
+    /// undated passes belong to a former surface. `std::nullopt` lets all passes count. Fuses the
+    /// segments, in one transaction. \returns how many of them the database contains.
     std::size_t set_valid_from(std::span<const SegmentKey> segments,
                                const std::optional<std::int64_t>& from_ms,
                                std::string_view reason,
                                const Progress& progress = {});
 
-    /// In the order of keys.
+    /// Segments with such a time, in the order of keys.
     std::vector<ValidSince> valid_since() const;
 
-    /// All that was done that changed numbers, oldest first.
+    /// Log of all operations that changed values, oldest first.
     std::vector<AuditEntry> audit() const;
 
-    /// When and why the number of a segment changed, oldest first.
+    /// Times and causes of the changes of a segment's value, oldest first.
     std::vector<NumberChange> changes(const SegmentKey& key) const;
 
-    /// How cars of the store are calibrated: in the order of cars(), only those that are.
+    /// Calibrated cars, in the order of cars().
     std::vector<CalibratedCar> calibrated_cars() const;
 
-    /// In the order of keys (way, forward before backward, index), of the ranges, or worst first.
-    /// All is of one moment.
+    /// Visits segments in the order of keys (way, forward before backward, index), of the ranges,
+    /// or worst first, all of one snapshot.
     ///
-    /// States of a period are fused from its passes alone, laid on each other by the traces of
-    /// their drives alone: as in a store that knows no other passes.
+    /// States of a period are fused only from its passes, aligned only by the traces of their
+    /// drives, as in a database without other passes.
     void visit(const SegmentFilter& filter,
                const std::function<void(const SegmentRecord&)>& visit,
                StateDetail detail = StateDetail::full) const;
 
-    /// The same segments in the same order, in less time: only what a map shows of them.
+    /// Visits the same segments in the same order, faster: only with the values shown on maps.
     void visit_summaries(const SegmentFilter& filter,
                          const std::function<void(const SegmentSummary&)>& visit) const;
 
-    /// Passes over one segment, in the order of (trip hash, occurrence).
+    /// Passes over a segment, in the order of (trip hash, occurrence).
     std::vector<HistoricPass> history(const SegmentKey& key) const;
 
     StoreInfo info() const;
 
     ObservedPeriod seen() const;
 
-    /// Each direction counted; in the order of (highway, class from smooth to rough).
+    /// Lengths with each direction counted, in the order of (highway, class from smooth to rough).
     std::vector<RoadClassLength> road_class_lengths() const;
 
-    /// Days with a dated trip, in order.
+    /// Days with dated trips, in order.
     std::vector<DailyUsage> day_uses() const;
 
-    /// Cars in the order in which they were first there: by the start of their first dated trip,
-    /// then by the least hash of their trips. It does not depend on the key. "unknown" is last.
+    /// Cars in the order of their first appearance: by the start of their first dated trip, then by
+    /// the smallest hash of their trips. The order does not depend on the key. "unknown" is last.
     std::vector<std::string> cars() const;
 
     /// In the order of (cars(), model, method).
     std::vector<VehicleUse> vehicle_uses() const;
 
-    /// Why rows of the trips' logs entered no estimate; trips of version 0.1 did not tell.
+    /// Counts of log rows that were not used, by reason; trips of version 0.1 have none.
     std::map<std::string, std::size_t> row_reasons() const;
 
     /// Reference surveys, in the order of (name, hash).
     std::vector<SurveyUse> surveys() const;
 
-    /// In the order of (segment, survey, occurrence). Lines of segments are left out.
+    /// Readings of reference surveys, in the order of (segment, survey, occurrence), without the
+    /// polylines of the segments.
     std::vector<ReferenceReading> reference_readings() const;
 
-    /// Keeps stretches of known roughness; those of the same name are replaced.
+    /// Stores sections of known roughness, replacing those of the same name.
     void put_control_sections(std::span<const ControlSection> sections);
 
-    /// In the order of their names.
+    /// Control sections in the order of their names.
     std::vector<ControlSection> control_sections() const;
 
-    /// Segments whose new passes are not yet fused, as StoreInfo::waiting; quick.
+    /// Number of segments whose new passes are not yet fused, as in StoreInfo::waiting, but faster.
     std::size_t waiting() const;
 
-    /// What laying passes on each other found, as StoreInfo::laid; quick.
+    /// Summary of the alignment of passes, as in StoreInfo::laid, but faster.
     AlignmentSummary laid() const;
 
-    /// SHA-256 over passes and states as text: the same content gives the same digest on any
-    /// machine (docs/reference/database.md says how the text is made).
+    /// SHA-256 over passes and states as text: equal content gives an equal digest on any machine
+    /// (docs/reference/database.md describes the text).
     std::string digest() const;
 
 private:

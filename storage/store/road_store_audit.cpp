@@ -28,7 +28,7 @@ AuditEntry entry_in(const Statement& row) {
 constexpr const char* find_segment =
     "SELECT fid FROM segment WHERE way_id = ? AND direction = ? AND seq = ?";
 
-/// Of those that the store has.
+/// Rows of the segments that exist in the database.
 std::vector<std::int64_t> rows_of(Database& database, std::span<const SegmentKey> segments) {
     auto find = database.prepare(find_segment);
     std::vector<std::int64_t> rows;

@@ -45,13 +45,13 @@ struct PassRow {
     std::optional<DriveOverChunk> drive;
 };
 
-/// The passes of one trip, in driving order.
+/// Passes of one trip, in driving order.
 struct PassesOfTrip {
     std::vector<PassRow> rows;
     std::vector<PassedSegment> passed;
 };
 
-/// Takes out what trips tell of their ends and stops, as if it had never come in.
+/// Removes the data near the ends and stops of trips, as if it had never been imported.
 class TripEraser {
 public:
     TripEraser(Database& database, const PrivacyKey& key)
@@ -70,7 +70,7 @@ public:
                                      " t0_utc_ms = CASE WHEN ?3 IS NULL THEN NULL"
                                      " ELSE t0_utc_ms + ?3 END WHERE id = ?1")} {}
 
-    /// \returns how many passes went.
+    /// \returns the number of removed passes.
     std::size_t trim(const CarTrip& trip) {
         const auto passes = passes_of(trip.row);
         const auto kept = kept_passes(passes.passed, [&](std::size_t n) {
@@ -117,8 +117,8 @@ private:
         return passes;
     }
 
-    /// A trace stays only between two others whose passes all stay: at the ends of what stays it
-    /// may tell more than the passes do.
+    /// Removes traces, except those between two others whose passes are all kept: at the ends of
+    /// the kept part, a trace may reveal more than the passes.
     void erase_traces(std::int64_t trip,
                       const std::vector<PassRow>& rows,
                       const std::vector<bool>& kept) {
@@ -152,7 +152,8 @@ private:
     Statement put_trip_;
 };
 
-/// All numbers are made anew, and what was noted of the old ones would tell of what went.
+/// Marks everything for fusion and deletes the recorded changes of values, which would reveal
+/// removed data.
 constexpr const char* begin_anew =
     "INSERT OR IGNORE INTO segment_dirty SELECT fid FROM segment_state;"
     "INSERT OR IGNORE INTO segment_dirty SELECT DISTINCT segment FROM pass;"

@@ -40,19 +40,19 @@ bool take_all(Statement& select, KeptTrips& trips) {
     return found;
 }
 
-/// Words for who has no key, and therefore is not understood.
+/// Addition to an error message when ids cannot be resolved for lack of the key.
 std::string_view without_key(const PrivacyKey* key) {
     return key != nullptr ? ""
                           : "; the key of the database is not beside it, and without it no id "
                             "is known";
 }
 
-/// By a name in which the id of its car stands, which the store does not keep.
+/// Finds a trip by a name that contains the id of its car, which is not stored.
 bool find_by_full_name(Database& database,
                        const PrivacyKey& key,
                        const std::string& name,
                        KeptTrips& trips) {
-    constexpr std::size_t longest = 255; // of a file's name
+    constexpr std::size_t longest = 255; // of a file name
     auto car = database.prepare("SELECT id FROM vehicle WHERE pseudonym = ?");
     auto select = database.prepare("SELECT id, sha256, calibrates FROM trip"
                                    " WHERE vehicle = ?1 AND (trip_id = ?2 OR file_name = ?2)");
@@ -67,7 +67,7 @@ bool find_by_full_name(Database& database,
     return found;
 }
 
-/// Adds what is found to `trips`. \throws InputError if nothing is.
+/// Adds matching trips to `trips`. \throws InputError if there are none.
 void find_trips(Database& database,
                 const PrivacyKey* key,
                 const std::string& name,
@@ -122,8 +122,8 @@ void erase(Database& database, std::int64_t trip) {
     }
 }
 
-/// What was noted of the numbers would tell what the trips read; and trips that move others along
-/// the road change the numbers of the whole chunk.
+/// Deletes recorded changes of values, which would reveal readings of the trips; a trip also shifts
+/// others of its chunk, so the whole chunk is affected.
 constexpr const char* erase_changes =
     "DELETE FROM state_change WHERE segment IN (SELECT segment.fid FROM"
     " (SELECT strip FROM strip_dirty UNION SELECT of.strip FROM segment_dirty AS dirty"
@@ -136,7 +136,8 @@ constexpr const char* erase_cars_without_trips =
     " (SELECT 1 FROM trip WHERE trip.vehicle = calibration.vehicle);"
     "DELETE FROM vehicle WHERE NOT EXISTS (SELECT 1 FROM trip WHERE trip.vehicle = vehicle.id)";
 
-/// Trips that come in later may get the rows of those that went: none of them is published.
+/// Lowers the recorded trip rows, because later trips may reuse the rows of deleted ones and are
+/// not published.
 constexpr const char* free_rows_of_trips =
     "UPDATE publication SET last_trip = min(last_trip, (SELECT coalesce(max(id), 0) FROM trip));"
     "UPDATE published_until SET last_trip = min(last_trip,"
@@ -153,7 +154,7 @@ std::set<std::int64_t> segments_of(Database& database, const KeptTrips& trips) {
     return segments;
 }
 
-/// That they have passes or traces on.
+/// Chunks on which the trips have passes or traces.
 std::set<std::int64_t> chunks_of(Database& database, const KeptTrips& trips) {
     auto select = database.prepare(
         "SELECT segment.strip FROM pass CROSS JOIN segment ON segment.fid = pass.segment"
@@ -167,8 +168,8 @@ std::set<std::int64_t> chunks_of(Database& database, const KeptTrips& trips) {
     return chunks;
 }
 
-/// For this connection they are not there any more, nor are cars that have no others: passes and
-/// traces are only found with their trips.
+/// Hides the trips from this connection, and cars that have no others; passes and traces are only
+/// found through their trips.
 void hide_trips(Database& database, const KeptTrips& trips) {
     database.run("CREATE TEMP TABLE leaving_trip (id INTEGER PRIMARY KEY);"
                  "CREATE TEMP VIEW trip AS SELECT * FROM main.trip WHERE id NOT IN"
@@ -185,7 +186,7 @@ constexpr const char* unhide_trips =
     "DROP VIEW IF EXISTS temp.vehicle; DROP VIEW IF EXISTS temp.trip;"
     "DROP TABLE IF EXISTS temp.leaving_trip;";
 
-/// \returns how many passes went.
+/// \returns the number of deleted passes.
 std::size_t erase(Database& database, const KeptTrips& trips, std::int64_t segments_per_chunk) {
     for (const auto& [row, trip] : trips) {
         mark_segments(database, row);
@@ -279,7 +280,7 @@ CalibrationReport RoadStore::calibrate(bool keep, const Progress& progress) {
         return find_calibration(database, in_chunk, CalibrationBasis::all, progress);
     }
     std::optional<CalibrationReport> report;
-    std::int64_t last_trip = 0; // of those that cars are calibrated from
+    std::int64_t last_trip = 0; // last one in the basis of the calibration
     const auto build_shadow = [&]() -> std::optional<std::vector<std::int64_t>> {
         last_trip = moment_of(database).last_trip;
         report = find_calibration(database, in_chunk, CalibrationBasis::all, progress);

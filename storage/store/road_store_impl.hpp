@@ -25,26 +25,28 @@ struct RoadStore::Impl {
         settings = read_settings(database);
         network_hash = read_network_hash(database);
         find_key();
-        if (access == Database::Access::write) { // now that it is known to be ours
+        if (access == Database::Access::write) { // after check_store()
             database.enable_wal();
         }
     }
 
     const ClassTable& classes() const { return *class_table(settings.class_table); }
 
-    /// What was worked out for one network, or for one's own cars, cannot be written into another
-    /// or into a crowd's.
-    /// \throws InputError  if that has changed since the store was opened.
+    /// Checks that results may still be written: those of one network, or of own cars, must not
+    /// enter another network or a crowd database.
+    ///
+    /// \throws InputError  if network or profile changed since the database was opened.
     void expect_same_network();
 
-    /// Takes the key that lies beside the store, if there is one.
-    /// \throws InputError  if it is of another store.
+    /// Reads the key beside the database, if any.
+    ///
+    /// \throws InputError  if it belongs to another database.
     void find_key();
 
     /// See RoadStore::make_missing_key().
     bool make_missing_key();
 
-    /// Without a key only of "", the car that is not known.
+    /// Pseudonym of a car; without a key, only of "", the unknown car.
     std::string pseudonym(const std::string& vehicle_id) const;
 
     void show_published_alone() {
@@ -55,7 +57,7 @@ struct RoadStore::Impl {
     Database database;
     StatementCache statements{database};
     StoreSettings settings;
-    std::string network_hash; ///< as it was when the store was opened
+    std::string network_hash; ///< at the time of opening
     std::optional<PrivacyKey> key;
     bool published_alone = false; ///< see RoadStore::shows_published_alone()
 };

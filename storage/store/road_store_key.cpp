@@ -29,7 +29,7 @@ bool RoadStore::Impl::make_missing_key() {
     if (key) {
         return false;
     }
-    Transaction alone{database, Transaction::Kind::write}; // two imports must not make two keys
+    Transaction alone{database, Transaction::Kind::write}; // two imports must not create two keys
     find_key();
     if (key) {
         return false;
@@ -51,7 +51,7 @@ bool RoadStore::Impl::make_missing_key() {
 }
 
 std::string RoadStore::Impl::pseudonym(const std::string& vehicle_id) const {
-    return key ? key->pseudonym(vehicle_id) : unkeyed_name_of(""); // of no car that has an id
+    return key ? key->pseudonym(vehicle_id) : unkeyed_name_of(""); // "" is the id of no car
 }
 
 } // namespace macadam

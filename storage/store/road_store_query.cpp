@@ -19,7 +19,8 @@
 namespace macadam {
 namespace {
 
-/// Whether the straight line from `a` to `b` has a point in the box (Liang and Barsky's clipping).
+/// Tests whether the straight line from `a` to `b` intersects the box (Liang and Barsky's
+/// clipping).
 bool meets(const GeoBox& box, const GeoPoint& a, const GeoPoint& b) {
     double enter = 0, leave = 1;
     const auto cut = [&](double from, double step, double low, double high) {
@@ -36,7 +37,7 @@ bool meets(const GeoBox& box, const GeoPoint& a, const GeoPoint& b) {
 }
 
 bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
-    if (contains(box, line.front())) { // as most do, in less time
+    if (contains(box, line.front())) { // fast path for most segments
         return true;
     }
     for (std::size_t i = 1; i < line.size(); ++i) {
@@ -49,14 +50,14 @@ bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
 
 // -------------------------------------------------------------------------------------- records
 
-/// What ways are called. Rows of a way come one after the other: joined, it would be looked up for
-/// each of its segments.
+/// Names and classes of ways. Rows of a way are consecutive, so each way is looked up once; a join
+/// would look it up for each of its segments.
 class RoadNames {
 public:
     explicit RoadNames(StatementCache& statements)
         : select_{statements, "SELECT name, highway FROM way WHERE way_id = ?"} {}
 
-    /// \returns false for a way that the store does not have.
+    /// \returns false for a way that does not exist.
     bool find(std::int64_t way_id) {
         if (way_id != way_id_) {
             way_id_ = way_id;
@@ -68,7 +69,7 @@ public:
         return is_there_;
     }
 
-    /// Of the way that was found last.
+    /// Name of the way that was found last.
     const std::string& name() const { return name_; }
     const std::string& highway() const { return highway_; }
 
@@ -89,7 +90,7 @@ void expect_line(const SegmentRecord& record, const Database& database) {
     }
 }
 
-/// What some of the passes say of segments, chunk by chunk.
+/// States of segments from a selection of passes, chunk by chunk.
 class ChosenStates {
 public:
     ChosenStates(Database& database, double segment_length_m, const PassChoice& choice)
@@ -123,7 +124,7 @@ private:
     std::vector<FusedSegment> fused_;
 };
 
-/// What a crowd's publication tells of a time: the newest figure that lies within it.
+/// Published values of a period: the newest value within it.
 class PublishedFigures {
 public:
     PublishedFigures(Database& database, const Period& period)
@@ -189,7 +190,7 @@ private:
     Period period_;
 };
 
-/// The conditions that no index serves.
+/// Filter conditions without an index.
 class Conditions {
 public:
     Conditions(const SegmentFilter& filter, const ClassTable& classes)
@@ -222,7 +223,7 @@ private:
     std::string name_part_;
 };
 
-/// The n roughest of what is added, the roughest first; equal ones in the order of their keys.
+/// The n roughest of the added records, roughest first; ties in the order of their keys.
 class Roughest {
 public:
     explicit Roughest(std::size_t n) : n_{n} {}
@@ -253,12 +254,12 @@ private:
     }
 
     std::size_t n_;
-    std::vector<SegmentRecord> records_; ///< a heap, the least rough at its front
+    std::vector<SegmentRecord> records_; ///< heap with the least rough in front
 };
 
 // -------------------------------------------------------------------------------------- reading
 
-/// A store that is read.
+/// Database from which is read.
 struct Source {
     Database& database;
     StatementCache& statements;
@@ -267,7 +268,7 @@ struct Source {
     bool published_alone;
 };
 
-/// What is read of each row.
+/// Columns to read from each row.
 struct Detail {
     const char* columns;
     void (*put_in)(const VisitedRow& row, SegmentRecord& record);
@@ -280,7 +281,7 @@ void each_record(const Source& source,
     Transaction one_moment{source.database, Transaction::Kind::read};
     std::optional<ChosenStates> chosen;
     std::optional<PublishedFigures> figures;
-    if (source.published_alone) { // which are of cars alone
+    if (source.published_alone) { // published values are of cars only
         if (filter.period) {
             figures.emplace(source.database, *filter.period);
         }
@@ -291,7 +292,7 @@ void each_record(const Source& source,
     const Conditions conditions{filter, source.classes};
     Roughest roughest{filter.worst};
     RoadNames names{source.statements};
-    SegmentRecord record; // of one row after the other, in the same memory
+    SegmentRecord record; // reused for all rows
     const auto take = [&](const VisitedRow& row) {
         if (!names.find(row.integer(0)) ||
             (!filter.highway.empty() && filter.highway != names.highway())) {

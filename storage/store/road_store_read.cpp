@@ -31,7 +31,7 @@ double real_meta(Database& database, const char* key) {
     return select.bind(key).step() ? select.real(0) : 0;
 }
 
-/// Every segment with passes has a state, or waits for one.
+/// Every segment with passes has a state or is dirty.
 constexpr const char* with_passes = "(SELECT fid FROM segment_state"
                                     " UNION SELECT segment FROM segment_dirty)";
 
@@ -71,7 +71,8 @@ AlignmentSummary laid_in(Database& database) {
     auto select = database.prepare("SELECT drives, found, beyond_reach, moved_far, middle_lag_cm"
                                    " FROM strip_state ORDER BY middle_lag_cm");
     AlignmentSummary whole;
-    std::vector<std::pair<std::int64_t, std::int64_t>> middles; // found so far, and their lag
+    // Medians found so far, with their lags.
+    std::vector<std::pair<std::int64_t, std::int64_t>> middles;
     while (select.step()) {
         whole.drives += select.integer(0);
         whole.found += select.integer(1);

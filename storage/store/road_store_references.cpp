@@ -13,7 +13,7 @@ namespace {
 
 constexpr double ppm = 1e-6;
 
-/// Surveys in their order, and their places in it by the rows of table trip.
+/// Surveys in their order, and their indexes by row of table trip.
 struct Surveys {
     std::vector<SurveyUse> uses;
     std::map<std::int64_t, std::size_t> places;

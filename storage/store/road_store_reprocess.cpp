@@ -15,7 +15,7 @@
 namespace macadam {
 namespace {
 
-// In the temporary file of the connection, which nobody else sees and which goes with it.
+// Temporary tables of the connection: private, and deleted with it.
 constexpr const char* staging_tables = R"(
 CREATE TEMP TABLE IF NOT EXISTS staged_trip (
     trip INTEGER PRIMARY KEY NOT NULL,
@@ -42,7 +42,7 @@ constexpr const char* drop_staging_tables =
     "DROP TABLE temp.staged_trip; DROP TABLE temp.staged_pass; DROP TABLE temp.staged_trace;"
     "DROP TABLE temp.staged_reason;";
 
-/// Both what the trips said before and what they say now has to be fused.
+/// Fusion is needed for both the old and the new passes of the trips.
 constexpr const char* swap_trips = R"(
 INSERT OR IGNORE INTO segment_dirty
     SELECT segment FROM pass WHERE trip IN (SELECT trip FROM staged_trip);
@@ -91,7 +91,8 @@ void stage_record(Database& database, std::int64_t row, const TripRecord& trip) 
     }
 }
 
-/// What was laid aside is of rows that another generation may have numbered anew.
+/// Checks that the staged rows are of the current generation, because another one may have
+/// renumbered them.
 void expect_same_generation(Database& database) {
     auto select = database.prepare("SELECT 1 FROM staged_trip WHERE generation <> ?");
     if (select.bind(std::int64_t{read_generation(database)}).step()) {
@@ -101,12 +102,12 @@ void expect_same_generation(Database& database) {
     }
 }
 
-/// Trips that were forgotten meanwhile; their rows may be of others.
+/// Drops staged trips that were forgotten meanwhile; their rows may have been reused.
 constexpr const char* drop_lost_trips =
     "DELETE FROM staged_trip WHERE NOT EXISTS (SELECT 1 FROM main.trip WHERE"
     " main.trip.id = staged_trip.trip AND main.trip.sha256 = staged_trip.sha256)";
 
-/// For this connection the trips already say what they will.
+/// Shows the new results of the trips to this connection.
 constexpr const char* see_swapped_trips = R"(
 CREATE TEMP VIEW pass AS
     SELECT * FROM main.pass WHERE trip NOT IN (SELECT trip FROM temp.staged_trip)
@@ -120,7 +121,7 @@ CREATE TEMP VIEW trace AS
 constexpr const char* drop_shadow_trips =
     "DROP VIEW IF EXISTS temp.pass; DROP VIEW IF EXISTS temp.trace;";
 
-/// Of what the trips said before and of what they say now.
+/// Chunks with old or new passes of the trips.
 std::vector<std::int64_t> chunks_to_swap(Database& database) {
     auto select = database.prepare(
         "SELECT segment.strip FROM staged_trip AS staged CROSS JOIN main.pass AS pass"
@@ -138,7 +139,7 @@ std::vector<std::int64_t> chunks_to_swap(Database& database) {
     return chunks;
 }
 
-/// \returns how many there were; generation and calibration are another's.
+/// \returns the number of trips; generation and calibration are set by the caller.
 Reprocessed swap(Database& database) {
     Reprocessed done{.generation = 0};
     done.trips = static_cast<std::size_t>(database.number("SELECT count(*) FROM staged_trip"));
@@ -156,7 +157,7 @@ bool RoadStore::stage_trip(const TripRecord& trip,
                            std::span<const RoughnessTrace> traces) {
     auto& database = impl_->database;
     database.run(staging_tables);
-    Transaction aside{database, Transaction::Kind::read}; // of the store, nothing is written
+    Transaction aside{database, Transaction::Kind::read}; // no writes to the database
     const auto row = row_of_trip(database, trip.sha256);
     if (!row) {
         return false;

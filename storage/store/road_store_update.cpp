@@ -10,7 +10,8 @@
 namespace macadam {
 namespace {
 
-constexpr double min_common_share = 0.05; // less is another area, or the border of a neighbour
+// Less is another area, or an overlap at the border of a neighbouring one.
+constexpr double min_common_share = 0.05;
 
 WrittenSegments segments_of(const RoadNetwork& roads) {
     WrittenSegments all;

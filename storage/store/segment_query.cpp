@@ -14,7 +14,7 @@
 namespace macadam {
 namespace {
 
-/// What leads to the rows, each by an index of its own.
+/// Access paths to the rows, each with its own index.
 enum class AccessPath { range, way, box, all };
 
 AccessPath road_to(const SegmentFilter& filter) {
@@ -24,14 +24,14 @@ AccessPath road_to(const SegmentFilter& filter) {
                                                                          : AccessPath::all;
 }
 
-/// Whether rows come one after the other as they stand in the table, in the order of keys: then
-/// they are visited, else sorted and given.
+/// Tests for a scan in row order, which is the order of keys: then rows are visited; otherwise they
+/// are sorted and returned.
 bool is_scan(AccessPath road, bool rows_in_order) {
     return road == AccessPath::box || (road == AccessPath::all && rows_in_order);
 }
 
-/// The joins stand in the order in which they are to be done. Only fixed words come together here,
-/// never a value: those are bound.
+/// Builds the query, with the joins in order of execution. Only fixed text is concatenated; values
+/// are bound.
 std::string select_of(const SegmentFilter& filter, const char* columns, bool rows_in_order) {
     const auto road = road_to(filter);
     const bool visited = is_scan(road, rows_in_order);
@@ -57,12 +57,12 @@ std::string select_of(const SegmentFilter& filter, const char* columns, bool row
         sql += " AND segment.way_id = ? AND segment.direction = ?"
                " AND segment.seq >= ? AND segment.seq < ?";
     }
-    // The rows of one way always stand in the order of its keys.
+    // The rows of one way are always in the order of its keys.
     return visited ? sql
                    : sql + " ORDER BY " + (road != AccessPath::all ? "segment.fid" : order_of_keys);
 }
 
-/// Ways whose name holds the text in any case, in the order of their ids.
+/// Ways whose name contains the text in any case, in the order of their ids.
 std::vector<std::int64_t> ways_named(StatementCache& statements, const std::string& part) {
     const auto folded_part = case_folded(part);
     StatementCache::Loan select{statements, "SELECT name, way_id FROM way WHERE name IS NOT NULL"};
@@ -82,14 +82,14 @@ std::vector<std::int64_t> ways_named(StatementCache& statements, const std::stri
     return ways;
 }
 
-/// Rows that stand one after the other.
+/// Consecutive rows.
 struct RowRange {
     std::int64_t first;
     std::int64_t last;
 };
 
-/// Rows of segments that may meet the box, in the order of keys: SQLite would sort them with all
-/// their columns. Each range is of one way where rows as such are in no order.
+/// Rows of segments that may intersect the box, in the order of keys, because SQLite would sort
+/// them with all their columns. If the rows are not in the order of keys, each range is of one way.
 std::vector<RowRange> rows_near(StatementCache& statements, const GeoBox& box, bool rows_in_order) {
     StatementCache::Loan select{
         statements,

@@ -6,9 +6,9 @@
 
 namespace macadam {
 
-/// Finds the rows of all segments that a filter means, each by an index where there is one, in the
-/// order in which RoadStore::visit tells of them. There may be others among them: conditions that
-/// no index serves are left to the caller.
+/// Visits the rows of all segments that match a filter, in the order of RoadStore::visit, by an
+/// index where there is one. The result may contain more segments: conditions without an index are
+/// left to the caller.
 ///
 /// \param columns  of the tables segment and state (storage/store/rows/segment_row.hpp)
 void each_segment_row(StatementCache& statements,

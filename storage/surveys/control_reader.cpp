@@ -22,7 +22,7 @@ namespace {
 constexpr std::array<std::string_view, 6> needed{
     "name", "way_id", "direction", "from_m", "to_m", "iri"};
 constexpr double longest_way_m = 5e6;
-constexpr double end_slack_m = 1; // of a way: what tables round its length to
+constexpr double end_slack_m = 1; // of a way: rounding of its length in tables
 
 double whole_mm(double metres) {
     return std::round(metres * 1000) / 1000;
@@ -60,7 +60,7 @@ std::optional<std::int64_t> date_in(const CsvRow& row) {
     return std::llround(*utc_s * 1000);
 }
 
-/// All that is said of the place; the network is not asked.
+/// Section as stated in the row, without a check against the network.
 ControlSection section_in(const CsvRow& row, double mm_per_m_of_one) {
     ControlSection section{.name = row.text("name"),
                            .way_id = known(row.whole("way_id"), row, "way_id"),

@@ -8,18 +8,17 @@
 
 namespace macadam {
 
-/// What is known of a control section whose sd is not told: that of a reference survey.
+/// Relative sd of a control section that states none: that of a reference survey.
 inline constexpr double usual_control_relative_sd = 0.03;
 
-/// A table of control sections (docs/reference/reference-surveys.md): `name`, `way_id`,
-/// `direction`, `from_m`, `to_m`, `iri`, and perhaps `iri_sd` and `date`. The file may be
+/// Reads a table of control sections (docs/reference/reference-surveys.md): `name`, `way_id`,
+/// `direction`, `from_m`, `to_m`, `iri`, and optionally `iri_sd` and `date`. The file may be
 /// compressed.
 ///
-/// \param roads            on whose ways they must lie.
-/// \param mm_per_m_of_one  what an IRI of 1 in the file is; 1 / 63.36 for in/mi.
-/// \throws InputError  "file:line: ..." for a column that is missing, a cell that is not what its
-///                     column says, a name that stands there twice, or a place that the network
-///                     has not.
+/// \param roads  network on whose ways the sections must lie.
+/// \param mm_per_m_of_one  mm/m of an IRI of 1 in the file; 1 / 63.36 for in/mi.
+/// \throws InputError  "file:line: ..." for a missing column, an invalid cell, a name that occurs
+///                     twice, or a position outside the network.
 std::vector<ControlSection> read_control_sections(const std::filesystem::path& file,
                                                   const RoadNetwork& roads,
                                                   double mm_per_m_of_one = 1);

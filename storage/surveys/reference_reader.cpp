@@ -57,7 +57,7 @@ void expect_length(const CsvTable& table) {
     }
 }
 
-/// A row's length, whatever says it.
+/// Length of a row, from whichever columns state it.
 std::optional<double> row_length_m(const CsvRow& row) {
     if (const auto length_m =
             row.number("length_m", shortest_row_m, longest_row_m, "0.1 to 2000 m")) {
@@ -68,7 +68,7 @@ std::optional<double> row_length_m(const CsvRow& row) {
     if (!from_m || !to_m) {
         return std::nullopt;
     }
-    const double length_m = std::abs(*to_m - *from_m); // driven against its stations, they fall
+    const double length_m = std::abs(*to_m - *from_m); // stations fall if driven in reverse
     if (!(length_m >= shortest_row_m && length_m <= longest_row_m)) {
         throw InputError{fmt::format("{}: from_m is '{}' and to_m '{}', expected stations 0.1 to "
                                      "2000 m apart",

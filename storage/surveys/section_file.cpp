@@ -28,7 +28,7 @@ constexpr std::array units{Unit{"from_m", "to_m", 1},
                            Unit{"from_mi", "to_mi", 1609.344}}; // the international mile
 constexpr double longest = 1e9;
 
-/// Which columns say where on the road; null: sections are whole roads.
+/// Unit of the columns with the measures; null: sections are whole roads.
 const Unit* unit_of(const CsvTable& table) {
     const Unit* found = nullptr;
     for (const auto& unit : units) {
@@ -57,7 +57,7 @@ const Unit* unit_of(const CsvTable& table) {
     return found;
 }
 
-/// "Main Street 1.2-3.4", in the file's own numbers.
+/// Name such as "Main Street 1.2-3.4", with the numbers of the file.
 std::string name_of(const CsvRow& row, const Unit* unit) {
     if (auto name = row.text("section"); !name.empty()) {
         return name;

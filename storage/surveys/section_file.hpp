@@ -10,23 +10,23 @@
 
 namespace macadam {
 
-/// A section as an agency names it: by a road and where on it, or by its line.
+/// Section as an agency defines it: by road and measures, or by a polyline.
 struct SectionReference {
-    std::string where; ///< "file:line", for messages; the file alone for a line
-    std::string name;  ///< of the section
-    std::string route; ///< name of the road, "" = by way or line
+    std::string where; ///< "file:line", for messages; only the file for a polyline
+    std::string name;  ///< name of the section
+    std::string route; ///< name of the road; "" = by way or polyline
     std::optional<std::int64_t> way_id{};
-    std::optional<double> from_m{}; ///< along the road or way; nothing: all of it
+    std::optional<double> from_m{}; ///< measure along the road or way; `std::nullopt`: all of it
     std::optional<double> to_m{};
     std::optional<bool> forward{};
     std::vector<GeoPoint> line{};
 };
 
-/// Sections of a table (.csv), a GPX track, or a line layer that GDAL reads
-/// (docs/reference/sections.md says which columns).
+/// Reads sections from a table (.csv), a GPX track, or a line layer that GDAL reads
+/// (docs/reference/sections.md lists the columns).
 ///
-/// \throws InputError  "file:line: ..." for columns or cells that are not what is expected, or if
-///                     there is no section.
+/// \throws InputError  "file:line: ..." for unexpected columns or invalid cells, or if the file
+///                     holds no section.
 std::vector<SectionReference> read_sections(const std::filesystem::path& file);
 
 } // namespace macadam

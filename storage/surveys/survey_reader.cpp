@@ -21,14 +21,14 @@ namespace {
 
 constexpr double shortest_piece_m = 0.1; // of a row; surveys have 10 to 100 m
 constexpr double longest_piece_m = 2000;
-constexpr double max_mm_per_m = 1000; // no road that a car can drive
+constexpr double max_mm_per_m = 1000; // rougher than any passable road
 
 enum Column : std::uint8_t { lat, lon, from, to, iri, left, right, mri, hri, column_count };
 
 constexpr std::array<std::string_view, column_count> names{
     "lat_deg", "lon_deg", "from_m", "to_m", "iri", "iri_left", "iri_right", "mri", "hri"};
 
-/// Where each column stands in a row.
+/// Index of each column in a row.
 using Columns = std::array<std::optional<std::size_t>, column_count>;
 
 Columns columns_of(std::string_view header, const std::string& where) {
@@ -63,7 +63,7 @@ Columns columns_of(std::string_view header, const std::string& where) {
     return columns;
 }
 
-/// The cells of one row, by their columns.
+/// Cells of one row, by column.
 class Cells {
 public:
     Cells(std::string_view line, const Columns& columns, std::size_t count, std::string where)
@@ -74,7 +74,7 @@ public:
         }
     }
 
-    /// Nothing: there is no such column, or the cell is empty.
+    /// Number in a cell; `std::nullopt` for a missing column or an empty cell.
     std::optional<double>
     operator()(Column column, double least, double most, const char* expected) const {
         if (!columns_[column] || cells_[*columns_[column]].empty()) {
@@ -109,14 +109,14 @@ std::optional<double> length_of(const Cells& cells) {
     if (!from_m || !to_m) {
         return std::nullopt;
     }
-    const double length_m = std::abs(*to_m - *from_m); // driven against its stations, they fall
+    const double length_m = std::abs(*to_m - *from_m); // stations fall if driven in reverse
     if (!(length_m >= shortest_piece_m && length_m <= longest_piece_m)) {
         throw cells.refusal(to, "a station 0.1 to 2000 m from from_m");
     }
     return length_m;
 }
 
-/// Nothing: the row has no place.
+/// Parses a row; `std::nullopt` if it has no position.
 std::optional<SurveyRow> row_of(const Cells& cells, std::size_t line, double mm_per_m_of_one) {
     const auto lat_deg = cells(lat, -90, 90, "-90 to 90");
     const auto lon_deg = cells(lon, -180, 180, "-180 to 180");

@@ -10,18 +10,18 @@
 
 namespace macadam {
 
-/// First line of a truth file, without its end.
+/// First line of a truth file, without line end.
 inline constexpr std::string_view truth_header =
     "segment,way_id,direction,from_m,to_m,iri_left,iri_right,mri,hri";
 
-/// Rows of a truth file: metres to the millimetre, IRI in mm/m to three decimals.
+/// Formats rows of a truth file: metres to the millimetre, IRI in mm/m to three decimals.
 std::string truth_rows(std::span<const SegmentTruth> truth);
 
-/// A truth file (docs/reference/simulation.md) in the order of its segments' keys. Each row needs a
-/// segment and its mri; of the other three IRI an empty cell is NaN.
+/// Reads a truth file (docs/reference/simulation.md) in the order of its segment keys. Each row
+/// needs a segment and its mri; an empty cell of the other three IRI columns is NaN.
 ///
-/// \throws InputError  "file:line: ..." for another header, a cell that is not what its column
-///                     says, or a segment that stands there twice.
+/// \throws InputError  "file:line: ..." for another header, an invalid cell, or a segment that
+///                     occurs twice.
 std::vector<SegmentTruth> read_truth(const std::filesystem::path& file);
 
 } // namespace macadam

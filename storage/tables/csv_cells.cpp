@@ -19,7 +19,7 @@ bool same_letters(std::string_view a, std::string_view b) {
     });
 }
 
-/// Takes a quoted cell off the front of `line`, up to its separator or the end.
+/// Removes a quoted cell from the front of `line`, up to its separator or the end.
 std::string taken_quoted(std::string_view& line, char separator) {
     std::string cell;
     std::size_t i = 1;
@@ -52,7 +52,7 @@ std::string_view without_leading_blanks(std::string_view line, char separator) {
 
 std::vector<std::string> cells_of_line(std::string_view line, char separator) {
     std::vector<std::string> cells;
-    line = separator == ' ' ? trimmed(line) : line; // a run of blanks separates once
+    line = separator == ' ' ? trimmed(line) : line; // consecutive blanks are one separator
     for (;;) {
         line = without_leading_blanks(line, separator);
         if (line.starts_with('"')) {

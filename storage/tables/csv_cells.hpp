@@ -6,15 +6,17 @@
 
 namespace macadam {
 
-/// The cells of a line, blanks around them and quotes taken off; a separator within quotes
-/// separates nothing, and a doubled quote is one.
+/// Splits a line into cells and strips blanks and quotes around them. Separators within quotes are
+/// text, and a doubled quote stands for a single quote.
 std::vector<std::string> cells_of_line(std::string_view line, char separator);
 
-/// Whether the whole of `text` fits a pattern in which '*' stands for any letters, also none. Case
-/// of ASCII letters does not count.
+/// Tests whether the whole of `text` matches a pattern in which '*' stands for any characters,
+/// including none. The case of ASCII letters is ignored.
 bool fits(std::string_view text, std::string_view pattern);
 
-/// What the '*' of a pattern stands for in a text that fits it; "" if there is none.
+/// Text matched by the '*' of a pattern; "" if the pattern has none.
+///
+/// \param text  must match the pattern.
 std::string star_of(std::string_view text, std::string_view pattern);
 
 } // namespace macadam

@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// One row of a table: cells by the names of their columns.
+/// Row of a table, with cells addressed by column name.
 class CsvRow {
 public:
     CsvRow(const std::vector<std::string>& header,
@@ -19,15 +19,17 @@ public:
            std::string where)
         : header_{&header}, cells_{std::move(cells)}, where_{std::move(where)} {}
 
-    /// Without blanks around it; "" where the cell is empty or there is no such column.
+    /// Text without surrounding blanks; "" for an empty cell or a missing column.
     std::string text(std::string_view column) const;
 
-    /// Nothing: no such column, or an empty cell. \throws InputError  for what is no finite number
-    /// from `least` to `most`; `expected` says what was expected.
+    /// Number in a cell; `std::nullopt` for an empty cell or a missing column.
+    ///
+    /// \param expected  description of a valid value, for the message.
+    /// \throws InputError  for anything but a finite number from `least` to `most`.
     std::optional<double>
     number(std::string_view column, double least, double most, std::string_view expected) const;
 
-    /// The same for a whole number.
+    /// Whole number in a cell, otherwise like number().
     std::optional<std::int64_t> whole(std::string_view column) const;
 
     const std::string& where() const { return where_; } ///< "file:line"
@@ -38,11 +40,11 @@ private:
     std::string where_;
 };
 
-/// A table with a header, small enough to be held: comma, quotes as in RFC 4180 within a line,
-/// perhaps compressed.
+/// Table with a header that is held in memory: separated by commas, quoted as in RFC 4180 (no line
+/// breaks within quotes), optionally compressed.
 struct CsvTable {
     std::vector<std::string> header;
-    std::string where; ///< "file:1", of the header
+    std::string where; ///< "file:1", for messages about the header
     std::vector<std::vector<std::string>> rows;
     std::vector<std::string> places; ///< "file:line" of each row
     std::string sha256;              ///< of the decompressed text
@@ -51,8 +53,10 @@ struct CsvTable {
     CsvRow row(std::size_t i) const { return {header, rows[i], places[i]}; }
 };
 
-/// \throws InputError  "file:line: ..." if a column stands twice, or a row has another number of
-///                     cells than the header.
+/// Reads a table.
+///
+/// \throws InputError  "file:line: ..." if a column occurs twice, or a row has a different number
+///                     of cells than the header.
 CsvTable read_csv_table(const std::filesystem::path& file);
 
 } // namespace macadam

@@ -8,7 +8,7 @@
 namespace macadam {
 namespace {
 
-constexpr double max_mm_per_m = 1000; // no road that a car can drive
+constexpr double max_mm_per_m = 1000; // rougher than any passable road
 
 } // namespace
 

@@ -7,12 +7,17 @@
 
 namespace macadam {
 
-// What cells of several tables mean.
+// Values that occur in several kinds of tables.
 
-/// `direction`: whether it is "forward"; nothing where it is empty. \throws InputError  otherwise.
+/// Reads the column `direction`: true for "forward", `std::nullopt` for an empty cell.
+///
+/// \throws InputError  for other text.
 std::optional<bool> direction_in(const CsvRow& row);
 
-/// An IRI in mm/m of a cell in the file's unit. \throws InputError  for what is none.
+/// Reads an IRI and converts it to mm/m.
+///
+/// \param mm_per_m_of_one  mm/m of an IRI of 1 in the unit of the file.
+/// \throws InputError  if the cell is not a valid IRI.
 std::optional<double> iri_in(const CsvRow& row, std::string_view column, double mm_per_m_of_one);
 
 } // namespace macadam

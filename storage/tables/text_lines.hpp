@@ -13,23 +13,25 @@
 
 namespace macadam {
 
-/// The lines of a text, in blocks of a megabyte: ended by LF or CRLF, without a byte order mark.
+/// Reads a text line by line, in blocks of 1 MiB. Lines end in LF or CRLF; a byte order mark is
+/// dropped.
 class TextLines {
 public:
-    /// \param name  of the file, for messages.
+    /// \param name  name of the file, for messages.
     TextLines(std::unique_ptr<ByteStream> bytes, std::string name);
 
-    /// Good until the next call. Nothing at the end.
+    /// Returns the next line, valid until the next call; `std::nullopt` at the end.
     ///
-    /// \throws InputError  if the line holds a NUL byte or is longer than a megabyte: no text is.
+    /// \throws InputError  if the line holds a NUL byte or is longer than 1 MiB, because then the
+    ///                     file is not text.
     std::optional<std::string_view> next();
 
-    /// "file:line" of the last line; of the first before there was one.
+    /// "file:line" of the last line returned; of the first line before any was returned.
     std::string where() const;
 
     std::uint64_t consumed() const { return bytes_->consumed(); }
 
-    /// Of everything, once the last line was read.
+    /// SHA-256 of the whole text, available after the last line was read.
     std::string sha256() { return sha256_.hex(); }
 
 private:
@@ -40,7 +42,7 @@ private:
     std::string name_;
     Sha256 sha256_;
     std::vector<char> block_;
-    std::size_t first_ = 0; ///< what is left of the block: [first_, last_)
+    std::size_t first_ = 0; ///< start of the unread bytes of the block, [first_, last_)
     std::size_t last_ = 0;
     std::size_t number_ = 0;
     bool ended_ = false;

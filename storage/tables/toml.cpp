@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-/// toml++ met what its parser takes for impossible.
+/// Thrown where toml++ fails an internal assertion.
 struct TomlParseFailure {};
 
 [[noreturn]] void give_up() {
@@ -19,13 +19,13 @@ struct TomlParseFailure {};
 } // namespace
 } // namespace macadam
 
-// toml++ 3.3 ends the program at some texts that are no TOML ("[[=", "t = 2026-03-01T:"): what it
-// asserts is not always so.
+// toml++ 3.3 aborts on some invalid TOML ("[[=", "t = 2026-03-01T:"), because its assertions do not
+// always hold.
 #define TOML_ASSERT(expression)                                                                    \
     (static_cast<bool>(expression) ? static_cast<void>(0) : macadam::give_up())
 
-// It also says of a letter beyond ASCII that it cannot be there when it asks whether it is a blank,
-// and then anything may happen. Those functions answer no instead.
+// It also marks non-ASCII characters as unreachable when testing for blanks, which is undefined
+// behaviour. Those functions return false instead.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
@@ -42,7 +42,7 @@ namespace macadam {
 struct TomlTable::Node {
     std::shared_ptr<const toml::table> file; ///< keeps `table` alive
     const toml::table* table;
-    std::string name; ///< "half_car", "" at the top
+    std::string name; ///< "half_car"; "" for the root
     std::string file_name;
 
     const toml::node* get(std::string_view key) const { return table->get(key); }
@@ -289,7 +289,7 @@ void TomlTable::refuse(std::string_view key, std::string_view expected) const {
 }
 
 TomlTable read_toml(const std::filesystem::path& file, std::string_view what) {
-    constexpr std::size_t max_bytes = 1 << 20; // settings take some thousands
+    constexpr std::size_t max_bytes = 1 << 20; // settings take a few kilobytes
     std::string text(max_bytes, '\0');
     std::size_t size = 0;
     const auto bytes = file_bytes(file);

@@ -11,10 +11,10 @@
 
 namespace macadam {
 
-/// What a number of a settings file may be.
+/// Range of values that a number in a settings file may have.
 struct TomlRange {
     bool (*holds)(double);
-    const char* words; ///< "a number above 0"
+    const char* words; ///< for messages: "a number above 0"
 };
 
 inline constexpr TomlRange any_number{[](double) { return true; }, "a number"};
@@ -22,18 +22,18 @@ inline constexpr TomlRange positive_number{[](double x) { return x > 0; }, "a nu
 inline constexpr TomlRange not_negative_number{[](double x) { return x >= 0; },
                                                "a number of 0 or more"};
 
-/// One table of a settings file. It remembers where things stand, so that every refusal says
-/// "file:line: key is '...', expected ...". A cheap handle: copies share the file.
+/// Table of a settings file. It knows the line of each key, so that every error message reads
+/// "file:line: key is '...', expected ...". It is a cheap handle: copies share the file.
 ///
-/// number, text and their like expect the key to be there (`has`); whoever asks for a key that may
-/// be missing uses the `maybe_` forms.
+/// number(), text() and the like require that the key exists (see `has`); use the `maybe_`
+/// functions for optional keys.
 class TomlTable {
 public:
     struct Node;
     explicit TomlTable(std::shared_ptr<const Node> node);
 
     bool has(std::string_view key) const;
-    std::vector<std::string> keys() const; ///< in the order of the alphabet
+    std::vector<std::string> keys() const; ///< in alphabetical order
 
     double number(std::string_view key, const TomlRange& range = any_number) const;
     std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high) const;
@@ -51,13 +51,14 @@ public:
     bool is_text(std::string_view key) const;
     bool is_number(std::string_view key) const;
 
-    std::optional<TomlTable> table(std::string_view key) const; ///< [key]; nothing: not there
-    std::vector<TomlTable> tables(std::string_view key) const;  ///< [[key]]; empty: not there
+    std::optional<TomlTable>
+    table(std::string_view key) const; ///< [key]; `std::nullopt` if it is missing
+    std::vector<TomlTable> tables(std::string_view key) const; ///< [[key]]; empty if it is missing
 
-    /// "file:line" of a key, or of the table where there is no such key.
+    /// "file:line" of a key, or of the table if the key is missing.
     std::string where(std::string_view key) const;
 
-    /// \throws InputError  naming the first key that is not among these.
+    /// \throws InputError  naming the first key that is not in `known`.
     void expect_only(std::span<const std::string_view> known) const;
 
     [[noreturn]] void refuse_unknown(std::string_view key, std::string_view expected) const;
@@ -68,14 +69,14 @@ private:
     std::shared_ptr<const Node> node_;
 };
 
-/// The top table of a TOML file of at most 1 MiB.
+/// Reads a TOML file of at most 1 MiB and returns its root table.
 ///
-/// \param what  what the file should be, for messages: "a vehicle".
+/// \param what  expected content of the file, for messages: "a vehicle".
 ///
-/// \throws InputError  "file:line: ..." if it cannot be read or is no TOML.
+/// \throws InputError  "file:line: ..." if the file cannot be read or is not TOML.
 TomlTable read_toml(const std::filesystem::path& file, std::string_view what);
 
-/// The same of text; `name` stands for the file in messages.
+/// Parses text like read_toml(); `name` stands for the file in messages.
 TomlTable parse_toml(std::string_view text, const std::string& name);
 
 } // namespace macadam

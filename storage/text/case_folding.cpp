@@ -9,7 +9,8 @@
 namespace macadam {
 namespace {
 
-/// Letters that fold alike: those from first to last, every `step`-th, go up by `shift`.
+/// Range of characters with a common folding rule: every `step`-th from first to last is shifted by
+/// `shift`.
 struct Rule {
     std::uint32_t first;
     std::uint32_t last;
@@ -17,7 +18,7 @@ struct Rule {
     std::int32_t shift;
 };
 
-// Unicode 15, CaseFolding.txt, in the order of the letters.
+// Unicode 15, CaseFolding.txt, in the order of the characters.
 constexpr std::array rules{
     Rule{0x0041, 0x005a, 1, 32},    Rule{0x00c0, 0x00d6, 1, 32},    Rule{0x00d8, 0x00de, 1, 32},
     Rule{0x0100, 0x012e, 2, 1},     Rule{0x0132, 0x0136, 2, 1},     Rule{0x0139, 0x0147, 2, 1},

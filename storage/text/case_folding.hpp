@@ -5,12 +5,12 @@
 
 namespace macadam {
 
-/// UTF-8 text such that texts that differ in upper and lower case alone become one: "STRASSE" and
-/// "Straße", "ΟΔΟΣ" and "οδός" but for its accent, "УЛИЦА" and "улица". Accents stay; bytes that
-/// are no UTF-8 stay as they are. The same on every machine, whatever its language.
+/// Folds the case of UTF-8 text, so that texts which differ only in upper and lower case compare
+/// equal: "STRASSE" and "Straße", "ΟΔΟΣ" and "οδός" except for its accent, "УЛИЦА" and "улица".
+/// Accents and invalid UTF-8 bytes are kept. The result does not depend on the locale.
 ///
 /// Covers the Latin, Greek, Cyrillic, Armenian and Georgian letters of Unicode's CaseFolding.txt
-/// (statuses C and F), as far as they follow a rule; others have no case in names of roads.
+/// (statuses C and F) as far as they follow a rule; the other scripts of road names have no case.
 std::string case_folded(std::string_view text);
 
 } // namespace macadam

@@ -10,13 +10,13 @@
 
 namespace macadam {
 
-/// A value as JSON text writes it. Numbers keep the decimals that they are given.
+/// Number with a fixed count of decimals.
 struct JsonNumber {
     double value;
     int decimals;
 };
 
-/// JSON text that stands as it is: an object or array made before.
+/// JSON text that is inserted unchanged, such as an object or array built before.
 struct JsonRaw {
     std::string text;
 };
@@ -24,13 +24,13 @@ struct JsonRaw {
 using JsonValue =
     std::variant<std::nullptr_t, bool, std::int64_t, JsonNumber, std::string, JsonRaw>;
 
-/// A number, or null where there is none or it is not finite.
+/// Number, or null for `std::nullopt` and for values that are not finite.
 JsonValue json_number(std::optional<double> value, int decimals);
 
-/// `value` quoted and escaped; bytes that are not UTF-8 are replaced.
+/// Quotes and escapes `value`; bytes that are not UTF-8 are replaced.
 std::string json_text(std::string_view value);
 
-/// One JSON object on one line, its members in the order in which they were added.
+/// Builds a JSON object on one line, with its members in insertion order.
 class JsonObject {
 public:
     JsonObject& add(std::string_view key, JsonValue value);

@@ -6,15 +6,15 @@
 
 namespace macadam {
 
-/// `text` without blanks and tabs at its ends.
+/// Strips blanks and tabs from both ends of `text`.
 std::string_view trimmed(std::string_view text);
 
-/// `text` in quotes as messages show it: at most `longest` bytes, those that are not printable
-/// ASCII as \x00, "..." where it is cut.
+/// Quotes `text` for messages: at most `longest` bytes, with "..." where it is cut. Bytes other
+/// than printable ASCII appear as \x00.
 std::string in_quotes(std::string_view text, std::size_t longest = 40);
 
-/// The number that the whole of `text` is, blanks around it and a leading '+' allowed; NaN for
-/// "nan". Nothing if it is something else, or does not fit a double.
+/// Parses the whole of `text` as a number; blanks around it and a leading '+' are allowed, and
+/// "nan" is NaN. Returns `std::nullopt` for other text and for numbers that do not fit a double.
 std::optional<double> parse_number(std::string_view text);
 
 } // namespace macadam

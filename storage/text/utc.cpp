@@ -12,7 +12,7 @@ namespace {
 
 namespace chr = std::chrono;
 
-/// Takes `digits` digits off the front of `text`.
+/// Removes a number of `digits` digits from the front of `text`.
 std::optional<int> take_number(std::string_view& text, std::size_t digits) {
     int number = 0;
     if (text.size() < digits) {
@@ -34,7 +34,7 @@ bool take(std::string_view& text, char expected) {
     return true;
 }
 
-/// ".225" and the like; 0 where there is none.
+/// Removes a fraction such as ".225"; 0 if there is none.
 std::optional<double> take_fraction(std::string_view& text) {
     if (!text.starts_with('.')) {
         return 0.0;
@@ -50,7 +50,7 @@ std::optional<double> take_fraction(std::string_view& text) {
     return fraction;
 }
 
-/// Writes a number over that many places, with zeros before it; a store writes a million of them.
+/// Writes a number with leading zeros; optimised, because a database contains millions of times.
 void put(char* text, std::int64_t number, int digits) {
     for (char* place = text + digits; place > text; number /= 10) {
         *--place = static_cast<char>('0' + number % 10);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view replacement = "\xef\xbf\xbd"; // U+FFFD
 
-/// Of one character. What XML 1.0 (2.2) cannot say in any way is replaced: control characters, and
-/// U+FFFE and U+FFFF.
+/// Escapes one character. Characters that XML 1.0 (2.2) cannot represent are replaced: control
+/// characters, U+FFFE and U+FFFF.
 std::string escaped(std::string_view character) {
     const auto code = static_cast<unsigned char>(character.front());
     if (character == "&") {
@@ -28,7 +28,7 @@ std::string escaped(std::string_view character) {
         return "&quot;";
     }
     if (character == "\r" || character == "\n" || character == "\t") {
-        return fmt::format("&#{};", code); // a reader would change them
+        return fmt::format("&#{};", code); // readers would normalise them
     }
     const bool cannot_be_said =
         code < 0x20 || character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf";

@@ -5,8 +5,8 @@
 
 namespace macadam {
 
-/// Text as XML 1.0 holds it in elements and in quoted attributes. What it cannot say in any way
-/// (control characters, bytes that are not UTF-8) becomes U+FFFD.
+/// Escapes text for elements and quoted attributes of XML 1.0. Characters that XML cannot represent
+/// (control characters, bytes that are not UTF-8) become U+FFFD.
 std::string xml_text(std::string_view text);
 
 } // namespace macadam

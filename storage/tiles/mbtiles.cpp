@@ -12,8 +12,8 @@
 namespace macadam {
 namespace {
 
-// MBTiles specification 1.3. Tiles that are alike, such as empty ones, are stored once: `tiles` is
-// a view, as the specification allows.
+// MBTiles specification 1.3. Equal tiles, such as empty ones, are stored once: `tiles` is a view,
+// as the specification allows.
 constexpr const char* tables = R"(
 PRAGMA application_id = 0x4d504258;
 CREATE TABLE metadata (name TEXT NOT NULL PRIMARY KEY, value TEXT NOT NULL);
@@ -79,7 +79,7 @@ void write_mbtiles(const std::filesystem::path& temporary,
         if (progress.stop.stop_requested()) {
             throw InputError{"stopped before the file was complete"};
         }
-        if (content == stored) { // contents are numbered as they first appear
+        if (content == stored) { // contents are numbered by first appearance
             put_content.run(std::int64_t{content} + 1, Blob{contents.bytes_of(content)});
             ++stored;
         }

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t header_bytes = 127;
 constexpr std::size_t max_root_bytes = 16384 - header_bytes; // header and root in the first 16 kB
 
-/// What a directory says of some tiles in a row, or with run = 0 of a directory below it.
+/// Directory entry for consecutive tiles, or, with run = 0, for a leaf directory.
 struct DirectoryEntry {
     std::uint64_t number; ///< of the first tile
     std::uint64_t offset;
@@ -56,7 +56,7 @@ std::string directory_of(std::span<const DirectoryEntry> entries) {
     return gzipped(bytes);
 }
 
-/// Contents lie one after the other as they first appear.
+/// Builds the entries; contents are stored in the order of their first appearance.
 std::vector<DirectoryEntry> entries_of(const TileIndex& contents) {
     std::vector<std::uint64_t> offsets(contents.count() + 1, 0);
     for (std::size_t i = 0; i < contents.count(); ++i) {
@@ -76,10 +76,10 @@ std::vector<DirectoryEntry> entries_of(const TileIndex& contents) {
 
 struct Directories {
     std::string root;
-    std::string leaves; ///< one after the other
+    std::string leaves; ///< concatenated
 };
 
-/// The fewest tiles a leaf, from 4096 on, with which the root is small enough.
+/// Splits the directory with the fewest tiles per leaf, from 4096 on, for which the root fits.
 Directories directories_of(const std::vector<DirectoryEntry>& entries) {
     if (auto root = directory_of(entries); root.size() <= max_root_bytes) {
         return {std::move(root), ""};
@@ -112,7 +112,7 @@ std::string metadata_of(const TileSetNote& note) {
     return object.text();
 }
 
-/// Numbers with their lowest byte first.
+/// Little-endian header.
 class Header {
 public:
     Header() : bytes_{"PMTiles\x03"} {}
@@ -158,7 +158,7 @@ header_of(const Sections& sections, const TileIndex& contents, const TileSetNote
     header.put(contents.count(), 8);
     header.put(1, 1);                 // clustered: contents lie in the order of their tiles
     header.put(2, 1);                 // directories and metadata: gzip
-    header.put(is_vector ? 2 : 1, 1); // tiles: gzip, or as they are
+    header.put(is_vector ? 2 : 1, 1); // tiles: gzip, or uncompressed
     header.put(is_vector ? 1 : 2, 1); // vector tiles, or PNG
     header.put(static_cast<std::uint64_t>(note.min_zoom), 1);
     header.put(static_cast<std::uint64_t>(note.max_zoom), 1);

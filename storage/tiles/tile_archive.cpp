@@ -39,14 +39,15 @@ const std::filesystem::path& expect_known_suffix(const std::filesystem::path& fi
 // ------------------------------------------------------------------------------------- contents
 
 std::uint64_t tile_number(const TileId& tile) {
-    std::uint64_t number = ((std::uint64_t{1} << (2U * tile.zoom)) - 1) / 3; // of all zooms before
+    // Tiles of all lower zooms.
+    std::uint64_t number = ((std::uint64_t{1} << (2U * tile.zoom)) - 1) / 3;
     std::uint64_t x = tile.x, y = tile.y;
     for (auto half = (std::uint64_t{1} << tile.zoom) / 2; half > 0; half /= 2) {
         const bool east = (x & half) != 0, south = (y & half) != 0;
         number += half * half * ((east ? 3U : 0U) ^ (south ? 1U : 0U));
         x &= half - 1;
         y &= half - 1;
-        if (!south) { // the curve within this quarter is mirrored
+        if (!south) { // the curve is mirrored within this quarter
             if (east) {
                 x = half - 1 - x;
                 y = half - 1 - y;
@@ -133,8 +134,8 @@ TileSetCentre centre_of(const TileSetNote& note) {
 struct TileArchive::Impl {
     std::filesystem::path place;
     TileSetNote note;
-    std::optional<AtomicFolder> folder; ///< or else
-    std::optional<AtomicFile> file;     ///< or else
+    std::optional<AtomicFolder> folder; ///< alternatively
+    std::optional<AtomicFile> file;     ///< alternatively
     std::optional<AtomicFileSet> database;
     TileIndex contents;
 
@@ -198,7 +199,7 @@ std::filesystem::path beside_tiles(const std::filesystem::path& place) {
     if (!is_tile_folder(place)) {
         return place;
     }
-    // What is there may be on a disk of its own, and its parent somebody else's.
+    // An existing folder may be on its own disk, and its parent may belong to another user.
     std::error_code none;
     const auto name = place.has_filename() ? place : place.parent_path();
     return std::filesystem::is_directory(name, none) ? name / "" : name;

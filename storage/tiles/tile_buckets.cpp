@@ -32,7 +32,7 @@ private:
     }
 };
 
-/// Takes them off the front of bytes again.
+/// Removes values from the front of bytes.
 struct Reader {
     std::string_view& bytes;
 

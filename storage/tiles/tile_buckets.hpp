@@ -12,24 +12,24 @@
 
 namespace macadam {
 
-// What goes into the tiles of a map, laid aside tile by tile while it is sorted.
+// Contents of the tiles of a map, collected by tile.
 
-/// A segment or a part as bytes for the same program, added to those that are there.
+/// Appends a segment or a road section to the bytes of a tile, in a format for this program only.
 void append_to(std::string& bytes, const TileSegment& segment);
 void append_to(std::string& bytes, const RoadPart& part);
 
-/// All that were added.
+/// Restores all items that were appended.
 std::vector<TileSegment> tile_segments_in(std::string_view bytes);
 std::vector<RoadPart> road_parts_in(std::string_view bytes);
 
-/// Bytes by tile, most of them on disk. Those of one tile come back in the order in which they were
-/// added. One thread adds; after settle() many may read.
+/// Byte strings by tile, most of them on disk. The bytes of a tile are returned in insertion order.
+/// One thread adds; after settle(), many may read.
 class TileBuckets {
 public:
-    /// \param beside  see Spool.
+    /// \param beside  see TempFile.
     explicit TileBuckets(const std::filesystem::path& beside) : spool_{beside} {}
 
-    /// \param add  appends to what the tile has.
+    /// \param item  appended to the bytes of the tile.
     template <typename Item>
     void add(const TileId& tile, const Item& item) {
         auto& bytes = open_[tile];
@@ -41,13 +41,13 @@ public:
         }
     }
 
-    /// Brings all to disk.
+    /// Flushes everything to disk.
     void settle();
 
-    /// Those that hold something, in order. After settle().
+    /// Tiles that are not empty, in order. Call settle() first.
     std::vector<TileId> tiles() const;
 
-    /// "" for a tile that holds nothing.
+    /// Bytes of a tile; "" if it is empty.
     std::string read(const TileId& tile) const;
 
     const std::filesystem::path& beside() const { return spool_.beside(); }

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that grows: where it is, and what the user called it.
+/// Folder under construction: its path, and the name given by the user.
 struct Growing {
     const fs::path& at;
     const fs::path& called;
@@ -48,7 +48,7 @@ void make_folder(const Growing& folder, const fs::path& name) {
     }
 }
 
-/// All of it at once: file by file it would take a thousand times as long.
+/// Syncs the whole file system at once: file by file would take a thousand times as long.
 void sync(const Growing& folder) {
     const int descriptor = ::open(folder.at.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     const int error = descriptor >= 0 && ::syncfs(descriptor) == 0 ? 0 : errno;

@@ -12,30 +12,30 @@
 
 namespace macadam {
 
-/// A tile and what it holds, as a place among the contents.
+/// Tile and the index of its content.
 struct TileEntry {
     std::uint64_t number; ///< see tile_number
     TileId tile;
     std::uint32_t content;
 };
 
-/// Where a tile comes among all tiles: zoom by zoom, each along a Hilbert curve, so that neighbours
-/// lie close together. The whole world at zoom 0 is 0.
+/// Position of a tile among all tiles: zoom level by zoom level, each along a Hilbert curve, so
+/// that neighbours lie close together. The tile of zoom 0 has number 0.
 ///
 /// Source: PMTiles specification, version 3, 4.1.1; the curve of D. Hilbert as in J. K. Lawder,
 /// "Calculation of mappings between one and n-dimensional values using the Hilbert space-filling
 /// curve", Birkbeck College (2000).
 std::uint64_t tile_number(const TileId& tile);
 
-/// What came so far, each content once, and in the end the tiles in the order of their numbers with
-/// contents numbered as they first appear.
+/// Collects the tiles and stores each distinct content once. After sort(), tiles are in the order
+/// of their numbers, and contents are numbered by first appearance.
 class TileIndex {
 public:
     explicit TileIndex(const std::filesystem::path& beside) : spool_{beside} {}
 
     void add(const TileId& tile, std::string_view bytes);
 
-    /// After the last tile, and before what follows.
+    /// Sorts the tiles. Call it after the last add() and before the functions below.
     void sort();
 
     const std::vector<TileEntry>& entries() const { return entries_; }
@@ -65,18 +65,19 @@ void write_pmtiles(AtomicFile& out,
                    const TileSetNote& note,
                    const Progress& progress);
 
-/// \param temporary  where the folder grows
-/// \param called     how it is called when it is whole
+/// \param temporary  folder to write
+/// \param called  final name of the folder
 void write_tile_folder(const std::filesystem::path& temporary,
                        const std::filesystem::path& called,
                        const TileIndex& contents,
                        const TileSetNote& note,
                        const Progress& progress);
 
-/// The vector layers as a JSON array, as all formats tell them; "" of pictures.
+/// Vector layers as a JSON array, in the form common to all formats; "" for image tiles.
 std::string layers_json(const TileSetNote& note);
 
-/// Where a viewer begins: in the middle, at the last zoom that has it in two tiles' width.
+/// Initial view: the centre, at the highest zoom level at which the extent is at most two tiles
+/// wide.
 struct TileSetCentre {
     GeoPoint place;
     int zoom;

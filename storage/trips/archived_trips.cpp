@@ -19,13 +19,13 @@ namespace macadam {
 
 namespace {
 
-// Files of one export stand together. Where they do not, they are waited for as long as no more
-// than this lies in memory.
+// Files of one export are usually consecutive. Otherwise incomplete exports are kept until they
+// exceed this memory.
 constexpr std::size_t max_waiting_bytes = std::size_t{64} << 20;
 
 using Files = std::vector<TripContents::File>;
 
-/// The file at hand.
+/// Reads the current file.
 TripContents::File read(ArchiveFiles& files, const std::string& name) {
     try {
         return {name, files.content(), ""};
@@ -40,7 +40,7 @@ std::shared_ptr<const TripContents> contents_of(Files files) {
     return std::make_shared<const TripContents>(TripContents{std::move(files)});
 }
 
-/// The file of a mapping's first table beside one of a later table.
+/// File of a mapping's first table that belongs to a file of a later table.
 std::string first_beside(const std::string& file, const TableMapping& table, std::string first) {
     if (const auto star = first.find('*'); star != std::string::npos) {
         first.replace(star, 1, star_of(file, table.file));
@@ -50,11 +50,11 @@ std::string first_beside(const std::string& file, const TableMapping& table, std
 
 } // namespace
 
-/// Files of trips of which more are to come.
+/// Files of trips that are still incomplete.
 struct ArchivedTrips::Shelf {
-    std::map<std::string, Files> exports;            ///< by their folder
-    std::map<std::string, TripContents::File> files; ///< of a mapping, by their path
-    std::set<std::string> firsts;                    ///< of these, those of the first table
+    std::map<std::string, Files> exports;            ///< by folder
+    std::map<std::string, TripContents::File> files; ///< of a mapping, by path
+    std::set<std::string> firsts;                    ///< those of the first table
     std::size_t bytes = 0;                           ///< in exports
 };
 
@@ -117,7 +117,7 @@ void ArchivedTrips::take_log(const std::string& name) {
     ready_.push_back({.file = archive_, .member = name, .contents = contents_of(std::move(files))});
 }
 
-/// A second file of one name belongs to another export.
+/// Adds a file to its export; a second file of the same name begins another export.
 void ArchivedTrips::take_for_export(const std::string& name) {
     const auto [folder, file] = place_in_export(name);
     auto& waiting = shelf_->exports;
@@ -136,7 +136,7 @@ void ArchivedTrips::take_for_export(const std::string& name) {
 }
 
 void ArchivedTrips::hand_out_export(const std::string& folder) {
-    const auto place = folder; // what it refers to goes
+    const auto place = folder; // copy, because the original is erased
     auto files = std::move(shelf_->exports.extract(place).mapped());
     std::ranges::sort(files, {}, &TripContents::File::name);
     std::vector<std::string> names;
@@ -166,7 +166,7 @@ void ArchivedTrips::take_for_mapping(const std::string& name) {
         return;
     }
     if (table == tables.begin()) {
-        if (shelf_->files.contains(name)) { // two of one name are two
+        if (shelf_->files.contains(name)) { // files of equal names belong to different trips
             hand_out_mapped(name, true);
         }
         shelf_->firsts.insert(name);
@@ -179,7 +179,7 @@ void ArchivedTrips::take_for_mapping(const std::string& name) {
         if (shelf_->firsts.contains(first)) {
             hand_out_mapped(first, false);
         }
-    } else { // of all trips of the folder
+    } else { // of all trips in the folder
         auto first = shelf_->firsts.lower_bound(folder);
         while (first != shelf_->firsts.end() && first->starts_with(folder)) {
             hand_out_mapped(std::string{*first++}, false);
@@ -187,7 +187,8 @@ void ArchivedTrips::take_for_mapping(const std::string& name) {
     }
 }
 
-/// A file whose name has no '*' may belong to several trips and stays.
+/// Returns a trip of a mapping. A file whose name has no '*' may belong to several trips and is
+/// kept.
 void ArchivedTrips::hand_out_mapped(const std::string& first, bool even_if_incomplete) {
     const auto& mapping = *sought_.mapping;
     const auto [folder, file] = folder_and_file(first);
@@ -220,7 +221,7 @@ void ArchivedTrips::refuse(const std::string& member, const std::string& words) 
         {.file = archive_, .member = member, .contents = contents_of({{"", "", words}})});
 }
 
-/// Nothing more comes.
+/// Handles the end of the archive.
 void ArchivedTrips::end() {
     ended_ = true;
     while (!shelf_->exports.empty()) {

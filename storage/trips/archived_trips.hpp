@@ -15,14 +15,15 @@ namespace macadam {
 
 struct TripContents;
 
-/// The trips of one archive in one pass: a log where it stands, a trip of several files when all of
-/// them came. Each comes with its contents. What cannot be had is a source whose reading says why.
+/// Finds the trips of an archive in one pass: single logs immediately, trips of several files when
+/// all of them were read. Each trip carries its contents. Reading a trip that could not be
+/// extracted throws the reason.
 class ArchivedTrips {
 public:
-    /// Which trips are sought.
+    /// Selection of trips.
     struct Sought {
-        bool (*is_log)(std::string_view name); ///< null: no logs, but exports of phones alone
-        std::shared_ptr<const TripMapping> mapping{}; ///< if given, its trips and no others
+        bool (*is_log)(std::string_view name);        ///< null: only phone exports, no logs
+        std::shared_ptr<const TripMapping> mapping{}; ///< if set, only trips of this mapping
         std::size_t max_files = max_archive_files;
     };
 
@@ -31,10 +32,10 @@ public:
     ArchivedTrips& operator=(const ArchivedTrips&) = delete;
     ~ArchivedTrips();
 
-    /// Nothing at the end.
+    /// Next trip; `std::nullopt` at the end.
     std::optional<TripSource> next();
 
-    std::size_t other_files() const { return other_files_; } ///< passed over so far
+    std::size_t other_files() const { return other_files_; }                  ///< ignored so far
     const std::string& first_other_file() const { return first_other_file_; } ///< "" = none
 
 private:

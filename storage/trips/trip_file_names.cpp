@@ -33,7 +33,7 @@ bool is_archive_name(std::string_view name) {
 }
 
 std::pair<std::string, std::string> folder_and_file(const std::string& path) {
-    const auto size = path.rfind('/') + 1; // 0 where there is none
+    const auto size = path.rfind('/') + 1; // 0 if there is none
     return {path.substr(0, size), path.substr(size)};
 }
 
@@ -42,7 +42,7 @@ std::pair<std::string, std::string> place_in_export(const std::string& path) {
     if (belongs_to_export(file)) {
         return {std::move(folder), std::move(file)};
     }
-    if (!folder.empty()) { // one of its folders
+    if (!folder.empty()) { // a subfolder of the export
         auto [above, inner] = folder_and_file(folder.substr(0, folder.size() - 1));
         auto inside = inner + "/" + file;
         if (belongs_to_export(inside)) {

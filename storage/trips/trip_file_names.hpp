@@ -10,26 +10,27 @@ namespace macadam {
 
 struct TripMapping;
 
-// What files are to trips, by their names.
+// Role of files in trips, by name.
 
-/// *.trip.csv[.gz|.zst], *.rawlog.
+/// Tests for *.trip.csv[.gz|.zst] and *.rawlog.
 bool is_trip_name(std::string_view name);
 
-/// .zip, .tar, .tar.gz, .tgz, .tar.zst.
+/// Tests for .zip, .tar, .tar.gz, .tgz, .tar.zst.
 bool is_archive_name(std::string_view name);
 
-/// A path's folder, "" or with a '/' at its end, and what follows.
+/// Splits a path into its folder, "" or with a final '/', and the rest.
 std::pair<std::string, std::string> folder_and_file(const std::string& path);
 
-/// The folder of the phone's export to which a file would belong, and what it is called in it;
-/// the file's name is "" if it would belong to none.
+/// Splits a path into the folder of a phone export and the file name within it; the name is "" if
+/// the file cannot belong to an export.
 std::pair<std::string, std::string> place_in_export(const std::string& path);
 
-/// Exports of phones among paths: the folder of each, and its files as they are called in it, in
-/// byte order.
+/// Phone exports among paths: the folder of each, and the names of its files within it, in byte
+/// order.
 std::map<std::string, std::vector<std::string>> exports_in(const std::vector<std::string>& paths);
 
-/// What the file of one of a mapping's later tables is called that lies beside a file of its first.
+/// Name of the file of table `table` of a mapping that belongs to `file`, a file of the first
+/// table.
 std::string companion(const std::string& file, const TripMapping& mapping, std::size_t table);
 
 } // namespace macadam

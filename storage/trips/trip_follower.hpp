@@ -10,33 +10,33 @@
 
 namespace macadam {
 
-/// A "macadam-trip 1" log while it is being written: its samples row by row, as soon as each line
-/// is whole. Nothing is kept of what was handed on.
+/// Follows a "macadam-trip 1" log while it is being written, and returns its samples row by row as
+/// soon as a line is complete. Returned rows are not kept.
 class TripFollower {
 public:
-    /// Reads the head, and waits for it.
+    /// Waits for the header and reads it.
     ///
     /// \param file  plain, .gz or .zst; "-": standard input.
     ///
-    /// \throws InputError  "file:line: ..." if it is no such log or lacks a needed column.
+    /// \throws InputError  "file:line: ..." if it is not such a log or lacks a required column.
     TripFollower(const std::filesystem::path& file, const TripNeeds& needs);
 
     const TripMeta& meta() const { return rows_.meta(); }
     const std::vector<std::string>& unknown_columns() const { return rows_.header().unknown; }
 
-    /// What the next row gave; `rows` has one entry, which says why if it gave nothing. Nothing at
-    /// the end.
+    /// Samples of the next row; `rows` has one entry, with the reason if the row has no sample.
+    /// `std::nullopt` at the end.
     ///
-    /// \throws InputError  if "# end rows: N" comes with a wrong N.
+    /// \throws InputError  if "# end rows: N" has a wrong N.
     std::optional<TripLog> next();
 
-    /// Whether "# end rows: N" has come, by which a log says that it is whole.
+    /// Tests whether "# end rows: N" was read, which marks a complete log.
     bool closed() const { return rows_.closed(); }
     std::size_t count() const { return rows_.count(); }
 
-    const std::string& name() const { return name_; }   ///< of the file, for messages
-    std::string where() const { return rows_.where(); } ///< "file:line" of the row that came last
-    std::string row_text() const;                       ///< "file:line: 'text'" of it
+    const std::string& name() const { return name_; }   ///< file name for messages
+    std::string where() const { return rows_.where(); } ///< "file:line" of the last row
+    std::string row_text() const;                       ///< "file:line: 'text'" of the last row
 
 private:
     std::string name_;

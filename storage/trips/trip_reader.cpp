@@ -25,7 +25,7 @@ std::unique_ptr<ByteStream> open(const TripSource& source) {
                            : decompressed(file_bytes(source.file), source.name());
 }
 
-/// Or in memory.
+/// Size of the file, or of the contents in memory.
 std::size_t bytes_of_source(const TripSource& source) {
     if (source.contents) {
         return source.contents->files.front().bytes.size();
@@ -35,7 +35,7 @@ std::size_t bytes_of_source(const TripSource& source) {
     return unknown_size ? 0 : static_cast<std::size_t>(size);
 }
 
-/// Tells now and then how far the file was read, and stops when that is wished.
+/// Reports progress at intervals, and stops on request.
 class ProgressThrottle {
 public:
     ProgressThrottle(const TripSource& source, const Progress& progress)

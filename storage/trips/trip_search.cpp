@@ -24,7 +24,7 @@ bool is_track_name(std::string_view name) {
     return is_trip_name(name) || is_gpx_name(name);
 }
 
-/// Which names of files are those of trips.
+/// Predicate for the names of trip files.
 using NameTest = bool (*)(std::string_view);
 
 NameTest name_test(const TripWalkConfig& config) {
@@ -41,7 +41,7 @@ std::vector<std::string> files_under(const fs::path& folder) {
     return names;
 }
 
-/// A trip of a mapping: the file of its first table and those beside it.
+/// Trip of a mapping: the file of its first table and the files that belong to it.
 TripSource mapped_trip(const fs::path& path, const std::shared_ptr<const TripMapping>& mapping) {
     const auto file = path.filename().string();
     TripSource source{.file = path, .member = {}, .files = {file}, .mapping = mapping};
@@ -57,7 +57,7 @@ TripSource mapped_trip(const fs::path& path, const std::shared_ptr<const TripMap
     return source;
 }
 
-/// A folder's path without a slash at its end, so that it has a name.
+/// Path of a folder without a final slash, so that it has a name.
 fs::path named(const fs::path& path) {
     return path.has_filename() ? path : path.parent_path();
 }
@@ -91,7 +91,7 @@ TripWalk::TripWalk(const fs::path& path, TripWalkConfig config) : config_{std::m
 TripWalk::TripWalk(TripWalk&&) noexcept = default;
 TripWalk::~TripWalk() = default;
 
-/// In the order of their names.
+/// Adds the items in the order of their names.
 void TripWalk::take(NamedItems items) {
     std::ranges::stable_sort(
         items, {}, [](const auto& item) -> const auto& { return item.first; });
@@ -100,7 +100,7 @@ void TripWalk::take(NamedItems items) {
     }
 }
 
-/// Counts files that are not read.
+/// Counts ignored files.
 void TripWalk::take_others(std::size_t count, const std::string& first) {
     if (first_other_file_.empty() && count > 0) {
         first_other_file_ = first;
@@ -113,7 +113,7 @@ void TripWalk::find_in_folder(const fs::path& folder) {
     const auto names = files_under(folder);
     std::set<std::string> others{names.begin(), names.end()};
     for (const auto& name : names) {
-        const bool dangles = !fs::exists(folder / name); // a link; the reader says so
+        const bool dangles = !fs::exists(folder / name); // broken link, reported by the reader
         if (!fs::is_regular_file(folder / name) && !dangles) {
             continue;
         }
@@ -121,7 +121,7 @@ void TripWalk::find_in_folder(const fs::path& folder) {
         if (name_test(config_)(name)) {
             items.emplace_back(name, Item{.source = source});
             others.erase(name);
-        } else if (name.ends_with(".zip") && !dangles) { // told when it was looked at
+        } else if (name.ends_with(".zip") && !dangles) { // a broken link was already reported
             items.emplace_back(name, Item{.source = source, .is_archive = true});
             others.erase(name);
         }

@@ -14,45 +14,46 @@ namespace macadam {
 class ArchivedTrips;
 
 struct TripWalkConfig {
-    /// If given, the path is foreign: itself, or every file under it that fits the mapping's first
-    /// table, is a trip.
+    /// If set, the path is in a foreign format: the file, or every file below the folder that
+    /// matches the mapping's first table, is a trip.
     std::shared_ptr<const TripMapping> mapping{};
 
-    bool tracks = false; ///< every *.gpx[.gz|.zst] is a trip, too: positions are enough
-    std::size_t max_files = max_archive_files; ///< of an archive
+    bool tracks = false; ///< every *.gpx[.gz|.zst] is a trip as well: positions suffice
+    std::size_t max_files = max_archive_files; ///< in an archive
 };
 
-/// The trips that a path stands for, one after the other: itself, every *.trip.csv[.gz|.zst] under
-/// a folder in byte order of their relative paths, or every such file of a .zip, .tar, .tar.gz or
-/// .tar.zst archive in the archive's order; and every export of phyphox or Sensor Logger, which is
-/// a folder, under a folder, in an archive, or in a .zip under a folder.
+/// Iterates over the trips of a path: the file itself, every *.trip.csv[.gz|.zst] below a folder in
+/// byte order of the relative paths, or every such file of a .zip, .tar, .tar.gz or .tar.zst
+/// archive in its order; and every export of phyphox or Sensor Logger, which is a folder, below a
+/// folder, in an archive, or in a .zip below a folder.
 ///
-/// An archive is read once, as far as trips are asked for; its trips come with their contents.
+/// An archive is read once, as far as trips are requested; its trips carry their contents.
 class TripWalk {
 public:
-    /// \throws InputError  if there is no such file or folder, or a trip under a folder lacks one
+    /// \throws InputError  if there is no such file or folder, or a trip below a folder lacks one
     ///                     of the mapping's files.
     explicit TripWalk(const std::filesystem::path& path, TripWalkConfig config = {});
     TripWalk(TripWalk&&) noexcept;
     ~TripWalk();
 
-    /// Nothing at the end. A trip that cannot be had is there, too: reading it says why.
+    /// Next trip; `std::nullopt` at the end. Reading a trip that could not be extracted throws the
+    /// reason.
     std::optional<TripSource> next();
 
-    std::size_t other_files() const { return other_files_; } ///< seen and not read, so far
+    std::size_t other_files() const { return other_files_; }                  ///< ignored so far
     const std::string& first_other_file() const { return first_other_file_; } ///< "" = none
 
     /// Number of trips; std::nullopt while an archive may hold more.
     std::optional<std::size_t> count() const;
-    std::size_t given() const { return given_; } ///< trips so far
+    std::size_t given() const { return given_; } ///< trips returned so far
 
-    std::vector<std::filesystem::path> files() const; ///< all that are or will be read
+    std::vector<std::filesystem::path> files() const; ///< all files that are or will be read
 
 private:
     struct Item {
         TripSource source;
         bool is_archive = false;
-        bool is_log = false; ///< of an archive: it may hold logs; otherwise exports alone
+        bool is_log = false; ///< the archive may hold logs; otherwise only exports
     };
     using NamedItems = std::vector<std::pair<std::string, Item>>;
 
@@ -64,7 +65,7 @@ private:
     TripWalkConfig config_;
     std::vector<Item> items_;
     std::size_t next_ = 0;
-    std::size_t archives_ = 0; ///< among those that are to come, and the one at hand
+    std::size_t archives_ = 0; ///< remaining archives, including the current one
     std::unique_ptr<ArchivedTrips> archive_;
     std::size_t other_files_ = 0;
     std::string first_other_file_;
@@ -72,7 +73,7 @@ private:
     std::size_t given_before_archive_ = 0;
 };
 
-/// The first trip of a path, and how many there are.
+/// First trip of a path, and the number of trips.
 struct FirstTrip {
     std::optional<TripSource> trip;
     std::size_t count = 0;

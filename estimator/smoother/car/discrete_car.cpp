@@ -12,9 +12,9 @@ CarSteps car_steps(const LinearCar& car, double step_s) {
     constexpr int m = LinearCar::inputs;
     constexpr int pulls = pull_count;
     const double part_s = step_s / CarSteps::parts;
-    // The inputs, their slopes and the pulls join the states: C. F. Van Loan, "Computing integrals
-    // involving the matrix exponential", IEEE Transactions on Automatic Control 23 (1978), pp.
-    // 395-404.
+    // The inputs, their slopes and the pulls are appended to the states: C. F. Van Loan, "Computing
+    // integrals involving the matrix exponential", IEEE Transactions on Automatic Control 23
+    // (1978), pp. 395-404.
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + 2 * m + pulls, n + 2 * m + pulls);
     whole.topLeftCorner(n, n) = car.a * part_s;
     whole.block(0, n, n, m) = car.b * part_s;

@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// A linear car in steps of time, while the road under each wheel is a line in each of a few parts
-/// of the step.
+/// Linear car in discrete time; within a step, the road under each wheel is linear in each of a few
+/// parts.
 struct CarSteps {
     static constexpr std::size_t parts = 4;
 
@@ -21,13 +21,13 @@ struct CarSteps {
     Eigen::Matrix<double, LinearCar::states, pull_count> lean; ///< ... + lean * arm * pull
 };
 
-/// Exact while the inputs are lines between the borders of the parts (first-order hold), and pulls
-/// are even over the step.
+/// Discretises a car. The result is exact if the inputs are linear between the borders of the parts
+/// (first-order hold) and pulls are constant over the step.
 CarSteps car_steps(const LinearCar& car, double step_s);
 
-/// What the elevations on a few stations of the road do to the car over one step: for each station
-/// a column over the heave states, which its mean of the tracks moves, and one over the roll
-/// states, which half the difference moves.
+/// Effect of the elevations at a few stations on the car over one step: each station has a column
+/// over the heave states, driven by the mean of the tracks, and a column over the roll states,
+/// driven by half the difference.
 struct RoadPush {
     static constexpr std::size_t max_cells = 12;
 
@@ -41,9 +41,9 @@ struct RoadPush {
     std::array<Axle, 2> axles; ///< front, rear
 };
 
-/// \param travel_m  of the centre of gravity at the step's begin
-/// \param run_m     driven within the step, at most (max_cells - 3) * cell_m
-/// \param cell_m    between stations; station i lies at i * cell_m
+/// \param travel_m  of the centre of gravity at the beginning of the step
+/// \param run_m     travel within the step, at most (max_cells - 3) * cell_m
+/// \param cell_m    station spacing; station i lies at i * cell_m
 RoadPush road_push(const CarSteps& steps, double travel_m, double run_m, double cell_m);
 
 } // namespace macadam

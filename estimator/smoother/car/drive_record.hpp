@@ -10,35 +10,35 @@
 
 namespace macadam {
 
-/// What one car felt on its way over the road, on an even grid of time. Every series that is there
-/// has as many values as travel_m.
+/// Sensor record of one car's drive over the road, on an even grid of time. Every series that is
+/// present has as many values as travel_m.
 struct DriveRecord {
-    std::vector<CarSteps> cars;      ///< one, or as many as its damping takes values; same step_s
-    std::vector<std::uint8_t> which; ///< of them holds up to each sample; empty: the first
-    std::int64_t first_sample = 0;   ///< on the trip's own count, so that pieces of it draw alike
-    std::vector<double> travel_m;    ///< of the centre of gravity, rising
+    std::vector<CarSteps> cars;      ///< one, or one per damping value; same step_s
+    std::vector<std::uint8_t> which; ///< index of the car up to each sample; empty: the first
+    std::int64_t first_sample = 0;   ///< since the start of the trip, for equal draws in pieces
+    std::vector<double> travel_m;    ///< of the centre of gravity, increasing
     std::array<std::vector<double>, channel_count> felt; ///< m/s^2, rad/s; empty: not sampled
-    /// Of what the linear car does not explain: sensor noise, and what the model leaves out.
+    /// Variance of the part that the linear car does not explain: sensor noise and model error.
     std::array<std::vector<double>, channel_count> variance;
-    std::array<double, channel_count> drift{}; ///< of a channel's zero: its variance per second
+    std::array<double, channel_count> drift{}; ///< variance per second of a channel's zero drift
     /// m/s^2, over the step up to each sample; empty: none, or not known.
     std::array<std::vector<double>, pull_count> pull;
 };
 
-/// The car up to a sample.
+/// Returns the car that applies up to a sample.
 const CarSteps& car_at(const DriveRecord& passage, std::size_t sample);
 
-/// Stations i * cell_m, i = first_cell and on; the road is a line between two of them.
+/// Grid of stations i * cell_m, i >= first_cell; the road is linear between two stations.
 struct RoadGrid {
     double cell_m = 0.25;
     std::ptrdiff_t first_cell = 0;
     std::size_t cells = 0;
 };
 
-/// The stations that the passages' wheels come over, from a whole metre on.
+/// Returns the stations that the wheels of the passages cross, starting at a whole metre.
 RoadGrid grid_under(std::span<const DriveRecord> passages, double cell_m);
 
-/// A number for the mean of the tracks and one for half the difference, left minus right.
+/// Values for the mean of the tracks and for half the difference, left minus right.
 struct Pair {
     double mean = 0;
     double half = 0;
@@ -46,8 +46,8 @@ struct Pair {
 
 using CarState = Eigen::Matrix<double, LinearCar::states, 1>;
 
-/// How the passage's car moves over a road on the grid, at every sample; it starts at rest, and
-/// nothing pulls at it.
+/// Simulates the passage's car over a road on the grid and returns its state at every sample. It
+/// starts at rest and without pulls.
 std::vector<CarState>
 simulate_response(const DriveRecord& passage, const RoadGrid& grid, std::span<const Pair> road_m);
 

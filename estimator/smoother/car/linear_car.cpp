@@ -5,7 +5,7 @@
 namespace macadam {
 namespace {
 
-// Places of the coordinates among the states; each is followed by its rate.
+// Positions of the coordinates among the states; each is followed by its rate.
 constexpr int heave = 0;
 constexpr int pitch = 2;
 constexpr int front_mean = 4;
@@ -14,10 +14,10 @@ constexpr int roll = 8;
 constexpr int front_half = 10;
 constexpr int rear_half = 12;
 
-/// A force as a row over the states.
+/// Force as a row over the states.
 using Row = LinearCar::Row;
 
-/// Spring and damper between a wheel and the body above it.
+/// Returns the force of spring and damper between a wheel and the body above it.
 Row suspension(double ks_n_per_m, double cs_ns_per_m, const Row& stroke) {
     Row force = ks_n_per_m * stroke;
     for (int i = 0; i < LinearCar::states; i += 2) {

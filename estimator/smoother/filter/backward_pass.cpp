@@ -9,7 +9,7 @@ using Vector = std::vector<double>;
 
 constexpr auto heaves = static_cast<std::size_t>(LinearCar::heave_states);
 
-/// De Jong's r, for the estimate and for the drawn error, from the last sample to the first.
+/// Backward recursion of de Jong's r, for the estimate and for the drawn error.
 class Smoother {
 public:
     Smoother(std::span<const DriveRecord> passages,
@@ -43,7 +43,7 @@ private:
     const RoadPrior& prior_;
     const FilterResult& forward_;
     const StateLayout& layout_;
-    std::size_t next_; ///< update, from the last
+    std::size_t next_; ///< index of the next update, from the last
     std::array<Vector, 2> r_;
     SmoothedRoad road_;
 };
@@ -124,7 +124,7 @@ void Smoother::over_step(const SampleOrder& event, const RoadPush& push, Vector&
     }
 }
 
-/// The smoothed increment of a station, and the station out of the window.
+/// Returns the smoothed increment of a station and removes the station from the window.
 Pair Smoother::disturbance(std::ptrdiff_t cell, const Increment& q, Vector& r) const {
     const auto index = static_cast<std::size_t>(cell - grid_.first_cell);
     double at_station[2] = {};

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// The way forward, the Kalman filter, as the way back needs it.
+/// Result of the Kalman filter (forward pass) in the form that the backward pass needs.
 struct FilterResult {
     StateLayout layout;
     std::vector<std::array<RoadProcessCoefficients, 2>> wander{};
@@ -16,7 +16,7 @@ struct FilterResult {
     SmootherMemory memory{};
     std::vector<Pair> drawn{}; ///< increments of the drawn road
     double log_likelihood = 0;
-    std::vector<double> innovation{}, log_variance{}; ///< as SmoothedRoad's
+    std::vector<double> innovation{}, log_variance{}; ///< as in SmoothedRoad
 };
 
 FilterResult kalman_filter(std::span<const DriveRecord> passages,
@@ -25,7 +25,7 @@ FilterResult kalman_filter(std::span<const DriveRecord> passages,
                            std::uint64_t seed,
                            SmootherMemory memory);
 
-/// The disturbance smoother: increments and residuals.
+/// Runs the disturbance smoother and returns increments and residuals.
 SmoothedRoad disturbance_smoother(std::span<const DriveRecord> passages,
                                   const RoadGrid& grid,
                                   const RoadPrior& prior,

@@ -13,19 +13,20 @@ using Vector = std::vector<double>;
 
 constexpr auto states = static_cast<std::size_t>(LinearCar::states);
 
-// What is known of a car before anything is felt; start-up forgets it.
+// Prior standard deviations of a car's state; start-up forgets them.
 constexpr double start_m = 0.05;
 constexpr double start_mps = 0.3;
 constexpr double start_rad = 0.03;
 constexpr double start_radps = 0.2;
 constexpr std::array<double, channel_count> start_zero{1, 1, 0.1, 0.1}; // m/s^2, rad/s
 
-// Lever arms of cars: their height above the ground or the roll axis, less what the suspension's
-// links take. They differ between braking and driving off, and while the brakes' force shifts.
+// Lever arms of cars: their height above the ground or the roll axis, less the effect of the
+// suspension's links. They differ between braking and driving off, and while the brake force
+// shifts.
 constexpr double start_arm_m = 0.5;
 constexpr double arm_drift_m2ps = 0.01;
 
-// What a number is drawn for.
+// Purposes of the random numbers.
 constexpr std::uint64_t for_start = 1;
 constexpr std::uint64_t for_road = 2;
 constexpr std::uint64_t for_zero = 3;
@@ -51,7 +52,7 @@ std::size_t readings_of(std::span<const DriveRecord> passages) {
     return count;
 }
 
-/// The estimate, its covariance, and the error of a road and readings that are drawn.
+/// Kalman filter: the estimate, its covariance, and the error of a drawn road with drawn readings.
 class Filter {
 public:
     Filter(std::span<const DriveRecord> passages,
@@ -79,7 +80,7 @@ private:
     std::size_t index(std::ptrdiff_t cell) const {
         return static_cast<std::size_t>(cell - grid_.first_cell);
     }
-    /// The station two before, or the first, where none is asked of it.
+    /// Returns the station two before, or the previous one near the start, where its weight is 0.
     std::ptrdiff_t two_before(std::ptrdiff_t cell) const {
         return index(cell) < 2 ? cell - 1 : cell - 2;
     }
@@ -113,7 +114,7 @@ private:
     FilterResult pass_;
     std::size_t size_;
     Vector p_;     ///< covariance, size * size
-    Vector moved_; ///< states * size: rows of it after a step
+    Vector moved_; ///< states * size: rows of the covariance after a step
     Vector gain_;
     Vector estimate_, error_;
 };
@@ -157,7 +158,7 @@ Pair Filter::draw_increment(std::ptrdiff_t cell, const Increment& q) {
                q, counter_normal(seed_, for_road, key, 0), counter_normal(seed_, for_road, key, 1));
 }
 
-/// A station comes into the window, in the place of the one that leaves it.
+/// Adds a station to the window, in the position of the one that leaves it.
 void Filter::append(std::ptrdiff_t cell) {
     const auto& layout = pass_.layout;
     const Increment& q = prior_.increments[index(cell)];
@@ -179,8 +180,8 @@ void Filter::append(std::ptrdiff_t cell) {
     correlate(cell, q);
 }
 
-/// Each new number with the other and with itself, by the rows that were just made: what stands in
-/// their own columns is still of the station that left.
+/// Sets the covariances of the new elements with each other and with themselves, from the rows just
+/// computed: their own columns still belong to the station that left.
 void Filter::correlate(std::ptrdiff_t cell, const Increment& q) {
     const auto& layout = pass_.layout;
     const auto& by = pass_.wander[index(cell)];
@@ -211,7 +212,8 @@ void Filter::correlate(std::ptrdiff_t cell, const Increment& q) {
     }
 }
 
-/// Rows [from, to) of the car's states after the step, into moved_; estimate and drawn error.
+/// Computes the rows [from, to) of the car's states after the step into moved_; also estimate and
+/// drawn error.
 void Filter::move_side(const SparseTransition& sums,
                        std::size_t from,
                        std::size_t to,
@@ -236,13 +238,13 @@ void Filter::move_side(const SparseTransition& sums,
     }
 }
 
-/// What wanders by itself.
+/// Adds process noise of variance q to a random walk state.
 void Filter::wander(std::size_t place, double q, double drawn) {
     row(place)[place] += q;
     error_[place] += std::sqrt(q) * drawn;
 }
 
-/// Covariances of the car's states after the step among themselves, from the moved rows.
+/// Returns the covariances among the car's states after the step, from the moved rows.
 Filter::Among Filter::among_moved(const StateLayout::Car& places,
                                   const std::array<SparseTransition, 2>& sides) const {
     const std::size_t n = places.states.size();
@@ -267,7 +269,7 @@ Filter::Among Filter::among_moved(const StateLayout::Car& places,
     return among;
 }
 
-/// The moved rows into the covariance, and into its columns.
+/// Stores the moved rows in the covariance and its columns.
 void Filter::put_moved(const StateLayout::Car& places, const Among& among) {
     const std::size_t n = places.states.size();
     const std::size_t at = places.first;
@@ -309,7 +311,7 @@ void Filter::predict(const SampleOrder& event, const RoadPush& push) {
     }
 }
 
-/// One channel's reading.
+/// Updates the state with one channel's reading.
 void Filter::take_in(const SampleOrder& event, std::size_t channel) {
     const DriveRecord& passage = passages_[event.car];
     const auto& felt = car_at(passage, event.sample).car.felt[channel];

@@ -4,17 +4,18 @@
 
 namespace macadam {
 
-/// A sample of a car, in the order in which front axles come along.
+/// Sample of a car, in the order of front axle positions.
 struct SampleOrder {
     std::size_t car, sample;
-    double front_m;           ///< where the front axle is
-    std::ptrdiff_t last_cell; ///< that must be there: the one ahead of it
+    double front_m;           ///< position of the front axle
+    std::ptrdiff_t last_cell; ///< last station required: the one ahead of the axle
 };
 
-/// All samples of the passages, in that order.
+/// Returns all samples of the passages in that order.
 std::vector<SampleOrder> events_of(std::span<const DriveRecord> passages, double cell_m);
 
-/// What the stations do to the event's car on its way from the sample before; nothing on the first.
+/// Returns the effect of the stations on the event's car since the previous sample; empty for the
+/// first.
 RoadPush
 push_of(std::span<const DriveRecord> passages, const RoadGrid& grid, const SampleOrder& event);
 

@@ -14,7 +14,7 @@ std::vector<std::array<RoadProcessCoefficients, 2>> wander_of(const RoadPrior& p
         grid.cells,
         std::array{RoadProcessCoefficients{mean_keep + colour, -mean_keep * colour},
                    RoadProcessCoefficients{half_keep, 0}});
-    // Nothing is known of the change before the first.
+    // The change before the first station is not known.
     for (std::size_t i = 0; i < std::min<std::size_t>(2, grid.cells); ++i) {
         wander[i] = {RoadProcessCoefficients{mean_keep, 0}, RoadProcessCoefficients{half_keep, 0}};
     }

@@ -4,23 +4,23 @@
 
 namespace macadam {
 
-/// One side of the road from station to station: elevation = one * the station before + two * the
-/// station before that + what the prior draws.
+/// Coefficients of one side of the road: elevation = one * the previous station + two * the station
+/// before that + an increment of the prior.
 struct RoadProcessCoefficients {
     double one, two;
 };
 
-/// Of both sides at each station of the grid.
+/// Returns the coefficients of both sides at each station of the grid.
 std::vector<std::array<RoadProcessCoefficients, 2>> wander_of(const RoadPrior& prior,
                                                               const RoadGrid& grid);
 
-/// Of the first station, whose road has wandered from everlasting.
+/// Returns the increment of the first station, where the process is stationary.
 Increment first_increment(const RoadPrior& prior, const RoadGrid& grid);
 
-/// A pair of standard normal numbers as the increments of a station.
+/// Scales a pair of standard normal numbers to the increments of a station.
 Pair drawn_increment(const Increment& q, double one, double two);
 
-/// Elevations out of increments.
+/// Computes elevations from increments.
 std::vector<Pair> profile_of(std::span<const Pair> increments_m,
                              std::span<const std::array<RoadProcessCoefficients, 2>> wander);
 

@@ -4,62 +4,63 @@
 
 namespace macadam {
 
-/// How much the road changes from a station to the next, m^2: variance of the mean of both tracks,
-/// of half their difference (left minus right), and the covariance of the two.
+/// Covariance of the change of the road between two stations, m^2: variance of the mean of both
+/// tracks, of half their difference (left minus right), and the covariance of the two.
 struct Increment {
     double mean, half, cross;
 };
 
-/// What is thought of a road before it is driven: mean and half difference wander from station to
-/// station, and each forgets where it was over a length.
+/// Prior of a road: mean and half difference follow a random walk from station to station, each
+/// with a correlation length.
 struct RoadPrior {
-    std::vector<Increment> increments; ///< as many as the grid has stations
-    /// How much of a station's change goes on to the next, in (-1, 1): above 0 the spectrum of
-    /// elevation falls faster than that of a random walk (waviness above 2), below 0 slower. Of the
-    /// mean; half the difference keeps to a random walk.
+    std::vector<Increment> increments; ///< one per station of the grid
+    /// Correlation of consecutive changes, in (-1, 1): above 0 the spectrum of elevation falls
+    /// faster than that of a random walk (waviness above 2), below 0 slower. It applies to the
+    /// mean; half the difference remains a random walk.
     double colour = 0;
-    double mean_length_m = 30; ///< a corner at 190 m, where the golden car feels nothing
+    double mean_length_m = 30; ///< corner at 190 m, where the golden car has no response
     double half_length_m = 4;  ///< long waves are common to both tracks
 };
 
-/// What is left of a channel's readings, over their variance, per sample: squares of the most
-/// probable noise, and of one draw about it.
+/// Residuals of a channel's readings over their variance, per sample: squares of the most probable
+/// noise (`seen`), and of one draw about it (`open`).
 struct Residual {
     std::vector<float> seen, open;
 };
 
 struct SmoothedRoad {
-    std::vector<Pair> profile_m;      ///< the mean of all roads that could have been, per station
-    std::vector<Pair> perturbation_m; ///< added to it, or taken off: one of those roads
-    std::vector<Pair> increment_m;    ///< of the profile: what the prior's `increments` are of
-    std::vector<Pair> perturbed_m;    ///< of the perturbation
-    double log_likelihood = 0;        ///< of what was felt, but for a constant
-    std::vector<double> innovation;   ///< over its sd, in the order in which it came
+    std::vector<Pair> profile_m;      ///< posterior mean, per station
+    std::vector<Pair> perturbation_m; ///< add or subtract: a draw from the posterior
+    std::vector<Pair> increment_m;    ///< of the profile, as the prior's `increments`
+    std::vector<Pair> perturbed_m;    ///< increments of the perturbation
+    double log_likelihood = 0;        ///< of the readings, up to a constant
+    std::vector<double> innovation;   ///< over its sd, in the order of processing
     std::vector<double> log_variance; ///< of the innovation
-    std::vector<std::array<Residual, channel_count>> residual; ///< of each passage
+    std::vector<std::array<Residual, channel_count>> residual; ///< per passage
 };
 
-/// A channel's reading taken in, as the way back needs it.
+/// Update of the filter by one reading, as the backward pass needs it.
 struct Update {
-    double innovation; ///< of the estimate over its variance, ...
+    double innovation; ///< of the estimate, over its variance, ...
     double error;      ///< ... and of the drawn error
-    double noise;      ///< that was drawn
+    double noise;      ///< drawn noise
 };
 
-/// Memory of a smoother, for the next round to use again.
+/// Work memory of a smoother, reused in the next round.
 struct SmootherMemory {
     std::vector<Update> updates;
-    std::vector<double> gains; ///< of the updates, a whole state each
+    std::vector<double> gains; ///< of the updates, one full state each
 };
 
-/// The road under linear cars: posterior mean, and a draw about it.
+/// Estimates the road under linear cars: posterior mean, and a draw about it.
 ///
 /// A Kalman filter over the cars' states, the zeros of their channels, the arms of their pulls and
-/// the stations between the axles (StateLayout), sample by sample in the order in which the front
-/// axles come along; then the disturbance smoother. Rear axles meet the stations that front axles
-/// have left, so nothing is delayed and nothing is approximated but the line between stations. Cost
-/// grows with the samples, and with the square of the wheelbase in stations. Of a side of the road
-/// that nothing felt depends on, the profile is 0 and the perturbation a draw of the prior.
+/// the stations between the axles (StateLayout) processes the samples in the order of the front
+/// axles; the disturbance smoother follows. Rear axles meet the stations that front axles have
+/// left, so no delay is needed, and the only approximation is the straight line between stations.
+/// The cost is proportional to the samples and to the square of the number of stations in the
+/// wheelbase. For a side of the road that affects no reading, the profile is 0 and the perturbation
+/// a draw of the prior.
 ///
 /// \param passages  at least one, each of two samples or more
 /// \param seed      of the draw; the same for the same stations and samples, however they are cut

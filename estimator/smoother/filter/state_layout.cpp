@@ -9,7 +9,7 @@ namespace {
 constexpr auto states = static_cast<std::size_t>(LinearCar::states);
 constexpr auto heaves = static_cast<std::size_t>(LinearCar::heave_states);
 
-/// States on which what was felt depends, directly or through others.
+/// Returns the states that affect the readings, directly or through others.
 std::array<bool, states> live_states(const DriveRecord& passage) {
     const LinearCar& car = passage.cars.front().car;
     std::array<bool, states> live{};
@@ -28,7 +28,8 @@ std::array<bool, states> live_states(const DriveRecord& passage) {
     return live;
 }
 
-/// Stations that must be held at once: under the longest car and what it drives in a step.
+/// Returns the number of stations held at once: those under the longest car and its travel in a
+/// step.
 std::size_t window_of(std::span<const DriveRecord> passages, double cell_m) {
     double longest_m = 0;
     for (const auto& passage : passages) {

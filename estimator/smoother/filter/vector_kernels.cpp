@@ -1,7 +1,7 @@
 #include "estimator/smoother/filter/vector_kernels.hpp"
 
-// Clones of a function for wider registers, chosen as the program starts. Sanitizers come up after
-// that choice and crash in it; Clang spells it in another way.
+// Clones functions for wider registers; the choice is made at program start. Sanitizers are
+// initialised after that choice and crash in it; Clang has another syntax.
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&                  \
     defined(__x86_64__)
 #define MACADAM_WIDE __attribute__((target_clones("default", "avx2")))

@@ -2,11 +2,11 @@
 
 #include <cstddef>
 
-/// The filter's inner loops. Every number is computed by itself, no sum is taken across a vector
-/// and nothing is contracted, so that any width of registers gives the same bits.
+/// Inner loops of the filter. Each number is computed by itself, without sums across a vector or
+/// contraction, so that registers of any width give the same bits.
 namespace macadam::wide {
 
-/// to = by * from; the two may be one.
+/// to = by * from; the two may be identical.
 void copy_times(double* to, double by, const double* from, std::size_t n);
 
 /// to += by * from.

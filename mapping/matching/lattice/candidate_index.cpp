@@ -8,15 +8,16 @@
 namespace macadam {
 namespace {
 
-constexpr double look_ahead_m = 120; // of one look into the index, for the positions to come
-constexpr double hairpin_m = 25;     // a line that left by so much and came back is near twice
+constexpr double look_ahead_m = 120; // extra radius of an index query, for the following positions
+constexpr double hairpin_m = 25;     // a line that departs this far and returns yields two points
 
 struct OnStep {
     double fraction;
     double distance_m;
 };
 
-/// Not std::hypot: plain metres cannot overflow, and it is called for every point nearby.
+/// Not std::hypot: coordinates in metres cannot overflow, and this is called for every nearby
+/// point.
 double apart_m(const PointEn& a, const PointEn& b) {
     const double east_m = b.east_m - a.east_m;
     const double north_m = b.north_m - a.north_m;
@@ -45,7 +46,7 @@ place_at(LinkId link, const LinePoint& a, const LinePoint& b, const OnStep& on, 
             step_m > 0 ? cross / step_m : on.distance_m};
 }
 
-/// The places where the line's distance is at a minimum, with a hill of hairpin_m between two.
+/// Adds the points of minimum distance, separated by a rise of at least hairpin_m.
 void add_minima(std::vector<NearPlace>& places,
                 LinkId link,
                 std::span<const LinePoint> line,

@@ -13,19 +13,20 @@ namespace macadam {
 /// A point of a link's line in the plane.
 struct LinePoint {
     PointEn at;
-    double along_m; ///< from the link's beginning, in its way's own direction
+    double along_m; ///< from the start of the link, in its way's own direction
 };
 
-/// The place of a link that is nearest to a position.
+/// The point of a link nearest to a position.
 struct NearPlace {
     LinkId link;
     double along_m;
     double distance_m;
-    double course_rad; ///< of the line there, in its way's own direction
-    double right_m;    ///< the position lies so far right of the line, however far it goes on
+    double course_rad; ///< of the line at that point, in its way's own direction
+    double right_m;    ///< signed distance of the position to the right of the line extended
 };
 
-/// The roads near one trip, in its plane. Links are projected when first asked for, each once.
+/// Spatial index of the roads near one trip, in its plane. Each link is projected once, on first
+/// use.
 class CandidateIndex {
 public:
     CandidateIndex(const RoadNetwork& roads, const LocalFrame& frame)
@@ -33,18 +34,18 @@ public:
 
     std::span<const LinePoint> line(LinkId link);
 
-    /// Places within `radius_m` of a position, nearest first. A link that comes near twice, as a
-    /// hairpin does, gives a place each time.
+    /// Finds the points within `radius_m` of a position, nearest first. A link that approaches
+    /// twice, as a hairpin does, yields two.
     std::vector<NearPlace> near(const PointEn& at, const GeoPoint& place, double radius_m);
 
-    /// The place of a link that is nearest to a position.
+    /// Finds the point of a link nearest to a position.
     NearPlace nearest(LinkId link, const PointEn& at);
 
 private:
     struct Drawn {
-        std::uint32_t first; ///< in points_
+        std::uint32_t first; ///< index into points_
         std::uint32_t count;
-        PointEn low; ///< corners of the line's box
+        PointEn low; ///< bounding box of the line
         PointEn high;
     };
     struct Nearby {
@@ -60,7 +61,7 @@ private:
     std::vector<LinePoint> points_;
     std::unordered_map<std::uint32_t, Drawn> drawn_; ///< by LinkId
 
-    std::vector<Nearby> nearby_; ///< links around nearby_at_, for the next positions too
+    std::vector<Nearby> nearby_; ///< links around nearby_at_, cached for the next positions
     PointEn nearby_at_{};
     double nearby_radius_m_ = -1;
 };

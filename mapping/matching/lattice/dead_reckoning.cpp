@@ -16,27 +16,27 @@ enum State : int { east, north, along, across, error_east, error_north, states }
 using Vector = Eigen::Matrix<double, states, 1>;
 using Square = Eigen::Matrix<double, states, states>;
 
-constexpr double far_m = 100; // between fixes: nearer ones tell enough of the way
+constexpr double far_m = 100; // between fixes: closer fixes identify the path by themselves
 constexpr double worst_sd_m = 100;
 constexpr double min_step_s = 0.95;
-constexpr double draw_step_m = 5;      // chords of it stand for the way, ...
-constexpr double max_draw_steps = 200; // ... longer ones for what no sensor saw
-constexpr double min_moment_s = 0.5;   // no car goes the spacing of samples in less
+constexpr double draw_step_m = 5;      // usual chord of the reconstructed path
+constexpr double max_draw_steps = 200; // longer chords for gaps without any sensor
+constexpr double min_moment_s = 0.5;   // no car covers the sampling distance faster
 constexpr double slow_error_s = 30;
 constexpr double quick_error_m = 1;
-constexpr double credible = 18;         // squared sds of a fix: beyond, it counts less
+constexpr double credible = 18;         // squared sds beyond which a fix counts less
 constexpr double size_walk = 1e-9;      // per m
 constexpr double slip_variance = 1e-3;  // m2 per m, along and across
-constexpr double bias_alike_s = 30;     // what is left of a gyro's bias is alike so long
-constexpr double silence_variance = 10; // of the heading after one: anything
+constexpr double bias_alike_s = 30;     // correlation time of the residual gyro bias
+constexpr double silence_variance = 10; // of the heading after a gap: unconstrained
 
-/// A moment, with the step that wheels and gyro drew since the one before.
+/// A time with the step by wheels and gyro since the previous one.
 struct Moment {
     double t_s;
     double travel_m;
-    PointEn drawn_m;         ///< turned and sized as the gyro's zero and the wheels have it
-    double heading_variance; ///< gained on the way
-    const Position* fix;     ///< null between fixes
+    PointEn drawn_m;         ///< rotated and scaled by the gyro's zero and the wheels
+    double heading_variance; ///< gained during the step
+    const Position* fix;     ///< nullptr between fixes
 };
 
 bool is_far(const Position& a, const Position& b, const MatchObservations& positions) {

@@ -7,24 +7,26 @@
 
 namespace macadam {
 
-/// A place that no fix gave.
+/// A dead-reckoned position.
 struct DeadReckoned {
     double t_s;
     double travel_m;
-    PointEn at;       ///< in Positions::frame
+    PointEn at;       ///< in MatchObservations::frame
     double sd_m;      ///< per axis
     float course_rad; ///< clockwise from north
 };
 
-/// Where the car went between fixes that lie far apart, as in tunnels, from its odometer and gyro:
-/// one place each `spacing_m` of travel, so that the shape of the way tells which one it was.
+/// Reconstructs the car's path between fixes that are far apart, as in tunnels, from its odometer
+/// and gyro: one position per `spacing_m` of travel, so that the shape of the path identifies the
+/// road.
 ///
-/// What wheels and gyro draw is right but for where it begins, how it is turned and how large it
-/// is. All three are linear in the place and in (size * cos turn, size * sin turn), so that one
-/// linear filter, smoothed backward, fits the drawing to the fixes on both sides; the receiver's
-/// slow error is in its state too.
+/// The path from wheels and gyro is correct except for its origin, rotation and scale. All three
+/// are linear in the position and in (scale * cos rotation, scale * sin rotation), so that one
+/// linear filter, smoothed backward, fits the path to the fixes on both sides; its state includes
+/// the receiver's slow error.
 ///
-/// \returns  nothing where travel or turns were not measured, or the places would be no good.
+/// \returns  an empty vector if travel or turns were not measured, or the positions would be too
+/// poor.
 std::vector<DeadReckoned>
 dead_reckoned(const MatchObservations& positions, const Odometer& odometer, double spacing_m);
 

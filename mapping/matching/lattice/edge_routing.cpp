@@ -10,17 +10,16 @@ namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180;
 constexpr std::size_t first_labels = 1024;
-constexpr std::size_t most_kept = 1'000'000; // edges reached, 20 MB
-constexpr double dead_end_share = 0.25; // of the price of a U-turn, where there is no other way
+constexpr std::size_t most_kept = 1'000'000; // cached edges, 20 MB
+constexpr double dead_end_share = 0.25;      // of the cost of a U-turn, where there is no other way
 
 constexpr auto dearer = [](const auto& a, const auto& b) {
     return a.cost_m > b.cost_m || (a.cost_m == b.cost_m && a.edge > b.edge);
 };
 
-// What a degree is at least, on the ellipsoid; straight lines on this plane are no longer than
-// roads.
+// Lower bounds of a degree on the ellipsoid; straight lines in this plane are no longer than roads.
 constexpr double north_m_per_deg = 110'574;
-constexpr double east_m_per_deg = 111'319 * 0.99; // at the equator; parallels differ within reach
+constexpr double east_m_per_deg = 111'319 * 0.99; // at the equator; parallels differ in range
 
 double apart_m(const GeoPoint& a, const GeoPoint& b, double east_per_deg) {
     return std::hypot((a.lat_deg - b.lat_deg) * north_m_per_deg,
@@ -66,14 +65,14 @@ EdgeRouter::Goal EdgeRouter::goal_of(std::span<const EdgeId> targets) const {
     goal.east_m_per_deg = east_m_per_deg * std::cos(goal.centre.lat_deg * rad_per_deg);
     for (const auto target : targets) {
         const auto at = place_of(roads_, from_node(roads_, target));
-        // The other way round: here what is too long is safe.
+        // The other way round: here an overestimate is safe.
         goal.radius_m =
             std::max(goal.radius_m, 1.03 * apart_m(at, goal.centre, goal.east_m_per_deg));
     }
     return goal;
 }
 
-/// What is left at least between the end of an edge and the nearest target.
+/// Returns a lower bound of the distance from the end of an edge to the nearest target.
 double EdgeRouter::left_m(EdgeId edge) const {
     if (!goal_) {
         return 0;
@@ -82,7 +81,7 @@ double EdgeRouter::left_m(EdgeId edge) const {
     return std::max(0.0, apart_m(at, goal_->centre, goal_->east_m_per_deg) - goal_->radius_m);
 }
 
-/// On from the end of an edge.
+/// Expands the end of an edge.
 void EdgeRouter::leave(const ReachableEdge& end, double longest_m) {
     const auto [edge, before, way_m, turn_m_so_far, min_s] = end;
     const auto left = static_cast<float>(left_m(edge));
@@ -92,14 +91,14 @@ void EdgeRouter::leave(const ReachableEdge& end, double longest_m) {
     for (const auto next : out_edges(roads_, to_node(roads_, edge))) {
         const bool turns = next == reversed(edge);
         if (turns && turn_m_so_far > 0) {
-            continue; // nobody turns round twice between two samples
+            continue; // no car turns round twice between two samples
         }
         auto turn = turn_m_so_far;
         if (turns) {
             turn += static_cast<float>(turn_m(edge));
         } else if (!may_turn(roads_, edge, next)) {
-            turn +=
-                static_cast<float>(u_turn_cost_m_); // drivers do, and maps err: dear, not barred
+            turn += static_cast<float>(
+                u_turn_cost_m_); // drivers do it, and maps err: penalised, not forbidden
         }
         auto& label = label_of(next);
         const auto& known = label.reached;
@@ -135,7 +134,7 @@ EdgeRouter::search(EdgeId edge, std::span<const EdgeId> targets, double longest_
             continue;
         }
         label.settled = true;
-        const auto reached = label.reached; // leave() may move the labels
+        const auto reached = label.reached; // leave() may reallocate the labels
         settled_.push_back(reached);
         if (std::binary_search(targets.begin(), targets.end(), next) && --missing == 0) {
             break;
@@ -154,7 +153,7 @@ EdgeRouter::search(EdgeId edge, std::span<const EdgeId> targets, double longest_
 }
 
 const std::vector<ReachableEdge>& EdgeRouter::around(EdgeId edge) {
-    if (around_count_ > most_kept) { // a trip seldom comes back
+    if (around_count_ > most_kept) { // trips seldom return
         around_.clear();
         around_count_ = 0;
     }
@@ -172,7 +171,8 @@ EdgeRouter::towards(EdgeId edge, std::span<const EdgeId> targets, double longest
 }
 
 const ReachableEdge* find(const std::vector<ReachableEdge>& reached, EdgeId edge) {
-    // Not std::lower_bound: half its branches are guessed wrong, and nothing is asked as often.
+    // Not std::lower_bound: half its branches are mispredicted, and this is the most frequent
+    // query.
     const auto* first = reached.data();
     for (auto count = reached.size(); count > 1;) {
         const auto half = count / 2;
@@ -185,8 +185,7 @@ const ReachableEdge* find(const std::vector<ReachableEdge>& reached, EdgeId edge
 std::vector<EdgeId>
 edges_before(const std::vector<ReachableEdge>& reached, EdgeId departure, EdgeId to) {
     std::vector<EdgeId> edges;
-    // The way may come back to the edge it left; only its first edge was entered from there at
-    // once.
+    // The path may return to the departure edge; only its first edge was entered directly from it.
     for (const auto* at = find(reached, to);
          at != nullptr && !(at->before == departure && at->way_m == 0);
          at = find(reached, at->before)) {

@@ -14,25 +14,25 @@ namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180;
 
-// Positions beside a road err alike from sample to sample, so one sample says much less than its
-// error alone would make it: hence an sd of several times the median distance.
+// Position errors are correlated from sample to sample, so one sample carries much less information
+// than its error suggests: hence an sd of several times the median distance.
 constexpr std::size_t asked_samples = 60;
 constexpr double sd_per_median = 5.5;
 constexpr double usual_m = 30; // hardly any position lies farther from its road
 constexpr double best_share = 0.5;
 constexpr double sample_weight = 0.75;
-constexpr double normal_sd_per_median = 1.4826; // of the size of a normal error
-constexpr double min_close_sd_m = 3;            // maps err, too
-constexpr double farthest_lane_m = 20;          // from a road's line
-constexpr double lane_doubt = 8;                // samples that tell as much as not knowing does
+constexpr double normal_sd_per_median = 1.4826;          // of absolute normal errors
+constexpr double min_close_sd_m = 3;                     // maps have errors too
+constexpr double farthest_lane_m = 20;                   // from a road's line
+constexpr double lane_doubt = 8;                         // weight of the prior, in samples
 constexpr double drawn_course_sd_rad = 60 * rad_per_deg; // positions wander sideways together
-constexpr double chord_spread = 0.1;     // a way is longer than its chord by so much, more or less
-constexpr double odometer_spread = 0.02; // scale of the odometer and the map's cut corners
-constexpr double standing_mps = 2;       // a mean speed below: the car stood
+constexpr double chord_spread = 0.1;     // uncertainty of path length against its chord
+constexpr double odometer_spread = 0.02; // scale of the odometer and corners cut by the map
+constexpr double standing_mps = 2;       // mean speed below which the car stood
 constexpr double standing_s = 5;
-constexpr double error_memory_s = 30; // of the receiver's error: how slowly it changes
-constexpr double mean_of_two = 1.13;  // of |difference| of two normal errors, in sd of one
-constexpr double min_step_m = 10;     // of the line through positions: less counts noise
+constexpr double error_memory_s = 30; // correlation time of the receiver's error
+constexpr double mean_of_two = 1.13;  // mean |difference| of two normal errors, in sd of one
+constexpr double min_step_m = 10;     // of the line through positions: shorter steps are noise
 constexpr double dense_m = 60;        // a longer step may hide a detour
 
 const Turn unmeasured{0, std::numeric_limits<double>::infinity()};
@@ -47,12 +47,13 @@ double course_between(const Position& a, const Position& b) {
     return std::atan2(b.at.east_m - a.at.east_m, b.at.north_m - a.at.north_m);
 }
 
-constexpr double arm_m = 10;         // of a drawn course: to the position before and the one after
+constexpr double arm_m = 10; // of a course from positions: to the one before and the one after
 constexpr double longest_arm_m = 60; // the road may bend within more
 constexpr double longest_arm_s = 8;
-constexpr double straight_rad = 1; // arms that meet at more are a corner or noise
+constexpr double straight_rad = 1; // arms that meet at a larger angle are a corner or noise
 
-/// The first position at least arm_m away, going by `step`; nothing if there is none nearby.
+/// Finds the first position at least arm_m away in the direction of `step`; `std::nullopt` if none
+/// is nearby.
 std::optional<std::size_t> arm(const MatchObservations& positions, std::size_t from, int step) {
     const auto& all = positions.all;
     for (auto i = static_cast<std::ptrdiff_t>(from) + step;
@@ -93,8 +94,8 @@ std::optional<Course> drawn_course(const MatchObservations& positions, std::size
     return Course{course_between(a, b), sd_m / apart_m(a, b)};
 }
 
-/// Length of the line through the positions, those that are too near the one before left out: they
-/// would count noise.
+/// Length of the line through the positions. Positions too close to the previous one are skipped,
+/// as they add noise.
 struct Drawn {
     double length_m;
     double longest_m; ///< of its steps
@@ -115,12 +116,12 @@ Drawn drawn_between(const MatchObservations& positions, std::size_t from, std::s
     return drawn;
 }
 
-/// The nearest road of a sample that may be driven in the direction of its course.
+/// The nearest road to a sample that is drivable in the direction of its course.
 struct Beside {
     double distance_m;
     double right_m;
     bool two_way;
-    bool lane_known; ///< right_m is a lane's: the course is known and the road is near
+    bool lane_known; ///< true if right_m is a lane offset: the course is known and the road is near
 };
 
 std::optional<Beside> beside(const MatchObservations& positions,
@@ -155,7 +156,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Of roads of one kind; few samples say little.
+/// Estimates the lane offset on roads of one kind, shrunk towards 0 if samples are few.
 double lane_m(std::span<const Beside> besides, bool two_way) {
     std::vector<double> right_m;
     for (const auto& road : besides) {

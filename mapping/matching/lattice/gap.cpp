@@ -7,14 +7,14 @@
 namespace macadam {
 namespace {
 
-constexpr double parked_s = 180;    // longer than traffic lights and barriers take
-constexpr double parked_mps = 0.25; // receivers wander by tens of metres where a car stands
+constexpr double parked_s = 180;    // longer than stops at traffic lights and barriers
+constexpr double parked_mps = 0.25; // receivers wander by tens of metres while a car stands
 
 bool is_off(const BestState& chosen) {
     return chosen.candidate.off_network;
 }
 
-/// The longest stand between two samples off the network; 0 if none counts as parking.
+/// Returns the longest stop between two samples off the network; 0 if none counts as parking.
 double stood_s(const MatchObservations& positions, std::span<const BestState> chain) {
     double longest_s = 0;
     for (std::size_t i = 1; i < chain.size(); ++i) {

@@ -6,15 +6,15 @@
 
 namespace macadam {
 
-/// A part of a trip without a road.
+/// An interval of a trip that is not on a road.
 struct NetworkGap {
     IntervalKind kind;
     std::string reason;
 };
 
-/// Why there is no road between two samples of the chain, `to` being one past the end where the
-/// trip ends so: off the network where positions show the car drive (or stand) without a road; a
-/// gap where there are none.
+/// Classifies the absence of a road between two samples of the path, where `to` is past the end if
+/// the trip ends there: off the network if positions show the car driving (or standing) away from
+/// roads; otherwise a gap.
 NetworkGap hole_between(const MatchObservations& positions,
                         const std::vector<BestState>& chain,
                         std::size_t from,

@@ -12,27 +12,27 @@
 namespace macadam {
 namespace {
 
-constexpr double off_nats = 2;        // of a spacing off the network: a road 2 sd away
-constexpr double off_fit_nats = 1;    // and, where some road fits, so much more
-constexpr double off_switch_nats = 6; // leaving the network, and coming back
-constexpr double well_back_nats = 8;  // coming back to a road that fits is so much likelier
-constexpr double hopeless_nats = 5;   // behind another way to it by more: not looked at closely
-constexpr double sideways_nats = 12;  // and over to a road beside so much less likely
-constexpr float off_end_nats = 3;     // beginning or ending there
-constexpr double hop_nats = 16;       // leaving it and coming back between two samples
-constexpr double gap_nats = 25;       // going on elsewhere: more than any credible detour
-constexpr double beam_nats = 15;      // behind the best by more: not followed
+constexpr double off_nats = 2;     // per sampling distance off the network: like a road 2 sd away
+constexpr double off_fit_nats = 1; // additional cost if some road fits
+constexpr double off_switch_nats = 6; // for leaving the network and for returning
+constexpr double well_back_nats = 8;  // discount for returning to a road that fits
+constexpr double hopeless_nats = 5;   // worse than another path by more: not examined further
+constexpr double sideways_nats = 12;  // additional cost of moving over to a parallel road
+constexpr float off_end_nats = 3;     // for beginning or ending off the network
+constexpr double hop_nats = 16;       // for leaving and returning between two samples
+constexpr double gap_nats = 25;       // for a discontinuity: more than any credible detour
+constexpr double beam_nats = 15;      // worse than the best by more: pruned
 constexpr std::size_t widest_beam = 12;
-constexpr std::size_t widest_far_beam = 5; // where each needs a long search
+constexpr std::size_t widest_far_beam = 5; // if each state needs a long search
 constexpr double far_m = 1000;
 
-constexpr double fit_sds = 2; // a road fits whose lane is not farther from the position
+constexpr double fit_sds = 2; // lateral tolerance of a road that fits
 constexpr double fit_course_sd_rad = 15 * std::numbers::pi / 180;
 constexpr double farthest_fit_m = 20;
-constexpr double fit_without_course_nats = 1.2; // a road so near may lead another way
+constexpr double fit_without_course_nats = 1.2; // a near road may lead another way
 
-constexpr std::size_t max_samples = 8192;      // that are held at once: 250 km
-constexpr std::size_t settling_samples = 1024; // which later positions may still change
+constexpr std::size_t max_samples = 8192;      // held in memory at once: 250 km
+constexpr std::size_t settling_samples = 1024; // samples that later positions may still change
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -104,7 +104,7 @@ void add_candidates(std::vector<State>& states,
     states.push_back({{true, EdgeId{}, 0, 0, static_cast<float>(off), 0, 0}, never, 0});
 }
 
-/// States of a sample that are worth following, the best first.
+/// Returns the states of a sample within the beam, best first.
 std::vector<std::uint32_t>
 survivors(const Lattice& lattice, std::size_t sample, std::size_t widest) {
     std::vector<std::uint32_t> order(lattice.first_state[sample + 1] - lattice.first_state[sample]);
@@ -144,7 +144,7 @@ public:
         : roads_{roads}, plane_{plane}, routes_{routes}, positions_{positions}, config_{config},
           spread_{road_spread(positions, roads, plane, config)} {}
 
-    /// One sample after the other.
+    /// Adds a sample; call in order.
     void add(std::size_t sample) {
         add_states(sample);
         if (sample > 0) {
@@ -154,10 +154,10 @@ public:
     }
 
     const Lattice& lattice() const { return lattice_; }
-    std::size_t first() const { return first_; } ///< sample that is held
+    std::size_t first() const { return first_; } ///< first sample held
     std::size_t held() const { return lattice_.first_state.size() - 1; }
 
-    /// Lets go of the first samples, and of how the one after them was come to.
+    /// Drops the first samples, and the transitions into the next one.
     void drop(std::size_t count) {
         const auto cut = [](auto& values, std::size_t until) {
             values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(until));
@@ -260,7 +260,7 @@ private:
         }
     }
 
-    /// Of coming back to the network at a state of `sample`.
+    /// Computes the cost of returning to the network at a state of `sample`.
     double return_nats(std::uint32_t from,
                        std::size_t sample,
                        std::uint32_t to_state,
@@ -278,7 +278,8 @@ private:
                    lattice_.states[from].candidate, target, between, spread_.close_sd_m);
     }
 
-    /// A sample stands for a spacing; what was travelled off the network beyond that costs alike.
+    /// A sample represents one sampling distance; travel off the network beyond it costs the same
+    /// per metre.
     double off_way_nats(const SamplePair& between) const {
         const double beyond_m = std::max(0.0, between.travelled_m - 2 * config_.spacing_m);
         return between.usual_nats + off_nats * beyond_m / config_.spacing_m;
@@ -302,7 +303,7 @@ private:
     const MatchConfig& config_;
     RoadSpread spread_;
     Lattice lattice_;
-    std::size_t first_ = 0; ///< sample of the lattice's first
+    std::size_t first_ = 0; ///< first sample of the lattice
 };
 
 double confidence_of(const Lattice& lattice,
@@ -319,8 +320,9 @@ double confidence_of(const Lattice& lattice,
     return std::min(sum, 1.0);
 }
 
-/// Chooses for the samples of a lattice, the first `settled` + 1 of them, as the cheapest chain to
-/// its end has it. What was chosen before for the first of it stays: it knew how that was come to.
+/// Assigns states to the first `settled` + 1 samples of a lattice by backtracking the cheapest
+/// path. An earlier choice for its first sample is kept, as it was based on the transitions into
+/// it.
 void choose(std::vector<BestState>& chain,
             const Lattice& lattice,
             const std::vector<double>& posterior,
@@ -359,7 +361,7 @@ std::vector<BestState> viterbi_path(const RoadNetwork& roads,
         return chain;
     }
     Builder builder{roads, plane, routes, positions, config};
-    std::vector<double> before; // weights of the first sample that is held
+    std::vector<double> before; // weights of the first sample held
     for (std::size_t sample = 0; sample < samples; ++sample) {
         builder.add(sample);
         const bool is_last = sample + 1 == samples;

@@ -13,43 +13,44 @@
 
 namespace macadam {
 
-/// Where a sample may have been.
+/// A candidate state of a sample.
 struct Candidate {
-    bool off_network; ///< then edge, offset and course say nothing
+    bool off_network; ///< if so, edge, offset and course are meaningless
     EdgeId edge;
     double offset_m;   ///< along the edge, in its direction of travel
-    float course_rad;  ///< of the edge there, clockwise from north
+    float course_rad;  ///< of the edge at the offset, clockwise from north
     float cost;        ///< -log likelihood of the position
-    float right_m = 0; ///< of where the trip drives on such a road
-    float fit = 0;     ///< 0 to 1: position and course are those of a car on this road
+    float right_m = 0; ///< of the trip's usual lane on such a road
+    float fit = 0;     ///< 0 to 1: agreement of position and course with a car on this road
 };
 
-/// How a car may have come from one candidate to another.
+/// A transition between two candidates.
 struct Transition {
     enum class Kind : std::uint8_t {
         along,  ///< on one edge
-        turned, ///< round on the edge itself
-        around, ///< over nodes
+        turned, ///< turning round on the edge itself
+        around, ///< via nodes
     };
     Kind kind;
-    double way_m;  ///< a little below 0 where noise sets a car back
-    double turn_m; ///< what turning round was worth
-    double min_s;  ///< that it takes at the speed limits
+    double way_m;  ///< slightly negative where noise moves a car backwards
+    double turn_m; ///< cost of turning round
+    double min_s;  ///< minimum time at the speed limits
 };
 
-/// The longest way between two samples that is sought.
+/// Returns the maximum path length searched between two samples.
 double longest_way_m(const SamplePair& between, const MatchConfig& config);
 
-/// The ways out of `edge` that matter over such a distance.
+/// Returns the edges reachable from `edge` within the maximum path length.
 ///
-/// \param targets  in order; only looked at where longest_way_m exceeds Routes::kept_m.
+/// \param targets  sorted; only used if longest_way_m exceeds EdgeRouter::kept_m.
 const std::vector<ReachableEdge>& reached_from(EdgeRouter& routes,
                                                EdgeId edge,
                                                std::span<const EdgeId> targets,
                                                const SamplePair& between,
                                                const MatchConfig& config);
 
-/// The cheapest move; nothing if there is none. `reached` is what reached_from gave.
+/// Finds the cheapest transition; `std::nullopt` if there is none. `reached` comes from
+/// reached_from.
 std::optional<Transition> move_of(const RoadNetwork& roads,
                                   const std::vector<ReachableEdge>& reached,
                                   const Candidate& from,
@@ -57,39 +58,40 @@ std::optional<Transition> move_of(const RoadNetwork& roads,
                                   const SamplePair& between,
                                   const MatchConfig& config);
 
-/// In nats; what the gyro says of the turn is not in it.
+/// Computes the transition cost in nats, without the turn cost.
 double cost_of(const Transition& move, const SamplePair& between);
 
-/// -log likelihood of what the gyro measured if the car went from one candidate to the other.
+/// Computes the -log likelihood of the gyro's turn for a transition between two candidates.
 double turn_cost(const Candidate& from, const Candidate& to, const SamplePair& between);
 
-/// -log likelihood of how far beside its road the second place lies, given the first: errors of
-/// receiver and map change slowly, so that a car which seems to have slid sideways is on another
-/// road. From off the network nothing is given. Bounded: maps have steps in them.
+/// Computes the -log likelihood of the second candidate's lateral offset from its road, given the
+/// first. Errors of receiver and map change slowly, so a car that seems to have shifted sideways is
+/// on another road. Unconditional if the first is off the network. Bounded, because maps contain
+/// steps.
 double lateral_jump_cost(const Candidate& from,
                          const Candidate& to,
                          const SamplePair& between,
                          double close_sd_m);
 
-/// A step from one state to another of the next sample.
+/// A transition from a state to a state of the next sample.
 struct LatticeArc {
-    std::uint32_t from; ///< states of the whole lattice
+    std::uint32_t from; ///< index into all states of the lattice, as is `to`
     std::uint32_t to;
     float cost;
-    bool joined; ///< by a move
+    bool joined; ///< by a path on the network
 };
 
 struct State {
     Candidate candidate;
-    double cost;           ///< of the cheapest chain up to here, its own included
-    std::uint64_t arrival; ///< the transition of that chain
+    double cost;           ///< of the cheapest path up to and including the state
+    std::uint64_t arrival; ///< index of the transition on that path
 };
 
-/// One range of states and one of transitions into them for each sample.
+/// Trellis with one range of states per sample and one of transitions into them.
 struct Lattice {
     std::vector<State> states;
     std::vector<LatticeArc> transitions;
-    std::vector<std::size_t> first_state; ///< per sample + 1
+    std::vector<std::size_t> first_state; ///< per sample, plus an end sentinel
     std::vector<std::size_t> first_transition;
 
     std::span<const State> states_of(std::size_t sample) const {
@@ -98,16 +100,16 @@ struct Lattice {
     }
 };
 
-/// The place in the lattice that a sample was given.
+/// The state chosen for a sample.
 struct BestState {
-    std::size_t position; ///< in Positions::all
+    std::size_t position; ///< index into MatchObservations::all
     Candidate candidate;
-    bool joined;       ///< a move leads here from the sample before
+    bool joined;       ///< a path on the network leads here from the previous sample
     double confidence; ///< posterior of the edge and direction
 };
 
-/// The cheapest chain through the candidates of all samples, one for each sample. Of a long trip
-/// a part is held at a time: what was driven 30 km ago is settled.
+/// Finds the most likely state sequence over all samples (Viterbi). Only a window of a long trip is
+/// held in memory: states older than 30 km are final.
 std::vector<BestState> viterbi_path(const RoadNetwork& roads,
                                     CandidateIndex& plane,
                                     EdgeRouter& routes,

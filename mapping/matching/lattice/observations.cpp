@@ -14,11 +14,11 @@ namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180;
 
-constexpr double worst_radius_m = 100;    // such a fix could be on any road of the quarter
-constexpr double fastest_mps = 90;        // more is not a car
-constexpr double jump_slack_m = 30;       // of noise, which at 10 Hz looks like 300 m/s
-constexpr std::size_t longest_fault = 10; // fixes; a longer run that jumps is kept and leaves a gap
-constexpr double course_from_mps = 2;     // below it a receiver's course is noise
+constexpr double worst_radius_m = 100;      // a worse fix could be on any road of the quarter
+constexpr double fastest_mps = 90;          // faster than any car
+constexpr double jump_slack_m = 30;         // of noise, which at 10 Hz looks like 300 m/s
+constexpr std::size_t longest_fault = 10;   // fixes; longer runs are kept and leave a gap
+constexpr double course_from_mps = 2;       // below it a receiver's course is noise
 constexpr float axis_per_radius = 1 / 1.5F; // a 68 % radius is 1.5 sd of one axis (Rayleigh)
 
 bool is_same(const GnssFix& a, const GnssFix& b) {
@@ -26,7 +26,7 @@ bool is_same(const GnssFix& a, const GnssFix& b) {
     return a.at == b.at && same(a.speed_mps, b.speed_mps) && same(a.course_deg, b.course_deg);
 }
 
-/// What can be said of each fix by itself and by the one before it; nothing: it may serve.
+/// Checks each fix by itself and against the previous one; `std::nullopt`: may be usable.
 std::vector<std::optional<RowReason>> own_faults(const std::vector<GnssFix>& fixes,
                                                  double worst_accuracy_m) {
     std::vector<std::optional<RowReason>> faults(fixes.size());
@@ -46,9 +46,9 @@ std::vector<std::optional<RowReason>> own_faults(const std::vector<GnssFix>& fix
     return faults;
 }
 
-/// Fixes one after the other that a car can have driven.
+/// Consecutive fixes that a car can have driven.
 struct Run {
-    std::size_t first; ///< in the list of fixes that may serve
+    std::size_t first; ///< index into the fixes that may be usable
     std::size_t count;
 };
 
@@ -56,7 +56,7 @@ bool is_drivable(const GnssFix& a, const GnssFix& b) {
     constexpr double longest_degree_m = 111'700; // of latitude or longitude, on the ellipsoid
     const double reach_m = jump_slack_m + fastest_mps * std::max(0.0, b.t_s - a.t_s);
     const double degrees = std::abs(b.at.lat_deg - a.at.lat_deg) +
-                           std::abs(b.at.lon_deg - a.at.lon_deg); // hardly ever is more to be known
+                           std::abs(b.at.lon_deg - a.at.lon_deg); // usually enough to decide
     return longest_degree_m * degrees <= reach_m || distance_m(a.at, b.at) <= reach_m;
 }
 
@@ -71,8 +71,8 @@ std::vector<Run> runs_of(const std::vector<GnssFix>& fixes, const std::vector<st
     return runs;
 }
 
-/// Without the short runs that contradict a longer neighbour: of two between which no car could
-/// have driven, the shorter is the fault.
+/// Removes short runs that contradict a longer neighbour: of two that no car could have driven
+/// between, the shorter is faulty.
 std::vector<Run> without_jumps(const std::vector<Run>& runs,
                                const std::vector<GnssFix>& fixes,
                                const std::vector<std::size_t>& serve) {
@@ -128,13 +128,13 @@ float course_rad(const GnssFix& fix) {
 }
 
 float own_sd_m(const GnssFix& fix) {
-    constexpr float best_m = 3; // receivers flatter themselves
+    constexpr float best_m = 3; // receivers overstate their accuracy
     constexpr float usual_m = 5;
     return std::isfinite(fix.accuracy_m) ? std::max(best_m, fix.accuracy_m * axis_per_radius)
                                          : usual_m;
 }
 
-/// With the places that odometer and gyro give where fixes are far apart.
+/// Adds dead-reckoned positions where fixes are far apart.
 std::vector<Position> with_dead_reckoned(const MatchObservations& positions,
                                          const Odometer& odometer,
                                          const MatchConfig& config) {
@@ -158,7 +158,7 @@ std::vector<Position> with_dead_reckoned(const MatchObservations& positions,
     return all;
 }
 
-/// One each spacing_m of the way; where the car stands, one.
+/// Selects one sample per spacing_m of travel, and one while the car stands.
 std::vector<std::size_t> thinned(const MatchObservations& positions, double spacing_m) {
     std::vector<std::size_t> samples;
     const auto& all = positions.all;
@@ -168,7 +168,7 @@ std::vector<std::size_t> thinned(const MatchObservations& positions, double spac
             continue;
         }
         const auto& last = all[samples.back()];
-        // Travel that was summed from positions grows with their noise even where the car stands.
+        // Travel summed from positions grows with their noise even while the car stands.
         const double gone_m = positions.odometer ? all[i].travel_m - last.travel_m
                                                  : std::hypot(all[i].at.east_m - last.at.east_m,
                                                               all[i].at.north_m - last.at.north_m);
@@ -179,7 +179,7 @@ std::vector<std::size_t> thinned(const MatchObservations& positions, double spac
     return samples;
 }
 
-/// Only other sensors know of it; a latency of 0 that nobody stated was not found.
+/// Only other sensors reveal the latency; an unstated latency of 0 was not estimated.
 double latency_sd_s(const TripLog& trip, const Heading& heading) {
     constexpr double stated_s = 0.02;
     constexpr double estimated_s = 0.1;

@@ -11,38 +11,40 @@
 
 namespace macadam {
 
-/// A position that may enter the matching.
+/// A position that may be used for matching.
 struct Position {
-    double t_s; ///< when the antenna was there, the receiver's latency taken off
+    double t_s; ///< time of the antenna position, receiver latency removed
     double travel_m;
-    PointEn at; ///< in Positions::frame
+    PointEn at; ///< in MatchObservations::frame
     GeoPoint place;
-    float sd_m;                 ///< across the road: receiver, map and lane together
+    float sd_m;                 ///< across the road: receiver, map and lane combined
     float own_sd_m;             ///< of the receiver alone
-    float course_rad;           ///< clockwise from north; NaN where it says nothing
-    bool dead_reckoned = false; ///< no fix, but a place between fixes by odometer and gyro
+    float course_rad;           ///< clockwise from north; NaN if unknown
+    bool dead_reckoned = false; ///< by odometer and gyro between fixes
 };
 
-/// The positions of a trip, and which of them are matched.
+/// Positions of a trip, with the samples to be matched.
 struct MatchObservations {
-    LocalFrame frame;          ///< in the middle of the trip
-    bool odometer;             ///< travel is measured, not drawn from the positions themselves
-    std::vector<Position> all; ///< in the order of time
-    std::vector<std::size_t> samples; ///< of `all`: first, last, and one each spacing_m between
+    LocalFrame frame;          ///< centred on the trip
+    bool odometer;             ///< travel is measured, not derived from the positions
+    std::vector<Position> all; ///< in order of time
+    std::vector<std::size_t>
+        samples; ///< indices into `all`: first, last, and one per spacing_m between
 
-    /// `turned(*heading, a.t_s, b.t_s)` is the turn from one position to another; the caller of
-    /// positions_of keeps it. Empty where the trip has no gyro.
+    /// Heading of the trip, owned by the caller of positions_of; empty if the trip has no gyro.
+    /// `turned(*heading, a.t_s, b.t_s)` is the turn from one position to another.
     const Heading* heading = nullptr;
 
-    double latency_sd_s = 0; ///< of what is left in t_s of the receiver's latency
+    double latency_sd_s = 0; ///< of the uncorrected receiver latency in t_s
 };
 
-/// Why each fix does not serve: no position, worse accuracy than `worst_accuracy_m`, the fix before
-/// it once more, or a jump that no car can have made. Nothing: it serves.
+/// Returns for each fix the reason for rejecting it: no position, worse accuracy than
+/// `worst_accuracy_m`, a repeat of the previous fix, or a jump that no car can make; `std::nullopt`
+/// if it is usable.
 std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixes,
                                                 double worst_accuracy_m);
 
-/// Sorts the fixes of a trip into those that serve and, in `use`, the reasons of the others.
+/// Selects the usable fixes of a trip and records in `use` the reasons for rejecting the others.
 MatchObservations positions_of(const TripLog& trip,
                                const Odometer& odometer,
                                const Heading& heading,

@@ -7,11 +7,11 @@
 namespace macadam {
 namespace {
 
-constexpr double beside_m = 15;           // a road not farther ran beside the car
-constexpr double elsewhere_m = 30;        // one that was farther did not
-constexpr std::size_t samples_beside = 6; // of the excursion, its last ones, that are asked
-constexpr std::size_t samples_back = 12;  // to where it began
-constexpr double same_travel_m = 20;      // of travel and way along an edge: they are the same
+constexpr double beside_m = 15;           // a road within this distance ran beside the car
+constexpr double elsewhere_m = 30;        // a road beyond this distance did not
+constexpr std::size_t samples_beside = 6; // last samples of the excursion that are examined
+constexpr std::size_t samples_back = 12;  // back to its start
+constexpr double same_travel_m = 20;      // tolerance between travel and distance along an edge
 constexpr double same_travel_share = 0.2;
 
 bool came_back(const Candidate& left, const Candidate& entered, double travelled_m) {
@@ -19,11 +19,12 @@ bool came_back(const Candidate& left, const Candidate& entered, double travelled
                                             same_travel_m + same_travel_share * travelled_m;
 }
 
-/// Of the cheapest chain to a state off the network.
+/// The cheapest path to a state off the network.
 struct Before {
-    std::size_t samples;        ///< off the network, at most samples_back
-    std::size_t sample;         ///< the one before them, ...
-    const Candidate* candidate; ///< ... on a road; null where the trip begins, or they are more
+    std::size_t samples; ///< off the network, at most samples_back
+    std::size_t sample;  ///< the sample before them ...
+    const Candidate*
+        candidate; ///< ... on a road; nullptr if the trip begins there, or there are more
 };
 
 Before before_excursion(const Lattice& lattice, std::uint32_t state, std::size_t sample) {
@@ -64,8 +65,9 @@ double off_network_probability(const Lattice& lattice,
         const auto place = plane.nearest(link, position(sample - i).at);
         const double offset_m = is_forward(entered.edge) ? place.along_m : edge_m - place.along_m;
         farthest_m = std::max(farthest_m, place.distance_m);
-        if (offset_m < 1 || (!back && farthest_m >= elsewhere_m)) { // the road had not begun, or
-            return 1;                                               // lay elsewhere
+        if (offset_m < 1 ||
+            (!back && farthest_m >= elsewhere_m)) { // the road had not begun, or ...
+            return 1;                               // ... was elsewhere
         }
     }
     return back ? 0

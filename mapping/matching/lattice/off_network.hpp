@@ -4,11 +4,11 @@
 
 namespace macadam {
 
-/// Whether an excursion off the network was one, 0 to 1, now that it ends on a road: not, if that
-/// road ran beside the car all the while, or if the car came back to the edge it had left as far
-/// along as it had travelled. Then the positions were bad, or the map's line is.
+/// Returns the probability, 0 to 1, that an excursion off the network was real, now that it ends on
+/// a road. Low if that road ran beside the car all along, or if the car returned to the edge it had
+/// left as far along as it had travelled: then the positions or the map's line were wrong.
 ///
-/// \param state  off the network, at `sample`; of those before, the cheapest chain is looked at.
+/// \param state  off the network, at `sample`; before it, the cheapest path is examined.
 double off_network_probability(const Lattice& lattice,
                                std::uint32_t state,
                                std::size_t sample,

@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-constexpr double evidence_share = 3; // the lattice is about three times as wide as errors are
+constexpr double evidence_share = 3; // the lattice is about three times as wide as the errors
 
 struct Range {
     std::size_t first;
@@ -38,7 +38,8 @@ void scale_to_one(std::vector<double>& values, const Range& range) {
     }
 }
 
-/// What all candidates of a sample share says nothing about any: the least cost counts as none.
+/// Costs are relative to the minimum of each sample, as a cost common to all its candidates carries
+/// no information.
 std::vector<double> state_weights(const Lattice& lattice, std::size_t samples) {
     std::vector<double> weights(lattice.states.size());
     for (std::size_t sample = 0; sample < samples; ++sample) {

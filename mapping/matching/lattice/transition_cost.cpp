@@ -6,27 +6,27 @@
 namespace macadam {
 namespace {
 
-constexpr double set_back_m = 30;           // noise may set a car back by as much on its edge
-constexpr double unseen_detour_m = 250;     // of a way beyond the travelled that is still sought
-constexpr double unseen_detour_share = 0.5; // and of the travelled
-constexpr double seen_detour_m = 130;       // the same where positions would have shown it
+constexpr double set_back_m = 30;           // maximum backward step along an edge due to noise
+constexpr double unseen_detour_m = 250;     // maximum path length beyond the travelled distance
+constexpr double unseen_detour_share = 0.5; // and as a share of the travelled distance
+constexpr double seen_detour_m = 130;       // the same where positions would have shown a detour
 constexpr double seen_detour_share = 0.2;
-constexpr double seen_detour_sd_m = 22; // of a way beyond the line that dense positions draw
-constexpr double turn_scale_m = 44;     // of what turning round is worth
-constexpr double turn_sd_rad = 0.6;     // of an edge's course at a sample, corners being rounded
-constexpr double map_step_m = 2;        // by which a map's line shifts from piece to piece
+constexpr double seen_detour_sd_m = 22; // of a path beyond the line through dense positions
+constexpr double turn_scale_m = 44;     // of the cost of turning round
+constexpr double turn_sd_rad = 0.6;     // of an edge's course at a sample, as corners are rounded
+constexpr double map_step_m = 2;        // typical step between neighbouring lines of a map
 constexpr double sliding_weight = 0.3;
-constexpr double max_sliding_nats = 4;       // before it is weighed
-constexpr double standing_turn_share = 0.75; // of the price of turning round, where the car stood
+constexpr double max_sliding_nats = 4;       // upper limit before weighting
+constexpr double standing_turn_share = 0.75; // of the cost of turning round, if the car stood
 
-// Drivers exceed limits, and maps do not know them all: beyond so many times the limit ...
+// Drivers exceed limits, and maps do not know all of them: beyond this multiple of the limit ...
 constexpr double hurry_from = 1.8;
-constexpr double hurry_sd = 0.8; // ... a sample's worth of way becomes unlikely, ...
+constexpr double hurry_sd = 0.8; // ... a sample's worth of path becomes unlikely ...
 constexpr double max_hurry_nats = 1;
-constexpr double hurry_piece_m = 30; // ... and so does each of the next ones
+constexpr double hurry_piece_m = 30; // ... and so does each further one
 constexpr double max_hurry_pieces = 8;
 
-/// What driving the way in that time says against it.
+/// Computes the cost of driving the path in the available time.
 double hurry_nats(const Transition& move, const SamplePair& between) {
     const double over = move.min_s - hurry_from * between.took_s;
     if (over <= 0 || between.took_s <= 0) {
@@ -37,7 +37,8 @@ double hurry_nats(const Transition& move, const SamplePair& between) {
            std::clamp(move.way_m / hurry_piece_m, 1.0, max_hurry_pieces);
 }
 
-/// Round on the edge itself: at the farther of the two places, or beyond it if there was the time.
+/// Models turning round on the edge itself: at the farther of the two positions, or beyond it if
+/// time allows.
 Transition turned(double length_m,
                   const Candidate& from,
                   const Candidate& to,
@@ -114,7 +115,7 @@ double turn_cost(const Candidate& from, const Candidate& to, const SamplePair& b
         return 0;
     }
     const double sd_rad = std::hypot(turn_sd_rad, between.turn.sd_rad);
-    // Courses are clockwise, the gyro's turns are not.
+    // Courses are clockwise, the gyro's turns counter-clockwise.
     const double apart_rad =
         static_cast<double>(to.course_rad - from.course_rad) + between.turn.rad;
     return (1 - std::cos(apart_rad)) / (sd_rad * sd_rad);
@@ -124,10 +125,10 @@ double lateral_jump_cost(const Candidate& from,
                          const Candidate& to,
                          const SamplePair& between,
                          double close_sd_m) {
-    if (between.standing) { // then the positions slide, not the car
+    if (between.standing) { // then the positions drift, not the car
         return 0;
     }
-    // What was beside the road there lies beside it here as far as the two are parallel.
+    // A lateral offset persists as far as the two roads are parallel.
     const double kept =
         from.off_network
             ? 0

@@ -9,16 +9,16 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t longest_bad_run = 2; // samples
-constexpr double longest_path_m = 1e6;     // the next one begins there, to hold little memory
-constexpr double bad_run_nats = 6;         // of the move over it: more is an excursion
+constexpr double longest_path_m = 1e6;     // limits memory; the next path begins there
+constexpr double bad_run_nats = 6;         // cost of the transition over it: more is an excursion
 
-/// A move with the edges between.
+/// A transition with the edges between.
 struct Connection {
     Transition move;
     std::vector<EdgeId> edges;
 };
 
-/// A leg that no sample saw is as sure as the less sure of its neighbours.
+/// Assigns a leg without samples the lower confidence of its neighbours.
 void vouch_for_unseen(std::vector<Leg>& legs) {
     for (std::size_t first = 0; first < legs.size(); ++first) {
         if (legs[first].confidence > 0 || first == 0) {
@@ -72,7 +72,7 @@ private:
         place(sample);
     }
 
-    /// On the path's last leg.
+    /// Places a sample on the last leg of the path.
     void place(std::size_t sample) {
         auto& path = paths_.back();
         auto& leg = path.legs.back();
@@ -123,7 +123,8 @@ private:
         case Transition::Kind::along:
             break;
         case Transition::Kind::turned: {
-            // The way there and back is what was travelled; it leaves the turning point open.
+            // The way there and back equals the travelled distance; the turning point remains
+            // undetermined.
             const double edge_m = length_m(roads_, from.edge);
             const double turn_m =
                 (from.offset_m + edge_m - to.offset_m + connection.move.way_m) / 2;
@@ -139,7 +140,8 @@ private:
         }
     }
 
-    /// A path that ends in a hole does so where the positions say; at the trip's ends all are its.
+    /// Adjusts the ends of a path at a gap to the positions; at the ends of the trip all positions
+    /// belong to it.
     void settle(RoadPath& path) {
         if (path.first_sample > 0) {
             settle_begin(path, roads_, plane_, positions_, chain_[path.first_sample - 1].position);

@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// A part of a path on one edge, in its direction of travel.
+/// An interval of a path on one edge, in its direction of travel.
 struct Leg {
     EdgeId edge;
     double from_m; ///< offsets along the edge
@@ -16,20 +16,20 @@ struct Leg {
     double confidence;
 };
 
-/// A way on the network without a hole. It begins at the beginning of its first edge and ends at
-/// the end of its last, whatever part of them was driven.
+/// A continuous path on the network. It spans its first and last edges entirely, whatever part of
+/// them was driven.
 struct RoadPath {
     std::vector<Leg> legs;
-    std::vector<std::size_t> positions; ///< of its samples, in Positions::all
-    std::vector<double> sample_m;       ///< where on the path they were
-    std::size_t first_sample;           ///< in the chain
+    std::vector<std::size_t> positions; ///< of its samples, in MatchObservations::all
+    std::vector<double> sample_m;       ///< path positions of the samples
+    std::size_t first_sample;           ///< index into the state sequence, as is last_sample
     std::size_t last_sample;
 };
 
 double length_m(const RoadPath& path);
 
-/// The chain's edges joined to paths. A sample or two off the network between places that a way of
-/// the travelled length joins are bad positions, not an excursion.
+/// Joins the edges of the state sequence to paths. One or two samples off the network between
+/// positions that a path of the travelled length joins are bad positions, not an excursion.
 std::vector<RoadPath> paths_of(const RoadNetwork& roads,
                                CandidateIndex& plane,
                                EdgeRouter& routes,

@@ -8,29 +8,30 @@
 namespace macadam {
 namespace {
 
-constexpr double min_step_s = 0.95; // fixes nearer than this err alike
-constexpr double slow_step_s = 5;   // ... and these, where the car hardly moved
+constexpr double min_step_s = 0.95; // errors of closer fixes are correlated
+constexpr double slow_step_s = 5;   // the same if the car hardly moved
 constexpr double new_way_m = 4;
-constexpr double max_step_m = 15;     // without a knot, where travel is measured, ...
-constexpr double min_between_s = 0.3; // ... by a car that goes no faster than 180 km/h
-constexpr double min_step_m = 0.05;   // a car that moved less is where it was
+constexpr double max_step_m = 15;     // without a knot, where travel is measured
+constexpr double min_between_s = 0.3; // limits the knots for cars up to 180 km/h
+constexpr double min_step_m = 0.05;   // a car that moved less is still standing
 constexpr double heading_half_m = 8;
 constexpr double gyro_step_m = 2;
-constexpr double bias_alike_s = 30;     // what is left of a gyro's bias is alike so long
-constexpr double silence_variance = 10; // of the heading after one: anything
-constexpr double longest_beyond_m = 40; // of noise beyond the end of a road; more is a hole
-constexpr double fade = 5;              // so that places still rise with travel
+constexpr double bias_alike_s = 30;     // correlation time of the residual gyro bias
+constexpr double silence_variance = 10; // of the heading after a gap: unconstrained
+constexpr double longest_beyond_m = 40; // of noise beyond the end of a road; more is a gap
+constexpr double fade = 5;              // so that the position still increases with travel
 
-/// The gyro's turn over travel, summed as far as it is asked for.
+/// Integrates the gyro's turn over travel, as far as requested.
 class GyroTrack {
 public:
-    /// \param from_m  nothing before is asked for.
+    /// \param from_m  lower bound of all requests.
     GyroTrack(const Heading& heading, const Odometer& odometer, double from_m)
         : heading_{heading}, odometer_{odometer}, from_m_{from_m}, last_rad_{turned_at(
                                                                        heading,
                                                                        odometer.t_s(from_m))} {}
 
-    /// Over heading_half_m on both sides; nothing where not all of it was measured.
+    /// Returns the mean over heading_half_m on both sides; `std::nullopt` if not all of it was
+    /// measured.
     ///
     /// \param travel_m  not before that of an earlier call.
     std::optional<double> mean_rad(double travel_m) {
@@ -54,7 +55,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t max_summed = 1000; // steps at once that nobody asks for
+    static constexpr std::size_t max_summed = 1000; // steps discarded at once
 
     std::size_t step_at(double travel_m) const {
         return static_cast<std::size_t>(std::max(0.0, (travel_m - from_m_) / gyro_step_m));
@@ -92,11 +93,11 @@ private:
     const Odometer& odometer_;
     double from_m_;
     std::size_t first_ = 0;       ///< step of the first of the sums
-    std::vector<double> sums_{0}; ///< of the turn over travel, one each step
-    double last_rad_;             ///< at the last of them
+    std::vector<double> sums_{0}; ///< of the turn over travel, one per step
+    double last_rad_;             ///< at the last of the sums
 };
 
-/// What the gyro may have strayed between two epochs.
+/// Returns the variance of the gyro's drift between two epochs.
 double strayed_variance(const Heading& heading, const Epoch& from, const Epoch& to) {
     const auto turn = turned(heading, from.t_s, to.t_s);
     const double bias = heading.bias_sd_radps;
@@ -105,7 +106,7 @@ double strayed_variance(const Heading& heading, const Epoch& from, const Epoch& 
                : turn.sd_rad * turn.sd_rad + bias_alike_s * bias * bias * (to.t_s - from.t_s);
 }
 
-/// Measured travel between two fixes, in steps.
+/// Divides the measured travel between two fixes into steps.
 std::vector<Epoch> epochs_between(const Epoch& from, const Epoch& to, const Odometer& odometer) {
     const double gone_m = to.travel_m - from.travel_m;
     const double steps =
@@ -124,7 +125,8 @@ std::vector<Epoch> epochs_between(const Epoch& from, const Epoch& to, const Odom
     return between;
 }
 
-/// The fixes of a path, those thinned that come in quick succession, and what lies between.
+/// Builds the epochs of a path: its fixes, thinned if in quick succession, and the steps in
+/// between.
 std::vector<Epoch>
 epochs_of(const RoadPath& path, const MatchObservations& positions, const Odometer& odometer) {
     std::vector<Epoch> epochs;
@@ -172,7 +174,7 @@ with_gyro(std::vector<Epoch> epochs, const Heading& heading, const Odometer& odo
     return epochs;
 }
 
-/// Where on the driven line the samples put the epochs: straight between them over travel.
+/// Returns approximate driven lengths of the epochs: linear over travel between samples.
 std::vector<double> nominal_places(const std::vector<Epoch>& epochs,
                                    const RoadPath& path,
                                    const MatchObservations& positions,
@@ -181,7 +183,7 @@ std::vector<double> nominal_places(const std::vector<Epoch>& epochs,
         return positions.all[path.positions[sample]].travel_m;
     };
     std::vector<double> nominal_m;
-    std::size_t sample = 0; // the one at or before the epoch
+    std::size_t sample = 0; // at or before the epoch
     const auto count = path.positions.size();
     for (const auto& epoch : epochs) {
         while (sample + 2 < count && travel_m(sample + 1) <= epoch.travel_m) {
@@ -197,8 +199,8 @@ std::vector<double> nominal_places(const std::vector<Epoch>& epochs,
     return nominal_m;
 }
 
-/// Noise may put a trip's ends a little beyond the ends of its path: `beyond_m` of it is taken
-/// back, all at the end `at_m` and less and less over the way from there.
+/// Corrects noise that moves an end of a trip slightly beyond the end of its path: removes
+/// `beyond_m` entirely at the end `at_m` and gradually less along the path from there.
 std::vector<PathSample> pulled_in(std::vector<PathSample> knots, double at_m, double beyond_m) {
     if (beyond_m == 0 || std::abs(beyond_m) > longest_beyond_m) {
         return knots;

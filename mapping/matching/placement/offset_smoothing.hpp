@@ -6,17 +6,17 @@
 
 namespace macadam {
 
-/// Where on the path the trip was at a travel.
+/// Path position of the trip at a travelled distance.
 struct PathSample {
-    double travel_m; ///< rising
-    double along_m;  ///< never falling; beyond the path's ends where the trip went beyond
+    double travel_m; ///< strictly increasing
+    double along_m;  ///< non-decreasing; beyond the path's ends where the trip went beyond
     double sd_m;     ///< of along_m
 };
 
-/// Place along the path over travel, never by the nearest point: all that was measured (fixes with
-/// their slow error and latency, travel with its scale, the gyro's turns against the path's) goes
-/// into one smoother along the path as a car drives it (place_smoother.hpp). At least one knot at
-/// each fix that comes a second after the last, and each 12 m where travel is measured.
+/// Estimates the path position over travel from all measurements (fixes with their slow error and
+/// latency, travel with its scale, the gyro's turns against the path's) in one smoother along the
+/// path as driven (position_smoother.hpp), rather than by nearest points. At least one knot at each
+/// fix a second after the last, and every 12 m if travel is measured.
 std::vector<PathSample> smoothed_knots(const RoadPath& path,
                                        const RoadNetwork& roads,
                                        CandidateIndex& plane,

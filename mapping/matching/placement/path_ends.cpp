@@ -5,12 +5,12 @@
 namespace macadam {
 namespace {
 
-constexpr double end_m = 0.5;         // this near to an edge's end it is passed
-constexpr double left_m = 15;         // off an edge's line: the car has left it
-constexpr double touched_m = 10;      // less of an edge is noise, ...
-constexpr double touched_share = 0.9; // ... unless it is a short edge and all of it was driven
+constexpr double end_m = 0.5;         // an edge is passed at this distance from its end
+constexpr double left_m = 15;         // a car this far off an edge's line has left it
+constexpr double touched_m = 10;      // touching less of an edge is noise ...
+constexpr double touched_share = 0.9; // ... unless this share of a short edge was driven
 
-/// A position and its place along an edge, in the direction of travel.
+/// A position with its offset along an edge, in the direction of travel.
 struct PathPosition {
     std::size_t position;
     double offset_m;
@@ -28,7 +28,7 @@ PathPosition placed(const RoadNetwork& roads,
             place.distance_m};
 }
 
-/// Takes the legs from `first` to before `last` out; the path goes on at the same node.
+/// Removes the legs [first, last); the path continues at the same node.
 void erase_legs(RoadPath& path, std::size_t first, std::size_t last) {
     const double from_m = path.legs[first].start_m;
     const double gone_m = path.legs[last].start_m - from_m;
@@ -45,7 +45,7 @@ void erase_legs(RoadPath& path, std::size_t first, std::size_t last) {
     std::for_each(next, path.legs.end(), [&](Leg& leg) { leg.start_m -= gone_m; });
 }
 
-/// Whether noise alone can have put `m` on the leg's edge.
+/// Returns true if noise alone may have put `m` on the leg's edge.
 bool hardly_touched(const RoadNetwork& roads, const Leg& leg, double m) {
     return m < std::min(touched_m, touched_share * length_m(roads, leg.edge));
 }

@@ -4,24 +4,25 @@
 
 namespace macadam {
 
-/// Lets a path end where the positions pass the end of its last edge, or leave the edge's side,
-/// rather than at a sample, which is there by chance. `limit` is the first position (in
-/// Positions::all) that belongs to what comes after.
+/// Moves the end of a path from its last sample to where the positions pass the end of its last
+/// edge or leave its side. `limit` is the first position (in MatchObservations::all) that belongs
+/// to what follows.
 void settle_end(RoadPath& path,
                 const RoadNetwork& roads,
                 CandidateIndex& plane,
                 const MatchObservations& positions,
                 std::size_t limit);
 
-/// The same of its beginning; `limit` is the last position that belongs to what came before.
+/// Moves the start of a path likewise; `limit` is the last position that belongs to what precedes
+/// it.
 void settle_begin(RoadPath& path,
                   const RoadNetwork& roads,
                   CandidateIndex& plane,
                   const MatchObservations& positions,
                   std::size_t limit);
 
-/// Takes off edges at the ends that were hardly touched, and those into which a car would have
-/// driven so little before it turned that noise alone can have put it there.
+/// Removes edges at the ends that were hardly touched, and those entered for so short a distance
+/// before a turn that noise alone may explain it.
 void trim(RoadPath& path, const RoadNetwork& roads);
 
 } // namespace macadam

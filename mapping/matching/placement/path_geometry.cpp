@@ -9,12 +9,12 @@ namespace macadam {
 namespace {
 
 constexpr double about_step_m = 2;
-// Three boxes of 17 m: a right-angled corner becomes a bend of 5 m radius in the near lane and of
-// 10 m in the far one, as drivers take them.
+// Three boxes of 17 m turn a right-angled corner into a bend of 5 m radius in the near lane and of
+// 10 m in the far one, as driven.
 constexpr std::size_t box_half = 4; // steps
-constexpr double min_step_m = 0.02; // where the car turns round on the spot, the line still goes on
+constexpr double min_step_m = 0.02; // per step; the line advances even in a turn on the spot
 
-/// Not std::lerp, whose care for infinities costs more than all the rest.
+/// Not std::lerp, whose handling of infinities costs more than everything else.
 double between(double a, double b, double share) {
     return a + share * (b - a);
 }
@@ -29,7 +29,7 @@ struct Corner {
     LaneKind lane; ///< from here on
 };
 
-/// The path's line, its places measured along the path.
+/// Returns the path's line with positions measured along the path.
 std::vector<Corner>
 corners_of(const RoadPath& path, const RoadNetwork& roads, CandidateIndex& plane) {
     std::vector<Corner> line;
@@ -62,7 +62,7 @@ corners_of(const RoadPath& path, const RoadNetwork& roads, CandidateIndex& plane
     return line;
 }
 
-/// At even steps from end to end.
+/// Resamples at equal steps from end to end.
 SmoothedPath evened(const std::vector<Corner>& corners) {
     const double whole_m = corners.back().along_m;
     const auto steps = static_cast<std::size_t>(std::max(1.0, std::round(whole_m / about_step_m)));
@@ -88,7 +88,7 @@ SmoothedPath evened(const std::vector<Corner>& corners) {
     return line;
 }
 
-/// Means over box_half points on both sides, over as many as there are on both near the ends.
+/// Averages over box_half points on both sides; the window shrinks symmetrically near the ends.
 std::vector<PointEn> boxed(const std::vector<PointEn>& points) {
     std::vector<PointEn> sums(points.size() + 1, {0, 0});
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -112,17 +112,17 @@ double turn_between(const PointEn& from, const PointEn& to) {
     constexpr double slight = 1e-3;
     const double along = from.east_m * to.east_m + from.north_m * to.north_m;
     const double across = from.east_m * to.north_m - from.north_m * to.east_m;
-    if (std::abs(across) <
-        slight * along) { // nearly everywhere; the series is exact to the last bit
+    if (std::abs(across) < slight * along) { // nearly always; the series is exact to the last bit
         const double tan = across / along;
         const double square = tan * tan;
         return tan * (1 - square * (1.0 / 3 - square * (1.0 / 5 - square / 7)));
     }
     const bool back = along < 0 && std::abs(across) < -slight * slight * along;
-    return back ? std::numbers::pi : std::atan2(across, along); // round on the spot: to the left
+    return back ? std::numbers::pi
+                : std::atan2(across, along); // turning on the spot counts as left
 }
 
-/// For each step of driven length, the piece that holds its beginning.
+/// Returns for each step of driven length the line segment that contains its start.
 std::vector<std::uint32_t> first_pieces(const SmoothedPath& line) {
     std::vector<std::uint32_t> pieces;
     pieces.reserve(line.driven_m.size());
@@ -168,7 +168,7 @@ SmoothedPath measured(SmoothedPath line) {
     return line;
 }
 
-/// The piece of the line that holds a place, the outermost for one beyond.
+/// Returns the line segment that contains a position, clamped to the first and last.
 std::size_t piece_at(const SmoothedPath& line, double driven_m) {
     const double steps = std::max(0.0, driven_m / line.step_m);
     const auto last = static_cast<double>(line.first_piece.size() - 1);
@@ -179,7 +179,8 @@ std::size_t piece_at(const SmoothedPath& line, double driven_m) {
     return i;
 }
 
-/// Where in its piece a place lies, and how far beyond the line, which is 0 but at the ends.
+/// Relative position within a line segment, and the distance beyond the line, which is 0 except at
+/// the ends.
 struct Share {
     double share;
     double beyond_m;
@@ -192,7 +193,7 @@ Share share_of(const SmoothedPath& line, std::size_t piece, double driven_m) {
     return {share, share > 0 && share < 1 ? 0 : into_m - share * piece_m};
 }
 
-/// Sum of the heading up to a place.
+/// Integrates the heading up to a position.
 double heading_sum_at(const SmoothedPath& line, double driven_m) {
     const auto i = piece_at(line, driven_m);
     const double piece_m = line.driven_m[i + 1] - line.driven_m[i];
@@ -213,7 +214,7 @@ SmoothedPath driven_line(const RoadPath& path, const RoadNetwork& roads, Candida
         return {about_step_m, {}, {}, {}, {}, {}, {}, {}};
     }
     auto line = evened(corners);
-    for (int i = 0; i < 3; ++i) { // three boxes are nearly a bell
+    for (int i = 0; i < 3; ++i) { // three boxes approximate a Gaussian
         line.at = boxed(line.at);
     }
     return measured(std::move(line));

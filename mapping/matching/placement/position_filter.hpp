@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 
-/// The parts of the place smoother that know nothing of roads: how its state goes from epoch to
-/// epoch and how measurements change what is believed of it. Source: place_smoother.hpp.
+/// Road-independent parts of the position smoother: state propagation between epochs and
+/// measurement updates. Source: position_smoother.hpp.
 namespace macadam::place_filter {
 
-/// Trips of positions alone have nothing that tells the last two.
+/// Trips with positions alone cannot observe the last two.
 enum State : int { lead, scale, lane, lane_oneway, east, north, latency, zero };
 inline constexpr int states_of_positions = 6;
 inline constexpr int all_states = 8;
@@ -19,18 +19,18 @@ using Vector = Eigen::Matrix<double, States, 1>;
 template <int States>
 using Square = Eigen::Matrix<double, States, States>;
 
-inline constexpr double credible = 9; // squared sds: beyond, a measurement counts less
+inline constexpr double credible = 9; // squared sds beyond which a measurement counts less
 
-/// From one epoch to the next: x' = f x + noise, where f is 1 on its diagonal but for the slow
-/// error, and otherwise only what the lead gains.
+/// State transition between epochs: x' = f x + noise, where f has 1 on its diagonal except for the
+/// slow error, and off-diagonal entries only in the row of the lead.
 struct Step {
-    double scale_gain; ///< of the lead, per unit of the scale ...
-    double lane_gain;  ///< ... and per metre of the lanes
+    double scale_gain; ///< of the lead, per unit of scale
+    double lane_gain;  ///< of the lead, per metre of lane offset
     double oneway_gain;
     double kept; ///< of the slow error
 };
 
-/// A measurement as the filter took it in: h x + noise stood `off` from what was expected.
+/// A processed measurement: h x + noise with innovation `off`.
 template <int States>
 struct Taken {
     Vector<States> h;
@@ -39,8 +39,8 @@ struct Taken {
     double weight; ///< 1 / variance of off
 };
 
-/// The filter's belief. Its variance stays symmetric to the last bit, being changed by products
-/// that are the same either way round.
+/// Kalman filter with mean and variance. The variance stays symmetric to the last bit, because it
+/// is only changed by products that commute.
 template <int States>
 class Forward {
 public:
@@ -70,7 +70,7 @@ public:
         variance_.diagonal() += noise;
     }
 
-    /// The more incredible a measurement is, the less it counts.
+    /// Updates with a measurement, down-weighted as its innovation exceeds the credible range.
     Taken<States> take(const Vector<States>& h, double off, double noise) {
         const Vector<States> cross = variance_.lazyProduct(h);
         const double spread = h.dot(cross) + noise;
@@ -78,7 +78,7 @@ public:
         return learnt(h, cross, off, inflated);
     }
 
-    /// Two at once, their noises independent: incredible together, they count less together.
+    /// Updates with two measurements of independent noise, down-weighted jointly.
     std::array<Taken<States>, 2> take(const std::array<Vector<States>, 2>& h,
                                       const std::array<double, 2>& off,
                                       const std::array<double, 2>& noise) {
@@ -91,8 +91,8 @@ public:
             (spread_b * off[0] * off[0] - 2 * mixed * off[0] * off[1] + spread * off[1] * off[1]) /
             (spread * spread_b - mixed * mixed);
         const double inflation = std::max(1.0, sds / (2 * credible));
-        // Noise that is a share of the spread is alike in both: of the second only what the first
-        // does not tell is news.
+        // Noise that is a share of the spread is correlated between the two: only the part of the
+        // second that the first does not predict is new information.
         const double alike = (inflation - 1) * mixed;
         const double share = alike / (noise[0] + (inflation - 1) * spread);
         const double rest = noise[1] + (inflation - 1) * spread_b - share * alike;
@@ -119,8 +119,8 @@ private:
     Square<States> variance_;
 };
 
-/// What later measurements say of the state: x = mean - variance * score, and its spread is
-/// variance - variance * information * variance.
+/// Backward recursion over later measurements: x = mean - variance * score, with variance variance
+/// - variance * information * variance.
 template <int States>
 Vector<States> score_before(const Taken<States>& taken, const Vector<States>& after) {
     return after - taken.h * (taken.gain.dot(after) + taken.weight * taken.off);
@@ -161,7 +161,7 @@ Square<States> information_before(const Step& step, Square<States> information) 
         information.col(error) *= step.kept;
         information.row(error) *= step.kept;
     }
-    // Rounding errors that are not symmetric would grow from step to step.
+    // Asymmetric rounding errors would grow from step to step.
     for (int i = 0; i < States; ++i) {
         for (int j = 0; j < i; ++j) {
             information(j, i) = information(i, j);

@@ -12,7 +12,7 @@ namespace {
 
 using namespace place_filter;
 
-constexpr int rounds = 3; // by then the places stand still to centimetres
+constexpr int rounds = 3; // by then positions are stable to centimetres
 constexpr double settled_m = 0.5;
 
 constexpr double prior_lead_sd_m = 30;
@@ -20,24 +20,24 @@ constexpr double prior_lane_sd_m = 3; // to either side of the road
 constexpr double prior_oneway_sd_m = 2;
 constexpr double prior_zero_sd_rad = 1;
 
-constexpr double lead_walk = 0.001;       // m2 per m: a map's bends are not a car's, 0.3 m in 100 m
-constexpr double lead_walk_turning = 0.5; // m2 per rad: corners are cut as the driver likes
-constexpr double lead_walk_unmeasured = 2; // m2 per m: travel drawn from positions
+constexpr double lead_walk = 0.001; // m2 per m: bends of the map against the car's, 0.3 m in 100 m
+constexpr double lead_walk_turning = 0.5;  // m2 per rad: drivers cut corners differently
+constexpr double lead_walk_unmeasured = 2; // m2 per m: travel derived from positions
 constexpr double lane_walk = 5e-4;         // m2 per m: 0.5 m in 500 m
 constexpr double scale_walk = 1e-11;       // per m: 1e-3 in 100 km
 constexpr double latency_walk = 1e-7;      // s2 per s: 0.02 s in an hour
-constexpr double zero_walk = 1e-6;         // rad2 per s, beside the gyro's own
+constexpr double zero_walk = 1e-6;         // rad2 per s, in addition to the gyro's own
 
-constexpr double slow_error_s = 30;     // a receiver's error is alike so long
-constexpr double quick_error_m = 0.7;   // what is new at every fix
-constexpr double map_sd_m = 0.7;        // the line across the road, ...
-constexpr double map_length_m = 100;    // ... alike over so much
-constexpr double heading_sd_rad = 0.07; // of the line against the car, ...
-constexpr double bend_sd_m = 1.5;       // ... and where on it a bend is driven
+constexpr double slow_error_s = 30;     // correlation time of a receiver's error
+constexpr double quick_error_m = 0.7;   // white part, independent at every fix
+constexpr double map_sd_m = 0.7;        // of the line across the road
+constexpr double map_length_m = 100;    // correlation length of the map error
+constexpr double heading_sd_rad = 0.07; // of the line against the car
+constexpr double bend_sd_m = 1.5;       // of the position of a bend along the line
 
-/// What does not depend on where the line is thought to have been driven.
+/// Motion between epochs, independent of the linearisation.
 struct Motion {
-    double gone_m; ///< since the epoch before
+    double gone_m; ///< since the previous epoch
     double took_s;
     double kept; ///< of the slow error
 };
@@ -54,14 +54,15 @@ std::vector<Motion> motions_of(const std::vector<Epoch>& epochs) {
     return motions;
 }
 
-/// What the filter leaves of an epoch for the way back.
+/// Filter results of an epoch for the backward pass.
 template <int States>
 struct Passed {
-    Step step;             ///< from the epoch before
-    Vector<States> spread; ///< before the measurements: of the lead with each state
+    Step step;             ///< from the previous epoch
+    Vector<States> spread; ///< covariance of the lead with each state, before the measurements
     double lead_m;
     int count;
-    std::array<Taken<States>, 3> taken; ///< so many: the fix in two parts, then the heading
+    std::array<Taken<States>, 3>
+        taken; ///< as many as counted: the fix in two parts, then the heading
 };
 
 template <int States>
@@ -109,7 +110,7 @@ private:
                 motion.kept};
     }
 
-    /// Variances of what a step adds.
+    /// Returns the process noise variances of a step.
     static Vector<States> noise_of(const Step& step, const Motion& motion, const Epoch& to) {
         const double turn_rad = std::abs(step.lane_gain + step.oneway_gain);
         const double walk = to.measured ? lead_walk : lead_walk_unmeasured;
@@ -206,7 +207,7 @@ private:
             h, off_rad, alike * (heading_sd_rad * heading_sd_rad + bend_sd_rad * bend_sd_rad));
     }
 
-    /// Where all measurements put the car, linear about what the filter was given.
+    /// Returns the smoothed positions, linearised about the filter's input.
     std::vector<double> backward() const {
         std::vector<double> driven_m(epochs_.size());
         Vector<States> score = Vector<States>::Zero();

@@ -25,7 +25,7 @@ void expect(bool holds, std::string_view what) {
     }
 }
 
-/// Whether values begin at 0, never fall and end at `last`.
+/// Returns true if values begin at 0, never decrease and end at `last`.
 bool are_offsets(std::span<const std::uint32_t> values, std::size_t last) {
     return !values.empty() && values.front() == 0 && values.back() == last &&
            std::ranges::is_sorted(values);
@@ -61,7 +61,7 @@ void check_texts(const RoadNetwork& roads) {
            "its texts do not follow one another");
 }
 
-/// \returns whether a way and the next, which may be the one past the last, hold.
+/// \returns true if a way and the next, which may be the end sentinel, are consistent.
 bool is_sound(const RoadNetwork& roads, const PackedWay& way, const PackedWay& next) {
     const auto texts = roads.first_letter.size() - 1;
     return next.first_point > way.first_point && next.first_point - way.first_point >= 2 &&
@@ -78,7 +78,7 @@ void check_ways(const RoadNetwork& roads) {
                past.first_point == roads.points.size() &&
                past.first_link == roads.links.size() - 1 && past.first_turn == roads.turns.size(),
            "its ways do not begin or end with their points, links and turns");
-    // All ends are in bounds before the points of any way are looked at.
+    // Check all bounds before accessing the points of any way.
     expect(std::ranges::is_sorted(roads.ways, {}, &PackedWay::first_point),
            "its ways do not follow one another");
     for (std::size_t i = 0; i + 1 < roads.ways.size(); ++i) {
@@ -99,19 +99,19 @@ void check_ways(const RoadNetwork& roads) {
            "a turn restriction is invalid");
 }
 
-/// Number of the last point of a link of the way.
+/// Returns the number of the last point of a link of the way.
 std::uint32_t last_point(const RoadNetwork& roads, std::uint32_t link, std::uint32_t way) {
     return link + 1 < roads.ways[way + 1].first_link ? roads.links[link + 1].first_point
                                                      : roads.ways[way + 1].first_point - 1;
 }
 
-/// Whether the node's point has the identity of this one.
+/// Returns true if the node's point has the id of this point.
 bool lies_at(const RoadNetwork& roads, std::uint32_t node, std::uint32_t point) {
     return node < roads.node_point.size() &&
            roads.node_ids[roads.node_point[node]] == roads.node_ids[point];
 }
 
-/// \param segments  of the way's links before this one
+/// \param segments  number of segments of the way's links before this one
 bool is_sound(const RoadNetwork& roads,
               const PackedLink& link,
               std::uint32_t way,
@@ -162,7 +162,7 @@ bool is_edge(const RoadNetwork& roads, std::uint32_t edge) {
     return edge / 2 < roads.links.size() - 1 && is_drivable(roads, EdgeId{edge});
 }
 
-/// That each node has the drivable edges that leave it, in order.
+/// Checks that each node lists the drivable edges that leave it, in order.
 void check_departures(const RoadNetwork& roads) {
     expect(are_offsets(roads.first_out, roads.out_edges.size()),
            "its nodes' edges do not follow one another");
@@ -187,7 +187,8 @@ bool is_flagged(const RoadNetwork& roads, EdgeId edge) {
     return (packed_link(roads, edge).flags & flag) != 0;
 }
 
-/// That forbidden turns are turns, in order, and the links' flags tell which edges have some.
+/// Checks that forbidden turns are valid and sorted, and that the links' flags mark the edges with
+/// any.
 void check_turns(const RoadNetwork& roads) {
     std::size_t barred_edges = 0;
     for (std::size_t i = 0; i < roads.turn_restrictions.size(); ++i) {
@@ -217,7 +218,7 @@ bool holds(const GridBox& box, std::span<const GridBox> below) {
     return box == around;
 }
 
-/// Whether every box above the leaves is the smallest around those below it, level upon level.
+/// Returns true if every box above the leaves is the smallest around its children.
 bool boxes_hold_each_other(const PackedRtree& tree) {
     std::size_t first = 0;
     auto past = tree.numbers.size();
@@ -235,7 +236,7 @@ bool boxes_hold_each_other(const PackedRtree& tree) {
     return true;
 }
 
-/// That each link has its boxes in the index, and each box above holds those below it.
+/// Checks that each link has its boxes in the index, and that each inner box contains its children.
 void check_index(const RoadNetwork& roads) {
     const auto& numbers = roads.tree.numbers;
     const auto links = static_cast<std::uint32_t>(roads.links.size() - 1);

@@ -4,13 +4,12 @@
 
 namespace macadam {
 
-/// Checks every index, offset, count and order of a network that was not built here, so that what
-/// reads it afterwards need not. Takes time in proportion to its bytes, and a bit of memory a link.
+/// Validates every index, offset, count and order of a network from outside, so that its readers
+/// need not. Time is proportional to its bytes; memory is one bit per link. Proves that the arrays
+/// are consistent as build_network leaves them, not that positions, names and index boxes are those
+/// of a real map.
 ///
-/// Proves that the arrays fit each other as build_network leaves them; not that places, names and
-/// the boxes of the index are those of a real map.
-///
-/// \throws InputError  with what does not hold.
+/// \throws InputError  describing the violation.
 void expect_sound(const RoadNetwork& roads);
 
 } // namespace macadam

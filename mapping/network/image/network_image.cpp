@@ -25,19 +25,19 @@ constexpr std::size_t section_count = 14;
 
 struct Section {
     std::uint64_t offset;
-    std::uint64_t count; ///< of its records
+    std::uint64_t count; ///< number of records
 };
 
 struct Head {
     std::array<char, 8> magic;
     std::uint32_t byte_order;
     std::uint32_t version;
-    std::uint64_t bytes; ///< of the whole image
+    std::uint64_t bytes; ///< of the entire image
     double segment_length_m;
     std::array<char, source_digits> source;
     std::array<Section, section_count> sections;
-    std::uint64_t sum;      ///< of all after the head
-    std::uint64_t head_sum; ///< of the head before this
+    std::uint64_t sum;      ///< checksum of everything after the header
+    std::uint64_t head_sum; ///< checksum of the header before this field
 };
 static_assert(std::has_unique_object_representations_v<Section>);
 static_assert(sizeof(Head) == 32 + source_digits + 16 * section_count + 16);
@@ -69,11 +69,11 @@ void for_each_array(Roads& roads, Visit visit) {
     assert(number == section_count);
 }
 
-/// A sum that tells a changed byte or word; it is no protection against intent. Four strands, so
-/// that it costs little more than reading.
+/// Checksum that detects a changed byte or word; it is no protection against tampering. Four lanes,
+/// so that it costs little more than reading.
 class Sum {
 public:
-    /// \param bytes  of all but the last call a multiple of 32 in number
+    /// \param bytes  their number is a multiple of 32 in all but the last call
     void add(std::span<const std::byte> bytes) {
         std::size_t at = 0;
         for (; at + sizeof(strands_) <= bytes.size(); at += sizeof(strands_)) {
@@ -111,7 +111,7 @@ std::uint64_t sum_of(std::span<const std::byte> bytes) {
     return sum.value();
 }
 
-/// Of the sections as they follow one another, with what fills them up.
+/// Returns the checksum of consecutive sections including their padding.
 std::uint64_t sum_of(const std::vector<std::span<const std::byte>>& sections) {
     Sum sum;
     for (const auto& section : sections) {
@@ -130,7 +130,7 @@ std::uint64_t sum_of(const Head& head) {
     return sum_of(std::as_bytes(std::span{&head, 1}).first(offsetof(Head, head_sum)));
 }
 
-/// \param begin  where the section must begin. \returns where the next one does.
+/// \param begin  required start of the section. \returns the start of the next one.
 template <typename Value>
 std::size_t look_into(std::span<const Value>& array,
                       const Section& section,

@@ -11,23 +11,24 @@
 
 namespace macadam {
 
-// A network as bytes that are read in place: a head, then the arrays of a RoadNetwork as they lie
-// in memory, each from a multiple of image_alignment on. What docs/reference/road-maps.md says of
-// the file.
+// A network as bytes that are read in place: a header, then the arrays of a RoadNetwork as they are
+// in memory, each aligned to image_alignment. docs/reference/road-maps.md specifies the file.
 
 inline constexpr std::size_t image_alignment = 64;
 
 struct NetworkImage {
-    std::string head;                                 ///< as long as a multiple of image_alignment
-    std::vector<std::span<const std::byte>> sections; ///< each to be filled up to such a multiple
+    std::string head;                                 ///< its size is a multiple of image_alignment
+    std::vector<std::span<const std::byte>> sections; ///< each to be padded to such a multiple
 };
 
-/// \param source  what the network was made of: 64 hex digits. It stands in the image, so that
-///                whoever finds one knows whether it is his.
-/// The sections look into `roads`.
+/// Creates the image of a network.
+///
+/// \param source  origin of the network: 64 hex digits, stored in the image so that a reader can
+///                tell whether it matches.
+/// \returns  an image whose sections refer to `roads`.
 NetworkImage image_of(const RoadNetwork& roads, std::string_view source);
 
-/// Whether bytes begin as an image does, whatever comes then.
+/// Returns true if the bytes begin like an image, whatever follows.
 bool begins_as_image(std::span<const std::byte> bytes);
 
 struct ImageContent {
@@ -35,11 +36,11 @@ struct ImageContent {
     std::string source;
 };
 
-/// The network that an image holds. Costs one look at every byte and no memory.
+/// Reads the network from an image. Reads every byte once and allocates no memory.
 ///
-/// \param image  begins at a multiple of 8 in memory
-/// \param owner  keeps these bytes
-/// \throws InputError  if they are no image, one of another version or byte order, or damaged.
+/// \param image  aligned to 8 bytes in memory
+/// \param owner  keeps these bytes alive
+/// \throws InputError  if the bytes are no image, of another version or byte order, or damaged.
 ImageContent network_in(std::span<const std::byte> image, std::shared_ptr<const void> owner);
 
 } // namespace macadam

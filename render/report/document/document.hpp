@@ -9,7 +9,8 @@
 
 namespace macadam {
 
-/// PNG files of one picture: for light pages and paper, and for dark pages (empty: the same one).
+/// PNG files of one picture: for light pages and paper, and for dark pages (empty: the same
+/// picture).
 struct ReportPicture {
     std::vector<std::uint8_t> light_png;
     std::vector<std::uint8_t> dark_png;
@@ -19,26 +20,25 @@ struct ReportPicture {
 
 namespace document {
 
-// A report as neither HTML nor PDF: what it says, in order, in final words. Texts are UTF-8 as they
-// came, not escaped for anything; '\n' breaks a line. report_html and report_pdf write the same
-// document.
+// Content of a report, independent of HTML and PDF: ordered blocks with final wording. Texts are
+// raw UTF-8, not escaped; '\n' breaks a line. report_html and report_pdf write the same document.
 
 enum class SpanLook {
     plain,
     strong,
     quiet,
-    phone ///< only where a narrow screen leaves out columns that say it
+    phone ///< only on narrow screens that omit the columns with this content
 };
 
-/// A run of text in one look.
+/// Run of text in one look.
 struct Span {
     std::string text;
     SpanLook look = SpanLook::plain;
     bool unbroken = false; ///< stays on one line
-    std::string target{};  ///< id of a place of this document that it leads to; "" = none
+    std::string target{};  ///< id of the linked position in this document; "" = none
 };
 
-/// Text with what stands out in it.
+/// Text with highlighted runs.
 struct RichText {
     std::vector<Span> spans;
 
@@ -60,10 +60,10 @@ struct Stroke {
 struct Bar {
     double x, y, width, height;
     std::uint32_t rgb;
-    bool edged = true; ///< with the page's own edge, so that no colour is lost on it
+    bool edged = true; ///< outlined in the page's colour, for contrast
 };
 struct Label {
-    double x, y; ///< of the anchor, on the base line
+    double x, y; ///< of the anchor, on the baseline
     Anchor anchor;
     std::string text;
 };
@@ -74,12 +74,12 @@ struct Dots {
 };
 using Shape = std::variant<Stroke, Bar, Label, Dots>;
 
-/// A figure of lines and letters, y downwards, in units of which about 400 fit a phone. Letters are
+/// Figure of lines and letters, y downwards, in units of which about 400 fit a phone. Letters are
 /// 12 units high.
 struct Drawing {
     double width;
     double height;
-    std::string words; ///< the same for those who listen
+    std::string words; ///< text alternative for screen readers
     std::vector<Shape> shapes;
 };
 
@@ -94,7 +94,7 @@ struct Bullets {
     std::vector<RichText> items;
 };
 
-/// A number that counts, with what it is over it and more of it under it.
+/// Key number, with its caption above and details below.
 struct KeyNumber {
     std::string what;
     std::string value;
@@ -105,7 +105,7 @@ struct KeyNumbers {
     std::vector<KeyNumber> numbers;
 };
 
-/// Part of a bar, in percent of it.
+/// Share of a bar, in percent.
 struct ShareOfBar {
     double percent;
     std::uint32_t rgb;
@@ -113,8 +113,8 @@ struct ShareOfBar {
 
 struct Cell {
     RichText text;
-    std::optional<std::uint32_t> swatch{}; ///< a little square of this colour before the text
-    std::vector<ShareOfBar> shares{};      ///< a bar instead; the text is for those who listen
+    std::optional<std::uint32_t> swatch{}; ///< small square of this colour before the text
+    std::vector<ShareOfBar> shares{};      ///< bar; the text is for screen readers
 
     Cell(RichText rich) : text{std::move(rich)} {}        // NOLINT(*-explicit-*)
     Cell(std::string plain) : text{std::move(plain)} {}   // NOLINT(*-explicit-*)
@@ -123,24 +123,24 @@ struct Cell {
 
 struct Column {
     std::string title;
-    bool number = false;    ///< aligned to the right
-    bool elsewhere = false; ///< left out on phones: the page says it in another place, too
+    bool number = false;    ///< right-aligned
+    bool elsewhere = false; ///< omitted on phones: the page contains it elsewhere
 };
 
-/// A table whose first column names its rows; as many cells in a row as columns.
+/// Table whose first column names its rows; every row has as many cells as there are columns.
 struct Table {
     std::string caption;
     std::vector<Column> columns;
     std::vector<std::vector<Cell>> rows;
-    bool sum = false;    ///< the last row is of all others together
-    bool stacks = false; ///< where columns have no room each row is a block of titles and values
+    bool sum = false;    ///< the last row is the total
+    bool stacks = false; ///< on narrow screens each row becomes a block of titles and values
 };
 
 struct LegendEntry {
-    std::optional<std::uint32_t> rgb; ///< nothing: the line of a road without a measurement
+    std::optional<std::uint32_t> rgb; ///< `std::nullopt`: the line of a road without a measurement
     std::string name;
     std::string range;
-    std::optional<std::uint32_t> dark_rgb{}; ///< on dark pages; nothing: the same
+    std::optional<std::uint32_t> dark_rgb{}; ///< on dark pages; `std::nullopt`: the same
 };
 
 struct Legend {
@@ -148,20 +148,20 @@ struct Legend {
     std::vector<LegendEntry> entries;
 };
 
-/// The map of all roads.
+/// Map of all roads.
 struct MapFigure {
     ReportPicture picture;
-    std::string words;    ///< for those who listen
-    double scale_percent; ///< length of the scale bar, of the picture's width; 0 = none
+    std::string words;    ///< text alternative for screen readers
+    double scale_percent; ///< length of the scale bar relative to the picture's width; 0 = none
     std::string scale;    ///< "1 km, north up"
     std::string caption;
 };
 
-/// A small map with what it shows.
+/// Small map with a description.
 struct Card {
-    std::string id; ///< links lead there
+    std::string id; ///< target of links
     ReportPicture picture;
-    std::string words; ///< for those who listen
+    std::string words; ///< text alternative for screen readers
     std::string title;
     RichText text;
 };
@@ -182,12 +182,12 @@ struct Document {
     std::string language; ///< "en"
     std::string title;
     RichText subtitle;
-    std::string running_head; ///< on every page of paper but the first
+    std::string running_head; ///< on every printed page but the first
     std::string page_of;      ///< "Page {page} of {pages}"
-    std::string day;          ///< the newest of the data, "2026-04-02"; "" = none
+    std::string day;          ///< date of the newest data, "2026-04-02"; "" = none
     KeyNumbers keys;
     std::vector<DocumentSection> sections;
-    std::vector<DocumentSection> end; ///< whose data, after all else
+    std::vector<DocumentSection> end; ///< data sources, at the end
 };
 
 } // namespace document

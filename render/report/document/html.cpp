@@ -71,8 +71,8 @@ std::string table_html(const document::Table& table,
         return table.stacks ? fmt::format(" data-t=\"{}\"", escaped(table.columns[column].title))
                             : std::string{};
     };
-    constexpr std::size_t rows_that_stay_together = 12; // on paper; more may go over a page
-    constexpr std::size_t most_on_a_phone = 8;          // columns, with room to spare for a tablet
+    constexpr std::size_t rows_that_stay_together = 12; // on paper; longer tables are split
+    constexpr std::size_t most_on_a_phone = 8;          // columns, with a margin for a tablet
     const auto* const kind = table.rows.size() > rows_that_stay_together ? "wide long" : "wide";
     auto html = fmt::format("<div class=\"{1}\" role=\"region\" aria-label=\"{0}\" "
                             "tabindex=\"0\"><table{2}>\n<caption>{0}</caption>\n<thead><tr>",

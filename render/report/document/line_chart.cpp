@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-// In the figure's own units; 720 of them are 160 mm of a page.
+// In the figure's own units; 720 of them are 160 mm on a page.
 constexpr double width = 720;
 constexpr double panel_height = 340;
 constexpr double left = 66;
@@ -21,7 +21,7 @@ constexpr double top = 60;
 constexpr double bottom = 286;
 constexpr double text_size = 14;
 constexpr double legend_line = 34;
-constexpr double letter = 0.6 * text_size; // of a name in the legend, about
+constexpr double letter = 0.6 * text_size; // approximate letter width of a name in the legend
 
 struct Axes {
     double from_x;
@@ -29,7 +29,7 @@ struct Axes {
     double to_y;
     double step_x;
     double step_y;
-    double down; ///< of the panel
+    double down; ///< vertical offset of the panel
 
     double x(double value) const {
         return left + (right - left) * (value - from_x) / (to_x - from_x);
@@ -101,7 +101,8 @@ std::string frame_svg(const ChartPanel& panel, const Axes& axes, const Palette& 
                     fmt::format(" transform=\"rotate(-90 16 {:.1f})\"", middle).c_str());
 }
 
-/// Dark, blue or light: apart in black and white by dashes and weight.
+/// Returns a stroke style in dark, blue or light; dashes and weight distinguish them in black and
+/// white.
 std::string stroke_of(ChartLine::Look look, const Palette& colours) {
     switch (look) {
     case ChartLine::Look::dashed:
@@ -141,7 +142,7 @@ std::string line_svg(const ChartLine& line, const Axes& axes, const Palette& col
                        points);
 }
 
-/// In a row between title and axes, where it hides nothing.
+/// Draws the legend in a row between title and axes, where it hides no data.
 std::string legend_svg(const ChartPanel& panel, double down, const Palette& colours) {
     const double y = down + 42;
     double x = left;

@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// A sheet, upright, in points of 1/72 inch.
+/// Upright sheet, in points of 1/72 inch.
 struct Paper {
     double width_pt;
     double height_pt;
@@ -18,12 +18,11 @@ struct PdfConfig {
     Paper paper = a4;
 };
 
-/// The document as the bytes of a PDF file: A4 or letter, running head and page numbers, heads of
-/// tables on every page that they reach, figures as vectors, an outline, links, fonts embedded.
-/// What dates it has are those of the data: the same document and the same fonts give the same
-/// bytes.
+/// Returns the document as the bytes of a PDF file: A4 or letter, running head and page numbers,
+/// table headings repeated on every page, vector figures, an outline, links, embedded fonts. Its
+/// dates are those of the data: the same document and the same fonts give the same bytes.
 ///
-/// Cairo and Pango do the work; they are opened when this is first called.
+/// Cairo and Pango are loaded on the first call.
 ///
 /// \throws InputError  if they cannot be opened or report an error.
 std::string pdf_of(const Document& document, const PdfConfig& config);

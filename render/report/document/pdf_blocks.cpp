@@ -16,7 +16,7 @@ constexpr double card_gap_pt = 12;
 constexpr double key_padding_pt = 7;
 constexpr double legend_gap_pt = 14;
 constexpr double swatch_pt = 7;
-constexpr double max_line_pt = 440; // of running text: longer ones are hard to follow
+constexpr double max_line_pt = 440; // of running text: longer lines are hard to read
 constexpr double scale_height_pt = 4;
 constexpr double room_over_map_pt = 80; // for heading and legend
 
@@ -32,7 +32,7 @@ double line_width(const PdfSheets& sheets) {
     return std::min(sheets.width_pt(), max_line_pt);
 }
 
-/// A key number in its box, without the box.
+/// Content of a key number's box.
 struct Key {
     PdfText what, value, more;
 
@@ -52,7 +52,7 @@ PdfText laid(const PdfSheets& sheets, const Paragraph& paragraph) {
     return sheets.text(paragraph.text, paragraph.small ? remark() : body(), line_width(sheets));
 }
 
-/// A map as large as the page lets it be.
+/// Map at the largest size that fits the page.
 struct LaidMap {
     PdfText caption, scale;
     double width_pt, height_pt; ///< of the picture

@@ -5,13 +5,14 @@
 
 namespace macadam {
 
-// Parts of a document, put on sheets where the last one ended.
+// Blocks of a document, placed on sheets one after another.
 
 inline constexpr double body_size_pt = 9;
 inline constexpr double small_size_pt = 8;
 inline constexpr double block_gap_pt = 9;
 
-/// How much of a block must stand under its heading: all that does not go over a page.
+/// Return the height of a block that must stay with its heading: the part before its first page
+/// break.
 double first_pt(const PdfSheets& sheets, const document::Paragraph& paragraph);
 double first_pt(const PdfSheets& sheets, const document::Table& table);
 double first_pt(const PdfSheets& sheets, const document::MapFigure& map);

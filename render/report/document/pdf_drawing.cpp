@@ -8,7 +8,7 @@ using namespace document;
 
 namespace {
 
-constexpr double pt_per_unit = 0.72; // letters of 12 units are then as large as those of tables
+constexpr double pt_per_unit = 0.72; // letters of 12 units match those of tables
 constexpr double letters_units = 11;
 
 struct Origin {

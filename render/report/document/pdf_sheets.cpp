@@ -36,7 +36,7 @@ void set_colour(cairo_t* cairo, std::uint32_t rgb) {
     cairo_set_source_rgb(cairo, part(16), part(8), part(0));
 }
 
-/// A name as attributes of Cairo's tags quote it.
+/// Quotes a name for the attributes of Cairo's tags.
 std::string quoted(const std::string& id) {
     std::string text = "'";
     for (const char c : id) {
@@ -86,7 +86,7 @@ void PdfSheets::draw_map_surround() const {
          paper_.height_pt - bottom_margin_pt + 14);
     if (page_ > 1) {
         const auto head = text(document_.running_head, quiet, width_pt());
-        pango_layout_set_height(head.layout(), 0); // one line, and an ellipsis if it is longer
+        pango_layout_set_height(head.layout(), 0); // one line, with an ellipsis if it is longer
         pango_layout_set_ellipsize(head.layout(), PANGO_ELLIPSIZE_END);
         draw(head, left_pt(), head_y_pt);
         rule(print::border, left_pt(), head_y_pt + 14, width_pt());
@@ -116,7 +116,7 @@ void PdfSheets::draw(const PdfText& text, double x_pt, double y_pt) const {
         cairo_tag_begin(cairo_.get(), CAIRO_TAG_LINK, ("dest=" + quoted(text.target())).c_str());
     }
     pango_cairo_show_layout(cairo_.get(), text.layout());
-    cairo_new_path(cairo_.get()); // no line goes on from where the text began
+    cairo_new_path(cairo_.get()); // avoids a line from the text's origin
     if (!text.target().empty()) {
         cairo_tag_end(cairo_.get(), CAIRO_TAG_LINK);
     }

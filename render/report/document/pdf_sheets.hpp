@@ -15,10 +15,11 @@ namespace macadam {
 using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using CairoContext = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
-/// Sheets of paper that are filled from above. Points of 1/72 inch, from the upper left corner.
+/// Sheets of paper that are filled from the top. Points of 1/72 inch, from the upper left corner.
 class PdfSheets {
 public:
-    /// \param pages  how many there will be; nothing: they are only counted, and pictures left out
+    /// \param pages  number of pages; `std::nullopt`: pages are only counted, and pictures are
+    ///               omitted
     PdfSheets(const Document& document, const PdfConfig& config, std::optional<int> pages);
 
     double left_pt() const { return side_margin_pt; }
@@ -28,8 +29,8 @@ public:
     bool is_counting() const { return !pages_; }
     cairo_t* cairo() const { return cairo_.get(); }
 
-    /// Goes to a new page if there is less room; nothing is ever as high as that of a whole page
-    /// but what fills it.
+    /// Starts a new page if less height is left. The height must not exceed that of a page, except
+    /// for content that fills it.
     void need(double height_pt);
     void skip(double height_pt);
     bool is_at_top() const { return y_pt_ <= top_margin_pt; }
@@ -37,7 +38,7 @@ public:
 
     PdfText text(const document::RichText& rich, const PdfType& type, double width_pt) const;
 
-    /// Draws it with its upper left corner there.
+    /// Draws text with its upper left corner at a position.
     void draw(const PdfText& text, double x_pt, double y_pt) const;
     void fill(std::uint32_t rgb, double x_pt, double y_pt, double width_pt, double height_pt) const;
     void
@@ -45,19 +46,19 @@ public:
     void rule(std::uint32_t rgb, double x_pt, double y_pt, double width_pt) const;
     void picture(const ReportPicture& picture, double x_pt, double y_pt, double width_pt) const;
 
-    /// A place that links lead to, there.
+    /// Sets a link target at a height.
     void place(const std::string& id, double y_pt) const;
 
-    /// An entry of the outline, at the height that was reached. \returns what entries below it ask
-    /// for. \param above  0: none.
+    /// Adds an outline entry at the current height. \returns its id, the parent of entries below
+    /// it. \param above  parent; 0: none.
     int outline(const std::string& title, int above) const;
 
-    /// Likewise, at a place.
+    /// Adds an outline entry for a link target.
     int outline_to(const std::string& id, const std::string& title, int above) const;
 
     int count() const { return page_; }
 
-    /// The bytes of the file; nothing may be drawn after it.
+    /// Returns the bytes of the file; no drawing is allowed afterwards.
     std::string finished();
 
 private:

@@ -11,22 +11,22 @@ using namespace document;
 
 namespace {
 
-constexpr std::array sizes_pt{8.0, 7.5, 7.0, 6.5, 6.0}; // the first with which all columns fit
+constexpr std::array sizes_pt{8.0, 7.5, 7.0, 6.5, 6.0}; // the first that fits all columns is used
 constexpr double gap_pt = 9;                            // between columns
-constexpr double padding_pt = 2.6;                      // over and under the text of a row
+constexpr double padding_pt = 2.6;                      // above and below the text of a row
 constexpr double share_width_pt = 90;
-constexpr double max_head_pt = 80; // wider heads go over several lines
+constexpr double max_head_pt = 80; // wider headings are wrapped
 constexpr double share_height_pt = 8;
 constexpr double swatch_pt = 7;
 constexpr double swatch_gap_pt = 4;
-constexpr std::size_t rows_that_stay_together = 12; // more may go over a page
-constexpr std::size_t rows_with_the_head = 2;       // at least, under the first head
+constexpr std::size_t rows_that_stay_together = 12; // longer tables may be split over pages
+constexpr std::size_t rows_with_the_head = 2;       // minimum under the first heading
 
 double swatch_width(const Cell& cell) {
     return cell.swatch ? swatch_pt + swatch_gap_pt : 0;
 }
 
-/// Where the columns of a table stand, and how large its letters are.
+/// Column positions of a table, and its font size.
 class Columns {
 public:
     Columns(const PdfSheets& sheets, const Table& table) : sheets_{sheets}, table_{table} {
@@ -67,7 +67,7 @@ private:
     std::size_t gaps() const { return table_.columns.size() - 1; }
     double room_pt() const { return sheets_.width_pt() - gap_pt * static_cast<double>(gaps()); }
 
-    /// Of its longest word.
+    /// Returns the width of the longest word.
     double least_of(const RichText& text, PdfType type) const {
         type.breaks_words = false;
         return sheets_.text(text, type, 0).width_pt();
@@ -100,12 +100,12 @@ private:
                                 ? whole
                                 : least_of(cell.text, type(c, bold)) + swatch_width(cell);
         wanted_[c] = std::max(wanted_[c], whole);
-        // A name may be longer than the page is wide; such a word is broken.
+        // A name may be wider than the page; such a word is broken.
         least_[c] = std::max(least_[c], std::min(word, sheets_.width_pt() / 4));
     }
 
-    /// What columns want; if that is too much, what is missing is taken from those that can wrap,
-    /// in proportion to what they can give.
+    /// Distributes the width. If the columns want more than available, the difference is taken from
+    /// those that can wrap, in proportion to their slack.
     void share_out() {
         widths_ = wanted_;
         const double missing = sum_of(wanted_) - room_pt();
@@ -125,7 +125,7 @@ private:
     std::vector<double> least_, wanted_, widths_;
 };
 
-/// Room for letters whose width is rounded elsewhere.
+/// Tolerance for letter widths that are rounded elsewhere.
 constexpr double play_pt = 0.1;
 
 struct Row {
@@ -197,14 +197,14 @@ void draw_row(PdfSheets& sheets,
     sheets.rule(print::border, sheets.left_pt(), sheets.y_pt(), columns.whole_pt());
 }
 
-/// A table in rows, ready to be drawn.
+/// Table laid out in rows.
 struct Laid {
     Columns columns;
     PdfText caption;
     Row head;
     std::vector<Row> rows;
 
-    /// Of what stays together with the caption.
+    /// Returns the height of the part that stays with the caption.
     double first_pt() const {
         const auto together = rows.size() <= rows_that_stay_together
                                   ? rows.size()

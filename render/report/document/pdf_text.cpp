@@ -9,9 +9,9 @@ using namespace document;
 
 namespace {
 
-// Of fonts-noto-core; Pango takes other fonts of the machine for scripts that it lacks.
+// From fonts-noto-core; Pango substitutes other installed fonts for missing scripts.
 constexpr const char* family = "Noto Sans,DejaVu Sans,sans-serif";
-constexpr float line_spacing = 1.12F; // of the font's own, which for Noto Sans is 1.36
+constexpr float line_spacing = 1.12F; // relative to the font's own, which is 1.36 for Noto Sans
 
 struct FreeFont {
     void operator()(PangoFontDescription* font) const { pango_font_description_free(font); }
@@ -20,7 +20,7 @@ struct FreeAttributes {
     void operator()(PangoAttrList* list) const { pango_attr_list_unref(list); }
 };
 
-/// Valid UTF-8 without control characters but the ends of lines.
+/// Returns valid UTF-8 without control characters except line breaks.
 std::string cleaned(const std::string& text) {
     char* const valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
     std::string clean{valid};
@@ -63,7 +63,7 @@ void add_look(PangoAttrList* list, const Span& span, std::size_t from, std::size
 PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, double width_pt)
     : layout_{pango_cairo_create_layout(cairo)}, rgb_{type.rgb} {
     auto* const context = pango_layout_get_context(layout_.get());
-    pango_cairo_context_set_resolution(context, 72); // a point is a unit of the page
+    pango_cairo_context_set_resolution(context, 72); // one unit of the page is a point
     pango_context_set_round_glyph_positions(context, FALSE);
     const std::unique_ptr<PangoFontDescription, FreeFont> font{pango_font_description_new()};
     pango_font_description_set_family(font.get(), family);
@@ -76,7 +76,7 @@ PdfText::PdfText(cairo_t* cairo, const RichText& rich, const PdfType& type, doub
     const std::unique_ptr<PangoAttrList, FreeAttributes> looks{pango_attr_list_new()};
     for (const auto& span : rich.spans) {
         if (span.look == SpanLook::phone) {
-            continue; // paper has room for the columns that say it
+            continue; // paper has room for the columns with this content
         }
         const auto from = text.size();
         text += cleaned(span.text);

@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// Colours of print, as MapStyle::Theme::print has them.
+/// Colours of print, as in MapStyle::Theme::print.
 namespace print {
 inline constexpr std::uint32_t ink = 0x1a1a1a;
 inline constexpr std::uint32_t quiet = 0x555555;
@@ -18,26 +18,26 @@ inline constexpr std::uint32_t border = 0xc8c8c8;
 inline constexpr std::uint32_t edge = 0x404040;
 } // namespace print
 
-/// How text is set.
+/// Typographic style of text.
 struct PdfType {
     double size_pt;
     bool bold = false;
     std::uint32_t rgb = print::ink;
     bool to_the_right = false;
-    bool breaks_words = true; ///< that are longer than a line
+    bool breaks_words = true; ///< if they are longer than a line
 };
 
-/// Text in lines, ready to be drawn.
+/// Text laid out in lines.
 class PdfText {
 public:
-    /// \param width_pt  of its lines; less than 0: they end where the text ends them
+    /// \param width_pt  line width; less than 0: lines end only at line breaks
     PdfText(cairo_t* cairo, const document::RichText& rich, const PdfType& type, double width_pt);
 
     double width_pt() const;  ///< of its widest line
     double height_pt() const; ///< of all lines
     PangoLayout* layout() const { return layout_.get(); }
     std::uint32_t rgb() const { return rgb_; }
-    const std::string& target() const { return target_; } ///< "" = leads nowhere
+    const std::string& target() const { return target_; } ///< "" = no link
 
 private:
     struct Free {

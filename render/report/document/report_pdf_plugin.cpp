@@ -29,7 +29,8 @@ void put_title(PdfSheets& sheets, const Document& document) {
     }
 }
 
-/// How much room a heading wants under it, so that it does not stand alone at a page's end.
+/// Returns the height that must follow a heading, so that it is not left alone at the end of a
+/// page.
 double room_under_heading(const PdfSheets& sheets, const DocumentSection& section) {
     constexpr double of_others_pt = 40;
     double room_pt = 0;
@@ -40,13 +41,13 @@ double room_under_heading(const PdfSheets& sheets, const DocumentSection& sectio
         if (const auto* const table = std::get_if<Table>(&block)) {
             return first_pt(sheets, *table);
         }
-        const auto* const map = std::get_if<MapFigure>(&block); // after its legend
+        const auto* const map = std::get_if<MapFigure>(&block); // follows its legend
         room_pt += map != nullptr ? first_pt(sheets, *map) : of_others_pt;
     }
     return room_pt;
 }
 
-/// Cards as entries under their section's.
+/// Adds cards as entries under their section's.
 void outline_cards(const PdfSheets& sheets, const Cards& cards, int above) {
     for (const auto& card : cards.cards) {
         sheets.outline_to(card.id, card.title, above);
@@ -84,7 +85,7 @@ void put_all(PdfSheets& sheets, const Document& document) {
 } // namespace
 } // namespace macadam
 
-// How many pages there will be is known once all is set: it is set twice.
+// The layout runs twice, since the number of pages is known only after the first run.
 extern "C" std::string macadam_write_pdf(const macadam::Document& document,
                                          const macadam::PdfConfig& config) {
     macadam::PdfSheets counted{document, config, std::nullopt};

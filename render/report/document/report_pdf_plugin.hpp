@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-// What render/report/document/pdf.cpp asks of the plug-in macadam_pdf.
+// Entry point of the plug-in macadam_pdf for render/report/document/pdf.cpp.
 
 using WritePdf = std::string(const Document& document, const PdfConfig& config);
 inline constexpr const char* write_pdf_name = "macadam_write_pdf";

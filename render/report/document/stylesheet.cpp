@@ -94,7 +94,7 @@ tr,figure,.key div,.histogram{break-inside:avoid}thead{display:table-header-grou
 .map{max-width:calc(135mm*var(--shape))}a{text-decoration:none}}
 )";
 
-/// Rows as blocks of titles and values, where the screen is too narrow for columns.
+/// Returns rules that turn rows into blocks of titles and values on screens too narrow for columns.
 std::string stacked(std::string_view kind, int width_rem) {
     std::string css = R"(
 @media screen and (max-width:WIDTHrem){KIND,KIND tbody,KIND caption{display:block}KIND thead,KIND td:empty{display:none}

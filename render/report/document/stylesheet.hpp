@@ -4,7 +4,7 @@
 
 namespace macadam {
 
-/// The style sheet of a report: for narrow and wide, light and dark screens, and for paper.
+/// Returns the style sheet of a report, for narrow and wide, light and dark screens, and for paper.
 std::string report_style();
 
 } // namespace macadam

@@ -6,9 +6,9 @@
 
 namespace macadam {
 
-// The words of the reports: words_en.cpp, words_de.cpp, and for the comparison with references
-// words_reference_en.cpp, words_reference_de.cpp. Every language has the same keys with the same
-// places; a test holds it.
+// Message catalogues of the reports: messages_en.cpp, messages_de.cpp, and for the comparison with
+// references messages_reference_en.cpp, messages_reference_de.cpp. Every language has the same keys
+// with the same placeholders, which a test verifies.
 std::span<const Message> english_messages();
 std::span<const Message> english_reference_messages();
 std::span<const Message> german_messages();

@@ -11,7 +11,7 @@ constexpr std::string_view narrow_blank = "\u202F";
 constexpr std::string_view dash = "–";
 constexpr std::string_view minus = "\u2212";
 
-/// Decimals with which roughness is written: a hundredth of a mm/m is about half an in/mi.
+/// Returns the number of decimals of roughness: a hundredth of a mm/m is about half an in/mi.
 int iri_decimals(IriUnit unit) {
     return unit == IriUnit::mm_per_m ? 2 : 0;
 }
@@ -45,7 +45,7 @@ std::string Localisation::number(double value, int decimals) const {
 }
 
 std::string Localisation::signed_number(double value, int decimals) const {
-    // What rounds to nothing has no sign.
+    // A value that rounds to zero has no sign.
     const bool nothing = std::abs(value) < 0.5 * std::pow(10.0, -decimals);
     return fmt::format("{}{}",
                        nothing     ? "±"

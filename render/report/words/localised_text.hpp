@@ -12,17 +12,18 @@ namespace macadam {
 
 enum class IriUnit { mm_per_m, in_per_mi };
 
-/// How a report writes words, numbers, days and roughness. Values are mm/m whatever is written.
+/// Formatting of words, numbers, days and roughness in a report. Input values are mm/m in every
+/// unit.
 struct Localisation {
     const Language* language = &languages().front();
     IriUnit unit = IriUnit::mm_per_m;
 
     std::string operator()(std::string_view key, const Values& values = {}) const;
 
-    /// The message of that key, or else the text: names that come from data.
+    /// Returns the message with that key, or the given text, for names that come from data.
     std::string or_else(const std::string& key, std::string_view text) const;
 
-    /// The message in the form that the number asks for, with the number as {count}.
+    /// Returns the message in the plural form of the number, with the number as {count}.
     std::string counted(std::string_view key, std::size_t count, Values values = {}) const;
 
     std::string number(double value, int decimals) const;
@@ -30,16 +31,17 @@ struct Localisation {
     std::string whole(double value) const;    ///< "240"
     std::string shortest(double value) const; ///< "20", "2.5": up to six digits
     std::string
-    count(std::size_t count) const; ///< thousands parted by narrow blanks from 10 000 on
+    count(std::size_t count) const; ///< thousands separated by narrow spaces from 10 000 on
 
-    /// Kilometres of road with the decimals that fit the longest of them: 2 below 10 km, 1 below
-    /// 1000 km, then none.
+    /// Formats kilometres of road with the decimals that suit the longest of them: 2 below 10 km, 1
+    /// below 1000 km, then none.
     std::string km(double length_m, double longest_m) const;
 
-    /// "34.1 %"; "0 %" only for nothing, "< 0.1 %" for hardly anything. A dash of nothing.
+    /// Returns "34.1 %"; "0 %" only for exactly 0, "< 0.1 %" for very small parts. A dash if
+    /// `whole` is 0.
     std::string percent(double part, double whole) const;
 
-    std::string day(std::string_view iso) const; ///< of "2026-03-01"
+    std::string day(std::string_view iso) const; ///< from "2026-03-01"
     std::string period(std::string_view first_day,
                        std::string_view last_day) const; ///< "" = no days
 
@@ -54,7 +56,7 @@ struct Localisation {
                       std::size_t i) const; ///< "below 1.50", "1.50 – 2.68"
 };
 
-/// Of mm/m in the unit.
+/// Converts mm/m to the unit.
 double in_unit(double mm_per_m, IriUnit unit);
 
 } // namespace macadam

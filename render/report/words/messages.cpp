@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-/// English and German alike (CLDR: one is 1, all else is other).
+/// Plural rule of English and German (CLDR: 1 is one, all else is other).
 std::string_view one_or_other(std::size_t count) {
     return count == 1 ? "one" : "other";
 }

@@ -15,7 +15,7 @@ namespace macadam {
 ChunkPasses::ChunkPasses(Database& database)
     : select_trip_{database.prepare("SELECT sha256, vehicle, t0_utc_ms, reference_ppm"
                                     " FROM trip WHERE id = ?")},
-      // Rows of a chunk's segments stand one after the other.
+      // The rows of a chunk's segments are consecutive.
       select_places_{
           database.prepare("SELECT fid, way_id, direction, seq, from_m, to_m FROM segment"
                            " WHERE fid >= ?1 AND fid < ?1 + ?2 AND strip = ?1 ORDER BY fid")},
@@ -64,7 +64,7 @@ std::vector<ChunkPasses::Place> ChunkPasses::places_of(std::int64_t chunk,
     return places;
 }
 
-/// Of the row that is at hand; nothing if its trip is not there.
+/// Pass in the current row; `std::nullopt` if its trip does not exist.
 std::optional<ChunkPass> ChunkPasses::pass_at(const Place& place) {
     const auto* of = trip(select_passes_.integer(1));
     if (of == nullptr) {

@@ -11,27 +11,28 @@
 
 namespace macadam {
 
-/// A pass and where its segment lies.
+/// Pass with the position of its segment.
 struct ChunkPass {
-    std::int64_t fid; ///< the segment's row
+    std::int64_t fid; ///< row of the segment
     FusionInput input;
-    double from_m; ///< station: along the way, rising in driving direction
+    double from_m; ///< station along the way, rising in driving direction
     double to_m;
 };
 
-/// Reads the passes of chunks. For one transaction: trips that it has seen are not read again.
+/// Reads the passes of chunks within one transaction, because it caches trips.
 class ChunkPasses {
 public:
     explicit ChunkPasses(Database& database);
 
-    /// In the order of (row of the segment, trip hash, occurrence), none calibrated.
-    /// \param chunk  the row of its first segment.
+    /// Passes of a chunk in the order of (row of the segment, trip hash, occurrence), without
+    /// calibration.
+    /// \param chunk  row of its first segment.
     std::vector<ChunkPass> of(std::int64_t chunk, std::int64_t segments_per_chunk);
 
 private:
     struct Trip {
         std::string sha256;
-        std::int64_t vehicle; ///< of a reference none: below 0, where no car's is
+        std::int64_t vehicle; ///< negative for references, unlike any car
         std::optional<std::int64_t> t0_utc_ms;
         bool reference;
     };

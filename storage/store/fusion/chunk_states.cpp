@@ -29,7 +29,7 @@ DriveSet drives_of(const std::vector<ChunkPass>& passes) {
     return drives;
 }
 
-/// Takes the pass to where its trace lies among the others.
+/// Sets the lag of a pass from its aligned trace.
 void put_in_its_place(ChunkPass& pass, std::span<const PlacedTrace> traces) {
     auto& input = pass.input;
     const auto* placed = find_trace(traces, input.trip_sha256, input.pass.drive);

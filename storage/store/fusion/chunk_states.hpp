@@ -22,39 +22,39 @@ struct FusedSegment {
 };
 
 struct FusedChunk {
-    AlignmentSummary laid;              ///< of its traces
-    std::vector<FusedSegment> segments; ///< with a pass, in the order of their rows
+    AlignmentSummary laid;              ///< summary of the alignment of its traces
+    std::vector<FusedSegment> segments; ///< those with passes, in the order of their rows
 };
 
-/// Which passes a state is fused from.
+/// Selection of the passes from which a state is fused.
 struct PassChoice {
-    std::optional<Period> period; ///< those with a date in it
-    bool cars_alone;              ///< those of references are left out
+    std::optional<Period> period; ///< only dated passes within it
+    bool cars_alone;              ///< without references
 };
 
-/// States of the segments of chunks, fused from their passes, which are first laid on each other,
-/// by the rules that the store has when this is made.
+/// Aligns and fuses the passes of chunks into segment states, by the rules that the database has at
+/// construction.
 class ChunkFusion {
 public:
     explicit ChunkFusion(Database& database);
 
-    /// \param chunk  the row of its first segment.
+    /// States of a chunk. \param chunk  row of its first segment.
     FusedChunk of(std::int64_t chunk, std::int64_t segments_per_chunk);
 
-    /// Its segments from some passes alone, as if there were no others.
+    /// States from a selection of passes, as if there were no others.
     std::vector<FusedSegment>
     of(std::int64_t chunk, std::int64_t segments_per_chunk, const PassChoice& choice);
 
-    /// The passes of these trips, by hash, where they lie among each other; as they were read,
-    /// whatever is known of their cars, and also those of a road that is no more.
+    /// Aligned passes of these trips, given by hash; uncalibrated, and including passes of a former
+    /// surface.
     std::vector<ChunkPass> readings(std::int64_t chunk,
                                     std::int64_t segments_per_chunk,
                                     const std::unordered_set<std::string>& trips);
 
-    /// The passes of cars from which states are fused, where their own trips put them.
+    /// Passes of cars that enter the states, at the positions from their own trips.
     std::vector<ChunkPass> passes_of_cars(std::int64_t chunk, std::int64_t segments_per_chunk);
 
-    /// Takes them to where they lie among each other, as if there were no others.
+    /// Aligns passes with each other, as if there were no others.
     void align_with_each_other(std::int64_t chunk, std::vector<ChunkPass>& passes);
 
     const FusionConfig& config() const { return config_; }

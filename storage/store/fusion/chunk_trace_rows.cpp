@@ -15,7 +15,7 @@ std::vector<RoughnessCode> codes_in(std::string_view bytes) {
     return {bytes.begin(), bytes.end()};
 }
 
-// Far more than any chunk has; a store can be changed with any tool for SQLite.
+// Limits far above any real chunk, because any SQLite tool can edit the database.
 constexpr std::int64_t max_station_m = 20'000'000;
 constexpr std::int64_t longest_chunk_m = 250'000;
 constexpr std::int64_t max_sd_mm = 1'000'000;

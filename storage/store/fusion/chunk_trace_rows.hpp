@@ -14,27 +14,28 @@
 
 namespace macadam {
 
-/// A trace of a store and where it lies among the others of its chunk.
+/// Trace of the database with its alignment within its chunk.
 struct PlacedTrace {
     std::string trip_sha256;
     RoughnessTrace trace;
     LagLine lag;
 };
 
-/// Which drives: trip hash and drive.
+/// Set of drives, each a trip hash and the number of a drive.
 using DriveSet = std::set<std::pair<std::string, std::uint32_t>>;
 
-/// The traces of chunks, each laid on the others of its own.
+/// Reads the traces of chunks, aligned within each chunk.
 class ChunkTraces {
 public:
     explicit ChunkTraces(Database& database);
 
-    /// In the order of (trip hash, drive); `chunk` is the row of its first segment.
+    /// Aligned traces in the order of (trip hash, drive).
     ///
-    /// \throws InputError  if a trace is none; the store was changed.
+    /// \param chunk  row of its first segment.
+    /// \throws InputError  if a trace is invalid, because the database was modified.
     std::vector<PlacedTrace> placed(std::int64_t chunk);
 
-    /// The same of these drives alone, as if there were no others.
+    /// Aligned traces of these drives, as if there were no others.
     std::vector<PlacedTrace> placed(std::int64_t chunk, const DriveSet& drives);
 
 private:
@@ -44,7 +45,7 @@ private:
     Statement select_;
 };
 
-/// Null if there is none.
+/// Trace of a drive; null if there is none.
 const PlacedTrace* find_trace(std::span<const PlacedTrace> traces,
                               const std::string& trip_sha256,
                               const std::optional<std::uint32_t>& drive);

@@ -24,13 +24,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A waiting importer asks for its turn every 5 ms (lock_wait.cpp).
+// A waiting importer polls for the lock every 5 ms (lock_wait.cpp).
 constexpr std::chrono::milliseconds longest_turn{200};
 constexpr std::chrono::milliseconds pause_between_turns{10};
 
-constexpr int max_tries = 3; // the last of them under the lock
+constexpr int max_tries = 3; // the last one under the write lock
 
-// The rows of a chunk's segments stand one after the other.
+// The rows of a chunk's segments are consecutive.
 constexpr const char* last_of_chunk =
     "SELECT fid FROM segment WHERE fid >= ?1 AND fid < ?1 + ?2 AND strip = ?1"
     " ORDER BY fid DESC LIMIT 1";
@@ -40,7 +40,7 @@ constexpr const char* clean_segments = "DELETE FROM segment_dirty WHERE segment 
 constexpr const char* states_of_chunk =
     "SELECT fid, iri, iri_sd, passes FROM segment_state WHERE fid BETWEEN ? AND ?";
 
-/// What is noted when a state changes.
+/// Values recorded when a state changes.
 struct Number {
     IriUm iri_um;
     IriUm sd_um;
@@ -53,7 +53,7 @@ IriUm um_of(double mm_per_m) {
     return static_cast<IriUm>(std::lround(mm_per_m * 1000));
 }
 
-/// For one transaction: others may change the rules between two.
+/// Fuses dirty chunks within one transaction; between two, others may change the rules.
 class DirtyChunkFusion {
 public:
     DirtyChunkFusion(Database& database,
@@ -73,8 +73,8 @@ public:
           remove_chunk_{database.prepare("DELETE FROM strip_state WHERE strip = ?")},
           segments_in_chunk_{segments_per_chunk}, classes_{&classes}, audit_{audit} {}
 
-    /// \param fused  what it comes to, where that is known.
-    /// \returns how many of its segments were dirty; none if another importer was quicker.
+    /// \param fused  result, if already known.
+    /// \returns the number of its segments that were dirty; 0 if another importer was faster.
     std::size_t clean_chunk(std::int64_t chunk, const std::optional<FusedChunk>& fused) {
         const auto last = last_of(chunk);
         clean_.run(chunk, last);
@@ -90,13 +90,13 @@ public:
         return static_cast<std::size_t>(cleaned);
     }
 
-    /// To be called before the commit: rows wait to be written together.
+    /// Writes the buffered rows; call it before the commit.
     void flush() {
         insert_.flush();
         note_.flush();
     }
 
-    /// The row under which changes were noted, if there were any.
+    /// Audit row of the recorded changes, if any.
     const std::optional<std::int64_t>& audit() const { return audit_; }
 
 private:
@@ -162,7 +162,7 @@ private:
     }
 
     Database* database_;
-    std::optional<ChunkFusion> states_; ///< made when it is needed
+    std::optional<ChunkFusion> states_; ///< created on demand
     Statement last_;
     Statement clean_;
     Statement clean_chunk_;
@@ -177,16 +177,16 @@ private:
     std::optional<std::int64_t> audit_;
 };
 
-/// A chunk that waits to be fused, and how often that was tried.
+/// Chunk to be fused, with the number of attempts so far.
 struct WaitingChunk {
     std::int64_t chunk;
     int tries = 0;
 };
 
-/// Chunks that were fused at one moment, the first of those that wait.
+/// Chunks fused from one snapshot: the first of the waiting chunks.
 struct FusedAhead {
     StoreVersion moment;
-    std::vector<std::optional<FusedChunk>> chunks; ///< nothing: another importer was quicker
+    std::vector<std::optional<FusedChunk>> chunks; ///< `std::nullopt`: another importer was faster
 };
 
 FusedAhead fused_ahead(Database& database,
@@ -213,7 +213,7 @@ FusedAhead fused_ahead(Database& database,
     return ahead;
 }
 
-/// Which chunks are not what they were.
+/// Detects chunks that changed since a version.
 class Changes {
 public:
     Changes(Database& database, const StoreVersion& before)

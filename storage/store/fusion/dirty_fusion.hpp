@@ -11,33 +11,33 @@ namespace macadam {
 
 class StagedChunks;
 
-/// Fuses the chunks that hold dirty segments, in the order of their keys, until all that there were
-/// at the beginning are done or nobody wants more. Every segment of a chunk is fused anew, for a
-/// new trace may move the others.
+/// Fuses the chunks that hold dirty segments, in the order of their keys, until all chunks that
+/// were dirty at the beginning are done or a stop is requested. All segments of a chunk are fused
+/// again, because a new trace may shift the others.
 ///
-/// Some chunks at a time are one turn: they are fused in a transaction that only reads, and written
-/// in one that looks whether what was read is still so; a chunk that others changed meanwhile comes
-/// again later, and the third time is fused where nobody can. Who else wants to write waits for the
-/// writing alone. What comes out does not depend on where turns are cut, since the states of a
-/// chunk are a function of its own passes and of the generation's rules.
+/// Chunks are processed in batches: fused in a read transaction, then written in a transaction that
+/// checks that the input is unchanged. A chunk that others changed meanwhile is retried later, the
+/// third time under the write lock. Other writers wait only during the writes. The result does not
+/// depend on the batches, since the states of a chunk are a function of its own passes and the
+/// rules of the generation.
 ///
-/// What changes is noted in the audit as the work of an import.
+/// Changes are recorded in the audit as the effect of an import.
 ///
-/// \returns  how many dirty segments are clean now
+/// \returns  the number of dirty segments that are now clean
 std::size_t fuse_dirty(Database& database,
                        std::int64_t segments_per_chunk,
                        const ClassTable& classes,
                        const Progress& progress);
 
-/// What fuse_dirty_at_once() is done for.
+/// Input of fuse_dirty_at_once().
 struct FusionWork {
     std::int64_t segments_per_chunk;
     const ClassTable* classes;
-    std::int64_t audit;             ///< the row whose work it is
+    std::int64_t audit;             ///< audit row to which changes are attributed
     StagedChunks* staged = nullptr; ///< chunks that were fused before
 };
 
-/// The same within the caller's transaction.
+/// Fuses all dirty chunks within the caller's transaction.
 std::size_t
 fuse_dirty_at_once(Database& database, const FusionWork& work, const Progress& progress);
 

@@ -12,7 +12,7 @@ constexpr double um_per_mm = 1000;
 struct Setting {
     const char* key;
     double FusionConfig::*value;
-    double unit; ///< whole ones in one
+    double unit; ///< integer steps per unit
 };
 
 constexpr std::array settings{

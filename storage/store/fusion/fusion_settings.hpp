@@ -8,34 +8,35 @@
 
 namespace macadam {
 
-// By what rules the passes of a store are fused; they stay as they are for a generation.
+// Fusion rules of a database, constant within a generation.
 
-/// The shipped components where the store has none of its own.
+/// Reads the rules; the default components if the database has none of its own.
 FusionConfig read_fusion_config(Database& database);
 
-/// Rounded to whole millionths and um/m.
+/// Writes the rules, rounded to whole millionths and um/m.
 void write_fusion_config(Database& database, const FusionConfig& config);
 
-/// What is known of a car beside its calibration.
+/// Calibration of a car and its basis.
 struct CarRecord {
     CarCalibration calibration; ///< rounded to whole millionths and um/m
-    std::int64_t trips;         ///< that it was found from
+    std::int64_t trips;         ///< used for the calibration
     std::int64_t passes;
 };
 using CarRecords = std::unordered_map<std::int64_t, CarRecord>; ///< by row of table vehicle
 
 CarRecords read_calibrations(Database& database);
 
-/// In place of all that there were.
+/// Replaces all calibrations.
 void write_calibrations(Database& database, const CarRecords& cars);
 
-/// From when on passes speak of segments as they are now: older ones, and undated ones, are of a
-/// road that is no more.
+/// Dates from which passes over segments count; older and undated passes belong to a former
+/// surface.
 class ValidFrom {
 public:
     explicit ValidFrom(Database& database);
 
-    /// By row of table segment: those in [first, past) that have such a day, ms since 1970 UTC.
+    /// Dates of the segments with rows in [first, past) that have one, in ms since 1970 UTC, by row
+    /// of table segment.
     std::unordered_map<std::int64_t, std::int64_t> of(std::int64_t first, std::int64_t past);
 
 private:

@@ -14,11 +14,11 @@
 namespace macadam {
 namespace {
 
-constexpr int max_begins = 2;          // beside the store, before it is done under the lock
-constexpr int max_rounds = 5;          // after trips that came in meanwhile
-constexpr std::size_t few_chunks = 20; // fused in a blink
+constexpr int max_begins = 2; // attempts in shadow tables before it runs under the write lock
+constexpr int max_rounds = 5; // to catch up with trips that arrived meanwhile
+constexpr std::size_t few_chunks = 20; // fused almost instantly
 
-/// The store as it will be is seen while this lives.
+/// Shows the future database to this connection during its lifetime.
 class ShadowTables {
 public:
     ShadowTables(Database& database, const Maintenance& maintenance)
@@ -34,10 +34,10 @@ private:
     const Maintenance* maintenance_;
 };
 
-/// What was foreseen, and when.
+/// Result computed in shadow tables, with its version.
 struct Foreseen {
     StoreVersion moment;
-    std::vector<std::int64_t> chunks; ///< whose states change by the upkeep
+    std::vector<std::int64_t> chunks; ///< chunks whose states the operation changes
 };
 
 class Work {
@@ -93,7 +93,7 @@ private:
         return foreseen;
     }
 
-    /// \returns how many chunks there were to fuse.
+    /// \returns the number of chunks that had to be fused.
     std::size_t fuse_what_came(Foreseen& foreseen) {
         Transaction moment{*database_, Transaction::Kind::read};
         const auto now = moment_of(*database_);

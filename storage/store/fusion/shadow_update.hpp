@@ -11,29 +11,29 @@
 
 namespace macadam {
 
-/// Something that is done to a store and moves many numbers: cars are calibrated, trips forgotten.
-/// First it is foreseen beside the store, while others go on writing; only to put it in place, it
-/// keeps them from it.
+/// Maintenance operation that changes many values, such as calibrating cars or forgetting trips.
+/// The result is first computed in shadow tables while others continue to write; the write lock is
+/// held only to apply it.
 struct Maintenance {
-    /// Looks at the store as it is and makes temporary tables and views that hide those of the
-    /// store of the same name, so that who reads these reads the store as it will be.
-    /// \returns  the chunks whose states change by it; nothing: there is nothing to be done.
+    /// Creates temporary tables and views that shadow the tables of the same names, so that readers
+    /// of this connection see the database as it will be.
+    /// \returns  the chunks whose states change; `std::nullopt`: there is nothing to do.
     std::function<std::optional<std::vector<std::int64_t>>()> build_shadow;
 
-    /// SQL that takes those tables and views away, also if they are not there.
+    /// SQL that drops those tables and views, if they exist.
     const char* drop_shadow;
 
-    /// Does to the store what was foreseen. \returns its row in the audit.
+    /// Applies the operation to the database. \returns its row in the audit.
     std::function<std::int64_t()> apply;
 };
 
-/// Foresees, and fuses the chunks as they will be, in transactions that only read. Then it keeps
-/// others from writing, looks whether what it read is still so, applies, and puts the states in
-/// place. Chunks that trips drove over meanwhile are fused again; where another upkeep was quicker,
-/// all begins anew, and the third time under the lock.
+/// Builds the shadow tables and fuses the affected chunks in read transactions. Then it takes the
+/// write lock, checks that the input is unchanged, applies the operation, and writes the states.
+/// Chunks with trips added meanwhile are fused again; after another maintenance operation,
+/// everything starts over, the third time under the write lock.
 ///
-/// \returns false if there was nothing to be done.
-/// \throws InputError  if a stop is requested; the store is as it was.
+/// \returns false if there was nothing to do.
+/// \throws InputError  if a stop is requested; the database is unchanged.
 bool apply_maintenance(Database& database,
                        std::int64_t segments_per_chunk,
                        const ClassTable& classes,

@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-// The bytes never leave the process that made them.
+// The bytes are only used by the process that made them.
 static_assert(std::is_trivially_copyable_v<FusedSegment> &&
               std::is_trivially_copyable_v<AlignmentSummary>);
 

@@ -9,9 +9,8 @@
 
 namespace macadam {
 
-/// Fused chunks that are laid aside until they are put in place, in the temporary file of the
-/// connection, which nobody else sees and which goes with it. One at a time for a connection, and
-/// made outside of transactions.
+/// Fused chunks, staged in a temporary table of the connection, which is private and deleted with
+/// it. At most one instance per connection, created outside of transactions.
 class StagedChunks {
 public:
     explicit StagedChunks(Database& database);
@@ -21,14 +20,14 @@ public:
 
     void put(std::int64_t chunk, const FusedChunk& fused);
 
-    /// Nothing if it is not there.
+    /// Staged chunk; `std::nullopt` if there is none.
     std::optional<FusedChunk> find(std::int64_t chunk);
 
     void remove(std::span<const std::int64_t> chunks);
     void clear();
 
 private:
-    struct Table { ///< there before statements are made of it
+    struct Table { ///< exists before statements are prepared on it
         explicit Table(Database& database);
     };
 

@@ -21,11 +21,11 @@
 namespace macadam {
 namespace {
 
-// A road is taken for the same within a year: it gets rougher by some percent, all cars alike.
+// A road counts as unchanged within a year: it gets rougher by some percent, equally for all cars.
 constexpr std::int64_t window_ms = 31'557'600'000;
 constexpr std::int64_t undated = -1;
 
-// Far more than two numbers a car need; they take 80 MB.
+// Far more than needed for two parameters per car; they take 80 MB.
 constexpr std::int64_t max_readings = 2'000'000;
 
 constexpr std::uint8_t unsure = validity::too_slow | validity::start_up | validity::lateral_alone;
@@ -36,21 +36,22 @@ struct Car {
     std::size_t trips = 0;
 };
 
-/// Cars have the first numbers, surveys those that follow.
+/// Cars and surveys with common numbers: first cars, then surveys.
 struct Fleet {
-    std::vector<Car> cars; ///< by the least hash of their trips of the basis
+    std::vector<Car> cars; ///< by the smallest hash of their trips in the basis
     std::unordered_map<std::int64_t, std::uint32_t> number_of_car;
     struct Trip {
         std::uint32_t number;
-        std::uint32_t car; ///< or the survey that it is
+        std::uint32_t car; ///< number of the car or survey
     };
     std::unordered_map<std::string, Trip> number_of_trip; ///< of the basis, by hash
-    std::unordered_set<std::string> trips;                ///< their hashes
+    std::unordered_set<std::string> trips;                ///< hashes of the trips
     std::vector<std::optional<double>> known;             ///< relative sd of surveys
     std::int64_t newest_ms = std::numeric_limits<std::int64_t>::min();
 };
 
-/// Sums depend on the order in the last digits, so it must not depend on the key that names cars.
+/// Adds the cars in an order that does not depend on the key, because the last digits of sums
+/// depend on the order.
 void add_cars(Fleet& fleet, Database& database, CalibrationBasis basis) {
     auto cars = database.prepare(
         "SELECT vehicle.id, pseudonym FROM vehicle LEFT JOIN trip ON trip.vehicle = vehicle.id"
@@ -64,7 +65,7 @@ void add_cars(Fleet& fleet, Database& database, CalibrationBasis basis) {
     fleet.known.resize(fleet.cars.size());
 }
 
-/// Trips without a vehicle_id are of no car that could be calibrated.
+/// Collects cars and surveys. Trips without a vehicle_id belong to no car that could be calibrated.
 Fleet fleet_of(Database& database, CalibrationBasis basis) {
     Fleet fleet;
     add_cars(fleet, database, basis);
@@ -92,7 +93,7 @@ Fleet fleet_of(Database& database, CalibrationBasis basis) {
     return fleet;
 }
 
-/// Where there are so many passes that some must do: every n-th chunk that has any.
+/// Selects every n-th chunk with passes, if there are too many passes to use all.
 std::vector<std::int64_t> sampled_chunks(Database& database, CalibrationBasis basis) {
     const bool of_all = basis == CalibrationBasis::all;
     auto count = database.prepare("SELECT count(*) FROM pass"
@@ -115,11 +116,11 @@ std::vector<std::int64_t> sampled_chunks(Database& database, CalibrationBasis ba
 
 struct Readings {
     std::vector<FleetReading> all; ///< in the order of places
-    double stated_square = 0;      ///< sum of the relative variances that passes of cars state
+    double stated_square = 0;      ///< sum of the relative variances stated by passes of cars
     std::size_t of_cars = 0;
 };
 
-/// Adds what the passes of a chunk read.
+/// Adds the readings from the passes of a chunk.
 void add(Readings& readings,
          const std::vector<ChunkPass>& passes,
          const Fleet& fleet,
@@ -194,7 +195,7 @@ FusionConfig components_of(const FleetCalibration& found, double stated_variance
     return config;
 }
 
-/// That passed places within a year of a car.
+/// Number of surveys that passed places within a year of a car.
 std::size_t surveys_in(const FleetCalibration& found, std::size_t cars) {
     return static_cast<std::size_t>(
         std::count_if(found.shared.begin() + static_cast<std::ptrdiff_t>(cars),

@@ -8,27 +8,27 @@
 
 namespace macadam {
 
-/// From which trips cars are calibrated.
+/// Trips from which cars are calibrated.
 enum class CalibrationBasis {
-    all,  ///< that there are
-    same, ///< as the last time, of those that are left
+    all,  ///< all trips
+    same, ///< those of the last calibration that still exist
 };
 
-/// How the cars of a store read, from the passes of its trips; nothing is written.
+/// Calibrates the cars of a database from the passes of their trips, without writing.
 CalibrationReport find_calibration(Database& database,
                                    std::int64_t segments_per_chunk,
                                    CalibrationBasis basis,
                                    const Progress& progress);
 
-/// Puts tables `calibration` and `fusion_setting` with these rules before those of the store, for
-/// this connection: what is fused from then on is fused by them.
+/// Shadows the tables `calibration` and `fusion_setting` with these rules for this connection, so
+/// that later fusion uses them.
 void build_shadow_calibration(Database& database, const CalibrationReport& calibration);
 
-/// Takes those tables away, also if they are not there.
+/// Drops those tables, if they exist.
 inline constexpr const char* drop_shadow_calibration =
     "DROP TABLE IF EXISTS temp.calibration; DROP TABLE IF EXISTS temp.fusion_setting;";
 
-/// Begins a generation with these rules. Within the caller's transaction.
+/// Begins a generation with these rules, within the caller's transaction.
 void take_calibration(Database& database, const CalibrationReport& calibration);
 
 } // namespace macadam

@@ -7,24 +7,24 @@
 
 namespace macadam {
 
-/// A moment of a store, as far as states of segments depend on it. Between two moments of the same
-/// upkeep nothing happened to passes, traces and the rules by which they are fused, but that trips
-/// came in; these have rows above those of the first moment.
+/// Version of a database, as far as segment states depend on it. Between two versions with the same
+/// `maintenance`, only trips were added; passes, traces and fusion rules are otherwise unchanged.
+/// The added trips have rows above `last_trip` of the first version.
 struct StoreVersion {
-    std::int64_t maintenance; ///< row in table audit of the last thing done that was no import
-    std::int64_t last_trip;   ///< row
+    std::int64_t maintenance; ///< row in table audit of the last operation other than an import
+    std::int64_t last_trip;   ///< row of the last trip
 };
 
 StoreVersion moment_of(Database& database);
 
-/// Chunks with passes or traces of trips that came in since, in the order of their rows. Of the
-/// same upkeep.
+/// Chunks with passes or traces of trips added since `before`, in the order of their rows. For
+/// versions with the same `maintenance`.
 std::vector<std::int64_t> chunks_driven_since(Database& database, const StoreVersion& before);
 
-/// Chunks that have passes, in the order of their rows.
+/// Chunks with passes, in the order of their rows.
 std::vector<std::int64_t> driven_chunks(Database& database);
 
-/// Chunks with a segment that is dirty, or that are it themselves, in the order of their rows.
+/// Chunks that are dirty or hold a dirty segment, in the order of their rows.
 std::vector<std::int64_t> dirty_chunks(Database& database);
 
 } // namespace macadam

@@ -10,11 +10,11 @@
 
 namespace macadam {
 
-/// Pseudonyms of the cars of a store, in the order of RoadStore::cars(). Pseudonyms differ from key
-/// to key, and this order does not.
+/// Pseudonyms of the cars of a database, in the order of RoadStore::cars(). Pseudonyms depend on
+/// the key, the order does not.
 std::vector<std::string> read_cars(Database& database);
 
-/// Where each of them stands, from 0.
+/// Index of each car in this order, from 0.
 std::map<std::string, std::size_t> places_of_cars(std::span<const std::string> cars);
 
 } // namespace macadam

@@ -5,8 +5,8 @@
 
 namespace macadam {
 
-/// How trips of a crowd are trimmed: 300 m and up to 200 m more, as the key draws it from the
-/// trip's hash, so that a re-import is the same.
+/// Trim rule for trips of a crowd: 300 m plus up to 200 m, derived from the key and the trip's
+/// hash, so that a repeated import gives the same result.
 TrimRule crowd_trim(const PrivacyKey& key);
 
 } // namespace macadam

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view first_line =
     "# Key of a Macadam database: with it, and a car's id, the car's trips are found in it. Keep "
     "it secret, and a copy of it apart from the database.\n";
-constexpr std::size_t name_digits = 32; // 128 bit
+constexpr std::size_t name_digits = 32; // 128 bits
 constexpr std::size_t unkeyed_digits = 12;
 
 std::string hex_of(std::span<const unsigned char> bytes) {
@@ -70,7 +70,7 @@ std::string_view line_in(std::string_view text) {
     throw InputError{fmt::format("{}: {}: {}", file.string(), what, std::strerror(error))};
 }
 
-/// 0 or an errno.
+/// Writes the whole text. \returns 0 or an errno.
 int write_all(int descriptor, std::string_view text) {
     while (!text.empty()) {
         const auto written = ::write(descriptor, text.data(), text.size());
@@ -82,7 +82,7 @@ int write_all(int descriptor, std::string_view text) {
     return ::fsync(descriptor) == 0 ? 0 : errno;
 }
 
-/// Or the file's name could be lost with the power.
+/// Syncs the folder of a file, so that its name survives a power loss.
 int sync_folder_of(const fs::path& file) {
     const auto folder = file.has_parent_path() ? file.parent_path() : fs::path{"."};
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -98,7 +98,7 @@ int sync_folder_of(const fs::path& file) {
 
 PrivacyKey PrivacyKey::make() {
     Bytes bytes{};
-    // Up to 256 bytes come whole (getrandom(2)).
+    // Up to 256 bytes are returned in full (getrandom(2)).
     if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
         throw InputError{fmt::format("no random numbers for a key: {}", std::strerror(errno))};
     }
@@ -116,7 +116,7 @@ PrivacyKey::Bytes PrivacyKey::hmac(std::string_view text) const {
              result.data(),
              &size) == nullptr ||
         size != result.size()) {
-        throw std::bad_alloc{}; // the only cause
+        throw std::bad_alloc{}; // the only possible cause
     }
     return result;
 }
@@ -162,7 +162,7 @@ std::string unkeyed_name_of(std::string_view vehicle_id) {
 }
 
 bool is_unkeyed_name_of(std::string_view name, std::string_view vehicle_id) {
-    unsigned char first = 0; // tells most texts apart without writing them out
+    unsigned char first = 0; // excludes most texts without formatting them
     const char* const digits = name.data() + 2;
     if (name.size() != 2 + unkeyed_digits ||
         std::from_chars(digits, digits + 2, first, 16).ptr != digits + 2) {

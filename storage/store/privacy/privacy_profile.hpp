@@ -6,9 +6,10 @@
 
 namespace macadam {
 
-/// Whose cars a database holds, and with it what may leave it (docs/privacy.md).
+/// Privacy profile of a database: the owner of its cars determines which data may leave it
+/// (docs/privacy.md).
 enum class PrivacyProfile : std::uint8_t {
-    own,   ///< one's own cars: nothing is anonymised
+    own,   ///< the user's own cars: no anonymisation
     crowd, ///< cars of others
 };
 

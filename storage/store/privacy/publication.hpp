@@ -6,35 +6,37 @@
 
 namespace macadam {
 
-/// Who reads a database.
+/// Audience for which a database is read.
 enum class Reader {
-    anyone,    ///< of a crowd only what its latest publication tells
-    operator_, ///< all, if the key lies beside the database; of one's own cars anyone does
+    anyone,    ///< only the latest publication of a crowd database
+    operator_, ///< everything, if the key lies beside the database; a database of own cars needs no
+               ///< key
 };
 
-/// What a publication of a crowd tells in all, and what it leaves out.
+/// Totals of a publication of a crowd database, and of the data that it omits.
 struct Publication {
     std::int64_t number = 0;
-    std::string month;         ///< in which it was made, "2026-11"
-    std::size_t segments = 0;  ///< that it shows
-    double km = 0;             ///< of them
-    std::size_t left_out = 0;  ///< segments with passes that it does not show, up to tens
-    double left_out_km = 0;    ///< of them, up to tenths
-    std::int32_t trips = 0;    ///< at least so many, as told_count() has it
+    std::string month;         ///< of the publication, "2026-11"
+    std::size_t segments = 0;  ///< published
+    double km = 0;             ///< of the published segments
+    std::size_t left_out = 0;  ///< segments with passes that are not published, rounded to tens
+    double left_out_km = 0;    ///< of those, rounded to tenths
+    std::int32_t trips = 0;    ///< lower bound, rounded by told_count()
     std::int32_t vehicles = 0; ///< likewise
 };
 
-/// What was taken out when a database of one's own cars became a crowd's.
+/// Data removed when a database of own cars became a crowd database.
 struct CrowdMade {
     std::size_t trips = 0;
-    std::size_t passes = 0;   ///< taken out
-    bool log_is_clean = true; ///< false: others read the store, and its log still holds them
+    std::size_t passes = 0; ///< removed
+    bool log_is_clean =
+        true; ///< false: the WAL still holds the removed data, because others are reading
 };
 
-/// What making a publication did.
+/// Result of making a publication.
 struct Published {
     Publication publication;
-    std::size_t changed = 0; ///< segments that are new in it or tell of more passes
+    std::size_t changed = 0; ///< segments that are new in it or have more passes
 };
 
 } // namespace macadam

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double m_per_km = 1000;
 
-/// Segments that some car drove and the publication does not show.
+/// Segments with passes of cars that the publication omits.
 constexpr const char* left_out_segments =
     "SELECT count(*), coalesce(sum(segment.to_m - segment.from_m), 0) FROM"
     " (SELECT DISTINCT segment FROM pass CROSS JOIN trip ON trip.id = pass.trip"
@@ -20,7 +20,7 @@ constexpr const char* shown_segments =
     "SELECT count(*), coalesce(sum(segment.to_m - segment.from_m), 0) FROM published_state AS state"
     " CROSS JOIN segment ON segment.fid = state.fid";
 
-// Tables whose names a connection of `anyone` finds empty, or without cars.
+// Tables that appear empty, or without cars, to readers `anyone`.
 constexpr const char* hide_all_but_published = R"(
 PRAGMA temp_store = MEMORY;
 CREATE TEMP VIEW segment_state AS SELECT * FROM main.published_state;
@@ -93,7 +93,7 @@ Publication add_publication(Database& database, const std::string& month) {
 }
 
 void show_published_alone(Database& database) {
-    // A view in memory counts as writing, too.
+    // Creating an in-memory view counts as a write.
     database.run("PRAGMA query_only = OFF");
     database.run(hide_all_but_published);
     database.run("PRAGMA query_only = ON");

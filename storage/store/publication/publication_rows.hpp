@@ -8,23 +8,24 @@
 
 namespace macadam {
 
-/// How far a publication went.
+/// Extent of the data considered by a publication.
 struct PublicationReach {
-    std::int64_t last_trip = 0;    ///< row of the last trip that there was
-    std::int64_t last_segment = 0; ///< the same of segments: those after it came with a later map
+    std::int64_t last_trip = 0; ///< row of the last trip at that time
+    std::int64_t last_segment =
+        0; ///< row of the last segment at that time; later rows belong to a newer map
 };
 
-/// None if nothing was published yet.
+/// Latest publication; `std::nullopt` if nothing was published yet.
 std::optional<Publication> latest_publication(Database& database);
 
-/// Of publication `number`; of none before the first.
+/// Extent of publication `number`; zero for 0, before the first.
 PublicationReach reach_of(Database& database, std::int64_t number);
 
-/// Writes the row of a publication over what tables published_state and published_figure hold.
+/// Adds the row of a publication, with the totals of tables published_state and published_figure.
 Publication add_publication(Database& database, const std::string& month);
 
-/// From now on this connection reads, in the place of the tables of a store that tell of cars, what
-/// the latest publication tells: all else is not there.
+/// Shadows all tables with data of cars for this connection: from now on it reads only the latest
+/// publication.
 void show_published_alone(Database& database);
 
 } // namespace macadam

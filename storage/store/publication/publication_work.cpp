@@ -27,9 +27,9 @@
 namespace macadam {
 namespace {
 
-constexpr std::int64_t longest_hold = 3; // publications
+constexpr std::int64_t longest_hold = 3; // in publications
 
-/// Passes in the first or the last block of a drive: segment's row, trip hash, occurrence.
+/// Passes in the first or last block of a drive: row of the segment, trip hash, occurrence.
 using EndPasses = std::set<std::tuple<std::int64_t, std::string, std::uint32_t>>;
 
 using TripRows = std::unordered_map<std::string, std::int64_t>; ///< by hash
@@ -74,19 +74,19 @@ EndPasses end_passes_of(Database& database, const NetworkBlocks& blocks, const T
     return ends;
 }
 
-/// What was published of a segment: passes of trips up to a row, but for some.
+/// Published passes of a segment: those of all trips up to a row, except the pending ones.
 struct PublishedUntil {
     std::int64_t last_trip = 0;
     std::set<std::pair<std::int64_t, std::uint32_t>> pending{}; ///< trip, occurrence
 };
 
-/// A segment's passes, by their place in those of the chunk.
+/// Passes of a segment, as indexes into those of the chunk.
 struct SegmentPasses {
     std::int64_t fid;
     std::size_t first;
     std::size_t past;
-    std::vector<std::size_t> pending; ///< those of them that no publication tells of
-    Release release;                  ///< of these
+    std::vector<std::size_t> pending; ///< unpublished ones
+    Release release;                  ///< of the pending passes
 };
 
 class PublicationMaker {
@@ -114,7 +114,7 @@ public:
         }
     }
 
-    /// \returns how many of its segments tell something new.
+    /// \returns the number of its segments with new values.
     std::size_t take_chunk(std::int64_t chunk) {
         auto passes = states_.passes_of_cars(chunk, work_.segments_per_chunk);
         std::erase_if(passes, [&](const ChunkPass& pass) {
@@ -168,7 +168,8 @@ private:
         return segment;
     }
 
-    /// Of a segment of a later map all passes so far count as told: it begins anew.
+    /// Publication status of a segment. For a segment of a later map, all earlier passes count as
+    /// published.
     PublishedUntil told_of(std::int64_t fid) {
         until_.bind(fid);
         PublishedUntil until;
@@ -186,8 +187,8 @@ private:
         return until;
     }
 
-    /// Trips up to this row were there one to three publications ago; how many, the key draws for
-    /// each block, so that no single trip can be read off the segments that appear at once.
+    /// Last trip that was stored one to three publications ago; the key draws the number for each
+    /// block, so that segments which appear together do not reveal a single trip.
     std::int64_t aged_trip(const SegmentKey& segment) {
         const auto block = blocks_.block_of(segment);
         const auto [found, is_new] = aged_.try_emplace(block, 0);
@@ -291,7 +292,7 @@ private:
     std::int64_t number_;
     PublicationReach before_;
     ReleaseRule rule_;
-    std::vector<std::int64_t> reach_; ///< last trips of so many publications ago; 0: of none
+    std::vector<std::int64_t> reach_; ///< last trips, by number of publications ago; 0: no trip
     std::unordered_map<std::uint64_t, std::int64_t> aged_; ///< by block
     Statement until_;
     Statement put_until_;
@@ -304,7 +305,7 @@ private:
     std::int64_t last_trip_;
 };
 
-/// Roads that were made anew since are other roads than those that were published.
+/// Withdraws segments whose road was rebuilt after the published passes.
 constexpr const char* withdraw_roads_that_are_no_more =
     "DELETE FROM published_state WHERE fid IN (SELECT valid_from.segment FROM valid_from"
     " WHERE NOT EXISTS (SELECT 1 FROM published_figure AS figure"

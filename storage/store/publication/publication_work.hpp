@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// By what a publication is made.
+/// Input of a publication.
 struct PublicationWork {
     const RoadNetwork* roads;
     const PrivacyKey* key;
@@ -19,13 +19,13 @@ struct PublicationWork {
     std::int64_t segments_per_chunk;
 };
 
-/// Adds to tables published_state and published_figure what passes that no publication tells of
-/// yet may tell (mapping/privacy/release_batches.hpp); a segment without a batch of them keeps what
-/// was published last. Within the caller's transaction.
+/// Publishes pending passes into tables published_state and published_figure, in batches that
+/// satisfy the release rule (mapping/privacy/release_batches.hpp); a segment without such a batch
+/// keeps its last published values. Within the caller's transaction.
 ///
-/// Passes in the first and the last block of a drive are told of nowhere.
+/// Passes in the first and last block of a drive are never published.
 ///
-/// \returns  how many segments tell something new
+/// \returns  the number of segments with new values
 std::size_t
 publish_pending(Database& database, const PublicationWork& work, const Progress& progress);
 

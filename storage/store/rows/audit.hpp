@@ -7,10 +7,10 @@
 
 namespace macadam {
 
-// When and why numbers of a store changed (docs/reference/database.md). Of trips it tells how many
-// they were and never which, so that it need not be cleaned when one is forgotten.
+// Audit of the changes of values (docs/reference/database.md). It records the number of trips but
+// not which, so that forgetting a trip need not edit it.
 
-/// By the clock. \returns its row.
+/// Adds an audit entry with the current time. \returns its row.
 std::int64_t add_audit(Database& database, std::string_view what, std::string_view detail);
 
 } // namespace macadam

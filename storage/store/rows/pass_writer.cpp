@@ -40,7 +40,7 @@ void PassWriter::write(std::int64_t trip,
     for (const auto& trace : traces) {
         const auto chunk = segments_.row_of(trace.chunk);
         write_trace(chunk, trip, trace);
-        // A trace may move others also where the trip has no pass.
+        // A trace can also shift others where its trip has no pass.
         if (marks_ && marked_chunks_.insert(chunk).second) {
             mark_chunk_.add(chunk);
         }

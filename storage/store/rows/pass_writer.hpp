@@ -12,25 +12,24 @@
 
 namespace macadam {
 
-/// Where passes and traces of trips are written.
+/// Tables into which passes and traces are written.
 enum class Destination {
-    kept,  ///< in the store
-    staged ///< aside, in temporary tables of the connection
-           ///< (storage/store/road_store_reprocess.cpp)
+    kept,  ///< permanent tables
+    staged ///< temporary tables of the connection (storage/store/road_store_reprocess.cpp)
 };
 
-/// Writes passes and traces of trips, and, where they are to be kept, marks their segments and
-/// chunks as not fused yet. For one transaction: what it has looked up may change between two.
+/// Writes passes and traces of trips and, in permanent tables, marks their segments and chunks as
+/// dirty. Use it within one transaction, because it caches look-ups.
 class PassWriter {
 public:
     PassWriter(Database& database, std::int64_t segments_per_chunk, Destination destination);
 
-    /// \param trip  its row.
-    /// \throws InputError  for a segment or a chunk that the store does not have.
+    /// \param trip  row of the trip.
+    /// \throws InputError  for a segment or a chunk that the database does not contain.
     void
     write(std::int64_t trip, std::span<const Pass> passes, std::span<const RoughnessTrace> traces);
 
-    /// To be called before the commit: rows of passes wait to be written together.
+    /// Writes the buffered rows; call it before the commit.
     void flush();
 
 private:
@@ -43,8 +42,8 @@ private:
     Statement add_trace_;
     BulkInsert mark_segment_;
     BulkInsert mark_chunk_;
-    std::unordered_set<std::int64_t> marked_segments_; ///< rows
-    std::unordered_set<std::int64_t> marked_chunks_;   ///< rows
+    std::unordered_set<std::int64_t> marked_segments_; ///< rows of table segment
+    std::unordered_set<std::int64_t> marked_chunks_;   ///< rows of the chunks
 };
 
 } // namespace macadam

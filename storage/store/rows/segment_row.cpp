@@ -50,9 +50,9 @@ std::optional<RoadChange> known_change_in(const Row& row, int column) {
     return utc_ms ? std::optional{RoadChange{*utc_ms, um_in(row, column + 1)}} : std::nullopt;
 }
 
-// Words are compared as the bytes that they are: no string is made of them.
+// Enumerations are compared as bytes, without creating strings.
 
-/// Of the first three columns.
+/// Reads the first three columns.
 template <typename Row>
 SegmentKey key_in(const Row& row) {
     return {row.integer(0), row.blob(1) == "forward", static_cast<std::uint32_t>(row.integer(2))};
@@ -81,7 +81,7 @@ SegmentState state_in(const Row& row, const SegmentKey& segment) {
             .change = known_change_in(row, c + 13)};
 }
 
-/// The columns up to the state's.
+/// Reads the columns before those of the state.
 template <typename Row>
 void put_segment(const Row& row, Segment& segment) {
     segment.key = key_in(row);
@@ -203,7 +203,7 @@ const char* const pass_columns =
     " pass.sd_um, pass.centre_only, pass.validity, pass.speed_mmps, pass.covered_mm,"
     " pass.confidence_ppm, pass.t_ms, pass.drive";
 
-/// None for what no drive is numbered: it finds no trace.
+/// Drive number; `std::nullopt` for an invalid one, which matches no trace.
 std::optional<std::uint32_t> known_drive_in(const Statement& row, int column) {
     const auto number = row.known_integer(column);
     return number ? std::optional{static_cast<std::uint32_t>(*number)} : std::nullopt;

@@ -14,22 +14,21 @@
 
 namespace macadam {
 
-// How values stand in the rows of a store.
+// Conversion between table rows and values.
 
-/// Columns of a segment and its state, as `record_in` reads them; the tables go by the names
-/// segment and state. What is known of its way stays open (RoadNames).
+/// Columns of a segment and its state for `record_in`; the tables must be named segment and state.
+/// The attributes of the way are not filled in (RoadNames).
 extern const char* const record_columns;
 SegmentRecord record_in(const Statement& row);
 
-/// The same in the place of a record that is not needed any more, whose memory it takes; the name
-/// and the class of its way stay.
+/// Reads into an existing record, to reuse its memory; name and class of its way are unchanged.
 void put_record_in(const VisitedRow& row, SegmentRecord& record);
 
-/// The same as far as StateDetail::tiles goes.
+/// Columns for StateDetail::tiles.
 extern const char* const tile_columns;
 void put_tile_record_in(const VisitedRow& row, SegmentRecord& record);
 
-/// The same as far as a SegmentSummary tells of it: each column takes its time.
+/// Columns for a SegmentSummary; fewer columns are faster.
 extern const char* const summary_columns;
 void put_summary_in(const VisitedRow& row, SegmentRecord& record);
 
@@ -40,27 +39,27 @@ void write_state(BulkInsert& insert,
                  const SegmentState& state,
                  const ClassTable& classes);
 
-/// Columns of a pass from the column `first` on; the table goes by the name pass.
+/// Columns of a pass, starting at column `first`; the table must be named pass.
 extern const char* const pass_columns;
-inline constexpr int digest_column_count = 12; ///< the first of them; the last, the drive, only
-                                               ///< leads to the trace
+inline constexpr int digest_column_count = 12; ///< number of leading columns in the digest; the
+                                               ///< last column, the drive, only refers to the trace
 Pass pass_in(const Statement& row, int first, const SegmentKey& segment);
 
-/// A time in milliseconds since 1970; nothing for a column that holds none, or none of the years 1
-/// to 9999, which nobody who means well has written.
+/// Time in milliseconds since 1970; `std::nullopt` for NULL and for implausible times, outside of
+/// the years 1 to 9999.
 std::optional<std::int64_t> known_utc_ms(const Statement& row, int column);
 
-/// The time of a pass from that of its trip's begin; nothing where that is none.
+/// Time of a pass, from the start time of its trip; `std::nullopt` if that is unknown.
 std::optional<std::int64_t> utc_ms_of(const std::optional<std::int64_t>& trip_utc_ms,
                                       const Pass& pass);
 
 /// "HRI>MRI" or "MRI".
 const char* name_of_index(bool centre_only);
 
-/// 12345 -> 12.345: mm/m of whole um/m.
+/// Converts whole um/m to mm/m: 12345 -> 12.345.
 double mm_per_m(IriUm um);
 
-/// A time as a GeoPackage writes it, always with milliseconds.
+/// Formats a time as in a GeoPackage, always with milliseconds.
 std::string datetime_text(std::int64_t utc_ms);
 
 } // namespace macadam

@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t most_known = 10'000; // chunks: some 3 MB
+constexpr std::size_t most_known = 10'000; // chunks: about 3 MB
 
 const char* direction_of(bool forward) {
     return forward ? "forward" : "backward";

@@ -9,23 +9,25 @@
 
 namespace macadam {
 
-/// Rows of segments by their keys. Looked up a chunk at a time, for a trip drives one after the
-/// other, and kept for the trips that follow it.
+/// Maps segment keys to rows. Looks up whole chunks, because a trip visits neighbouring segments,
+/// and caches them for later trips.
 class SegmentRowids {
 public:
     SegmentRowids(Database& database, std::int64_t segments_per_chunk);
 
-    /// \throws InputError  for one that the store does not have.
+    /// \throws InputError  for a segment that the database does not contain.
     std::int64_t row_of(const SegmentKey& segment);
 
-    /// The row of its first segment. \throws InputError  for one that the store does not have.
+    /// Row of the first segment of a chunk. \throws InputError  for a chunk that the database does
+    /// not contain.
     std::int64_t row_of(const ChunkKey& chunk);
 
 private:
     struct Hash {
         std::size_t operator()(const ChunkKey& key) const;
     };
-    using Rows = std::vector<std::int64_t>; ///< of segments by their number; 0 = there is none
+    using Rows =
+        std::vector<std::int64_t>; ///< rows of segments by their index; 0 = no such segment
 
     const Rows& rows_of(const ChunkKey& chunk);
 

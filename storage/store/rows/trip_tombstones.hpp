@@ -6,8 +6,8 @@
 
 namespace macadam {
 
-// What is left of a trip that was forgotten: a hash of its hash. Who has the log can tell that it
-// was here; nothing else can be told from it.
+// Tombstone of a forgotten trip: a hash of its hash. Only a holder of the log can recognise the
+// trip by it.
 
 bool is_forgotten(Database& database, const std::string& sha256);
 void mark_forgotten(Database& database, const std::string& sha256);

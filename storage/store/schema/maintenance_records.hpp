@@ -11,70 +11,72 @@
 
 namespace macadam {
 
-// What is done to a store beside bringing trips in: values that RoadStore takes and gives.
+// Requests and results of maintenance operations of RoadStore.
 
-/// Which trips a store is to forget.
+/// Trips that a database is to forget.
 struct ForgetRequest {
-    std::vector<std::string> trips;    ///< each a trip_id, a file's name or the hash of its content
-    std::vector<std::string> vehicles; ///< each a vehicle_id, for who has the key, or its pseudonym
+    std::vector<std::string> trips; ///< each a trip_id, a file name or the SHA-256 of the content
+    /// Each a vehicle_id, if the key is available, or a pseudonym.
+    std::vector<std::string> vehicles;
 };
 
 struct Forgotten {
     std::size_t trips = 0;
     std::size_t passes = 0;
-    std::size_t segments = 0;  ///< that had these passes
-    bool calibrated = false;   ///< cars were calibrated anew without these trips
-    bool log_is_clean = false; ///< no byte is left in the log beside the store
+    std::size_t segments = 0;  ///< with these passes
+    bool calibrated = false;   ///< cars were recalibrated without these trips
+    bool log_is_clean = false; ///< the WAL beside the database holds no data of them
 };
 
-/// What a new generation was made of.
+/// Trips of a new generation.
 struct Reprocessed {
     int generation;
-    std::size_t trips = 0;  ///< worked out anew
-    std::size_t others = 0; ///< of the store, as they were
+    std::size_t trips = 0;  ///< reprocessed
+    std::size_t others = 0; ///< not reprocessed
     bool calibrated = false;
 };
 
-/// Something that was done to a store.
+/// Operation on a database.
 struct AuditEntry {
     std::int64_t id;
-    std::string at; ///< by the clock of the machine that did it, UTC
+    std::string at; ///< by the clock of the machine, UTC
     int generation;
     std::string what; ///< "import", "forget", "valid-from", "calibrate", ...
     std::string detail;
-    std::size_t segments; ///< whose number changed by it, as far as that is still known
+    std::size_t segments; ///< whose value it changed, as far as known
 };
 
-/// One change of a segment's number.
+/// Change of a segment's value.
 struct NumberChange {
     AuditEntry cause;
-    std::optional<IriUm> iri_um; ///< from then on; nothing: no pass was left
+    std::optional<IriUm> iri_um; ///< value after the change; `std::nullopt`: no pass is left
     std::optional<IriUm> sd_um;
     std::int64_t passes;
 };
 
-/// What the passes of a store tell of one of its cars.
+/// Calibration of a car of the database.
 struct CalibratedCar {
-    std::int64_t row;    ///< of table vehicle
+    std::int64_t row;    ///< in table vehicle
     std::string vehicle; ///< pseudonym
     std::size_t trips;
-    std::size_t shared; ///< passes at places where others passed within a year
-    std::optional<CarCalibration> calibration; ///< nothing: it shares too little with others
+    std::size_t shared; ///< passes over places that other cars passed within a year
+    /// `std::nullopt`: too few places shared with others.
+    std::optional<CarCalibration> calibration;
 };
 
-/// How the cars of a store read, and of what their errors are made
+/// Calibration of the cars of a database, with the components of their errors
 /// (mapping/fusion/fleet_calibration.hpp).
 struct CalibrationReport {
     int generation;
-    std::vector<CalibratedCar> cars; ///< as RoadStore::cars(); without trips that name none
-    FusionConfig components;         ///< the shipped ones if no car could be calibrated
-    double car_relative_sd;          ///< how far cars are off each other
-    std::size_t readings;            ///< passes of cars that were looked at
-    std::size_t surveys;             ///< that tell what is right; 0: the mean of the cars does
-    std::size_t places;              ///< where two or more cars passed
+    std::vector<CalibratedCar> cars; ///< in the order of RoadStore::cars(), without the unknown car
+    FusionConfig components;         ///< the default ones if no car could be calibrated
+    double car_relative_sd;          ///< spread between cars
+    std::size_t readings;            ///< passes of cars that were used
+    std::size_t surveys; ///< reference surveys that set the level; 0: the mean of the cars does
+    std::size_t places;  ///< with passes of two or more cars
 };
 
-/// A segment whose passes count only from a day on.
+/// Segment whose passes count only from a certain day on.
 struct ValidSince {
     SegmentKey segment;
     std::int64_t from_ms; ///< since 1970 UTC

@@ -37,7 +37,7 @@ std::vector<Value> values_of(std::string_view bytes) {
     return values;
 }
 
-/// Two doubles, latitude first, and three integers: their own layouts in memory.
+/// Blob formats equal the memory layouts: two doubles, latitude first, and three integers.
 static_assert(sizeof(GeoPoint) == 2 * sizeof(double));
 static_assert(sizeof(TurnRule) == 3 * sizeof(std::int64_t));
 
@@ -67,14 +67,14 @@ bool says_the_same(const WayView& a, const WayView& b) {
            std::ranges::equal(a.line.base(), b.line.base()) && std::ranges::equal(a.turns, b.turns);
 }
 
-/// The first row of table segment that was never used.
+/// First row of table segment that was never used.
 std::int64_t first_free_row(Database& database) {
     return 1 + database.number("SELECT coalesce((SELECT seq FROM sqlite_sequence"
                                " WHERE name = 'segment'), 0)");
 }
 
-/// Calls `visit` with each segment of a way in one direction, by their number along the way. Link
-/// by link: a way of a few points may have very many.
+/// Calls `visit` with each segment of a way in one direction, by number along the way, link by
+/// link, because a way of a few points may have very many segments.
 template <typename Visit>
 void for_each_segment(const RoadNetwork& roads, const WayView& way, bool forward, Visit visit) {
     for (auto i = way.first_link; i < way.past_link; ++i) {
@@ -89,7 +89,7 @@ void for_each_segment(const RoadNetwork& roads, const WayView& way, bool forward
     }
 }
 
-/// What a network can be built of.
+/// Checks that a way is valid input for a network.
 void expect_sound(const Way& way, const Database& database) {
     const bool sound = is_line(way.line) && way.line.size() == way.node_ids.size() &&
                        way.oneway <= Oneway::backward;
@@ -168,7 +168,7 @@ WrittenSegments write_segments(Database& database,
     WrittenSegments written;
     std::optional<ChunkKey> chunk;
     const auto first_row = first_free_row(database);
-    std::int64_t first_of_chunk = 0; // its row
+    std::int64_t first_of_chunk = 0; // row of the chunk's first segment
     const auto add = [&](const Segment& segment) {
         const auto row = first_row + written.segments++;
         if (const auto key = chunk_of(segment.key, roads.segment_length_m); chunk != key) {

@@ -11,19 +11,19 @@
 
 namespace macadam {
 
-// The roads as rows of a store.
+// Rows of the road network.
 
-/// Two or more places, all on the globe. A store can be changed with any tool for SQLite, so its
-/// lines are looked at before anything is made of them.
+/// Tests for a polyline of two or more valid positions. Any SQLite tool can edit the database, so
+/// its polylines are checked before use.
 bool is_line(std::span<const GeoPoint> line);
 
-/// Into table way. \returns SHA-256 of all that was written, in hex digits.
+/// Fills table way. \returns SHA-256 of everything written, in hex digits.
 std::string write_ways(Database& database, const RoadNetwork& roads);
 
-/// Of table way as write_ways would fill it.
+/// SHA-256 that write_ways would return.
 std::string hash_of_ways(const RoadNetwork& roads);
 
-/// Makes table way, filled with the one network, hold the other.
+/// Updates table way from one network to another.
 void update_ways(Database& database, const RoadNetwork& before, const RoadNetwork& after);
 
 struct WrittenSegments {
@@ -31,18 +31,18 @@ struct WrittenSegments {
     double length_m = 0; ///< each direction counted
 };
 
-/// Into table segment, in the order of keys, in rows of which it has used none yet.
+/// Fills table segment in the order of keys, using only new row ids.
 ///
-/// \param left_out  by number of way: whose segments are not written; empty: none
-/// \throws InputError  if it was asked to stop.
+/// \param left_out  by number of way: true if its segments are not written; empty: none
+/// \throws InputError  if a stop is requested.
 WrittenSegments write_segments(Database& database,
                                const RoadNetwork& roads,
                                const Progress& progress,
                                const std::vector<bool>& left_out = {});
 
-/// The ways as they were written, in the order of their ids.
+/// Reads the ways in the order of their ids.
 ///
-/// \throws InputError  if one is no line on the globe.
+/// \throws InputError  if a way is not a valid polyline.
 std::vector<Way> read_ways(Database& database);
 
 } // namespace macadam

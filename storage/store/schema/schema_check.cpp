@@ -17,9 +17,8 @@ struct KnownTable {
     const char* sql;
 };
 
-/// What others rightly add: ANALYZE (https://sqlite.org/fileformat2.html, 2.6.3 and 2.6.5), and
-/// QGIS where a project is saved into the file. They are tables alone, and nothing of ours reads
-/// the last one.
+/// Legitimate additions: ANALYZE (https://sqlite.org/fileformat2.html, 2.6.3 and 2.6.5), and QGIS
+/// when a project is saved into the file. They are plain tables, and we do not read the last one.
 constexpr std::array known_tables{
     KnownTable{"sqlite_stat1", "CREATE TABLE sqlite_stat1(tbl,idx,stat)"},
     KnownTable{"sqlite_stat4", "CREATE TABLE sqlite_stat4(tbl,idx,neq,nlt,ndlt,sample)"},
@@ -38,7 +37,7 @@ bool is_known(const SchemaObject& object) {
     return is_table || is_own_index;
 }
 
-/// As words; the type may be anything.
+/// Object kind for messages; `type` may be any text.
 std::string kind_of(const std::string& type) {
     if (type == "index") {
         return "an index";

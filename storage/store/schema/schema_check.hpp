@@ -8,33 +8,35 @@
 
 namespace macadam {
 
-/// A table, index, view or trigger of a database, as table sqlite_schema has it.
+/// Table, index, view or trigger of a database, as in table sqlite_schema.
 struct SchemaObject {
     std::string type;
     std::string name;
-    std::string table; ///< that it is of
-    std::string sql;   ///< by which it was made; "" = made by SQLite itself
+    std::string table; ///< table to which it belongs
+    std::string sql;   ///< statement that created it; "" = created by SQLite itself
     friend bool operator==(const SchemaObject&, const SchemaObject&) = default;
 };
 
-/// By type and name: a trigger may be called as a table is.
+/// Objects by type and name, because a trigger may have the name of a table.
 using Schema = std::map<std::pair<std::string, std::string>, SchemaObject>;
 
-/// Reads only what stands in sqlite_schema: nothing of the database is run.
-/// \throws InputError  if an object stands there twice.
+/// Reads sqlite_schema without running any code of the database.
+/// \throws InputError  if an object occurs twice.
 Schema read_schema(Database& database);
 
-/// All objects of a database that 'macadam init' makes.
+/// All objects of a database that 'macadam init' creates.
 const Schema& own_schema();
 
-/// Views and triggers of a database from others run inside of our own statements, so there must be
-/// none but ours: each object is one of `expected` to the letter, or one of the few tables that
-/// SQLite and QGIS add.
+/// Checks for foreign objects. Views and triggers of an untrusted database would run inside our own
+/// statements, so each object must equal one of `expected`, or be one of the few tables that SQLite
+/// and QGIS add.
 ///
-/// \throws InputError  names the object that is not.
+/// \throws InputError  naming the foreign object.
 void expect_no_foreign_object(Database& database, const Schema& found, const Schema& expected);
 
-/// \throws InputError  names the first of `expected` that is not there.
+/// Checks for missing objects.
+///
+/// \throws InputError  naming the first of `expected` that is missing.
 void expect_whole_schema(Database& database, const Schema& found, const Schema& expected);
 
 } // namespace macadam

@@ -2,7 +2,7 @@
 
 namespace macadam {
 
-// Column types are those that a GeoPackage knows; it forbids STRICT, whose types are others.
+// Column types are those of a GeoPackage; it forbids STRICT, which has other types.
 const char* const store_tables = R"(
 CREATE TABLE meta (
     key TEXT PRIMARY KEY NOT NULL,

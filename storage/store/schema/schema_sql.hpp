@@ -2,7 +2,7 @@
 
 namespace macadam {
 
-/// SQL that makes all tables of an empty store (docs/reference/database.md).
+/// SQL that creates all tables of an empty road database (docs/reference/database.md).
 extern const char* const store_tables;
 
 } // namespace macadam

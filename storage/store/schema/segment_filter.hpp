@@ -11,34 +11,34 @@
 
 namespace macadam {
 
-/// A span of time, ms since 1970 UTC: from <= t < until. Nothing: open on that side.
+/// Interval of time, ms since 1970 UTC: from <= t < until. `std::nullopt`: unbounded on that side.
 struct Period {
     std::optional<std::int64_t> from_ms;
     std::optional<std::int64_t> until_ms;
     friend bool operator==(const Period&, const Period&) = default;
 };
 
-/// Which segments to visit; all conditions hold together.
+/// Filter for segments; all conditions must hold.
 struct SegmentFilter {
     std::optional<GeoBox> box;
     std::optional<std::int64_t> way_id;
     std::optional<SegmentKey> key;
-    std::string name_part;       ///< of the road's name, any case; "" = any
-    bool with_state_only = true; ///< false: also those without a pass
-    std::size_t worst = 0;       ///< n > 0: only the n with the highest iri, highest first
+    std::string name_part;       ///< substring of the road's name, ignoring case; "" = any
+    bool with_state_only = true; ///< false: also segments without a pass
+    std::size_t worst = 0;       ///< n > 0: only the n segments with the highest iri, highest first
 
     std::optional<std::vector<SegmentRange>> ranges{}; ///< only these, in this order
-    std::string highway{};                             ///< OSM's class of the road; "" = any
-    std::string class_name{};       ///< of the store's class table; "" = any, and none
-    std::int32_t min_passes = 0;    ///< more than 0: segments without a pass are left out
-    std::optional<Period> period{}; ///< states of the dated passes of that time alone
-    bool cars_alone = false;        ///< states of cars' passes alone, without references
+    std::string highway{};                             ///< OSM highway class; "" = any
+    std::string class_name{};       ///< of the database's class table; "" = any class or none
+    std::int32_t min_passes = 0;    ///< > 0: excludes segments without a pass
+    std::optional<Period> period{}; ///< fuses states only from passes dated within it
+    bool cars_alone = false;        ///< fuses states only from passes of cars, without references
 };
 
-/// How much visit() tells of a state: each number takes its time.
+/// Amount of detail in the states given to visit(); less is faster.
 enum class StateDetail {
     full,
-    tiles, ///< what tiles show: not each track's IRI, the trend's uncertainty and the change
+    tiles, ///< for tiles: without IRI per track, uncertainty of the trend, and change
 };
 
 } // namespace macadam

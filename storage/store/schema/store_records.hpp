@@ -21,121 +21,122 @@
 
 namespace macadam {
 
-/// What a store is made with and keeps.
+/// Settings with which a database is created.
 struct StoreSettings {
     double segment_length_m = 20;
     std::string class_table = "fhwa";
     std::string network_source; ///< file name of the map, or "traced from the trips"
-    std::string attribution;    ///< whom a picture of these roads must name
+    std::string attribution;    ///< copyright notice for pictures of these roads
     PrivacyProfile privacy = PrivacyProfile::own;
 };
 
-/// Instead of a map's name: no map, roads from `init --trace`.
+/// Replaces the name of the map for roads from `init --trace`.
 inline constexpr std::string_view traced_network_source = "traced from the trips";
 
-/// Instead of a model's name: the user's own, whose name would tell the car.
+/// Replaces the model name of a user's own vehicle file, whose name could identify the car.
 inline constexpr std::string_view own_file_model = "own file";
 
-/// That a trip is none, but a survey with better instruments.
+/// Marks a trip as a reference survey with better instruments.
 struct ReferenceNote {
-    std::int32_t relative_sd_ppm; ///< its stated accuracy, of what it reads
-    std::int32_t row_mm;          ///< the median length of its rows
+    std::int32_t relative_sd_ppm; ///< stated accuracy, relative to the value
+    std::int32_t row_mm;          ///< median length of its rows
 };
 
-/// What the store keeps of a trip: no positions, no log.
+/// Stored attributes of a trip; positions and the log are not stored.
 struct TripRecord {
     std::string sha256; ///< unique
     std::string trip_id;
     std::string
-        vehicle_id; ///< kept only as a pseudonym, also within the two names; "" = not stated
+        vehicle_id; ///< stored only as a pseudonym, also within the two names; "" = not stated
     std::string file_name;
-    std::optional<std::int64_t> t0_utc_ms; ///< nothing: undated
-    std::string vehicle_model; ///< name of the built-in Vehicle that was used, or own_file_model
+    std::optional<std::int64_t> t0_utc_ms; ///< `std::nullopt`: undated
+    std::string vehicle_model;             ///< name of the built-in Vehicle, or own_file_model
     std::string method;
     std::int64_t distance_mm = 0;
     std::int64_t matched_mm = 0;
     std::size_t rows_read = 0;
     std::size_t rows_used = 0;
-    std::map<std::string, std::size_t> row_reasons{}; ///< why the others were not
+    std::map<std::string, std::size_t> row_reasons{}; ///< reasons for which rows were not used
 
-    std::optional<ReferenceNote> reference{}; ///< of a survey: trip_id is its name, t0_utc_ms its
-                                              ///< day, and there is no vehicle
+    /// Set for a survey: then trip_id is its name, t0_utc_ms its day, and vehicle_id is empty.
+    std::optional<ReferenceNote> reference{};
 };
 
-/// A trip with all that it says of the roads.
+/// Trip with its passes and traces.
 struct NewTrip {
     const TripRecord* trip;
     std::span<const Pass> passes;
     std::span<const RoughnessTrace> traces;
-    bool readmit = false; ///< comes in also if it was forgotten
+    bool readmit = false; ///< import it even if it was forgotten
 };
 
-/// One pass with where it came from: a line of a segment's history.
+/// Pass with its origin, as an entry of a segment's history.
 struct HistoricPass {
     Pass pass;
     std::string trip_sha256;
-    std::string vehicle; ///< pseudonym; "" of a reference
+    std::string vehicle; ///< pseudonym; "" for a reference
     std::optional<std::int64_t> utc_ms;
-    std::optional<std::string> reference{}; ///< name of the survey, if it is one
+    std::optional<std::string> reference{}; ///< name of the survey
 
-    /// How far behind its own place the road lay that the trip read there, by what others read; as
-    /// the fusion takes it. Nothing: the pass has no trace.
+    /// Lag of the trip's positions relative to other trips, as used by the fusion. `std::nullopt`:
+    /// the pass has no trace.
     std::optional<double> lag_m{};
-    LagStatus finding = LagStatus::alone; ///< why it is so, or 0
+    LagStatus finding = LagStatus::alone; ///< reason for the lag, or for the lack of one
 };
 
-/// What a survey says of a segment.
+/// Reading of a segment by a survey.
 struct ReferenceReading {
     Segment segment;
     std::string highway;
     Pass pass;
-    std::size_t survey; ///< of surveys()
+    std::size_t survey; ///< index in surveys()
 };
 
-/// An import that began and did not end.
+/// Import that started but did not finish.
 struct OpenImport {
     std::size_t trips_asked;
-    std::size_t trips_added; ///< to the store, by anyone, since it began
+    std::size_t trips_added; ///< to the database since it started, by anyone
 };
 
 struct StoreInfo {
     StoreSettings settings;
-    std::size_t trips = 0; ///< of cars, as all counts of trips and passes
+    std::size_t trips = 0; ///< of cars, as are all counts of trips and passes
     std::size_t undated_trips = 0;
     std::size_t passes = 0;
-    std::size_t lateral_passes = 0;    ///< of them, from lateral vibration alone
-    std::vector<std::string> vehicles; ///< pseudonyms, as RoadStore::cars()
+    std::size_t lateral_passes = 0;    ///< from lateral vibration only
+    std::vector<std::string> vehicles; ///< pseudonyms, in the order of RoadStore::cars()
     std::size_t segments = 0;
     std::size_t segments_with_passes = 0;     ///< of cars or references
     double km = 0;                            ///< of segments with passes
-    std::optional<Publication> publication{}; ///< the latest of a crowd
-    bool published_alone = false; ///< all here is from it; of trips and passes at least so many
-    double network_km = 0;        ///< of all segments, each direction counted
+    std::optional<Publication> publication{}; ///< latest publication of a crowd database
+    /// All values are from it; counts of trips and passes are lower bounds.
+    bool published_alone = false;
+    double network_km = 0; ///< all segments, each direction counted
     std::vector<ClassLength> classes;
     std::optional<std::int64_t> first_seen_ms;
     std::optional<std::int64_t> last_seen_ms;
     std::size_t waiting = 0; ///< segments whose new passes are not yet fused
-    AlignmentSummary laid;   ///< of all chunks that were fused; the median of the chunks' medians
+    AlignmentSummary laid;   ///< of all fused chunks; the median is that of the chunks' medians
     int generation = 1;
-    GeoBox box; ///< of segments with passes; of all if there are none
+    GeoBox box; ///< of segments with passes; of all segments if there are none
 };
 
-/// Where a network is from.
+/// Origin of a network.
 struct NetworkSource {
     std::string name;        ///< as StoreSettings::network_source
-    std::string attribution; ///< as in StoreSettings
+    std::string attribution; ///< as StoreSettings::attribution
 };
 
-/// What an update of the network did.
+/// Result of a network update.
 struct NetworkUpdate {
     ChangeSummary roads;
     std::size_t passes_kept = 0;    ///< on ways that were kept
-    std::size_t passes_carried = 0; ///< old ones of which something is left
+    std::size_t passes_carried = 0; ///< former passes that are at least partly transferred
     std::size_t passes_lost = 0;
-    std::size_t passes_now = 0;               ///< made of those carried
-    std::vector<std::string> lost_sections{}; ///< control sections whose road is gone, by name
+    std::size_t passes_now = 0;               ///< passes that they became
+    std::vector<std::string> lost_sections{}; ///< control sections whose road is gone
     int generation = 1;
-    bool changed = false; ///< false: the ways are the same
+    bool changed = false; ///< false: the ways are equal
 };
 
 } // namespace macadam

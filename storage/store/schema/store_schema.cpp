@@ -23,7 +23,7 @@ constexpr const char* format_name = "macadam-store";
 
 // ---------------------------------------------------------------------------------------- meta
 
-constexpr double min_segment_m = 0.1; // far below and above what 'macadam init' takes
+constexpr double min_segment_m = 0.1; // far below and above the limits of 'macadam init'
 constexpr double max_segment_m = 100'000;
 
 void put(Database& database, std::string_view key, std::string_view value) {
@@ -67,7 +67,7 @@ void write_meta(Database& database,
     put(database, "privacy", name_of(settings.privacy));
 }
 
-/// Those whose rows come first.
+/// Creates the indexes of tables that are filled before.
 void index_store_tables(Database& database) {
     database.run("CREATE UNIQUE INDEX segment_key ON segment(way_id, direction, seq)");
     database.run("CREATE INDEX way_name ON way(name)");
@@ -106,7 +106,7 @@ void write_store(Database& database,
     list_features(database, {"segment", "segment", "Pieces of road, one for each direction", box});
     list_features(database,
                   {"roughness", "roughness", "Roughness (IRI, mm/m) of the segments driven", box});
-    index_store_tables(database); // by far quicker with the rows there
+    index_store_tables(database); // much faster after the rows were inserted
     add_default_style(database, "roughness", *classes);
     all.commit();
 }

@@ -12,7 +12,9 @@
 
 namespace macadam {
 
-/// Makes all tables of a store and fills those that hold the network (docs/reference/database.md).
+/// Creates all tables of a road database and fills those of the network
+/// (docs/reference/database.md).
+///
 /// \param key_id  PrivacyKey::id()
 void write_store(Database& database,
                  const RoadNetwork& roads,
@@ -20,36 +22,41 @@ void write_store(Database& database,
                  const std::string& key_id,
                  const Progress& progress);
 
-/// All tables, indexes, views and triggers, without rows but those that make it a GeoPackage.
+/// Creates all tables, indexes, views and triggers, with only the rows that a GeoPackage requires.
 void make_store_tables(Database& database);
 
-/// \returns the version of a database that is a store by its marks alone.
-/// \throws InputError  if it is none, or of a version that is not known.
+/// Identifies a road database by its markers.
+///
+/// \returns its version.
+/// \throws InputError  if it is not a road database, or of an unknown version.
 int expect_store(Database& database, const Schema& found);
 
-/// Nothing of the database is run before it is known to be made by this program.
+/// Checks that this program made the database, without running any code of the database.
 ///
-/// \throws InputError  if the file is no GeoPackage, no store, of a version that is not known, or
-///                     holds views, triggers or tables of others.
+/// \throws InputError  if the file is not a GeoPackage, not a road database, of an unknown version,
+///                     or contains foreign views, triggers or tables.
 void check_store(Database& database);
 
-/// Version of the store's format; what 'macadam init' makes, and what can be brought up to it.
+/// Version of the database format that 'macadam init' creates, and the oldest one that can be
+/// upgraded.
 inline constexpr int store_version = 3;
 inline constexpr int oldest_store_version = 2;
 
-/// \throws InputError  for a class table or segment length that nobody knows.
+/// Reads the settings.
+///
+/// \throws InputError  for an unknown class table or an invalid segment length.
 StoreSettings read_settings(Database& database);
 
-/// Whether rows of table segment stand in the order of keys, as init writes them. Those of one way
-/// always do.
+/// Tests whether the rows of table segment are in the order of keys, as written by init. Those of
+/// one way always are.
 bool are_rows_in_order(Database& database);
 bool are_rows_in_order(Statement& select);
 inline constexpr const char* select_rows_in_order =
-    "SELECT value FROM meta WHERE key = 'rows_in_order'"; ///< which is asked there
+    "SELECT value FROM meta WHERE key = 'rows_in_order'"; ///< query for are_rows_in_order()
 inline constexpr const char* order_of_keys =
     "segment.way_id, segment.direction DESC, segment.seq"; ///< forward before backward
 
-/// In table meta, what changes with the network.
+/// Rows of table meta that depend on the network.
 struct NetworkMeta {
     std::string source;
     std::string attribution;
@@ -58,24 +65,25 @@ struct NetworkMeta {
     double length_m; ///< each direction counted
 };
 
-/// From then on rows are not in the order of keys.
+/// Updates these rows; from then on, segment rows are not in the order of keys.
 void update_network_meta(Database& database, const NetworkMeta& network);
 
-/// SHA-256 of the ways and all that they say, in hex digits.
+/// SHA-256 of the ways and their attributes, in hex digits.
 std::string read_network_hash(Database& database);
 
-/// PrivacyKey::id() of the key under which cars are named.
+/// PrivacyKey::id() of the current key.
 std::string read_key_id(Database& database);
 void put_key_id(Database& database, const std::string& key_id);
 
-/// Rows of the last car that there was each time that a missing key was made anew, rising.
+/// Row of the last car at each time that a lost key was replaced, rising.
 std::vector<std::int64_t> read_last_of_keys(Database& database);
 void add_last_of_key(Database& database);
 
-/// Counts from 1; one more each time that all numbers were made anew by other rules.
+/// Number of the generation, from 1; it increases whenever all values are recomputed by other
+/// rules.
 int read_generation(Database& database);
 
-/// \returns the new one.
+/// Begins a generation. \returns its number.
 int begin_generation(Database& database);
 
 } // namespace macadam

@@ -3,7 +3,7 @@
 namespace macadam {
 namespace {
 
-/// Version 3 made days of its times.
+/// Definition before version 3, which stores days in place of times.
 constexpr const char* segment_state_2 = R"(CREATE TABLE segment_state (
     fid INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
     iri DOUBLE NOT NULL,

@@ -4,8 +4,8 @@
 
 namespace macadam {
 
-/// Objects that a database of an earlier version may hold: those of today, but in the words of
-/// then. Those that came later are not there yet.
+/// Objects that a database of an earlier version may contain: today's objects in their former
+/// wording, without later additions.
 Schema schema_of_version(int version);
 
 } // namespace macadam

@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// What the trips of one car gave, read with one vehicle model by one method.
+/// Totals of the trips of one car, for one vehicle model and one method.
 struct VehicleUse {
     std::string vehicle; ///< pseudonym
     std::string vehicle_model;
@@ -21,19 +21,19 @@ struct VehicleUse {
     std::size_t rows_used = 0;
 };
 
-/// A reference survey that the store holds.
+/// Reference survey in the database.
 struct SurveyUse {
     std::string name;
     std::string file_name;
     std::string sha256;
-    std::optional<std::int64_t> utc_ms; ///< the day on which it was measured
-    double relative_sd = 0;             ///< its stated accuracy
-    double row_m = 0;                   ///< the median length of its rows
+    std::optional<std::int64_t> utc_ms; ///< day of the measurement
+    double relative_sd = 0;             ///< stated accuracy
+    double row_m = 0;                   ///< median length of its rows
     std::size_t rows_read = 0;
     std::size_t rows_used = 0;
     std::size_t passes = 0; ///< of segments
     double km = 0;          ///< of these segments
-    double alone_km = 0;    ///< of them, without a pass of any car
+    double alone_km = 0;    ///< of these, without a pass of any car
 };
 
 struct ClassLength {
@@ -41,21 +41,21 @@ struct ClassLength {
     double km;
 };
 
-/// Driven road of one class of OpenStreetMap in one class of roughness.
+/// Driven length of one OSM highway class in one roughness class.
 struct RoadClassLength {
-    std::string highway; ///< "" where the map has none
+    std::string highway; ///< "" if the map has none
     std::string class_name;
     double km;
 };
 
-/// What trips that began on one day, UTC, brought.
+/// Totals of the trips that began on one day, UTC.
 struct DailyUsage {
     std::string day; ///< "2026-03-01"
     std::size_t trips;
     std::size_t passes;
 };
 
-/// When the road was seen: the first and the last dated pass of all; nothing if none is dated.
+/// Times of the first and the last dated pass; `std::nullopt` if none is dated.
 struct ObservedPeriod {
     std::optional<std::int64_t> first_ms;
     std::optional<std::int64_t> last_ms;

@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-/// Tells of every so many rows.
+/// Reports progress at a fixed interval of rows.
 class Ticks {
 public:
     Ticks(Database& database, const Progress& progress)

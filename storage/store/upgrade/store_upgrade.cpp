@@ -24,9 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// New rows stand beside the old ones, and the journal holds the pages of both.
+/// Checks the free disk space: new rows are written beside the old ones, and the journal holds the
+/// pages of both.
 void expect_room(Database& database) {
-    constexpr std::int64_t state_bytes = 600; // 200 a row, three times
+    constexpr std::int64_t state_bytes = 600; // 200 per row, three times
     constexpr std::int64_t trip_bytes = 400;
     constexpr std::int64_t other_bytes = 4 << 20;
     const auto needed = static_cast<std::uintmax_t>(
@@ -52,7 +53,7 @@ void expect_sound(Database& database) {
     }
 }
 
-/// The digest, as a part of the work.
+/// Computes the digest and reports it as finished.
 std::string digest_told(Database& database, const Progress& progress) {
     auto digest = digest_of(database, progress);
     progress(1, 1);
@@ -69,7 +70,7 @@ void expect_same_digest(Database& database, const std::string& before, const std
     }
 }
 
-/// A key file that goes again unless it is kept.
+/// Key file that is removed again unless kept.
 class NewKey {
 public:
     explicit NewKey(const fs::path& database) : file_{key_file_of(database)} {
@@ -100,7 +101,7 @@ private:
     bool goes_ = false;
 };
 
-/// \returns the version it is of. \throws InputError  if it is none of ours.
+/// \returns the version of the database. \throws InputError  if this program did not make it.
 int expect_known(Database& database) {
     const auto found = read_schema(database);
     const int version = expect_store(database, found);
@@ -145,7 +146,7 @@ StoreUpgrade upgrade_store(const fs::path& file,
     expect_same_digest(
         database, done.digest, digest_told(database, progress("verifying the digest")));
     check_store(database);
-    key.keep(); // also if the commit is in doubt: the next upgrade takes it
+    key.keep(); // even if the commit is in doubt: the next upgrade uses it
     all.commit();
     return done;
 }

@@ -11,25 +11,24 @@
 
 namespace macadam {
 
-/// What was done to bring a store to the version of today.
+/// Result of an upgrade of a database.
 struct StoreUpgrade {
     int from_version;
-    int to_version;        ///< the same: there was nothing to do
-    std::size_t cars = 0;  ///< that got a name under the key
-    std::size_t trips = 0; ///< from whose names the id of the car was taken
-    bool made_key = false; ///< false: one lay there, and was taken
-    std::string digest{};  ///< before and after
+    int to_version;        ///< equal to from_version if there was nothing to do
+    std::size_t cars = 0;  ///< that were renamed under the key
+    std::size_t trips = 0; ///< from whose names the id of the car was removed
+    bool made_key = false; ///< false: an existing key was used
+    std::string digest{};  ///< equal before and after the upgrade
 };
 
-/// How the work goes on: a bar for each part of it.
+/// Progress of an upgrade, reported per part.
 using UpgradeProgress = std::function<Progress(std::string_view part)>;
 
-/// Brings a store from an earlier version to that of today, in one transaction: it is the old one
-/// until it is the new one, whatever happens. The digest is taken before and after, and must be the
-/// same.
+/// Upgrades a database to the current version in one transaction, so that it is never left half
+/// upgraded. The digest is compared before and after.
 ///
-/// \throws InputError  if it is no store, holds what is not ours, is damaged, if the disk has no
-///                     room for it, or another process keeps it locked.
+/// \throws InputError  if it is not a road database, contains foreign objects, is damaged, does not
+///                     fit on the disk, or is locked by another process.
 StoreUpgrade upgrade_store(const std::filesystem::path& file,
                            const LockWaitPolicy& wait_policy,
                            const UpgradeProgress& progress);

@@ -33,7 +33,7 @@ INSERT INTO segment_state
 
 struct NamedTrip {
     std::int64_t row;
-    std::string car; ///< the unkeyed name
+    std::string car; ///< unkeyed name
     std::string trip_id;
     std::string file_name;
 };
@@ -49,7 +49,7 @@ std::vector<NamedTrip> trips_of_named_cars(Database& database) {
     return trips;
 }
 
-/// "" if it stands in neither name.
+/// Vehicle id in the names of a trip; "" if neither contains it.
 std::string vehicle_id_in(const NamedTrip& trip, const std::string& id_of_last) {
     const auto has = [&](const std::string& id) {
         return !id.empty() && (trip.trip_id.find(id) != std::string::npos ||

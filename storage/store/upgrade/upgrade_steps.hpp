@@ -12,23 +12,23 @@ namespace macadam {
 
 // ------------------------------------------------------------------------- version 2 to 3
 
-/// Puts table segment_state in the form of today, whose times are days.
+/// Rebuilds table segment_state in the current form, whose times are days.
 void make_days(Database& database, const Progress& progress);
 
-/// Takes the id of the car out of the names of its trips (storage/store/privacy/trip_names.hpp). Of
-/// the ids, only what they were hashed to is known: each text in a name is tried. \returns of how
-/// many trips.
+/// Removes the id of the car from the names of its trips (storage/store/privacy/trip_names.hpp).
+/// Only hashes of the ids are known, so each substring of a name is tried. \returns the number of
+/// changed trips.
 std::size_t shorten_trip_names(Database& database, const Progress& progress);
 
-/// Gives cars their names under the key, from the unkeyed ones. \returns how many.
+/// Renames the cars under the key, from their former names. \returns the number of cars.
 std::size_t name_cars(Database& database, const PrivacyKey& key);
 
-/// In table meta: profile own, as all stores were, and the key.
+/// Adds to table meta the profile own, which all former databases had, and the id of the key.
 void put_settings_of_version_3(Database& database, const std::string& key_id);
 
 // -------------------------------------------------------------------------- to any version
 
-/// Makes tables, indexes, views and triggers that came since.
+/// Creates the tables, indexes, views and triggers that were added since.
 void add_missing_objects(Database& database);
 
 } // namespace macadam

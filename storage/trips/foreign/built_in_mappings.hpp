@@ -10,7 +10,7 @@ struct BuiltInMapping {
     std::string_view toml;
 };
 
-/// Mappings of loggers that write one layout always.
+/// Mappings for loggers with a fixed layout.
 std::span<const BuiltInMapping> built_in_mappings();
 
 } // namespace macadam

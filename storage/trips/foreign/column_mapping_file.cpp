@@ -20,7 +20,7 @@ namespace {
 constexpr double deg_in_rad = 0.017453292519943295; // pi / 180
 constexpr double hour_s = 3600;
 
-// Keys by the table in which they may stand.
+// Allowed keys by table.
 constexpr std::array<std::string_view, 9> meta_keys{"vehicle_id",
                                                     "frame",
                                                     "gravity",
@@ -53,7 +53,7 @@ constexpr std::int64_t max_skipped = 1000000;
 
 struct Unit {
     std::string_view name;
-    TripColumn first; ///< of the channels that come in it
+    TripColumn first; ///< of the channels to which the unit applies
     TripColumn last;
     double factor;
 };
@@ -80,7 +80,7 @@ constexpr Unit units[] = {
 };
 // clang-format on
 
-/// The one of some words that stands under a key.
+/// Value of a key that must be one of several words.
 template <typename Value, std::size_t count>
 Value one_of(const TomlTable& table,
              std::string_view key,
@@ -260,7 +260,7 @@ TableMapping table_of(const TomlTable& table) {
     return mapping;
 }
 
-/// The value of a key as the head of a log of ours would have it.
+/// Value of a key in the form of our own log header.
 std::string value_text(const TomlTable& table, std::string_view key) {
     if (table.is_text(key)) {
         return table.text_or_empty(key);

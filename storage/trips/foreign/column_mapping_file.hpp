@@ -8,14 +8,13 @@
 
 namespace macadam {
 
-/// Reads how the files of some logger become trips: a TOML file, or one of the built-in mappings by
-/// its name. docs/reference/other-loggers.md lists the keys.
+/// Reads the mapping of a logger's files to trips: a TOML file, or a built-in mapping by name.
+/// docs/reference/other-loggers.md lists the keys.
 ///
-/// \throws InputError  "file:line: ..." for a key that is not known or lacks, or a value that does
-///                     not fit.
+/// \throws InputError  "file:line: ..." for an unknown or missing key, or an invalid value.
 TripMapping read_mapping(const std::string& name_or_file);
 
-/// "racechrono" and the like.
+/// Names of the built-in mappings: "racechrono" and the like.
 std::vector<std::string_view> built_in_mapping_names();
 
 } // namespace macadam

@@ -20,11 +20,11 @@ namespace macadam {
 
 namespace {
 
-// A time that counts from 1970 lies between these, or its unit is another than stated.
+// Plausible range of times since 1970; outside of it, the unit is not the stated one.
 constexpr double earliest_utc_s = 631152000; // 1990-01-01
 constexpr double latest_utc_s = 4102444800;  // 2100-01-01
 
-constexpr double same_time_s = 0.1; // gravity changes slowly; it is written with each acceleration
+constexpr double same_time_s = 0.1; // gravity changes slowly; it is logged with each acceleration
 constexpr std::size_t rows_between = 1 << 16;
 
 double& at(TripRow& row, TripColumn column) {
@@ -33,7 +33,7 @@ double& at(TripRow& row, TripColumn column) {
 
 constexpr TripColumn acc_axes[] = {TripColumn::acc_x, TripColumn::acc_y, TripColumn::acc_z};
 
-/// The channels of all tables, as the header of one log of ours.
+/// Channels of all tables, in the form of a header of our own log.
 TripHeader header_of(const TripMapping& mapping) {
     TripHeader header;
     for (const auto& table : mapping.tables) {
@@ -65,7 +65,7 @@ void expect_channels(const TripMapping& mapping, const TripHeader& header, const
     }
 }
 
-/// A logger's clock with the pauses in which it stood.
+/// Corrects a logger's clock for its pauses.
 double with_pauses(double t_s, const std::vector<ClockPiece>& clock) {
     const auto after =
         std::upper_bound(clock.begin(), clock.end(), t_s, [](double t, const ClockPiece& p) {
@@ -74,7 +74,7 @@ double with_pauses(double t_s, const std::vector<ClockPiece>& clock) {
     return after == clock.begin() ? t_s : t_s + std::prev(after)->late_s;
 }
 
-/// The direction of gravity over time, to be added to accelerations that lack it.
+/// Direction of gravity over time, for accelerations that exclude it.
 class Gravity {
 public:
     void add(const TripRow& row) {
@@ -85,7 +85,8 @@ public:
         }
     }
 
-    /// The row with gravity; without its acceleration where gravity is not known.
+    /// Adds gravity to the acceleration of a row, or removes the acceleration if gravity is
+    /// unknown.
     TripRow added_to(TripRow row) const {
         const auto after = std::lower_bound(t_s_.begin(), t_s_.end(), row[TripColumn::t_s]);
         auto i = static_cast<std::size_t>(after - t_s_.begin());
@@ -109,7 +110,7 @@ private:
     std::vector<std::array<double, 3>> force_;
 };
 
-/// Puts the tables of a trip, one after the other, on one clock and into its streams.
+/// Merges the tables of a trip onto a common clock and into its streams.
 class TripMerger {
 public:
     TripMerger(const TripMapping& mapping, const TripNeeds& needs, const TripHeader& header)
@@ -138,7 +139,7 @@ public:
     TripLog take() {
         auto trip = streams_.take();
         trip.meta = mapping_.meta;
-        // The first stamp may be a wild one; the first that was kept is not.
+        // The first time stamp may be an outlier; the first one that was kept is not.
         const double begin_s = first_time(trip);
         shift(trip, -begin_s);
         const double zero_s = base_s_.value_or(0) + begin_s;
@@ -196,7 +197,7 @@ private:
     bool dated_ = false;
 };
 
-/// The last part of a trip's name, without what archives and tables end in.
+/// Last component of a trip's name, without suffixes of archives and tables.
 std::string trip_id_of(const TripSource& source) {
     auto name = source.member.empty() ? source.file.filename().string() : source.member;
     while (name.ends_with('/')) {

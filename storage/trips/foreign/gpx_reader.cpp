@@ -24,17 +24,17 @@ namespace macadam {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t longest_text = 64;    // bytes of an element: times and numbers are shorter
-constexpr std::size_t deepest_element = 64; // GPX needs 5, extensions a few more
+constexpr std::size_t longest_text = 64;    // bytes of an element; times and numbers are shorter
+constexpr std::size_t deepest_element = 64; // GPX needs 5 levels, extensions a few more
 constexpr std::size_t block = 1 << 16;
-constexpr double likely_utc_s = 631152000; // 1990-01-01: earlier dates were made up by a program
+constexpr double likely_utc_s = 631152000; // 1990-01-01; earlier dates are invented by programs
 
-// Made-up times.
+// Parameters of made-up times.
 constexpr double speed_mps = 10;
-constexpr double min_step_s = 0.1; // between points at one place
+constexpr double min_step_s = 0.1; // between points at the same position
 constexpr double between_segments_s = 60;
 
-/// A track point as it stands in the file.
+/// Track point as in the file.
 struct Point {
     GeoPoint at{unknown, unknown};
     double t_s = unknown;
@@ -53,13 +53,13 @@ struct Content {
     std::size_t way_points = 0;
 };
 
-/// A name without its namespace's prefix.
+/// Local part of a qualified name.
 std::string_view local(std::string_view name) {
     const auto colon = name.rfind(':');
     return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
-/// Seconds since 1970 of a time with "Z", "+hh:mm" or no zone at all, which stands for UTC.
+/// Seconds since 1970 of a time with "Z", "+hh:mm" or no zone, which means UTC.
 std::optional<double> time_s(std::string_view text) {
     constexpr std::size_t date_size = 11; // "2015-02-06T"
     text = trimmed(text);
@@ -77,7 +77,7 @@ std::optional<double> time_s(std::string_view text) {
     return *utc_s - (zone.starts_with('-') ? -60 : 60) * (60 * *hours + *minutes);
 }
 
-/// Takes the track points out of XML that comes piece by piece.
+/// Extracts the track points from XML that arrives in blocks.
 class GpxParser {
 public:
     explicit GpxParser(std::string name)
@@ -132,7 +132,7 @@ private:
             fmt::format("declares the entity {}, expected a file without any", in_quotes(name)));
     }
 
-    /// Exceptions must not pass through the C library: it is stopped, and `add` throws.
+    /// Stops the parser, because exceptions must not pass through the C library; `add` then throws.
     void refuse(std::string_view words) {
         if (!refusal_) {
             refusal_ = fmt::format("{}: {}", where(), words);
@@ -154,7 +154,7 @@ private:
             content_.routes += name == "rte" ? 1 : 0;
             content_.way_points += name == "wpt" ? 1 : 0;
         } else if (point_depth_ > 0) {
-            return; // what a point holds is no track of its own
+            return; // elements inside a point are not tracks
         } else if (name == "trkseg") {
             content_.segments.emplace_back();
         } else if (name == "trkpt" && !content_.segments.empty()) {
@@ -207,11 +207,11 @@ private:
     Content content_;
     std::string text_;
     std::size_t depth_ = 0;
-    std::size_t point_depth_ = 0; ///< of the track point that is open; 0: none
+    std::size_t point_depth_ = 0; ///< of the open track point; 0: none
     std::optional<std::string> refusal_;
 };
 
-/// What the file holds instead of track points, in words.
+/// Describes the content of a file without track points.
 std::string words_of(const Content& content) {
     const auto counted = [](std::size_t count, std::string_view one) {
         return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
@@ -269,7 +269,7 @@ double first_time(const Segment& segment) {
     return -std::numeric_limits<double>::infinity();
 }
 
-/// Whether the times say when the points were: at least half of the steps between them take time.
+/// Tests whether the times are usable: at least half of the steps between points take time.
 bool times_tell(const std::vector<Segment>& segments) {
     std::size_t steps = 0;
     std::size_t rising = 0;

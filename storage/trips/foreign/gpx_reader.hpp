@@ -12,31 +12,32 @@
 
 namespace macadam {
 
-/// Whether a file or member is called like a GPX track: .gpx, .gpx.gz or .gpx.zst.
+/// Tests for the name of a GPX track: .gpx, .gpx.gz or .gpx.zst.
 bool is_gpx_name(std::string_view name);
 
-/// Where a track's bytes come from.
+/// Input of read_gpx().
 struct GpxSource {
     std::unique_ptr<ByteStream> bytes; ///< decompressed
     std::string name;                  ///< for messages
-    std::size_t whole_bytes;           ///< on disk, for progress; 0: not known
+    std::size_t whole_bytes;           ///< size on disk, for progress; 0: unknown
 };
 
-/// A key of TripMeta::other: the log has no times, and how they were made up.
+/// Key of TripMeta::other for a log without times; its value states how times were made up.
 inline constexpr const char* times_key = "times";
 
 /// Reads the tracks of a GPX file, 1.0 or 1.1, as one trip: every track point is a row with its
-/// place, its time, and `speed` (m/s), `course` (degrees) and `accuracy` (m) where it has them, as
-/// elements of its own or among its extensions. Routes and way points are not read.
+/// position, time, and `speed` (m/s), `course` (degrees) and `accuracy` (m) if present, as own
+/// elements or extensions. Routes and way points are ignored.
 ///
-/// Segments come in the order of their first times. Where fewer than half of the points have a time
-/// later than the one before, times are made up, as if driven at 10 m/s with a minute between
-/// segments, and `times_key` says so.
+/// Track segments are sorted by their first times. If fewer than half of the points have a time
+/// later than that of the previous point, times are made up, as if driven at 10 m/s with a minute
+/// between track segments, and `times_key` says so.
 ///
-/// Entities that the file declares are refused, and names, texts and depth are bounded.
+/// Entities that the file declares are refused, and lengths of names and texts and the depth are
+/// bounded.
 ///
-/// \throws InputError  "file:line: ..." if it is no GPX, is cut off, or holds no track point; or if
-///                     a column is needed that a GPX file does not have.
+/// \throws InputError  "file:line: ..." if it is not GPX, is truncated, or holds no track point; or
+///                     if a column is required that a GPX file does not have.
 TripLog read_gpx(GpxSource source, const TripNeeds& needs, const Progress& progress = {});
 
 } // namespace macadam

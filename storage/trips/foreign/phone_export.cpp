@@ -18,7 +18,7 @@ namespace macadam {
 
 namespace {
 
-/// The first of the files that goes by one of the names; "" if none does.
+/// First file with one of the names; "" if there is none.
 template <std::size_t count>
 std::string found(const TripSource& source, const std::string_view (&names)[count]) {
     for (const auto name : names) {
@@ -41,7 +41,7 @@ TextLines lines_of(const TripSource& source, const std::string& file) {
     return {decoded(bytes_of_file(source, file), TextEncoding::utf8, name), name};
 }
 
-/// A table's header, and how its cells are written.
+/// Header of a table, and the format of its cells.
 struct Layout {
     std::string file;
     std::vector<std::string> names;
@@ -49,8 +49,8 @@ struct Layout {
     char decimal = '.';
 };
 
-/// Exports come with comma, semicolon or tab; where it is not the comma, that may be the decimal
-/// sign.
+/// Detects the layout. Exports use comma, semicolon or tab; with the last two, the comma may be the
+/// decimal separator.
 Layout layout_of(const TripSource& source, const std::string& file) {
     auto lines = lines_of(source, file);
     Layout layout{.file = file, .names = {}};
@@ -87,13 +87,13 @@ TableMapping table_of(const Layout& layout) {
     return table;
 }
 
-/// A channel and the names that its column goes by.
+/// Channel with the possible names of its column.
 struct Known {
     TripColumn channel;
     std::vector<std::string> patterns;
 };
 
-/// The table with the channels that its header has.
+/// Adds the channels that occur in the header to a table.
 TableMapping
 with_channels(TableMapping table, const Layout& layout, const std::vector<Known>& all) {
     for (const auto& [channel, patterns] : all) {
@@ -143,8 +143,8 @@ TableMapping phyphox_table(const Layout& layout, const std::vector<Known>& chann
     return table;
 }
 
-/// What meta/time.csv says: a row for each start and each pause, with the experiment's clock and
-/// the phone's.
+/// Reads meta/time.csv: one row for each start and pause, with the times of the experiment and the
+/// phone.
 TripMapping with_phyphox_clock(TripMapping mapping, const TripSource& source) {
     const auto file = found(source, time_file);
     if (file.empty()) {
@@ -198,7 +198,7 @@ TripMapping phyphox_mapping(const TripSource& source) {
 
 // Sensor Logger
 
-/// What Metadata.csv says of the phone.
+/// Properties of the phone in Metadata.csv.
 struct Phone {
     bool is_ios = false;
     bool is_standardised = false;

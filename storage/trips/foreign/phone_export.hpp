@@ -8,21 +8,23 @@
 
 namespace macadam {
 
-/// \throws InputError  naming the file that an export lacks for what is needed of it.
+/// Checks that an export has the required files.
+///
+/// \throws InputError  naming the missing file.
 void expect_files_of_export(const TripSource& source, const TripNeeds& needs);
 
-/// Those of an export's files that make its trip.
+/// Files of an export that its trip consists of.
 std::vector<std::string> used_files(const TripSource& source);
 
-/// How a phone's export becomes a trip. Phones lie as they like: the mounting is to be found from
+/// Mapping of a phone export. The orientation of the phone is unknown and must be estimated from
 /// the motion.
 ///
-/// phyphox: tables by sensor with a common clock; meta/time.csv, if there, tells the date and the
-/// pauses in which the clock stood. Sensor Logger: nanoseconds since 1970; acceleration with
-/// gravity where there is such a file, else gravity is added from its own; on iOS all axes point
-/// the other way unless the export says that it is standardised.
+/// phyphox: tables by sensor with a common clock; meta/time.csv, if present, holds the date and the
+/// pauses of the clock. Sensor Logger: nanoseconds since 1970; acceleration with gravity if there
+/// is such a file, otherwise gravity is added from its own file; on iOS all axes are reversed
+/// unless the export states that it is standardised.
 ///
-/// \throws InputError  if the files are of neither.
+/// \throws InputError  if the files are of neither app.
 TripMapping mapping_of_export(const TripSource& source);
 
 } // namespace macadam

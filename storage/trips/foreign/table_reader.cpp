@@ -17,9 +17,9 @@ namespace macadam {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double half_day_s = 43200; // a clock that falls by more has passed midnight
+constexpr double half_day_s = 43200; // a clock that jumps back by more has passed midnight
 
-/// A separator at the end of the line makes no cell.
+/// Drops the empty cell after a separator at the end of the line.
 std::vector<std::string> without_nameless_end(std::vector<std::string> cells) {
     if (cells.size() > 1 && cells.back().empty()) {
         cells.pop_back();
@@ -31,7 +31,7 @@ std::string_view words_of(const ColumnName& column) {
     return column.pattern;
 }
 
-/// Axis i of the result is the named axis of the row, turned about if that is negative.
+/// Permutes the axes: axis i of the result is the given axis of the row, reversed if negative.
 TripRow turned(TripRow row, TripColumn x, const std::array<int, 3>& axes) {
     const auto first = static_cast<std::size_t>(x);
     const std::array<double, 3> old{row.value[first], row.value[first + 1], row.value[first + 2]};
@@ -60,7 +60,7 @@ TableReader::TableReader(TextLines lines, const TableMapping& mapping, std::stri
     }
 }
 
-/// The next line that is neither blank nor a remark.
+/// Next line that is neither blank nor a comment.
 std::optional<std::string_view> TableReader::next_line() {
     while (const auto line = lines_.next()) {
         const bool is_remark = !mapping_.comment.empty() && line->starts_with(mapping_.comment);
@@ -130,7 +130,7 @@ std::optional<TripRow> TableReader::next() {
     return row_of(cells_of_line(*line, mapping_.separator));
 }
 
-/// NaN for what means none, nothing for what is no number.
+/// Parses a cell: NaN if it means none, `std::nullopt` if it is not a number.
 std::optional<double> TableReader::number_in(std::string cell) const {
     const bool is_empty =
         cell.empty() || std::any_of(mapping_.empty.begin(),

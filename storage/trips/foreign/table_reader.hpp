@@ -10,21 +10,22 @@
 
 namespace macadam {
 
-/// The data rows of one table of a foreign log, in our units and axes.
+/// Reads the data rows of one table of a foreign log, in our units and axes.
 class TableReader {
 public:
     /// Reads up to the first data row.
     ///
-    /// \throws InputError  if there is no header where one should be, or a column is not in it.
+    /// \throws InputError  if the header is missing, or lacks a column.
     TableReader(TextLines lines, const TableMapping& mapping, std::string name);
 
-    /// Nothing at the end. Its time, at TripColumn::t_s, counts from where the table counts.
+    /// Next row; `std::nullopt` at the end. Its time, at TripColumn::t_s, is relative to the origin
+    /// of the table.
     ///
-    /// A row with a cell too many or too few is faulty as a whole, and so is one with a word where
-    /// a number should be.
+    /// A row is faulty as a whole if it has too many or too few cells, or text in place of a
+    /// number.
     std::optional<TripRow> next();
 
-    /// Whether the times of the rows read so far count from 1970.
+    /// Tests whether the times of the rows read so far count from 1970.
     bool dated() const { return dated_; }
 
 private:
@@ -46,7 +47,7 @@ private:
     std::string name_;
     std::vector<std::size_t> time_cells_;
     std::vector<Source> sources_;
-    std::size_t cell_count_ = 0; ///< 0: not known, at least `min_cells_`
+    std::size_t cell_count_ = 0; ///< 0: unknown, at least `min_cells_`
     std::size_t min_cells_ = 0;
     double midnights_s_ = 0;
     double last_clock_s_ = 0;

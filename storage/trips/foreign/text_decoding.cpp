@@ -35,7 +35,7 @@ void append_utf8(std::uint32_t letter, std::string& text) {
     }
 }
 
-/// UTF-16 units, which may come cut in any place, to UTF-8.
+/// Converts UTF-16 to UTF-8; blocks may be split at any byte.
 class Utf16Decoder {
 public:
     std::string operator()(std::string_view bytes) {
@@ -70,7 +70,7 @@ private:
     }
 
     std::uint32_t low_ = 0;
-    std::uint32_t first_ = 0; ///< of a pair, while the second is awaited
+    std::uint32_t first_ = 0; ///< high surrogate that awaits its low surrogate
     bool has_low_ = false;
 };
 
@@ -96,7 +96,7 @@ private:
     void fill() {
         std::vector<char> buffer(block);
         std::size_t count = from_->read(buffer);
-        while (!begun_ && count == 1) { // the mark may come in halves
+        while (!begun_ && count == 1) { // the byte order mark may be split
             const auto more = from_->read(std::span{buffer}.subspan(1));
             if (more == 0) {
                 break;

@@ -8,10 +8,10 @@
 
 namespace macadam {
 
-/// `from` as UTF-8. UTF-16 with the low byte first is taken for such where it is stated or its byte
-/// order mark says so; anything else is handed on as it is.
+/// Converts `from` to UTF-8. Little-endian UTF-16 is decoded if stated or marked by a byte order
+/// mark; anything else passes through unchanged.
 ///
-/// \throws InputError  on reading, if the mark is of UTF-16 with the high byte first.
+/// \throws InputError  on reading, if the mark is that of big-endian UTF-16.
 std::unique_ptr<ByteStream>
 decoded(std::unique_ptr<ByteStream> from, TextEncoding encoding, const std::string& name);
 

@@ -17,9 +17,9 @@ namespace chr = std::chrono;
 constexpr double minute_s = 60;
 constexpr double hour_s = 3600;
 constexpr double day_s = 86400;
-constexpr std::size_t max_digits = 9; // of any part of a date or a clock
+constexpr std::size_t max_digits = 9; // per component of a date or time
 
-// Years that a car's log can have; loggers without a date write year 1, 1970 or 1980.
+// Plausible years of a car's log; loggers without a date write year 1, 1970 or 1980.
 constexpr int first_year = 1990;
 constexpr int last_year = 2099;
 
@@ -28,7 +28,7 @@ struct Digits {
     std::size_t count;
 };
 
-/// Takes a whole number off the front of `text`.
+/// Removes a whole number from the front of `text`.
 std::optional<Digits> take_digits(std::string_view& text) {
     int number = 0;
     const auto shown = text.substr(0, max_digits);
@@ -49,13 +49,13 @@ bool take_one_of(std::string_view& text, std::string_view letters) {
     return true;
 }
 
-/// What follows whole seconds: decimals, or a count of `unit_s`.
+/// Fraction of a second: decimals, or a count of `unit_s`.
 double fraction_of(const Digits& digits, const std::optional<double>& unit_s) {
     return unit_s ? digits.number * *unit_s
                   : digits.number / std::pow(10.0, static_cast<double>(digits.count));
 }
 
-/// Takes hh:mm[:ss[.f]] off the front; a fraction may also follow a colon or a comma.
+/// Removes hh:mm[:ss[.f]] from the front; the fraction may also follow a colon or a comma.
 std::optional<double> take_clock(std::string_view& text, const std::optional<double>& unit_s) {
     const auto hour = take_digits(text);
     const bool colon = take_one_of(text, ":");
@@ -76,14 +76,14 @@ std::optional<double> take_clock(std::string_view& text, const std::optional<dou
                 return std::nullopt;
             }
             time_s += fraction_of(*fraction, unit_s);
-            while (take_one_of(text, "0123456789")) { // beyond a nanosecond
+            while (take_one_of(text, "0123456789")) { // finer than a nanosecond
             }
         }
     }
     return time_s;
 }
 
-/// Takes Z, +hh:mm, +hhmm or +hh off the front: local time minus UTC.
+/// Removes Z, +hh:mm, +hhmm or +hh from the front: local time minus UTC.
 std::optional<double> take_zone(std::string_view& text) {
     if (take_one_of(text, "Zz")) {
         return 0.0;
@@ -150,7 +150,7 @@ std::optional<ReadTime> clock_time(std::string_view text, const TimeMapping& map
     return ReadTime{*clock_s, false};
 }
 
-/// 81530.5 is 8:15:30.5.
+/// Parses a time such as 81530.5, which is 8:15:30.5.
 std::optional<ReadTime> compact_time(std::string_view text) {
     const auto number = parse_number(text);
     if (!number || !(*number >= 0 && *number < 240000)) {

@@ -7,14 +7,17 @@
 
 namespace macadam {
 
-/// A time as a foreign log writes it.
+/// Parsed time of a foreign log.
 struct ReadTime {
-    double s;   ///< since 1970 for a date, since midnight for a clock, else since the count began
-    bool dated; ///< seconds since 1970-01-01T00:00:00Z, the zone being known
+    /// Since 1970 for a date, since midnight for a clock, otherwise since the start of the count.
+    double s;
+    bool dated; ///< whether it is UTC: seconds since 1970-01-01T00:00:00Z
 };
 
-/// \param text  the time's cells, joined by a blank, with a dot in fractions.
-/// \returns     nothing if it is not what the mapping says.
+/// Parses a time.
+///
+/// \param text  time cells, joined by a blank, with a dot in fractions.
+/// \returns `std::nullopt` if the text does not match the mapping.
 std::optional<ReadTime> parse_time(std::string_view text, const TimeMapping& mapping);
 
 } // namespace macadam

@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the files of a trip lie: a folder, or a folder within an archive.
+/// Location of a trip's files: a folder, or a folder within an archive.
 struct Place {
     fs::path file;
-    std::string prefix; ///< of members; "" at the archive's top
+    std::string prefix; ///< of members; "" at the root of the archive
 };
 
 Place place_of(const TripSource& source) {

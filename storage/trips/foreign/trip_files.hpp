@@ -8,10 +8,10 @@
 
 namespace macadam {
 
-/// What messages call one of the files of a trip.
+/// Name of a file of a trip, for messages.
 std::string name_of_file(const TripSource& source, const std::string& file);
 
-/// One of the files of a trip, `source.files`, from its folder or archive, decompressed.
+/// Opens one of `source.files` from its folder or archive, decompressed.
 std::unique_ptr<ByteStream> bytes_of_file(const TripSource& source, const std::string& file);
 
 } // namespace macadam

@@ -8,10 +8,10 @@ namespace macadam {
 
 namespace {
 
-/// For each value, how many can rise from it to the end, itself counted.
+/// For each value, the length of the longest increasing subsequence that starts there.
 std::vector<std::uint32_t> rises_from(const std::vector<double>& values) {
     std::vector<std::uint32_t> counts(values.size());
-    std::vector<double> starts; // of the rises of 1, 2, ... values that start highest: falling
+    std::vector<double> starts; // highest start of a subsequence of length 1, 2, ...: falling
     for (std::size_t i = values.size(); i-- > 0;) {
         const auto longer = std::ranges::lower_bound(starts, values[i], std::greater{});
         counts[i] = static_cast<std::uint32_t>(longer - starts.begin()) + 1;

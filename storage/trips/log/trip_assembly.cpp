@@ -12,11 +12,11 @@ namespace macadam {
 
 namespace {
 
-// Far beyond any car and any sensor in one; what is more is a fault of the log, not of the road.
+// Limits far beyond any car and sensor; larger values are errors of the log.
 constexpr double max_acc_mps2 = 1000;
 constexpr double max_gyro_radps = 100;
 constexpr double max_speed_mps = 1000;
-constexpr double max_time_s = 1e10; // a double still tells microseconds apart
+constexpr double max_time_s = 1e10; // a double still resolves microseconds
 
 constexpr double earth_m = 4e7; // once around
 
@@ -34,7 +34,7 @@ TripColumn next(TripColumn column, int places) {
     return static_cast<TripColumn>(static_cast<int>(column) + places);
 }
 
-/// Equal, or both not known.
+/// Tests whether values are equal, or both unknown.
 bool same(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
@@ -59,7 +59,7 @@ bool has_place(const GnssFix& fix) {
     return !std::isnan(fix.at.lat_deg) && !std::isnan(fix.at.lon_deg);
 }
 
-/// Receivers without a position write zeros or numbers off the globe.
+/// Tests for a valid position; receivers without a fix write zeros or invalid numbers.
 bool is_on_globe(const GeoPoint& at) {
     return std::abs(at.lat_deg) <= 90 && std::abs(at.lon_deg) <= 180 &&
            (at.lat_deg != 0 || at.lon_deg != 0);
@@ -70,7 +70,7 @@ bool says_the_same(const GnssFix& a, const GnssFix& b) {
            same(a.speed_mps, b.speed_mps) && same(a.course_deg, b.course_deg);
 }
 
-/// The members of `values`, in their order.
+/// Keeps the marked `values`, in their order.
 template <typename Value>
 void keep(const std::vector<std::uint8_t>& members, std::vector<Value>& values) {
     std::size_t kept = 0;
@@ -96,7 +96,7 @@ std::vector<double> times_of(const std::vector<GnssFix>& fixes) {
     return t_s;
 }
 
-/// Takes from the rows what they gave to one sensor and it could not keep.
+/// Clears the flag of rows whose sample the sensor's stream dropped.
 void readmit(const std::vector<std::uint8_t>& members,
              std::uint8_t flag,
              std::vector<std::uint8_t>& rows) {
@@ -161,7 +161,7 @@ std::uint8_t TripStreams::gifts_of(const TripRow& row) {
             flags |= gift;
         } else if (reason == code(RowReason::no_sample) ||
                    reason == code(RowReason::unused_channel)) {
-            reason = gift; // the first that is a fault; otherwise that nobody needs the channel
+            reason = gift; // first fault; otherwise the channel is not needed
         }
     }
     return flags != 0 ? flags : reason;
@@ -217,7 +217,7 @@ TripStreams::RowContribution TripStreams::add_speed(const TripRow& row) {
     const double speed = speed_in(row);
     auto& to = trip_.speed;
     if (std::isnan(speed)) {
-        // Wheels beside a speed column say the same once more.
+        // With a speed column, wheel speeds are redundant.
         const bool wheels =
             !std::isnan(row[TripColumn::wheel_fl]) || !std::isnan(row[TripColumn::wheel_fr]) ||
             !std::isnan(row[TripColumn::wheel_rl]) || !std::isnan(row[TripColumn::wheel_rr]);
@@ -244,7 +244,7 @@ TripStreams::RowContribution TripStreams::add_fix(const TripRow& row) {
     if (!needs_.fixes) {
         return code(RowReason::unused_channel);
     }
-    if (!is_on_globe(fix.at)) { // nor is a place of which one number is missing
+    if (!is_on_globe(fix.at)) { // also if one coordinate is missing
         fix.at = {unknown, unknown};
     }
     const bool lost = row[TripColumn::gnss_fix] == 0;

@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// Puts the rows of a log one after the other into the streams of a trip.
+/// Assembles the rows of a log into the streams of a trip.
 class TripStreams {
 public:
     TripStreams(const TripNeeds& needs, const TripHeader& header);
@@ -17,16 +17,17 @@ public:
 
     std::size_t rows() const { return trip_.rows.size(); }
 
-    /// The trip, without what its head says. Where the times of a sensor do not rise, as many of
-    /// its samples are kept as can be: a single wild stamp costs itself only.
+    /// Returns the trip, without its header data. Where the times of a sensor do not increase, as
+    /// many samples as possible are kept: a single wrong time stamp loses only its own sample.
     TripLog take();
 
-    /// The samples of the rows since the last call, in the order in which they came, and goes on.
-    /// Nothing is put in order: what is still to come decides that.
+    /// Returns the samples of the rows since the last call, in their original order, and continues.
+    /// Times are not checked, because that depends on later rows.
     TripLog take_rows();
 
 private:
-    /// What a row gave to one stream: a flag of row_content, a RowReason, or 0 for an empty place.
+    /// Contribution of a row to one stream: a flag of row_content, a RowReason, or 0 for empty
+    /// cells.
     using RowContribution = std::uint8_t;
 
     RowContribution

@@ -37,7 +37,7 @@ double positive_number(const MetaLine& line) {
     return value;
 }
 
-/// Numbers with blanks or commas between.
+/// Parses numbers separated by blanks or commas.
 template <std::size_t count>
 std::array<double, count> numbers(const MetaLine& line, std::string_view expected) {
     std::array<double, count> values{};
@@ -69,7 +69,7 @@ std::array<double, 4> unit_quaternion(const MetaLine& line) {
     constexpr std::string_view expected = "four numbers, w x y z of length 1";
     const auto q = numbers<4>(line, expected);
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-    if (std::abs(length - 1) > 0.01) { // two decimals are the least that anyone writes
+    if (std::abs(length - 1) > 0.01) { // tolerates values with two decimals
         refuse(line, expected);
     }
     return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
@@ -103,7 +103,7 @@ double utc_s(const MetaLine& line) {
     return *time;
 }
 
-/// A latency that a receiver or a bus can have.
+/// Parses a plausible latency of a receiver or bus.
 double latency_s(const MetaLine& line) {
     constexpr double max_s = 60;
     const double value = number(line);
@@ -145,7 +145,7 @@ const std::map<std::string_view, Setter>& setters() {
     return table;
 }
 
-/// As it will be read: without what ends a line, then without blanks at its ends.
+/// Text as it will be read: without line breaks, then without blanks at its ends.
 std::string on_one_line(std::string text) {
     std::ranges::replace_if(
         text, [](char c) { return c == '\n' || c == '\r' || c == '\0'; }, ' ');
@@ -173,7 +173,7 @@ std::string_view name_of(Frame frame) {
     return "sensor";
 }
 
-/// To the millisecond if that is all there is, otherwise to the microsecond.
+/// Formats a time to the millisecond if that is exact, otherwise to the microsecond.
 std::string utc_text_of(double utc_s) {
     if (auto text = utc_text(std::llround(utc_s * 1e3)); parse_utc_s(text) == utc_s) {
         return text;
@@ -181,7 +181,7 @@ std::string utc_text_of(double utc_s) {
     const auto utc_us = std::llround(utc_s * 1e6);
     const auto whole_s = static_cast<std::int64_t>(std::floor(static_cast<double>(utc_us) / 1e6));
     auto text = utc_text(1000 * whole_s);
-    text.pop_back(); // the Z
+    text.pop_back(); // without the Z
     return text + fmt::format(".{:06}Z", utc_us - 1'000'000 * whole_s);
 }
 

@@ -7,21 +7,21 @@
 
 namespace macadam {
 
-/// A line "# key: value" of a trip log's head.
+/// Line "# key: value" in the header of a trip log.
 struct MetaLine {
     std::string where; ///< "file:line"
     std::string key;
     std::string value;
 };
 
-/// What the head says. 'unknown' and an empty value are as good as no line; of two lines with one
-/// key the later holds.
+/// Parses the header lines. 'unknown' and an empty value count as missing; of two lines with the
+/// same key, the later applies.
 ///
-/// \throws InputError  for a value that its key does not allow.
+/// \throws InputError  for an invalid value.
 TripMeta parse_meta(const std::vector<MetaLine>& lines);
 
-/// The lines "# key: value" that say the same, each with its newline; numbers with as many digits
-/// as it takes to read the same again. Line breaks in a text become blanks.
+/// Formats meta data as lines "# key: value", each with its line end; numbers have enough digits to
+/// be restored exactly. Line breaks in a text become blanks.
 std::string meta_text(const TripMeta& meta);
 
 } // namespace macadam

@@ -54,18 +54,18 @@ std::vector<std::string> cells_of(std::string_view line) {
     }
 }
 
-/// NaN for an empty cell, nothing for what is no number.
+/// Parses a cell: NaN if it is empty, `std::nullopt` if it is not a number.
 std::optional<double> number_in(std::string_view cell) {
     cell = trimmed(cell);
     return cell.empty() ? std::numeric_limits<double>::quiet_NaN() : parse_number(cell);
 }
 
 struct Cell {
-    const char* end; ///< where its comma or the line's end is
+    const char* end; ///< position of the comma or the line end
     std::optional<double> number;
 };
 
-/// Most cells are a plain number with a comma right after it, and are read in one go.
+/// Parses a cell, with a fast path for a plain number followed by a comma.
 Cell number_at(const char* from, const char* end) {
     double number = 0;
     const auto [stop, error] = std::from_chars(from, end, number);
@@ -124,7 +124,7 @@ TripRow parse_trip_row(std::string_view line, const TripHeader& header) {
     const char* at = line.data();
     const char* const end = at + line.size();
     std::size_t count = 0;
-    for (;; ++at) { // over the comma
+    for (;; ++at) { // skips the comma
         const auto column =
             count < header.columns.size() ? header.columns[count] : TripColumn::text;
         ++count;

@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// A column of the trip log whose numbers are looked at.
+/// Columns of the trip log that are parsed as numbers.
 enum class TripColumn : std::uint8_t {
     t_s,
     acc_x,
@@ -32,16 +32,16 @@ enum class TripColumn : std::uint8_t {
     course,
     gnss_fix,
     gnss_utc,
-    other, ///< known and a number, but nothing is made of it
-    text,  ///< anything may stand there
+    other, ///< known and numeric, but unused
+    text,  ///< any content
 };
 
 inline constexpr std::size_t trip_column_count = static_cast<std::size_t>(TripColumn::other) + 1;
 
-/// The column of a name like "acc_z_mps2"; nothing where no number is looked at under that name.
+/// Column of a name like "acc_z_mps2"; `std::nullopt` if no numeric column has this name.
 std::optional<TripColumn> channel_named(std::string_view name);
 
-/// The header row: what each column is, and the names that nobody knows.
+/// Header row: the column types, and unknown names.
 struct TripHeader {
     std::vector<TripColumn> columns;
     std::vector<std::string> names;
@@ -50,12 +50,14 @@ struct TripHeader {
     bool has(TripColumn column) const;
 };
 
+/// Parses the header row.
+///
 /// \param where  "file:line", for messages.
 ///
-/// \throws InputError  if two columns have one name, or a name is empty other than the last.
+/// \throws InputError  if two columns have the same name, or a name other than the last is empty.
 TripHeader parse_trip_header(std::string_view line, const std::string& where);
 
-/// The numbers of a data row, NaN for what is empty; or what is wrong with the whole of it.
+/// Numbers of a data row, NaN for empty cells, or the fault of the whole row.
 struct TripRow {
     std::array<double, trip_column_count> value;
     std::optional<RowReason> fault; ///< wrong_cell_count or bad_number

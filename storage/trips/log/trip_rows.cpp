@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view first_line = "# macadam-trip 1";
 constexpr std::string_view end_mark = "# end rows:";
 
-/// Whoever names one file of an export means the export.
+/// Rejects a single file of an export; the user probably means the whole export.
 void expect_no_export(const TripSource& source) {
     if (source.member.empty() && marks_export(source.file.filename().string())) {
         throw InputError{
@@ -46,10 +46,10 @@ struct Head {
     TripMeta meta;
     TripHeader header;
     std::string header_line;
-    std::string where; ///< the header row is
+    std::string where; ///< position of the header row
 };
 
-/// Everything up to the header row.
+/// Reads everything up to the header row.
 Head read_head(TextLines& lines) {
     std::vector<MetaLine> meta;
     while (const auto line = lines.next()) {

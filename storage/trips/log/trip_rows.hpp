@@ -11,29 +11,29 @@
 
 namespace macadam {
 
-/// The data rows of a "macadam-trip 1" log, one after the other, as its bytes come: no row waits
-/// for the next one.
+/// Reads the data rows of a "macadam-trip 1" log as its bytes arrive: each row is available before
+/// the next one is written.
 class TripRows {
 public:
-    /// Reads the head, up to the header row.
+    /// Reads up to the header row.
     ///
-    /// \throws InputError  "file:line: ..." if it is no such log or lacks a needed column.
+    /// \throws InputError  "file:line: ..." if it is not such a log or lacks a required column.
     TripRows(std::unique_ptr<ByteStream> bytes, const TripSource& source, const TripNeeds& needs);
 
     const TripMeta& meta() const { return meta_; }
     const TripHeader& header() const { return header_; }
 
-    /// Nothing at the end, whether "# end rows: N" stands there or the bytes just end.
+    /// Next row; `std::nullopt` at the end, with or without "# end rows: N".
     ///
-    /// \throws InputError  if N is not the number of rows, or something follows that line.
+    /// \throws InputError  if N is not the number of rows, or that line is not the last.
     std::optional<TripRow> next();
 
-    bool closed() const { return closed_; } ///< "# end rows: N" has come
+    bool closed() const { return closed_; } ///< "# end rows: N" was read
     std::size_t count() const { return count_; }
 
-    /// The row that came last; good until the next call of next().
+    /// Text of the last row; valid until the next call of next().
     std::string_view line() const { return line_; }
-    std::string where() const { return lines_.where(); } ///< "file:line" of it
+    std::string where() const { return lines_.where(); } ///< "file:line" of the last row
 
     std::uint64_t consumed() const { return lines_.consumed(); }
     std::string sha256() { return lines_.sha256(); }
@@ -49,7 +49,7 @@ private:
     bool closed_ = false;
 };
 
-/// \throws InputError  that the log ends without "# end rows: N".
+/// \throws InputError  always: the log ends without "# end rows: N".
 [[noreturn]] void refuse_unclosed(const TripRows& rows);
 
 } // namespace macadam

@@ -27,7 +27,7 @@ struct Column {
     int decimals;
 };
 
-// In the order of the cells of a row.
+// Columns in the order of the cells of a row.
 constexpr Column time_column{"t_s", 6};
 constexpr std::array columns{Column{"acc_x_mps2", 5},
                              Column{"acc_y_mps2", 5},
@@ -54,9 +54,10 @@ std::int64_t units(double value, int decimals) {
     return std::llround(value * per_one[static_cast<std::size_t>(decimals)]);
 }
 
-/// What "{:.{}f}" gives, faster: rounding an integer is cheaper than printing a double.
+/// Appends the same text as "{:.{}f}", faster: formatting an integer is cheaper than formatting a
+/// double.
 void append_fixed(std::string& to, double value, int decimals) {
-    constexpr double most = 9e9; // so that its units fit 64 bits
+    constexpr double most = 9e9; // the scaled value fits 64 bits
     if (!(std::abs(value) < most)) {
         to += fmt::format("{:.{}f}", value, decimals);
         return;
@@ -79,7 +80,7 @@ void append_fixed(std::string& to, double value, int decimals) {
     }
 }
 
-/// A time as a log can tell it from another.
+/// Time stamp at the resolution of the log.
 std::int64_t stamp(double t_s) {
     return units(t_s, time_column.decimals);
 }
@@ -96,7 +97,7 @@ bool print_the_same(const GnssFix& a, const GnssFix& b) {
            print_the_same(a.course_deg, b.course_deg, columns[first_fix + 3].decimals);
 }
 
-/// The rows of a trip one after the other, each with what was sampled at its time.
+/// Iterates over the rows of a trip, each with the samples of its time.
 class Rows {
 public:
     explicit Rows(const TripLog& trip)
@@ -106,7 +107,7 @@ public:
                   return print_the_same(a, b);
               }) != trip.fixes.end()} {}
 
-    /// \returns whether there was one.
+    /// \returns false at the end.
     bool next() {
         at_ = std::min({stamp_at(trip_.acc.t_s, acc_),
                         stamp_at(trip_.gyro.t_s, gyro_),

@@ -18,12 +18,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "rawlogs are little-endian");
 
-constexpr std::size_t longest_name = 120; // what MRPT's reader allows
+constexpr std::size_t longest_name = 120; // limit of MRPT's reader
 constexpr std::size_t longest_text = 16 << 20;
 constexpr std::size_t max_items = 1 << 20;
-constexpr std::size_t imu_channels = 31; // of MRPT 2: its enumeration TIMUDataIndex
+constexpr std::size_t imu_channels = 31; // of MRPT 2: enumeration TIMUDataIndex
 
-/// Thrown by a walk that comes to the end of the bytes at hand.
+/// Thrown at the end of the available bytes.
 struct MoreNeeded {};
 
 [[noreturn]] void refuse(const RawlogHead& head, std::string_view expected) {
@@ -31,7 +31,7 @@ struct MoreNeeded {};
         fmt::format("{} of version {}, expected {}", head.name, head.version, expected)};
 }
 
-/// Walks over the fields of an object.
+/// Steps over the fields of an object.
 class Walk {
 public:
     explicit Walk(std::string_view bytes) : bytes_{bytes} {}
@@ -53,7 +53,7 @@ public:
         return value;
     }
 
-    /// A byte that MRPT takes for a truth value.
+    /// Reads a byte that MRPT interprets as a bool.
     bool flag() {
         const auto from = at_;
         skip(1);
@@ -88,7 +88,7 @@ public:
         skip(size);
     }
 
-    /// An object within the object; `fields` walks over its own.
+    /// Steps over a nested object; `fields` steps over its fields.
     template <typename Fields>
     void object(std::string_view expected, Fields fields) {
         const auto head = rawlog_head(bytes_.substr(at_));
@@ -198,15 +198,15 @@ void walk_comment(Walk& walk, const RawlogHead& head) {
     walk.skip(time_size);
 }
 
-/// Messages that are a length and as many bytes: GGA, GLL, GSA, RMC, VTG and ZDA of NMEA 0183.
+/// Messages in the form of a length and a block: GGA, GLL, GSA, RMC, VTG and ZDA of NMEA 0183.
 bool is_block(std::uint32_t message) {
     static constexpr std::array<std::uint32_t, 6> types{10, 11, 12, 15, 16, 17};
     return std::ranges::find(types, message) != types.end();
 }
 
-/// \returns whether every message could be walked over.
+/// \returns whether every message was recognised.
 bool walk_gps(Walk& walk, const RawlogHead& head) {
-    constexpr std::size_t max_messages = 1000; // there are fewer types, and one of each
+    constexpr std::size_t max_messages = 1000; // one of each type, and there are fewer types
     constexpr std::size_t max_message_bytes = 1000;
     walk.skip(2 * time_size);
     walk.text();
@@ -244,7 +244,8 @@ bool is_old_gps(const RawlogHead& head) {
     return head.kind == RawlogClass::gps && head.version >= 3 && head.version <= 9;
 }
 
-/// As MRPT wrote it before 1.4, field by field: what NMEA 0183 says, and where the receiver was.
+/// Steps over the NMEA 0183 fields as MRPT wrote them before 1.4, including the position of the
+/// receiver.
 void walk_old_nmea(Walk& walk, int version) {
     constexpr std::size_t clock = 2 + sizeof(double);
     walk.skip(time_size);
@@ -264,7 +265,7 @@ void walk_old_nmea(Walk& walk, int version) {
     }
 }
 
-/// And what receivers of Topcon said beyond that.
+/// Steps over the additional fields of Topcon receivers.
 void walk_old_topcon(Walk& walk, int version) {
     if (version >= 5 && walk.flag()) {
         walk_topcon_position(walk, version);
@@ -276,7 +277,7 @@ void walk_old_topcon(Walk& walk, int version) {
     }
 }
 
-/// \returns whether the end can be told from within.
+/// \returns whether the end of the object is known from its fields.
 bool walk_object(Walk& walk, const RawlogHead& head) {
     switch (head.kind) {
     case RawlogClass::imu:
@@ -318,7 +319,7 @@ bool is_in_names(char c) {
            c == '>' || c == ',';
 }
 
-/// The name of a class at the front of `bytes`, as far as they go; nothing: none begins so.
+/// Class name at the front of `bytes`, as far as available; `std::nullopt`: not a class name.
 std::optional<std::string_view> full_name_in(std::string_view bytes) {
     constexpr unsigned char new_format = 0x80;
     const auto first = static_cast<unsigned char>(bytes.front());
@@ -344,7 +345,7 @@ std::optional<RawlogHead> rawlog_head(std::string_view bytes) {
     if (bytes.size() < length + 2) {
         return std::nullopt;
     }
-    const auto name = full_name->substr(full_name->rfind(':') + 1); // 0 where there is none
+    const auto name = full_name->substr(full_name->rfind(':') + 1); // 0 if there is none
     return RawlogHead{.kind = class_named(name),
                       .name = std::string{name},
                       .version = static_cast<unsigned char>(bytes[length + 1]),
@@ -374,7 +375,7 @@ std::optional<std::string> without_topcon(std::string_view object) {
     walk.skip(head->size);
     walk_old_nmea(walk, head->version);
     std::string bytes{object.substr(0, walk.at())};
-    bytes.append(head->version >= 7 ? 2 : 1, '\0'); // flags: no place, no satellites
+    bytes.append(head->version >= 7 ? 2 : 1, '\0'); // flags: no position, no satellites
     bytes += rawlog_end_flag;
     return bytes;
 }
@@ -395,7 +396,7 @@ std::optional<RawlogFrame> rawlog_frame(const RawlogHead& head, std::string_view
 
 std::optional<bool> begins_observation(std::string_view bytes) {
     if (!bytes.empty() && !full_name_in(bytes)) {
-        return false; // told without an exception: a picture has many places to look at
+        return false; // no exception here: an image has many positions to test
     }
     const auto head = rawlog_head(bytes);
     if (!head) {

@@ -8,21 +8,21 @@
 
 namespace macadam {
 
-// How objects lie in a rawlog. MRPT's own reader believes every count and length that it finds, so
-// nothing is handed to it before its extent was walked here: no byte of a broken file can make it
-// ask for more than the file holds.
+// Layout of objects in a rawlog. MRPT's own reader trusts every count and length, so the extent of
+// an object is validated here before MRPT sees it: a broken file cannot make it allocate more than
+// the file holds.
 
 enum class RawlogClass : std::uint8_t {
     imu,      ///< CObservationIMU
     gps,      ///< CObservationGPS
     odometry, ///< CObservationOdometry
     comment,  ///< CObservationComment
-    frame,    ///< CSensoryFrame, which holds observations
+    frame,    ///< CSensoryFrame, a container of observations
     other,
 };
 
-/// What an object begins with: the length of its class name with the highest bit set, the name, and
-/// a version.
+/// Header of an object: the length of its class name with the highest bit set, the name, and a
+/// version.
 struct RawlogHead {
     RawlogClass kind;
     std::string name; ///< "CObservationIMU", without its namespace
@@ -30,32 +30,34 @@ struct RawlogHead {
     std::size_t size; ///< in bytes
 };
 
-inline constexpr char rawlog_end_flag = '\x88'; // behind every object
+inline constexpr char rawlog_end_flag = '\x88'; // after every object
 
-/// The head at the front of `bytes`; nothing: more bytes are needed to say.
-/// \throws InputError  if no object begins so; without a place.
+/// Parses the header at the start of `bytes`; `std::nullopt`: more bytes are needed.
+///
+/// \throws InputError  if this is not the header of an object; the message has no position.
 std::optional<RawlogHead> rawlog_head(std::string_view bytes);
 
-/// How long an object of a known class is, its head and end flag included; nothing: more bytes are
-/// needed. 0: it holds messages of receivers that are not looked at, and its end is not to be told
-/// from within.
-/// \throws InputError  if it is not laid out as its class and version want; without a place.
+/// Size of an object of a known class, including header and end flag; `std::nullopt`: more bytes
+/// are needed. 0: it holds unsupported receiver messages, so that its end cannot be determined from
+/// within.
+///
+/// \throws InputError  if the layout does not match its class and version; the message has no
+///                     position.
 std::optional<std::size_t> rawlog_size(const RawlogHead& head, std::string_view bytes);
 
-/// A whole object of a GPS as MRPT wrote it before 1.4, but for what receivers of Topcon said,
-/// which nobody looks at: MRPT 2.5 reads that into memory which it has already freed. Nothing: MRPT
-/// may have the object as it is.
+/// Removes the unused Topcon fields from an object of a GPS written by MRPT before 1.4, because
+/// MRPT 2.5 reads them into freed memory. `std::nullopt`: MRPT may read the object as it is.
 std::optional<std::string> without_topcon(std::string_view object);
 
-/// How many observations a frame holds, which begin `size` bytes after its own begin.
+/// Number of observations in a frame, which begin `size` bytes after the start of the frame.
 struct RawlogFrame {
     std::size_t count;
     std::size_t size;
 };
 std::optional<RawlogFrame> rawlog_frame(const RawlogHead& head, std::string_view bytes);
 
-/// Whether `bytes` begin like an object that can stand by itself in a rawlog; nothing: more bytes
-/// are needed to say.
+/// Tests whether `bytes` begin like an object that may stand alone in a rawlog; `std::nullopt`:
+/// more bytes are needed.
 std::optional<bool> begins_observation(std::string_view bytes);
 
 } // namespace macadam

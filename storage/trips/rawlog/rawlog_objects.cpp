@@ -13,8 +13,8 @@ namespace macadam {
 
 namespace {
 
-constexpr std::size_t first_block = 128 << 10;    // grows where an object wants more
-constexpr std::size_t longest_object = 256 << 20; // a picture or a cloud of points is shorter
+constexpr std::size_t first_block = 128 << 10;    // grows for larger objects
+constexpr std::size_t longest_object = 256 << 20; // images and point clouds are smaller
 
 bool is_text(std::string_view bytes) {
     return std::ranges::all_of(bytes, [](char c) {
@@ -61,7 +61,7 @@ std::optional<RawlogObject> RawlogObjects::next() {
         return object;
     } catch (const InputError& error) {
         if (offset_ == 0 && rest().empty() && !ended_) {
-            throw; // it is not the rawlog that is broken, but what it is wrapped in
+            throw; // the compressed file is broken, not the rawlog
         }
         const auto other = offset_ == 0 ? kind_of_file() : "";
         throw InputError{other.empty()
@@ -92,7 +92,7 @@ void RawlogObjects::drop(std::size_t count) {
     offset_ += count;
 }
 
-/// Nothing at the end of the file.
+/// Header of the next object; `std::nullopt` at the end of the file.
 std::optional<RawlogHead> RawlogObjects::head() {
     for (;;) {
         if (auto found = rawlog_head(rest())) {
@@ -125,7 +125,7 @@ void RawlogObjects::enter_frame(const RawlogHead& head) {
     }
 }
 
-/// Takes the end flag of a frame whose observations were all handed out.
+/// Reads the end flags of frames whose observations were all returned.
 void RawlogObjects::leave_frames() {
     while (left_in_frame_ == 0U) {
         while (rest().empty()) {
@@ -160,12 +160,12 @@ RawlogObject RawlogObjects::object_at(const RawlogHead& head) {
     return {RawlogClass::other, head.name, rest().substr(0, size)};
 }
 
-/// Whether the object would take the end flag of its frame along.
+/// Tests whether the object would include the end flag of its frame.
 bool RawlogObjects::closes_frame(std::string_view object) const {
     return left_in_frame_ == 1U && object.ends_with("\x88\x88");
 }
 
-/// To where the next object begins behind an end flag, or to the end of the file.
+/// Size up to the start of the next object after an end flag, or to the end of the file.
 std::size_t RawlogObjects::size_to_next() {
     for (std::size_t from = 1;;) {
         const auto bytes = rest();
@@ -186,13 +186,13 @@ std::size_t RawlogObjects::size_to_next() {
         if (begins || ended_) {
             from = size;
         } else {
-            from = flag; // to be looked at again when more is there
+            from = flag; // tested again when more bytes are available
             fill();
         }
     }
 }
 
-/// What a file that does not begin like a rawlog is, if that is easily told.
+/// Describes a file that does not begin like a rawlog, if its format is known.
 std::string RawlogObjects::kind_of_file() const {
     using Row = std::pair<std::string_view, std::string_view>;
     static constexpr std::array<Row, 8> magics{{{"\x89PNG", "a picture (PNG)"},

@@ -15,31 +15,31 @@
 namespace macadam {
 
 struct RawlogObject {
-    RawlogClass kind; ///< never frame; other, too, for messages of receivers that are not read
-    std::string name; ///< of its class
+    RawlogClass kind; ///< never frame; also other for unsupported receiver messages
+    std::string name; ///< class name
     std::string_view bytes;
 };
 
-/// The objects of a rawlog one after the other; those in a frame (CSensoryFrame) one by one, too.
-/// Objects of classes that are not read end where the next one begins.
+/// Iterates over the objects of a rawlog, including those inside frames (CSensoryFrame). An object
+/// of an unsupported class ends where the next object begins.
 class RawlogObjects {
 public:
     /// \param bytes  decompressed.
-    /// \param name   of the file, for messages.
+    /// \param name  name of the file, for messages.
     RawlogObjects(std::unique_ptr<ByteStream> bytes, std::string name);
 
-    /// Good until the next call. Nothing at the end.
+    /// Next object, valid until the next call; `std::nullopt` at the end.
     ///
-    /// \throws InputError  if the file is of another kind, is cut off, or holds what MRPT would
-    ///                     not write; the message says at which object and byte.
+    /// \throws InputError  if the file is of another kind, is truncated, or holds anything that
+    ///                     MRPT would not write; the message states the object and byte.
     std::optional<RawlogObject> next();
 
-    /// "file: object 12 at byte 3456" of the last object, both counted from where they begin: 1, 0.
+    /// "file: object 12 at byte 3456" of the last object; objects count from 1, bytes from 0.
     std::string where() const;
 
     std::uint64_t consumed() const { return bytes_->consumed(); }
 
-    /// Of everything, once the last object was read.
+    /// SHA-256 of the whole file, available after the last object was read.
     std::string sha256() { return sha256_.hex(); }
 
 private:
@@ -58,10 +58,10 @@ private:
     std::string name_;
     Sha256 sha256_;
     std::vector<char> block_;
-    std::size_t first_ = 0; ///< of the bytes in the block that were not handed out
+    std::size_t first_ = 0; ///< start of the unread bytes in the block
     std::size_t last_ = 0;
-    std::size_t taken_ = 0;    ///< bytes of the object that was handed out last
-    std::uint64_t offset_ = 0; ///< of block_[first_] in the file
+    std::size_t taken_ = 0;    ///< size of the last returned object
+    std::uint64_t offset_ = 0; ///< position of block_[first_] in the file
     std::size_t number_ = 0;
     std::optional<std::size_t> left_in_frame_;
     bool ended_ = false;

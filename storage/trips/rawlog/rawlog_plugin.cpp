@@ -21,7 +21,7 @@ namespace {
 namespace obs = mrpt::obs;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double knot_mps = 1852.0 / 3600; // ISO 80000-3: an international nautical mile an hour
+constexpr double knot_mps = 1852.0 / 3600; // ISO 80000-3: one international nautical mile per hour
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 constexpr double day_s = 86400;
 
@@ -30,7 +30,7 @@ constexpr std::int64_t ticks_to_1970 = 116'444'736'000'000'000;
 constexpr std::int64_t ticks_to_1900 = 94'354'848'000'000'000;
 constexpr std::int64_t ticks_to_2500 = 283'697'856'000'000'000;
 
-/// The bytes of one object, and not one more.
+/// Archive that provides the bytes of exactly one object.
 class Source final : public mrpt::serialization::CArchive {
 public:
     explicit Source(std::string_view bytes) : rest_{bytes} {}
@@ -121,7 +121,7 @@ RawlogObservation of(const obs::CObservationGPS& gps) {
         fix.lon_deg = said.longitude_degrees;
         fix.quality = said.fix_quality;
         fix.day_time_s = day_time_s(said.UTCTime);
-        std::uint8_t has_hdop = 0; // any byte may stand in a bool that comes from a file
+        std::uint8_t has_hdop = 0; // a bool from a file may hold any byte
         std::memcpy(&has_hdop, &said.thereis_HDOP, 1);
         fix.hdop = has_hdop != 0 ? said.HDOP : unknown;
     }
@@ -165,7 +165,7 @@ RawlogObservation decoded(std::string_view bytes) {
     throw std::runtime_error{"the object is of another class"};
 }
 
-/// MRPT's complaints go on with where in its own source they arose.
+/// First line of MRPT's messages, which continue with positions in its source.
 std::string first_line(std::string_view text) {
     return std::string{text.substr(0, text.find('\n'))};
 }

@@ -25,18 +25,18 @@ namespace macadam {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double longest_odometry_step_s = 2; // beyond, two poses say no more of the speed between
+constexpr double longest_odometry_step_s = 2; // poses further apart do not determine the speed
 
-/// The observations of a rawlog, and for every object which it is, or -1 for none.
+/// Observations of a rawlog, and for every object the index of its observation, or -1.
 struct Content {
     std::vector<RawlogObservation> observations;
     std::vector<std::ptrdiff_t> objects;
-    std::map<std::string, std::size_t> classes; ///< how many objects of each
+    std::map<std::string, std::size_t> classes; ///< number of objects per class
     std::optional<TripMeta> head;
     std::string sha256;
 };
 
-/// The lines "# key: value" of a comment, as of the head of a log.
+/// Parses the lines "# key: value" of a comment like a log header.
 TripMeta meta_in(std::string_view text, const std::string& where) {
     std::vector<MetaLine> lines;
     while (!text.empty()) {
@@ -101,7 +101,7 @@ Content read_objects(RawlogSource source, const Progress& progress) {
     return content;
 }
 
-/// Of each kind of observation the sensor that says most; of those that say as much the first.
+/// Sensor with the most observations of each kind; of equals, the first.
 std::map<std::size_t, std::string> chosen_labels(const std::vector<RawlogObservation>& all) {
     std::map<std::size_t, std::map<std::string, std::size_t>> counts;
     for (const auto& each : all) {
@@ -118,11 +118,11 @@ std::map<std::size_t, std::string> chosen_labels(const std::vector<RawlogObserva
     return chosen;
 }
 
-/// What can be said of a trip that no head tells of.
+/// Meta data of a trip without a header.
 TripMeta meta_without_head(const std::vector<RawlogObservation>& all) {
     TripMeta meta;
     for (const auto& each : all) {
-        if (each.utc_ticks && *each.utc_ticks > 0) { // before 1970 only clocks that were never set
+        if (each.utc_ticks && *each.utc_ticks > 0) { // clocks before 1970 were never set
             meta.t0_utc_s = static_cast<double>(*each.utc_ticks) / rawlog_ticks_per_s;
             break;
         }
@@ -140,7 +140,7 @@ TripMeta meta_without_head(const std::vector<RawlogObservation>& all) {
     return meta;
 }
 
-/// Speeds of a car of which only poses are known, from one to the next; each belongs between them.
+/// Speeds from consecutive poses, each valid at the midpoint in time.
 class Poses {
 public:
     struct Speed {
@@ -170,7 +170,7 @@ private:
     std::optional<Pose> before_;
 };
 
-/// Makes rows of a log of the observations.
+/// Converts observations to rows of a log.
 class Rows {
 public:
     explicit Rows(const TripMeta& meta)
@@ -259,7 +259,7 @@ constexpr std::array<Named, 11> column_names{{{"t_s", TripColumn::t_s},
                                               {"lon_deg", TripColumn::lon},
                                               {"gnss_speed_mps", TripColumn::gnss_speed}}};
 
-/// A rawlog has no header row: a column is there if a row has a number for it.
+/// Columns of a rawlog, which has no header row: those with a number in any row.
 class Columns {
 public:
     void add(const TripRow& row) {

@@ -14,28 +14,28 @@ namespace macadam {
 
 inline constexpr std::string_view rawlog_suffix = ".rawlog";
 
-/// What the comment begins with that is the head of a trip.
+/// First line of the comment that holds the header of a trip.
 inline constexpr std::string_view rawlog_head_mark = "# macadam-trip 1";
 
-/// A key of that head: metres of horizontal accuracy for each unit of HDOP. GGA has no place for
-/// the accuracy itself; rawlogs that were not written here do not have the key, and no accuracy.
+/// Key in that header: metres of horizontal accuracy per unit of HDOP, because GGA cannot state the
+/// accuracy itself. Rawlogs from other programs have neither the key nor an accuracy.
 inline constexpr const char* rawlog_accuracy_key = "hacc_per_hdop_m";
 
-/// Where a rawlog's bytes come from.
+/// Input of read_rawlog().
 struct RawlogSource {
     std::unique_ptr<ByteStream> bytes; ///< decompressed
     std::string name;                  ///< for messages
-    std::size_t whole_bytes;           ///< on disk, for progress; 0: not known
+    std::size_t whole_bytes;           ///< size on disk, for progress; 0: unknown
 };
 
 /// Reads a rawlog of MRPT: CObservationIMU, CObservationGPS (NMEA GGA and RMC) and
 /// CObservationOdometry become samples, a CObservationComment that begins with "# macadam-trip 1"
-/// is the head of the trip. Every object is a row; those of other classes, and of all but the most
-/// frequent sensor of a kind, give `unused_channel`. docs/reference/other-loggers.md says what
-/// becomes of each field.
+/// is the header of the trip. Every object is a row; objects of other classes, and of all but the
+/// most frequent sensor of a kind, count as `unused_channel`. docs/reference/other-loggers.md
+/// describes the conversion of each field.
 ///
-/// \throws InputError  "file: object N at byte B: ..." if it is no rawlog, is cut off or damaged,
-///                     or lacks the sensors of a needed column.
+/// \throws InputError  "file: object N at byte B: ..." if it is not a rawlog, is truncated or
+///                     damaged, or lacks the sensors of a required column.
 TripLog read_rawlog(RawlogSource source, const TripNeeds& needs, const Progress& progress = {});
 
 } // namespace macadam

@@ -31,13 +31,13 @@ std::string head_of(const TripMeta& meta) {
            ": 1\n";
 }
 
-/// The samples of a trip one after the other; acceleration and rotation of one time together.
+/// Iterates over the samples of a trip; acceleration and rotation of equal times are combined.
 class Observations {
 public:
     explicit Observations(const TripLog& trip)
         : trip_{trip}, t0_ticks_{ticks(trip.meta.t0_utc_s.value_or(0))} {}
 
-    /// Nothing at the end.
+    /// Next observation; `std::nullopt` at the end.
     std::optional<RawlogObservation> next() {
         const auto imu = std::min(at(trip_.acc.t_s, acc_), at(trip_.gyro.t_s, gyro_));
         const auto speed = at(trip_.speed.t_s, speed_);
@@ -78,7 +78,7 @@ private:
     RawlogOdometry odometry() {
         const auto k = speed_++;
         const double speed_mps = trip_.speed.speed_mps[k];
-        if (k > 0) { // the mean of both speeds, over the time between
+        if (k > 0) { // mean of both speeds, over the time between them
             driven_m_ += (trip_.speed.t_s[k] - trip_.speed.t_s[k - 1]) *
                          (trip_.speed.speed_mps[k - 1] + speed_mps) / 2;
         }

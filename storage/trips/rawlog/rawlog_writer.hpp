@@ -8,17 +8,18 @@
 
 namespace macadam {
 
-/// Writes a trip as a rawlog that MRPT's tools read (gzip, as they write it): first a
-/// CObservationComment with the head of the trip, then in the order of their times CObservationIMU
-/// (label "imu"), CObservationOdometry ("wheels") and CObservationGPS ("gnss"). The file appears
-/// when it is whole, or not at all; equal trips give equal bytes. \returns how many objects it has.
+/// Writes a trip as a rawlog for MRPT's tools (gzip, as they write it): first a CObservationComment
+/// with the header of the trip, then, in time order, CObservationIMU (label "imu"),
+/// CObservationOdometry ("wheels") and CObservationGPS ("gnss"). The file appears complete or not
+/// at all; equal trips give equal bytes.
+/// \returns the number of objects.
 ///
-/// read_rawlog gives the same trip back: values as they are, times to 100 ns, MRPT's unit. A trip
-/// without t0_utc begins in 1970. The pose of the odometry is the distance driven, straight ahead.
+/// read_rawlog restores the trip: values exactly, times to 100 ns, MRPT's unit. A trip without
+/// t0_utc begins in 1970. The odometry pose is the distance driven, straight ahead.
 ///
-/// \param level  of compression: 1 (fast) to 9 (small).
-/// \throws InputError  if the file cannot be written, or when `stop` is requested before it is
-///                     whole.
+/// \param level  compression level: 1 (fast) to 9 (small).
+/// \throws InputError  if the file cannot be written, or if `stop` is requested before the file is
+///                     complete.
 std::size_t write_rawlog(const TripLog& trip,
                          const std::filesystem::path& file,
                          int level = 6,

@@ -9,8 +9,8 @@
 
 namespace macadam {
 
-// Files by what they hold, as the two apps name them. phyphox: "Accelerometer" is with gravity;
-// Sensor Logger: it is without.
+// File names of the two apps by content. "Accelerometer" includes gravity in phyphox and excludes
+// it in Sensor Logger.
 inline constexpr std::string_view total_files[] = {"TotalAcceleration.csv"};
 inline constexpr std::string_view acc_files[] = {"Accelerometer.csv", "Acceleration.csv"};
 inline constexpr std::string_view linear_files[] = {"Linear Accelerometer.csv",
@@ -22,7 +22,7 @@ inline constexpr std::string_view location_files[] = {"Location.csv"};
 inline constexpr std::string_view time_file = "meta/time.csv";
 inline constexpr std::string_view metadata_file = "Metadata.csv";
 
-/// Whether a file goes by one of these names, whatever its case.
+/// Tests whether a file has one of these names, ignoring case.
 template <std::size_t count>
 bool is_one_of(std::string_view file, const std::string_view (&names)[count]) {
     return std::any_of(std::begin(names), std::end(names), [&](std::string_view name) {
@@ -30,10 +30,10 @@ bool is_one_of(std::string_view file, const std::string_view (&names)[count]) {
     });
 }
 
-/// Whether a folder that holds a file of this name is an export of phyphox or Sensor Logger.
+/// Tests whether a file of this name marks its folder as an export of phyphox or Sensor Logger.
 bool marks_export(std::string_view file);
 
-/// Whether a file of an export, by its path within it, may be one that we read.
+/// Tests whether a file of an export, by its path within it, may be used.
 bool belongs_to_export(std::string_view file);
 
 } // namespace macadam

@@ -24,7 +24,7 @@ public:
 
 private:
     std::shared_ptr<const TripContents> contents_;
-    const std::string& bytes_; ///< of one of them
+    const std::string& bytes_; ///< of one of the files
     std::size_t at_ = 0;
 };
 

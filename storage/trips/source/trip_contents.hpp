@@ -9,21 +9,20 @@
 
 namespace macadam {
 
-/// The files of one trip as they came out of an archive: decompressed, in memory.
+/// Decompressed files of one trip from an archive, in memory.
 struct TripContents {
     struct File {
-        std::string name; ///< in the trip's folder; "" for a log of its own
+        std::string name; ///< within the trip's folder; "" for a single log
         std::string bytes;
-        std::string refusal; ///< why it cannot be read; "": it can
+        std::string refusal; ///< reason why it cannot be read; "" if it can
     };
     std::vector<File> files;
 };
 
-/// The bytes of one of the files. They keep the contents alive.
+/// Opens one of the files; the stream keeps the contents alive.
 ///
-/// \throws InputError  its refusal.
-///
-/// \returns  null if there is none of that name.
+/// \throws InputError  with its refusal.
+/// \returns null if there is no file of that name.
 std::unique_ptr<ByteStream> bytes_of(const std::shared_ptr<const TripContents>& contents,
                                      std::string_view name);
 

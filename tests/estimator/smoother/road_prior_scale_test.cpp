@@ -9,7 +9,7 @@ namespace macadam::testing {
 namespace {
 
 constexpr double cell_m = 0.25;
-constexpr Felt both{true, true};
+constexpr ObservedModes both{true, true};
 
 RoadGrid grid_of(double length_m) {
     return {cell_m, 0, static_cast<std::size_t>(length_m / cell_m)};
@@ -39,7 +39,8 @@ SmoothedRoad drawn_road(const RoadGrid& grid, auto of) {
     return road;
 }
 
-RoadLevel settled(const RoadGrid& grid, Felt felt, const SmoothedRoad& road, int rounds = 15) {
+RoadLevel
+settled(const RoadGrid& grid, ObservedModes felt, const SmoothedRoad& road, int rounds = 15) {
     auto level = even_level(grid, felt, 2e-6);
     for (int round = 0; round < rounds; ++round) {
         level = adapted(std::move(level), road, grid);

@@ -11,7 +11,7 @@
 
 namespace macadam::testing {
 
-/// A new empty folder of the running test.
+/// Creates an empty folder for the running test.
 inline std::filesystem::path test_folder() {
     const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
     auto folder = std::filesystem::path{::testing::TempDir()} /
@@ -21,7 +21,7 @@ inline std::filesystem::path test_folder() {
     return folder;
 }
 
-/// A file with that content; folders above it are made.
+/// Writes a file and creates its parent folders.
 inline std::filesystem::path
 written(const std::filesystem::path& folder, const std::string& name, std::string_view content) {
     auto file = folder / name;
@@ -31,7 +31,7 @@ written(const std::filesystem::path& folder, const std::string& name, std::strin
     return file;
 }
 
-/// The words of the InputError that `call` throws; "" if it throws none.
+/// Returns the message of the InputError that `call` throws; "" if it throws none.
 template <typename Call>
 std::string refusal_of(Call call) {
     try {

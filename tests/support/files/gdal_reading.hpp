@@ -10,7 +10,7 @@
 
 namespace macadam::testing {
 
-/// A file of segments as GDAL's own tool reads it: a GeoJSON collection, coordinates to nine
+/// Reads a file of segments with GDAL's own tool: a GeoJSON collection, coordinates to nine
 /// decimals.
 nlohmann::json collection_by_gdal(const std::filesystem::path& folder, const std::string& name);
 

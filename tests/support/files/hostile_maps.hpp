@@ -6,33 +6,33 @@
 
 namespace macadam::testing {
 
-/// What hostile maps want to be led to.
+/// Targets that hostile maps try to reach.
 struct Baits {
-    std::filesystem::path file; ///< outside of the folder of the maps, of lines of text
-    std::string url;            ///< of a port of this machine
+    std::filesystem::path file; ///< text file outside of the folder of the maps
+    std::string url;            ///< port of this machine
 };
 
-/// Maps that lead their reader to other files, servers and libraries, each by another way, in a
-/// folder of their own. Some of them are whole maps with something hostile beside or inside.
+/// Writes maps that lead their reader to other files, servers and libraries, each by another way,
+/// into a folder of their own. Some are complete maps with a hostile element beside or inside.
 ///
-/// \param library  a shared object, which is laid beside them as "legend.png".
+/// \param library  shared object, copied beside them as "legend.png"
 std::vector<std::filesystem::path> write_hostile_maps(const std::filesystem::path& folder,
                                                       const Baits& baits,
                                                       const std::filesystem::path& library);
 
-/// Each driver of GDAL's, asked for by a virtual layer, a virtual raster, a virtual table, and by a
-/// connection string that is the whole file.
+/// Writes maps that request each GDAL driver through a virtual layer, a virtual raster, a virtual
+/// table, or a connection string as the whole file.
 std::vector<std::filesystem::path> write_generated_maps(const std::filesystem::path& folder,
                                                         const Baits& baits);
 
-/// Connection strings of each driver of GDAL's.
+/// Returns connection strings for each GDAL driver.
 std::vector<std::string> connection_strings(const std::filesystem::path& folder,
                                             const Baits& baits);
 
-/// A database of those statements.
+/// Writes a database with those statements.
 void write_database(const std::filesystem::path& file, const std::string& sql);
 
-/// The statements of a table `t` that is worked out by a module, without the module.
+/// Returns the SQL of a table `t` of a virtual table module, without the module itself.
 std::string sql_of_virtual_table(const std::string& definition);
 
 } // namespace macadam::testing

@@ -8,24 +8,24 @@
 
 namespace macadam::testing {
 
-/// A raster of red, green and blue that GDAL's own tools place on the globe.
+/// RGB raster that GDAL's own tools georeference.
 struct PlacedRaster {
     std::string crs; ///< "EPSG:4326"
     double left, top, per_px;
     int width_px, height_px;
-    std::string more{}; ///< options of gdal_translate
+    std::string more{}; ///< options for gdal_translate
 };
 
 using ColourOf = std::function<std::vector<std::uint8_t>(int x, int y)>;
 
-/// Writes it as a GeoTIFF, or as what its suffix and `more` say.
+/// Writes the raster as a GeoTIFF, or in the format of its suffix and `more`.
 std::filesystem::path
 write_raster(const std::filesystem::path& file, const PlacedRaster& raster, const ColourOf& colour);
 
-/// Its place is to be read in its colours: red is the column and green the row, in pixels.
+/// Returns a colour that encodes the pixel position: red is the column and green the row.
 std::vector<std::uint8_t> place_as_colour(int x, int y);
 
-/// Places on one coordinate reference system, x first, as gdaltransform puts them on another.
+/// Coordinates in a reference system, x first; transformed() converts them with gdaltransform.
 struct Coordinates {
     double x, y;
 };

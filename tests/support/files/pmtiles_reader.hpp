@@ -9,7 +9,7 @@
 
 namespace macadam::testing {
 
-/// What a PMTiles archive holds, read by its specification (version 3) and by nothing of ours.
+/// Content of a PMTiles archive, read by the specification (version 3) without Macadam's code.
 struct ReadPmTiles {
     std::map<TileId, std::string> tiles;
     std::string metadata; ///< JSON
@@ -28,10 +28,10 @@ struct ReadPmTiles {
 };
 ReadPmTiles read_pmtiles(const std::filesystem::path& file);
 
-/// The bytes of a gzip member.
+/// Unpacks a gzip member.
 std::string unzipped(const std::string& packed);
 
-/// A picture of one grey.
+/// Encodes a picture of a single grey.
 std::string grey_png(std::uint32_t size_px, std::uint8_t grey);
 
 } // namespace macadam::testing

@@ -19,18 +19,18 @@ struct ReadFeature {
     std::vector<std::vector<std::pair<int, int>>> lines;
 };
 
-/// The one layer of a vector tile.
+/// The only layer of a vector tile.
 struct ReadTile {
     std::string layer;
     std::uint32_t version = 0;
     std::uint32_t extent = 0;
     std::vector<std::string> keys;
-    std::vector<TileValue> values; ///< all that are stored
+    std::vector<TileValue> values; ///< all stored values
     std::vector<ReadFeature> features;
 };
 
-/// A tile read by the Mapbox Vector Tile Specification, 2.1, and by nothing of ours. What breaks
-/// the specification is thrown as std::runtime_error.
+/// Reads a tile by the Mapbox Vector Tile Specification 2.1, without Macadam's code.
+/// \throws std::runtime_error  if the tile violates the specification.
 ReadTile read_vector_tile(std::string_view bytes);
 
 } // namespace macadam::testing

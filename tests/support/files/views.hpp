@@ -6,7 +6,7 @@
 
 namespace macadam::testing {
 
-/// Lets a test see the views of a file as other programs do; our own connections see none.
+/// Makes the views of a file visible, as in other programs; Macadam's connections hide them.
 inline void show_views_of(Database& database) {
     sqlite3_db_config(database.handle(), SQLITE_DBCONFIG_ENABLE_VIEW, 1, nullptr);
 }

@@ -7,15 +7,16 @@
 
 namespace macadam::testing {
 
-/// A run of the program whose time and memory were watched.
+/// Run of the program with measured time and memory.
 struct BoundedRun {
     int exit_status; ///< 128 + n if signal n ended it
-    bool too_long;   ///< it was ended
-    double peak_mb;  ///< of memory
-    std::string err; ///< standard error; standard output is thrown away
+    bool too_long;   ///< killed at the time limit
+    double peak_mb;  ///< peak memory
+    std::string err; ///< standard error; standard output is discarded
 };
 
-/// \param folder  for what it says; the program runs in it.
+/// Runs the program with a time limit.
+/// \param folder  working directory, also for its output
 BoundedRun run_bounded(const std::filesystem::path& folder,
                        const std::vector<std::string>& words,
                        std::chrono::seconds longest);

@@ -8,8 +8,8 @@
 
 namespace macadam::testing {
 
-/// fork() for a child that goes on in this program. It has the calling thread alone: a lock that
-/// another thread held, as that of the allocator, would stay locked in it for ever.
+/// Calls fork() for a child that continues in this program. The child has the calling thread only:
+/// a lock held by another thread, such as that of the allocator, would stay locked in it for ever.
 ///
 /// \throws std::logic_error  if there is another thread.
 inline pid_t fork_without_threads() {

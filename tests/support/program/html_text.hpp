@@ -6,7 +6,7 @@
 
 namespace macadam::testing {
 
-/// What stands between each `before` and the next `after`.
+/// Returns the text between each `before` and the next `after`.
 inline std::vector<std::string>
 between(const std::string& text, std::string_view before, std::string_view after) {
     std::vector<std::string> found;

@@ -10,7 +10,7 @@
 
 namespace macadam::testing {
 
-/// The built program between two pipes, as a shell would run it in the middle of a line.
+/// Built program between two pipes, as in the middle of a shell pipeline.
 class PipedProgram {
 public:
     explicit PipedProgram(const std::vector<std::string>& words);
@@ -21,17 +21,18 @@ public:
     void write(std::string_view text) const;
     void end_input();
 
-    /// Without its newline; nothing if the output ends, or no line comes in time.
+    /// Returns the next line without its newline; `std::nullopt` if the output ends, or no line
+    /// comes in time.
     std::optional<std::string> line(std::chrono::seconds wait_policy);
 
     void signal(int number) const;
 
-    void close_output(); ///< as `head` does when it has seen enough
+    void close_output(); ///< as `head` does after enough lines
 
     struct End {
         int exit_status; ///< 128 + n if signal n ended it
         std::string err;
-        double peak_mb; ///< of memory
+        double peak_mb; ///< peak memory
     };
     End wait();
 

@@ -8,8 +8,8 @@
 
 namespace macadam::testing {
 
-/// A straight road from `start`, `course_deg` clockwise from north (0, 90, 180 or 270), as seen
-/// from a car with one axle under its centre of gravity that drives it at constant speed.
+/// Straight road from `start`, `course_deg` clockwise from north (0, 90, 180 or 270), driven at
+/// constant speed by a car with one axle under its centre of gravity.
 struct Drive {
     GeoPoint start{48.0, 11.0};
     double course_deg = 90;
@@ -27,16 +27,16 @@ struct Drive {
 /// Elevation of the road, m, at a distance from the start of the drive.
 using Road = std::function<double(double distance_m)>;
 
-/// The place `distance_m` along the drive.
+/// Returns the position `distance_m` along the drive.
 GeoPoint place_of(const Drive& drive, double distance_m);
 
-/// What the car's sensors say, without noise: a quarter car by Runge-Kutta in millisecond steps.
+/// Simulates the car's sensors without noise: a quarter car by Runge-Kutta in millisecond steps.
 TripLog drive_over(const Road& road, const Drive& drive, const Vehicle& vehicle);
 
-/// The trip as the text of a "macadam-trip 1" log.
+/// Formats the trip as a "macadam-trip 1" log.
 std::string text_of(const TripLog& trip, const Drive& drive);
 
-/// A road of a few sines, smooth but where `is_rough`, there `factor` times as high.
+/// Builds a road of a few sines, with `factor` times the height where `is_rough`.
 Road patched_road(std::function<bool(double distance_m)> is_rough, double factor);
 
 } // namespace macadam::testing

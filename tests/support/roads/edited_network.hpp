@@ -11,19 +11,19 @@
 
 namespace macadam::testing {
 
-/// Which step of which old way a step of a new one is.
+/// Step of an old way that a step of a new way comes from.
 struct StepOrigin {
     std::int64_t way_id;
-    std::size_t step; ///< between its points `step` and `step` + 1
+    std::size_t step; ///< between points `step` and `step` + 1
     bool reversed;
 };
 
 struct EditedWay {
     Way way;
-    std::vector<std::optional<StepOrigin>> steps; ///< nothing: it is no old road
+    std::vector<std::optional<StepOrigin>> steps; ///< `std::nullopt`: no old road
 };
 
-/// A map and what mappers make of it. Each edit knows what has become of every step of every way.
+/// Map with edits. Each edit records the origin of every step of every way.
 struct EditedNetwork {
     std::vector<EditedWay> ways;
 };
@@ -31,41 +31,42 @@ struct EditedNetwork {
 EditedNetwork edited(const std::vector<Way>& ways);
 std::vector<Way> ways_of(const EditedNetwork& network);
 
-/// In two at a point within its line; the second part gets another id.
+/// Splits a way at a point within its line; the second part gets another id.
 void split(EditedNetwork& network, std::int64_t way_id, std::size_t point, std::int64_t second_id);
 
-/// `second` goes on where `first` ends; it goes.
+/// Appends `second` to the end of `first` and removes it.
 void merge(EditedNetwork& network, std::int64_t first_id, std::int64_t second_id);
 
 void renumber(EditedNetwork& network, std::int64_t way_id, std::int64_t new_id);
 void reverse(EditedNetwork& network, std::int64_t way_id);
 void erase(EditedNetwork& network, std::int64_t way_id);
 
-/// Every point elsewhere, by the identity of its node.
+/// Moves every point, by the id of its node.
 void nudge(EditedNetwork& network,
            const std::function<GeoPoint(std::int64_t node_id, const GeoPoint&)>& moved);
 
-/// The way built anew `aside_m` to its right, joined to nothing: not the same road any more.
+/// Rebuilds the way `aside_m` to its right without connections, so that it is another road.
 void rebuild_aside(EditedNetwork& network,
                    std::int64_t way_id,
                    double aside_m,
                    std::int64_t first_node_id);
 
-/// A new road along it, `aside_m` to its right, joined to nothing.
+/// Adds a new road `aside_m` to the right of the way, without connections.
 void add_parallel(EditedNetwork& network,
                   std::int64_t way_id,
                   double aside_m,
                   std::int64_t new_id,
                   std::int64_t first_node_id);
 
-/// Metres of directed road.
+/// Score of a network update, in metres of directed road.
 struct ChangeScore {
-    double right_m = 0; ///< found where they are, or told to be gone
-    double wrong_m = 0; ///< found elsewhere
-    double lost_m = 0;  ///< not found, but they are there
+    double right_m = 0; ///< found at the right position, or correctly reported as gone
+    double wrong_m = 0; ///< found at a wrong position
+    double lost_m = 0;  ///< not found, although it exists
 };
 
-/// \param most_off_m  along the road
+/// Scores an update of the old ways against the edited network.
+/// \param most_off_m  tolerance along the road
 ChangeScore
 score(const std::vector<Way>& before, const EditedNetwork& after, double most_off_m = 5);
 

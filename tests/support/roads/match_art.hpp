@@ -7,16 +7,16 @@
 
 namespace macadam::testing {
 
-/// The trip on the roads of a drawing.
+/// Matches the trip to the roads of a drawing.
 MatchedTrace match(const TripLog& trip, const RoadArt& art, const MatchConfig& config = {});
 
-/// The letters of the ways' points as driven: "ABE". A hole is a '-'.
+/// Returns the letters of the ways' points as driven: "ABE". A gap is a '-'.
 std::string letters_of(const MatchedTrace& trace, const RoadArt& art);
 
-/// Where on its edge the trip was at a travel, or NaN.
+/// Returns the matched position at a travel, on its edge; NaN if there is none.
 GeoPoint place_at(const MatchedTrace& trace, const RoadArt& art, double travel_m);
 
-/// Two roads beside each other, ABC and DEF, and a third across from B to E.
+/// Builds two parallel roads, ABC and DEF, and a third from B to E.
 RoadArt ladder();
 
 } // namespace macadam::testing

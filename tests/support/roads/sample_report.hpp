@@ -7,7 +7,7 @@
 
 namespace macadam::testing {
 
-// Reports of made-up towns. Their pictures are no pictures.
+// Reports of invented towns, with placeholder bytes as pictures.
 
 inline const ClassTable& fhwa = *class_table("fhwa");
 

@@ -8,9 +8,9 @@
 
 namespace macadam::testing {
 
-/// What a car tells of its way; each set has what the one before it has.
+/// Sensors of a car; each set includes the one before it.
 enum class Sensors : std::uint8_t {
-    positions, ///< one a second
+    positions, ///< 1 Hz
     odometer,  ///< wheel speed, 10 Hz, 0.5 % too fast
     gyro,      ///< yaw rate, 10 Hz, with a bias
 };
@@ -24,20 +24,20 @@ struct Stop {
 };
 
 struct Silence {
-    double from_m; ///< along the line: no positions between these
+    double from_m; ///< along the line; no positions up to to_m
     double to_m;
 };
 
 struct CarConfig {
-    double cruise_mps = 14; ///< less before corners of more than 50 degrees and stops, at 2 m/s2
-    double noise_m = 3;     ///< of a position, per axis; fades over 30 s, a fifth of it at once
-    double lane_m = 2;      ///< to the right of the line
+    double cruise_mps = 14; ///< slower before corners above 50 degrees and stops, at 2 m/s2
+    double noise_m = 3;     ///< position error per axis; correlated over 30 s, one fifth white
+    double lane_m = 2;      ///< offset to the right of the line
     std::vector<Stop> stops{};
     std::vector<Silence> silences{};
     std::uint64_t seed = 1;
 };
 
-/// The trip of a car along a line of places.
+/// Drives a line and returns the trip.
 TripLog sensed(const std::vector<GeoPoint>& line, Sensors sensors, const CarConfig& config = {});
 
 } // namespace macadam::testing

@@ -9,7 +9,7 @@
 
 namespace macadam::testing {
 
-// A small country for the store: three roads of a few hundred metres near Lyon.
+// Small country for database tests: three roads of a few hundred metres near Lyon.
 //
 //     A---------B---------C      way 1 "Rue de l'Épée 100%", both ways
 //               |
@@ -18,14 +18,14 @@ RoadNetwork small_country();
 
 StoreSettings settings();
 
-/// A new store of it in the running test's folder.
+/// Creates a database of it in the running test's folder.
 RoadStore new_store(const std::filesystem::path& file);
 
-/// A trip of car "car-N" named and hashed after `number`.
+/// Returns a trip of car "car-N", with name and hash from `number`.
 TripRecord trip_record(int number);
 
-/// What that trip says of every segment of way 1 in both directions: the numbers come from
-/// `number` alone.
+/// Returns the passes of that trip over every segment of way 1 in both directions. The values
+/// depend on `number` alone.
 std::vector<Pass> passes_of(int number);
 
 /// Imports trips 0 to `count` - 1 and fuses them.

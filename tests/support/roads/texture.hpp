@@ -8,22 +8,23 @@
 
 namespace macadam::testing {
 
-/// A road's roughness at every decimetre of stations [0, length_m), about as the golden car leaves
-/// it: a lognormal of mean 1 with waves from 4 m on. Always the same for a seed.
+/// Returns a road's roughness at every decimetre of stations [0, length_m), roughly as the golden
+/// car smooths it: lognormal with mean 1 and waves from 4 m on. The result depends on the seed
+/// alone.
 std::vector<double> texture(double length_m, std::uint64_t seed);
 
-/// How a drive reads it.
+/// Reading of the roughness by one drive.
 struct Reading {
-    double from_m = 0; ///< the drive's own stations, whole
+    double from_m = 0; ///< stations of the drive, integers
     double to_m = 0;
-    std::function<double(double station_m)> lag_m; ///< what it reads at s lies at s - lag_m(s)
+    std::function<double(double station_m)> lag_m; ///< the reading at s belongs to s - lag_m(s)
     double gain = 2;
-    double noise = 0.3; ///< relative, standard deviation, of each metre
+    double noise = 0.3; ///< relative standard deviation per metre
     double place_sd_m = 3;
     std::uint64_t seed = 1;
 };
 
-/// Held at the texture's ends.
+/// Reads the roughness; stations beyond its ends use its end values.
 RoughnessTrace read_texture(const std::vector<double>& texture, const Reading& reading);
 
 } // namespace macadam::testing

@@ -11,27 +11,28 @@ namespace macadam::testing {
 
 inline constexpr GeoPoint town_corner{59.3, 18.0};
 
-/// A made-up town of side * side crossings about 110 m apart and out of line, streets with a bend,
-/// a fifth of them oneway. Always the same. \param corner  in the south-west
+/// Builds a town of side * side crossings about 110 m apart, with irregular positions and bent
+/// streets, a fifth of them oneway. Always the same.
+/// \param corner  south-west corner
 RoadNetwork made_up_town(int side, const GeoPoint& corner = town_corner);
 
 struct Journey {
     std::vector<EdgeId> edges;
-    std::vector<double> start_m; ///< per edge, and the whole
+    std::vector<double> start_m; ///< per edge, followed by the total
 };
 
-/// At random over `edges` edges, never back at once.
+/// Returns a random journey over `edges` edges, without U-turns.
 Journey wander(const RoadNetwork& roads, std::size_t edges, std::mt19937_64& random);
 
 struct Scenario {
-    double sd_m; ///< of a position, per axis; alike for 30 s
+    double sd_m; ///< error of a position, per axis; correlated over 30 s
     double fix_step_s;
     bool speeds; ///< wheel speed at 10 Hz
 };
 
 inline constexpr double journey_speed_mps = 12;
 
-/// What a receiver 2.5 m to the right of the map's line says of the journey at constant speed; the
+/// Simulates a receiver 2.5 m to the right of the map's line on the journey at constant speed. The
 /// wheels read 0.5 % too much.
 TripLog recorded(const RoadNetwork& roads,
                  const Journey& journey,

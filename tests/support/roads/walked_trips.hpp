@@ -12,7 +12,7 @@ namespace macadam::testing {
 
 struct WalkedTrips {
     std::vector<TripSource> trips;
-    std::size_t other_files = 0; ///< seen and not read
+    std::size_t other_files = 0; ///< seen but not read
     std::string first_other_file;
 };
 
@@ -27,7 +27,7 @@ inline WalkedTrips walked(const std::filesystem::path& path, const TripWalkConfi
     return all;
 }
 
-/// All the trips of a path at once.
+/// Finds all trips of a path at once.
 inline WalkedTrips find_trips(const std::filesystem::path& path,
                               const std::shared_ptr<const TripMapping>& mapping = nullptr) {
     return walked(path, {.mapping = mapping});
