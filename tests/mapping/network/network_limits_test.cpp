@@ -88,7 +88,7 @@ TEST(NetworkLimits, RefuseWhatIsNoPlace) {
     for (const double bad : {std::nan(""), HUGE_VAL, 90.1}) {
         auto way = straight(1, 3, 1e-4);
         way.line[1].lat_deg = bad;
-        EXPECT_THAT(refusal_of({way}), HasSubstr("way '1' reaches ")) << bad;
+        EXPECT_THAT(refusal_of({way}), HasSubstr("way '1' has the invalid position ")) << bad;
     }
     auto way = straight(1, 3, 1e-4);
     way.line[1].lon_deg = std::nan("");

@@ -93,7 +93,7 @@ TEST(RoadNetwork, RefusesAWayIdThatStandsTwice) {
         build_network({way(17, {1, 2}, northward(2)), way(17, {3, 4}, northward(2))});
         FAIL() << "expected a refusal";
     } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("way '17' stands twice"));
+        EXPECT_THAT(error.what(), HasSubstr("way '17' occurs twice in the network"));
     }
 }
 

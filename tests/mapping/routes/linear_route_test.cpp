@@ -116,7 +116,7 @@ TEST(LinearRoute, RefusesRoadsThatAreNotThereOrNotOne) {
     auto ways = road_art("A---B   C---D", 10, {"AB", "CD"}).ways;
     ways[0].name = ways[1].name = "Twice";
     EXPECT_THAT(refusal_of([&] { route_of_named_road(build_network(ways, 20), "Twice"); }),
-                HasSubstr("'Twice' is 2 separate roads in the network, expected one"));
+                HasSubstr("'Twice' names 2 separate roads in the network, expected one"));
 }
 
 TEST(LinearRoute, FollowsADrawnLineToItsEnds) {

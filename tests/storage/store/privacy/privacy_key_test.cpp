@@ -83,7 +83,7 @@ TEST(PrivacyKey, LiesInAFileForItsOwnerAlone) {
 TEST(PrivacyKey, IsNeverWrittenOverAFileOrThroughALink) {
     const auto folder = test_folder();
     const auto file = written(folder, "a.key", "mine");
-    EXPECT_THAT(refusal_of([&] { write_key(file, key); }), HasSubstr("a.key: lies there"));
+    EXPECT_THAT(refusal_of([&] { write_key(file, key); }), HasSubstr("a.key: exists"));
     fs::create_symlink(folder / "elsewhere", folder / "b.key");
     EXPECT_THAT(refusal_of([&] { write_key(folder / "b.key", key); }), HasSubstr("b.key: "));
     EXPECT_FALSE(fs::exists(folder / "elsewhere"));
