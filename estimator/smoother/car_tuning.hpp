@@ -16,13 +16,18 @@ struct TunedCar {
 /// Estimates the most probable parameters of a car from a stretch of road that it drove.
 ///
 /// Its two axles meet the same road one after the other, and its channels respond to it in
-/// different ways; a wrong damper, spring, tyre or mass makes them contradict each other. The
-/// likelihood of the readings, computed from the smoother's innovations, therefore has a maximum
-/// near the true car. Dry friction is estimated unless it is stated; other parameters are moved
-/// within their stated uncertainty (Gauss-Newton on the likelihood and that prior).
+/// different ways; a wrong damper, spring, tyre or dynamic index makes them contradict each other.
+/// The likelihood of the readings, computed from the smoother's innovations, therefore has a
+/// maximum near the true car. Dry friction is estimated unless it is stated; these four are moved
+/// within their stated uncertainty (Gauss-Newton on the likelihood and that prior). The uncertainty
+/// of all others, of the mass above all, goes into iri_sd.
 ///
 /// \param passage  some 1,000 to 5,000 samples; its `cars` are ignored
 TunedCar
 tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config);
+
+/// Returns the relative standard deviation of every IRI of a car that is due to uncertain
+/// parameters: all of them, or only those that tuned_car() does not move.
+double untuned_iri_sd(const Vehicle& vehicle, bool is_car_tuned);
 
 } // namespace macadam

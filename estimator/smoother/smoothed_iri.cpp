@@ -13,8 +13,7 @@ namespace {
 constexpr std::size_t tuning_samples = 3000;
 constexpr std::size_t min_tuning_samples = 1200;
 
-constexpr double iri_per_parameter = 0.6; // relative, per relative parameter error: 0.45 to 0.75
-constexpr double untuned_sd = 0.1;        // relative, of a car with too few data for tuning
+constexpr double untuned_sd = 0.1; // relative, of a car with too few data for tuning
 
 // Error common to every IRI, from simulated cars: with known friction, and with estimated friction,
 // including dampers, bars and bushes that a vehicle file does not describe
@@ -177,9 +176,7 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     auto tuned = tuned_car(piece, tunable, {});
     tuned.vehicle.imu.height_above_roll_axis_m = vehicle.imu.height_above_roll_axis_m;
     if (tunable.uncertainty.empty()) {
-        for (const auto& [parameter, sd] : vehicle.uncertainty) {
-            tuned.iri_sd = std::hypot(tuned.iri_sd, iri_per_parameter * sd);
-        }
+        tuned.iri_sd = std::hypot(tuned.iri_sd, untuned_iri_sd(vehicle, false));
     }
     return tuned;
 }

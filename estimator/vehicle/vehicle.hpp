@@ -31,6 +31,11 @@ struct Axles {
     double rear_ratio = 1;    ///< rear over front, for ks and cs
 };
 
+/// Relative standard deviation of a dynamic index that a vehicle file does not state. Few are
+/// published. The ends of a car move nearly independently by design (T. D. Gillespie, "Fundamentals
+/// of Vehicle Dynamics", SAE 1992, chapter 5), hence about 1.
+inline constexpr double unstated_dynamic_index_sd = 0.08;
+
 /// Position of the inertial sensor relative to the centre of gravity, and its signal properties.
 struct ImuMount {
     double x_m = 0;                      ///< ahead

@@ -79,22 +79,37 @@ struct ColourSum {
     }
 };
 
-/// Writes the mean of each square of `side` pixels in a row of squares.
+/// Evenly spaced pixels of a box; as many as it has: all of them.
+struct Samples {
+    int across, down;
+};
+
+/// Of one side of a square whose mean is taken: a mean of 4096 pixels is no better for more, and
+/// the work grows with the picture, not with the size that a file claims.
+constexpr int max_samples = 64;
+
+/// Number of samples in part of a square.
+int samples_in(int part_px, int side_px) {
+    return side_px <= max_samples ? part_px
+                                  : std::max(1, int(std::int64_t{part_px} * max_samples / side_px));
+}
+
+/// Writes the mean of each square in a row of squares that are `side` samples wide, the last one
+/// perhaps narrower.
 void put_means(const std::vector<std::uint8_t>& rgba,
-               const RasterBox& box,
+               const Samples& samples,
                int side,
                std::uint8_t* means) {
-    for (int left = 0; left < box.width_px; left += side, means += 4) {
-        const int end = std::min(left + side, box.width_px);
+    for (int left = 0; left < samples.across; left += side, means += 4) {
+        const int end = std::min(left + side, samples.across);
         ColourSum sum;
-        for (int row = 0; row < box.height_px; ++row) {
+        for (int row = 0; row < samples.down; ++row) {
             for (int column = left; column < end; ++column) {
                 sum.add(rgba.data() +
-                        (std::size_t(row) * std::size_t(box.width_px) + std::size_t(column)) * 4);
+                        (std::size_t(row) * std::size_t(samples.across) + std::size_t(column)) * 4);
             }
         }
-        std::ranges::copy(sum.mean(std::uint64_t(box.height_px) * std::uint64_t(end - left)),
-                          means);
+        std::ranges::copy(sum.mean(std::uint64_t(samples.down) * std::uint64_t(end - left)), means);
     }
 }
 
@@ -103,8 +118,12 @@ void put_means(const std::vector<std::uint8_t>& rgba,
 struct RasterFile::Impl {
     GDALRasterBand& band(int number, int overview) const;
     GDALRasterBand& mask(int overview) const;
-    void read(GDALRasterBand& from, const RasterBox& box, std::uint8_t* to) const;
-    std::vector<std::uint8_t> pixels(int overview, const RasterBox& box) const;
+    void read(GDALRasterBand& from,
+              const RasterBox& box,
+              const Samples& samples,
+              std::uint8_t* to) const;
+    std::vector<std::uint8_t>
+    pixels(int overview, const RasterBox& box, const Samples& samples) const;
     std::vector<std::uint8_t> means(const RasterLevel& level, const RasterBox& box) const;
     void colour(std::vector<std::uint8_t>& rgba) const;
 
@@ -134,18 +153,21 @@ GDALRasterBand& RasterFile::Impl::mask(int overview) const {
     return *band(colours.bands[0], overview).GetMaskBand();
 }
 
-void RasterFile::Impl::read(GDALRasterBand& from, const RasterBox& box, std::uint8_t* to) const {
+void RasterFile::Impl::read(GDALRasterBand& from,
+                            const RasterBox& box,
+                            const Samples& samples,
+                            std::uint8_t* to) const {
     const auto done = from.RasterIO(GF_Read,
                                     box.left_px,
                                     box.top_px,
                                     box.width_px,
                                     box.height_px,
                                     to,
-                                    box.width_px,
-                                    box.height_px,
+                                    samples.across,
+                                    samples.down,
                                     GDT_Byte,
                                     4,
-                                    GSpacing{4} * box.width_px,
+                                    GSpacing{4} * samples.across,
                                     nullptr);
     if (done != CE_None) {
         throw InputError{
@@ -169,15 +191,17 @@ void RasterFile::Impl::colour(std::vector<std::uint8_t>& rgba) const {
     }
 }
 
-std::vector<std::uint8_t> RasterFile::Impl::pixels(int overview, const RasterBox& box) const {
-    std::vector<std::uint8_t> rgba(bytes_of(box), 255);
+std::vector<std::uint8_t>
+RasterFile::Impl::pixels(int overview, const RasterBox& box, const Samples& samples) const {
+    std::vector<std::uint8_t> rgba(std::size_t(samples.across) * std::size_t(samples.down) * 4,
+                                   255);
     for (std::size_t i = 0; i < colours.bands.size(); ++i) {
-        read(band(colours.bands[i], overview), box, rgba.data() + i);
+        read(band(colours.bands[i], overview), box, samples, rgba.data() + i);
     }
     if (colours.alpha_band != 0) {
-        read(band(colours.alpha_band, overview), box, rgba.data() + 3);
+        read(band(colours.alpha_band, overview), box, samples, rgba.data() + 3);
     } else if (colours.masked) {
-        read(mask(overview), box, rgba.data() + 3);
+        read(mask(overview), box, samples, rgba.data() + 3);
     }
     colour(rgba);
     return rgba;
@@ -189,22 +213,31 @@ std::vector<std::uint8_t> RasterFile::Impl::means(const RasterLevel& level,
                                                   const RasterBox& box) const {
     constexpr int pixels_at_once = 1 << 22; // 16 MB
     const int side = level.decimation;
-    const int stretch = std::max(1, pixels_at_once / (side * side));
+    const int side_samples = samples_in(side, side);
+    const int squares_at_once = std::max(1, pixels_at_once / (side_samples * side_samples));
     const auto& first = band(colours.bands[0], level.overview);
     auto& source = const_cast<GDALRasterBand&>(first); // NOLINT(*-const-cast): sizes are not const
-    const int right = std::min((box.left_px + box.width_px) * side, source.GetXSize());
     std::vector<std::uint8_t> rgba(bytes_of(box));
     for (int y = 0; y < box.height_px; ++y) {
         const int top = (box.top_px + y) * side;
         const int height = std::min(side, source.GetYSize() - top);
-        for (int x = 0; x < box.width_px; x += stretch) {
+        for (int x = 0; x < box.width_px;) {
+            // The last square of the raster, which may be cut off, is read on its own: its samples
+            // are spaced otherwise.
             const int left = (box.left_px + x) * side;
-            const RasterBox some{left, top, std::min(stretch * side, right - left), height};
-            put_means(pixels(level.overview, some),
-                      some,
-                      side,
+            const int squares = std::min({squares_at_once,
+                                          box.width_px - x,
+                                          std::max(1, (source.GetXSize() - left) / side)});
+            const int width =
+                int(std::min(std::int64_t{squares} * side, std::int64_t{source.GetXSize()} - left));
+            const Samples samples{squares > 1 ? squares * side_samples : samples_in(width, side),
+                                  samples_in(height, side)};
+            put_means(pixels(level.overview, {left, top, width, height}, samples),
+                      samples,
+                      side_samples,
                       rgba.data() +
                           (std::size_t(y) * std::size_t(box.width_px) + std::size_t(x)) * 4);
+            x += squares;
         }
     }
     return rgba;
@@ -274,20 +307,21 @@ RasterLevel RasterFile::level(double wanted_px) const {
     }
     const int width = best.width_px;
     const int height = best.height_px;
-    constexpr int most = 1 << 10;
-    while (best.decimation < most && per_px(width) * best.decimation * 2 <= wanted_px * tolerated) {
+    while (best.decimation < std::max(width, height) / 2 &&
+           per_px(width) * best.decimation * 2 <= wanted_px * tolerated) {
         best.decimation *= 2;
     }
     best.per_px_x = per_px(width) * best.decimation;
     best.per_px_y = double(whole.GetYSize()) / height * best.decimation;
-    best.width_px = (width + best.decimation - 1) / best.decimation;
-    best.height_px = (height + best.decimation - 1) / best.decimation;
+    best.width_px = (width - 1) / best.decimation + 1;
+    best.height_px = (height - 1) / best.decimation + 1;
     return best;
 }
 
 std::vector<std::uint8_t> RasterFile::rgba(const RasterLevel& level, const RasterBox& box) const {
     const GdalErrorScope quiet;
-    return level.decimation == 1 ? impl_->pixels(level.overview, box) : impl_->means(level, box);
+    return level.decimation == 1 ? impl_->pixels(level.overview, box, {box.width_px, box.height_px})
+                                 : impl_->means(level, box);
 }
 
 } // namespace macadam

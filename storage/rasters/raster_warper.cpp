@@ -13,8 +13,6 @@ constexpr int feet_at_once = 1 << 19;            // 13 MB of footprints
 constexpr std::int64_t pixels_at_once = 1 << 23; // of the raster, 32 MB
 constexpr double farthest_px = 32; // of a level: near a pole, a pixel may extend around the globe
 
-constexpr auto max_foot_px = std::int64_t(4 * farthest_px * farthest_px);
-
 /// Inline replacement of std::floor, which is a function call.
 int floor_of(double value) {
     const int truncated = int(value);
@@ -75,18 +73,14 @@ public:
           height_px_{raster.height_px()}, level_{level}, per_raster_px_x_{1 / level.per_px_x},
           per_raster_px_y_{1 / level.per_px_y}, rows_{rows}, feet_{std::move(feet)}, rgba_{rgba} {}
 
-    /// Renders a part, in halves if it needs too many pixels of the raster, or if its own pixels
-    /// lie so far apart in the raster that most pixels between them are not used. The work
-    /// therefore grows with the picture, not with the size that a file claims.
+    /// Renders a part, in halves if it needs too many pixels of the raster.
     void paint(const PicturePart& part) {
         const auto box = box_of(part);
         if (box.width_px <= 0 || box.height_px <= 0) {
             return;
         }
-        const auto box_px = std::int64_t{box.width_px} * box.height_px;
-        const auto wanted_px = std::int64_t{part.width_px} * part.height_px * max_foot_px;
-        if (box_px <= std::min(wanted_px, pixels_at_once) ||
-            (part.width_px == 1 && part.height_px == 1)) {
+        const bool fits = std::int64_t{box.width_px} * box.height_px <= pixels_at_once;
+        if (fits || (part.width_px == 1 && part.height_px == 1)) {
             paint_from(part, box);
         } else if (part.width_px > 1) {
             const int half = part.width_px / 2;

@@ -154,6 +154,9 @@ Vehicle read_vehicle(const std::filesystem::path& file) {
     if (const auto axles = top.table("axles")) {
         vehicle = with_axles(std::move(vehicle), *axles);
     }
+    if (vehicle.axles && !top.table("axles")->has("dynamic_index")) {
+        vehicle.uncertainty["dynamic_index"] = unstated_dynamic_index_sd;
+    }
     if (const auto imu = top.table("imu")) {
         vehicle = with_imu(std::move(vehicle), *imu);
     }

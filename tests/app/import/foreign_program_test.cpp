@@ -70,7 +70,7 @@ TEST(ForeignLogs, ThatAreKnownKeepTheirEndsInSpiteOfTrimWhichIsSaid) {
     run_macadam({"init", store, "--trace", phone});
     run_macadam({"import", store, phone, "--method", "kf"});
     const auto again = run_macadam({"import", store, phone, "--trim", "300", "--method", "kf"});
-    EXPECT_THAT(again.out, HasSubstr("known "));
+    EXPECT_THAT(again.out, HasSubstr("skipped "));
     EXPECT_THAT(again.out, HasSubstr("note: was imported before and stays unchanged"));
     EXPECT_THAT(run_macadam({"import", store, phone, "--method", "kf"}).out,
                 Not(HasSubstr("note:")));

@@ -64,7 +64,7 @@ TEST(ReportChange, SaysHowManyWouldBeCalledByChance) {
     EXPECT_THAT(text, HasSubstr("Change since 2026-03-15"));
     EXPECT_THAT(text, HasSubstr("200 segments. Tested one by one, 23 of them"));
     EXPECT_THAT(text, HasSubstr("about 10 would")); // 5 % of 200
-    EXPECT_THAT(text, HasSubstr("about 5.0 % at most"));
+    EXPECT_THAT(text, HasSubstr("at most about 5.0 %"));
     EXPECT_THAT(text, HasSubstr("IRI +1.50 (+1.17 to +1.83), from 2.00 to 3.50 over 140 m"));
     EXPECT_THAT(text, HasSubstr("false discovery rate of 5.0 %"));
 }
