@@ -59,11 +59,10 @@ void colour_by(Point& point, double by) {
     point.colour = std::clamp(point.colour + by, min_colour, max_colour);
 }
 
-// Mass is not among them. Over a road that is not known either, its likelihood has a slope where
-// the file is exact: a heavier car on a rougher road explains what the pitch inertia or a bend of
-// the road's spectrum does (docs/decisions/41-mass-is-not-tuned.md).
+// Mass and damping are not among them. Over a road that is not known either, their likelihood has a
+// slope where the file is exact: a heavier or less damped car explains a bend of the road's spectrum
+// or an unstated pitch inertia (docs/decisions/41-mass-and-damping-are-not-tuned.md).
 constexpr std::pair<std::string_view, void (*)(Point&, double)> tuned_parameters[] = {
-    {"cs_ns_per_m", times_exp<&HalfCar::cs_ns_per_m>},
     {"ks_n_per_m", times_exp<&HalfCar::ks_n_per_m>},
     {"kt_n_per_m", times_exp<&HalfCar::kt_n_per_m>},
     {"dynamic_index", dynamic_index_times_exp},

@@ -16,11 +16,11 @@ struct TunedCar {
 /// Estimates the most probable parameters of a car from a stretch of road that it drove.
 ///
 /// Its two axles meet the same road one after the other, and its channels respond to it in
-/// different ways; a wrong damper, spring, tyre or dynamic index makes them contradict each other.
+/// different ways; a wrong spring, tyre or dynamic index makes them contradict each other.
 /// The likelihood of the readings, computed from the smoother's innovations, therefore has a
-/// maximum near the true car. Dry friction is estimated unless it is stated; these four are moved
+/// maximum near the true car. Dry friction is estimated unless it is stated; these three are moved
 /// within their stated uncertainty (Gauss-Newton on the likelihood and that prior). The uncertainty
-/// of all others, of the mass above all, goes into iri_sd.
+/// of all others, of mass and damping above all, goes into iri_sd.
 ///
 /// \param passage  some 1,000 to 5,000 samples; its `cars` are ignored
 TunedCar

@@ -254,10 +254,10 @@ TEST_F(QueryProgram, RefusesSectionsInWords) {
                 HasSubstr("s.csv:1: the header has no column route or way_id"));
     EXPECT_THAT(refused("way_id,from,to\n1,0,1\n"),
                 HasSubstr("s.csv:1: columns from and to have no unit"));
-    EXPECT_THAT(refused("way_id,from_m\n1,0\n"), HasSubstr("s.csv:1: the header has from_m alone"));
+    EXPECT_THAT(refused("way_id,from_m\n1,0\n"), HasSubstr("s.csv:1: the header has only from_m"));
     EXPECT_THAT(refused("way_id,from_m,to_m,from_km,to_km\n"),
                 HasSubstr("s.csv:1: the header has both from_m and from_km"));
-    EXPECT_THAT(refused("way_id,way_id\n"), HasSubstr("s.csv:1: column 'way_id' stands twice"));
+    EXPECT_THAT(refused("way_id,way_id\n"), HasSubstr("s.csv:1: column 'way_id' occurs twice"));
     EXPECT_THAT(refused("way_id,from_m,to_m\n1,0\n"),
                 HasSubstr("s.csv:2: '1,0' has 2 cells, expected 3"));
     EXPECT_THAT(refused("way_id,from_m,to_m\n1,x,9\n"),

@@ -165,7 +165,7 @@ TEST_F(Reference, IsKnownTheSecondTime) {
     ran({"import", store_, "--reference", truth_});
     const auto digest = ran({"info", store_, "--digest"}).out;
     const auto again = ran({"import", store_, "--reference", truth_, "--accuracy", "9"});
-    EXPECT_THAT(again.out, HasSubstr("known"));
+    EXPECT_THAT(again.out, HasSubstr("already imported"));
     EXPECT_THAT(again.out, HasSubstr("was imported before and stays unchanged"));
     EXPECT_EQ(ran({"info", store_, "--digest"}).out, digest);
 }
@@ -179,7 +179,7 @@ TEST_F(Reference, ReportsForPeopleWithPictures) {
     const auto html = read_file(page);
     EXPECT_THAT(html, HasSubstr("A &lt;survey&gt;"));
     EXPECT_THAT(html, HasSubstr("aria-label=\"IRI of the cars against IRI of the reference"));
-    EXPECT_THAT(html, HasSubstr("aria-label=\"Histograms of the cars"));
+    EXPECT_THAT(html, HasSubstr("aria-label=\"Histograms of the difference between the cars"));
     EXPECT_THAT(html, Not(HasSubstr("<script")));
     EXPECT_THAT(html, Not(HasSubstr("nan")));
 
