@@ -122,7 +122,7 @@ std::string help_of_all() {
 void run(const Command& command, std::vector<std::string> words) {
     const auto options = options_of(command);
     const Arguments arguments{options, command.operands, std::move(words)};
-    const Interruption interruption{command.name};
+    const InterruptHandler interruption{command.name};
     const Console console{arguments.flag("--quiet"), interruption.stop()};
     say_what_was_left(command, arguments, console);
     command.run(arguments, console);

@@ -26,7 +26,7 @@ constexpr int slowness = 1;
 
 // Time limits for a command to end by itself. Together with the removal of files, the total must
 // stay below 2 s. A command that only reads has little to finish.
-constexpr int wait_policy_ms = 1500 * slowness;
+constexpr int grace_ms = 1500 * slowness;
 constexpr int reader_wait_ms = 300 * slowness;
 
 constexpr std::array interrupting{SIGINT, SIGTERM, SIGHUP};
@@ -63,7 +63,7 @@ void interrupted(int signal) {
         cut_off(signal);
     } else {
         wish.stop->request_stop();
-        wake_after(databases_open_for_writing() > 0 ? wait_policy_ms : reader_wait_ms);
+        wake_after(databases_open_for_writing() > 0 ? grace_ms : reader_wait_ms);
     }
     errno = error;
 }
@@ -89,7 +89,7 @@ void handle(int signal, void (*handler)(int), struct sigaction* replaced) {
 
 } // namespace
 
-Interruption::Interruption(std::string_view command) {
+InterruptHandler::InterruptHandler(std::string_view command) {
     wish.stop.emplace();
     wish.last_words = fmt::format("{}macadam {}: interrupted; unfinished work was discarded\n",
                                   ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", // clears a bar
@@ -109,7 +109,7 @@ Interruption::Interruption(std::string_view command) {
     }
 }
 
-Interruption::~Interruption() {
+InterruptHandler::~InterruptHandler() {
     for (std::size_t i = 0; i < interrupting.size(); ++i) {
         ::sigaction(interrupting[i], &before[i], nullptr);
     }
@@ -118,12 +118,12 @@ Interruption::~Interruption() {
     ::sigaction(SIGPIPE, &before_of_pipe, nullptr);
 }
 
-std::chrono::milliseconds Interruption::wait_policy() {
-    return std::chrono::milliseconds{wait_policy_ms};
+std::chrono::milliseconds InterruptHandler::grace_period() {
+    return std::chrono::milliseconds{grace_ms};
 }
 
 // Refers to global state, but only one object exists at a time.
-std::stop_token Interruption::stop() const { // NOLINT(*-convert-member-functions-to-static)
+std::stop_token InterruptHandler::stop() const { // NOLINT(*-convert-member-functions-to-static)
     return wish.stop->get_token();
 }
 

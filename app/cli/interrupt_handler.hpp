@@ -16,18 +16,18 @@ namespace macadam {
 /// SIGPIPE also removes unfinished files when the reader of the output has gone.
 ///
 /// Uses no thread, so processes may be forked beside it. Only one object may exist at a time.
-class Interruption {
+class InterruptHandler {
 public:
     /// \param command  name of the command in messages
-    explicit Interruption(std::string_view command);
-    Interruption(const Interruption&) = delete;
-    Interruption& operator=(const Interruption&) = delete;
-    ~Interruption();
+    explicit InterruptHandler(std::string_view command);
+    InterruptHandler(const InterruptHandler&) = delete;
+    InterruptHandler& operator=(const InterruptHandler&) = delete;
+    ~InterruptHandler();
 
     std::stop_token stop() const;
 
     /// Time limit for a command to end by itself: 1.5 s; longer under sanitizers.
-    static std::chrono::milliseconds wait_policy();
+    static std::chrono::milliseconds grace_period();
 };
 
 } // namespace macadam

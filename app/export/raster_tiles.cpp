@@ -378,8 +378,8 @@ PictureCount PicturePainters::collect(const PutTile& put, const Progress& progre
         for (const auto& worker : workers) {
             pipes.push_back({worker->pipe(), POLLIN, 0});
         }
-        constexpr int wait_policy_ms = 200; // time to notice a stop request
-        ::poll(pipes.data(), pipes.size(), wait_policy_ms);
+        constexpr int stop_check_ms = 200; // time to notice a stop request
+        ::poll(pipes.data(), pipes.size(), stop_check_ms);
         expect_not_stopped(progress);
         for (std::size_t i = 0; i < workers.size(); ++i) {
             if (pipes[i].revents != 0) {

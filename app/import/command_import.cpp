@@ -122,7 +122,7 @@ Progress until_it_takes_long(Progress fusing) {
     fusing.stop = late.get_token();
     fusing.report = [late,
                      end = std::chrono::steady_clock::now() +
-                           Interruption::wait_policy() / 3](std::size_t, std::size_t) mutable {
+                           InterruptHandler::grace_period() / 3](std::size_t, std::size_t) mutable {
         if (std::chrono::steady_clock::now() > end) {
             late.request_stop();
         }

@@ -92,7 +92,7 @@ void PipedProgram::end_input() {
     close_once(input_);
 }
 
-std::optional<std::string> PipedProgram::line(std::chrono::seconds wait_policy) {
+std::optional<std::string> PipedProgram::line(std::chrono::seconds timeout) {
     for (;;) {
         if (const auto size = read_.find('\n'); size != std::string::npos) {
             auto line = read_.substr(0, size);
@@ -100,7 +100,7 @@ std::optional<std::string> PipedProgram::line(std::chrono::seconds wait_policy) 
             return line;
         }
         pollfd ready{output_, POLLIN, 0};
-        const auto wait_ms = std::chrono::duration_cast<std::chrono::milliseconds>(wait_policy);
+        const auto wait_ms = std::chrono::duration_cast<std::chrono::milliseconds>(timeout);
         std::array<char, 4096> block{};
         if (poll(&ready, 1, static_cast<int>(wait_ms.count())) <= 0) {
             return std::nullopt;

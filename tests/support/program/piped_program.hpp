@@ -23,7 +23,7 @@ public:
 
     /// Returns the next line without its newline; `std::nullopt` if the output ends, or no line
     /// comes in time.
-    std::optional<std::string> line(std::chrono::seconds wait_policy);
+    std::optional<std::string> line(std::chrono::seconds timeout);
 
     void signal(int number) const;
 
