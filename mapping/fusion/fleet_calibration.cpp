@@ -73,14 +73,36 @@ double spread_of_cars(const FleetFit& fit, const std::vector<bool>& counts, doub
                      (cars_of_prior + n));
 }
 
+/// Returns the weight of each car in the mean that is taken as correct: inverse to the variance
+/// that its readings state, 1 for the median car.
+std::vector<double> anchor_weights(const std::vector<std::optional<double>>& known,
+                                   const std::vector<double>& stated_sd) {
+    std::vector<double> of_cars;
+    for (std::size_t car = 0; car < stated_sd.size(); ++car) {
+        if (!known[car] && stated_sd[car] > 0) {
+            of_cars.push_back(stated_sd[car]);
+        }
+    }
+    const double median_sd = median_of(std::move(of_cars));
+    std::vector<double> weights(known.size(), 1);
+    for (std::size_t car = 0; car < stated_sd.size(); ++car) {
+        if (!known[car] && stated_sd[car] > 0) {
+            weights[car] = square(median_sd / stated_sd[car]);
+        }
+    }
+    return weights;
+}
+
 } // namespace
 
 FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                  const std::vector<std::optional<double>>& known,
-                                 const FleetPrior& prior) {
+                                 const FleetPrior& prior,
+                                 const std::vector<double>& stated_sd) {
     const auto shared = shared_readings(readings);
     const auto places = shared_places(shared, known.size());
-    FleetFit fit{shared, known, prior};
+    const auto weights = anchor_weights(known, stated_sd);
+    FleetFit fit{shared, known, prior, weights};
     for (int round = 0; round < max_rounds; ++round) {
         const double moved = fit.settle();
         const bool is_spread_round =
@@ -115,8 +137,11 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                .relative_sd = std::sqrt(variance + square(prior.min_car_sd))};
         }
     }
-    const auto cars = static_cast<double>(std::ranges::count(counts, true));
-    fleet.anchor_sd = fit.known_sd.value_or(fleet.car_sd / std::sqrt(std::max(1.0, cars)));
+    double weight = 0;
+    for (std::size_t car = 0; car < known.size(); ++car) {
+        weight += counts[car] ? weights[car] : 0;
+    }
+    fleet.anchor_sd = fit.known_sd.value_or(fleet.car_sd / std::sqrt(std::max(1.0, weight)));
     return fleet;
 }
 

@@ -48,15 +48,20 @@ struct FleetCalibration {
 /// Trips are random effects; cars have the variance of the prior. The spread of trips and passes is
 /// then estimated from the residuals, and everything is fitted again.
 ///
-/// Cars alone do not reveal the true level: their robust mean is taken for it, so that one broken
-/// car cannot move the others, and `anchor_sd` states how far it may be off. If a source is known,
-/// such as a laser survey, all cars are calibrated against it.
+/// Cars alone do not reveal the true level: their robust mean is taken for it, each weighted by the
+/// uncertainty that its readings state, so that a car whose file is good counts more than one that
+/// is taken for an average car, and one broken car cannot move the others. `anchor_sd` states how
+/// far the mean may be off. If a source is known, such as a laser survey, all cars are calibrated
+/// against it.
 ///
-/// \param readings  in the order of places.
-/// \param known     for each car: relative sd of a source taken as correct; `std::nullopt` for
-///                  cars.
+/// \param readings   in the order of places.
+/// \param known      for each car: relative sd of a source taken as correct; `std::nullopt` for
+///                   cars.
+/// \param stated_sd  for each car: relative sd that its readings state; only their ratios count.
+///                   Empty: all are alike.
 FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                  const std::vector<std::optional<double>>& known,
-                                 const FleetPrior& prior);
+                                 const FleetPrior& prior,
+                                 const std::vector<double>& stated_sd = {});
 
 } // namespace macadam

@@ -19,9 +19,11 @@ double square(double x) {
 
 FleetFit::FleetFit(const std::vector<FleetReading>& readings,
                    const std::vector<std::optional<double>>& known,
-                   const FleetPrior& prior)
+                   const FleetPrior& prior,
+                   const std::vector<double>& anchor_weights)
     : cars(known.size()), trip_sd{prior.trip_sd}, rest_sd{prior.rest_sd}, readings_{&readings},
-      known_{&known}, prior_{prior}, trust_(readings.size(), 1), leverage_(readings.size(), 0) {
+      known_{&known}, anchor_weights_{&anchor_weights}, prior_{prior}, trust_(readings.size(), 1),
+      leverage_(readings.size(), 0) {
     std::uint32_t trips = 0;
     for (std::size_t i = 0; i < readings.size(); ++i) {
         if (i == 0 || readings[i].place != readings[i - 1].place) {
@@ -187,9 +189,11 @@ void FleetFit::fit_cars() {
 void FleetFit::centre_cars() {
     const double z = 1 / middle_um_;
     double whole = 0, gain = 0, offset_um = 0;
-    for (auto& car : cars) {
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        auto& car = cars[i];
         car.error_at_middle = car.gain - 1 + car.offset_um * z;
-        const double variance = square(prior_.car_sd) + car.variance_at_middle;
+        const double variance =
+            square(prior_.car_sd) / (*anchor_weights_)[i] + car.variance_at_middle;
         const double weight = (dof + 1) / (dof + square(car.error_at_middle) / variance) / variance;
         whole += weight;
         gain += weight * car.gain;

@@ -26,9 +26,12 @@ public:
     };
 
     /// \param readings  in the order of places, which are numbered from 0 without gaps.
+    /// \param anchor_weights  weight of each car in the mean that is taken as correct; 1: the
+    /// prior's
     FleetFit(const std::vector<FleetReading>& readings,
              const std::vector<std::optional<double>>& known,
-             const FleetPrior& prior);
+             const FleetPrior& prior,
+             const std::vector<double>& anchor_weights);
 
     /// Updates levels, then trips and cars, then weights, once each. \returns the relative change
     /// of the cars.
@@ -63,6 +66,7 @@ private:
 
     const std::vector<FleetReading>* readings_;
     const std::vector<std::optional<double>>* known_;
+    const std::vector<double>* anchor_weights_;
     FleetPrior prior_;
     std::vector<std::size_t> first_of_place_; ///< index of the first reading, plus an end sentinel
     std::vector<double> level_um_;            ///< of each place

@@ -16,6 +16,7 @@
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -118,6 +119,17 @@ struct Readings {
     std::vector<FleetReading> all; ///< in the order of places
     double stated_square = 0;      ///< sum of the relative variances stated by passes of cars
     std::size_t of_cars = 0;
+
+    /// Of each car: sum of the relative variances that its passes state, and their number.
+    std::vector<std::pair<double, std::size_t>> stated;
+
+    std::vector<double> stated_sd() const {
+        std::vector<double> sds;
+        for (const auto& [square, passes] : stated) {
+            sds.push_back(passes == 0 ? 0 : std::sqrt(square / static_cast<double>(passes)));
+        }
+        return sds;
+    }
 };
 
 /// Adds the readings from the passes of a chunk.
@@ -145,9 +157,12 @@ void add(Readings& readings,
                            .trip = trip,
                            .read_um = static_cast<double>(input.pass.iri_um)}});
         if (!input.reference) {
-            readings.stated_square +=
+            const double variance =
                 std::pow(static_cast<double>(input.pass.sd_um) / input.pass.iri_um, 2);
+            readings.stated_square += variance;
             ++readings.of_cars;
+            readings.stated[car].first += variance;
+            ++readings.stated[car].second;
         }
     }
     std::ranges::stable_sort(placed, [](const Placed& a, const Placed& b) {
@@ -172,6 +187,7 @@ Readings readings_of(Database& database,
     ChunkFusion states{database};
     const auto chunks = sampled_chunks(database, basis);
     Readings readings;
+    readings.stated.resize(fleet.known.size());
     std::uint32_t places = 0;
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         if (progress.stop.stop_requested()) {
@@ -224,7 +240,7 @@ CalibrationReport find_calibration(Database& database,
                                    const Progress& progress) {
     const auto fleet = fleet_of(database, basis);
     const auto readings = readings_of(database, segments_per_chunk, fleet, basis, progress);
-    const auto found = calibrate_fleet(readings.all, fleet.known, {});
+    const auto found = calibrate_fleet(readings.all, fleet.known, {}, readings.stated_sd());
     const auto count = static_cast<double>(std::max<std::size_t>(1, readings.of_cars));
 
     CalibrationReport report{.generation = read_generation(database),

@@ -89,6 +89,22 @@ TEST(FleetCalibration, FindsHowMuchMoreOneCarReadsThanAnother) {
     EXPECT_LT(std::sqrt(square / 20), 0.011);
 }
 
+TEST(FleetCalibration, AnchorsTheFleetAtTheCarsThatStateTheLeastUncertainty) {
+    // Two good cars that are right, and four taken for an average car, all of which read 12 % high.
+    Fleet fleet{.gains = {1, 1, 1.12, 1.12, 1.12, 1.12}};
+    const std::vector<double> stated_sd{0.05, 0.05, 0.25, 0.25, 0.25, 0.25};
+    const auto readings = readings_of(fleet, 12);
+    const auto alike = calibrate_fleet(readings, fleet.known, no_rest());
+    const auto weighted = calibrate_fleet(readings, fleet.known, no_rest(), stated_sd);
+    const auto at_2500 = [](const FleetCalibration& found, std::size_t car) {
+        return found.cars[car]->gain + found.cars[car]->offset_um / 2500;
+    };
+    EXPECT_LT(at_2500(alike, 0), 0.95); // the mean of the cars is wrong by 8 %
+    EXPECT_NEAR(at_2500(weighted, 0), 1, 0.02);
+    EXPECT_NEAR(at_2500(weighted, 4), 1.12, 0.03);
+    EXPECT_LT(weighted.anchor_sd, alike.anchor_sd);
+}
+
 TEST(FleetCalibration, TellsAnOffsetFromAGain) {
     Fleet fleet{.gains = std::vector<double>(12, 1.0), .share = 0.8};
     fleet.offsets_um[3] = 150;
