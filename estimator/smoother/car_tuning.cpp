@@ -60,8 +60,8 @@ void colour_by(Point& point, double by) {
 }
 
 // Mass and damping are not among them. Over a road that is not known either, their likelihood has a
-// slope where the file is exact: a heavier or less damped car explains a bend of the road's spectrum
-// or an unstated pitch inertia (docs/decisions/41-mass-and-damping-are-not-tuned.md).
+// slope where the file is exact: a heavier or less damped car explains a bend of the road's
+// spectrum or an unstated pitch inertia (docs/decisions/41-mass-and-damping-are-not-tuned.md).
 constexpr std::pair<std::string_view, void (*)(Point&, double)> tuned_parameters[] = {
     {"ks_n_per_m", times_exp<&HalfCar::ks_n_per_m>},
     {"kt_n_per_m", times_exp<&HalfCar::kt_n_per_m>},

@@ -168,7 +168,8 @@ TEST_F(Refusals, NameTheTripAndLeaveTheOthersBe) {
     EXPECT_THAT(run.out, HasSubstr("nowhere.trip.csv: "));
     EXPECT_THAT(run.out, HasSubstr("cut.zip: "));
     EXPECT_THAT(run.out, HasSubstr("imported  "));
-    EXPECT_THAT(run_macadam({"trace", slow_trip}).err, HasSubstr("slow.trip.csv: acceleration was sampled"));
+    EXPECT_THAT(run_macadam({"trace", slow_trip}).err,
+                HasSubstr("slow.trip.csv: acceleration was sampled"));
 }
 
 TEST_F(Refusals, OfALatencyThatNoReceiverHasNameItsLine) {

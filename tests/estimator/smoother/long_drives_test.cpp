@@ -104,19 +104,17 @@ TEST(TunedCar, LeavesAKnownCarAlone) {
     EXPECT_LT(tuned.iri_sd, 0.02);
 }
 
-/// Its file says a damper 20 % too soft, and that it may be: at least half of that is mended. (With
-/// friction unknown, too, one stands for the other.)
-TEST(TunedCar, MendsADamperThatMayBeWrong) {
+/// A damper 20 % too soft in the file, which may be so: an unknown road explains it as well
+/// (docs/decisions/41-mass-and-damping-are-not-tuned.md).
+TEST(TunedCar, KeepsADamperThatMayBeWrongAndSaysHowFarItsIriMayBeOff) {
     auto stated = car();
     stated.half_car.cs_ns_per_m *= 0.8;
     stated.half_car.friction_n = 0;
     stated.uncertainty["cs_ns_per_m"] = 0.2;
     const auto tuned = car_in(driven_road(drive_of(1300)).stretch, stated, smoother_config());
-    const double ratio = tuned.vehicle.half_car.cs_ns_per_m / car().half_car.cs_ns_per_m;
-    std::printf("damper stated at 0.8: %.3f\n", ratio);
-    EXPECT_NEAR(ratio, 1, 0.1);
+    EXPECT_EQ(tuned.vehicle.half_car.cs_ns_per_m, stated.half_car.cs_ns_per_m);
     EXPECT_EQ(tuned.friction_n, 0);
-    EXPECT_LT(tuned.iri_sd, 0.1);
+    EXPECT_NEAR(tuned.iri_sd, 0.6 * 0.2, 0.02); // relative, of a damper off by one sd
 }
 
 /// Four channels of a simulated car with round wheels, on roads of its own each.
