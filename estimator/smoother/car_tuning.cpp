@@ -76,12 +76,13 @@ bool is_tuned(std::string_view parameter) {
                                [&](const auto& tuned) { return tuned.first == parameter; });
 }
 
-/// Returns the tuned parameters that the vehicle declares uncertain.
+/// Returns the tuned parameters that the vehicle has and declares uncertain.
 Unknowns of_car(const Vehicle& vehicle) {
     Unknowns unknowns;
     for (const auto& [name, move] : tuned_parameters) {
         const auto found = vehicle.uncertainty.find(std::string{name});
-        if (found != vehicle.uncertainty.end() && found->second > 0) {
+        const bool has_it = vehicle.axles || name != "dynamic_index";
+        if (has_it && found != vehicle.uncertainty.end() && found->second > 0) {
             unknowns.push_back({move, found->second, relative_step});
         }
     }

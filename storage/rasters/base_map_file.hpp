@@ -16,7 +16,7 @@ namespace macadam {
 /// there is none, pixels are averaged while reading. Resampling uses a tent filter: bilinear where
 /// the raster is enlarged, a weighted mean where it is reduced.
 ///
-/// Nothing is fetched from the network. Memory depends on the requested part, not on the size of
+/// No data are fetched from the network. Memory depends on the requested part, not on the size of
 /// the raster.
 ///
 /// \throws InputError  if the file does not exist, is not a raster, holds values other than

@@ -25,8 +25,8 @@ inline constexpr int feet_square_px = 16;
 /// square, the footprint is interpolated bilinearly if the midpoints of the sides and the centre
 /// agree with that to a twentieth of a pixel; otherwise each pixel is projected.
 ///
-/// Where the plane or the coordinate system of the raster wraps around the globe (degrees,
-/// spherical Mercator), positions one revolution apart are the same position.
+/// Positions one revolution apart are the same position if the plane or the coordinate system of
+/// the raster wraps around the globe (degrees, spherical Mercator).
 class RasterPlace {
 public:
     /// \throws InputError  if PROJ finds no transformation from the plane to the raster.

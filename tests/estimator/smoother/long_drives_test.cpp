@@ -117,6 +117,18 @@ TEST(TunedCar, KeepsADamperThatMayBeWrongAndSaysHowFarItsIriMayBeOff) {
     EXPECT_NEAR(tuned.iri_sd, 0.6 * 0.2, 0.02); // relative, of a damper off by one sd
 }
 
+/// Whoever states the uncertainty of a number that a car with one axle does not have gets the car.
+TEST(TunedCar, WithOneAxleHasNoDynamicIndexToTune) {
+    auto stated = car();
+    stated.axles.reset();
+    stated.uncertainty = {{"dynamic_index", 0.1}, {"kt_n_per_m", 0.05}};
+    const auto stretch = driven_road(drive_of(1300)).stretch;
+    const auto passage = exact_passage(stretch, stated).passage;
+    const auto tuned = tuned_car(passage, stated, {});
+    EXPECT_FALSE(tuned.vehicle.axles);
+    EXPECT_NEAR(tuned.vehicle.half_car.kt_n_per_m / stated.half_car.kt_n_per_m, 1, 0.08);
+}
+
 /// Four channels of a simulated car with round wheels, on roads of its own each.
 TEST(WheelOrder, IsNotFoundOnAHundredRoadsWithRoundWheels) {
     int found = 0;
