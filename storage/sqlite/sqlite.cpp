@@ -330,10 +330,10 @@ void Database::set_lock_wait(LockWaitPolicy wait_policy) {
     file_->wait.set_lock_wait(std::move(wait_policy));
 }
 
-void Database::enable_wal(std::chrono::milliseconds wait_policy) {
+void Database::enable_wal(std::chrono::milliseconds timeout) {
     database_.get_deleter().takes_log_away = true;
     wants_log_ = true;
-    const auto end = std::chrono::steady_clock::now() + wait_policy;
+    const auto end = std::chrono::steady_clock::now() + timeout;
     ensure_wal();
     for (int pauses = 0; wants_log_ && std::chrono::steady_clock::now() < end; ++pauses) {
         if (!file_->wait.wait(pauses)) {

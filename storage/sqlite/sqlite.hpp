@@ -141,8 +141,8 @@ public:
     /// writing continues without it, and each commit waits for the readers.
     ///
     /// WAL can only be enabled while there are no readers. If readers remain for the whole time
-    /// `wait_policy`, writing continues without it, and each transaction tries again.
-    void enable_wal(std::chrono::milliseconds wait_policy = std::chrono::seconds{20});
+    /// `timeout`, writing continues without it, and each transaction tries again.
+    void enable_wal(std::chrono::milliseconds timeout = std::chrono::seconds{20});
 
     /// Checkpoints the whole log into the file and truncates it. \returns false if a reader still
     /// uses the log; then the last connection to close does it.

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-constexpr std::chrono::seconds wait_policy{60}; // sanitizers, and a machine that is busy
+constexpr std::chrono::seconds timeout{60}; // sanitizers, and a machine that is busy
 constexpr std::string_view end_mark = "# end rows";
 
 /// A drive of 60 s at 20 m/s.
@@ -71,7 +71,7 @@ Told piped(const std::string& text, std::vector<std::string> words) {
     program.write(text);
     program.end_input();
     std::vector<std::string> lines;
-    while (const auto line = program.line(wait_policy)) {
+    while (const auto line = program.line(timeout)) {
         lines.push_back(*line);
     }
     return {lines, program.wait()};
@@ -85,10 +85,10 @@ constexpr int validity_column = 15;
 TEST(LiveProgram, TellsRowsWhileTheLogIsStillOpen) {
     PipedProgram program{{"trace", "--live", "--method", "kf"}};
     program.write(until(log_text(), 30));
-    EXPECT_THAT(program.line(wait_policy).value_or(""), StartsWith("from_m,to_m,t_s,"));
+    EXPECT_THAT(program.line(timeout).value_or(""), StartsWith("from_m,to_m,t_s,"));
     // 600 m were driven; what lay 2 s behind the car was left at 560 m.
     for (int row = 0; row < 28; ++row) {
-        EXPECT_EQ(cell(program.line(wait_policy).value_or(""), 1),
+        EXPECT_EQ(cell(program.line(timeout).value_or(""), 1),
                   std::to_string(20 * row + 20) + ".000");
     }
 }
@@ -192,7 +192,7 @@ TEST(LiveProgram, RefusesADriveShorterThanARow) {
 TEST(LiveProgram, EndsWhenNobodyReadsAnyMore) {
     PipedProgram program{{"trace", "--live", "--method", "kf"}};
     program.write(until(log_text(), 5));
-    ASSERT_TRUE(program.line(wait_policy).has_value());
+    ASSERT_TRUE(program.line(timeout).has_value());
     program.close_output();
     program.write(log_text().substr(until(log_text(), 5).size()));
     program.end_input();
@@ -203,7 +203,7 @@ TEST(LiveProgram, EndsWithWordsWhenItIsInterrupted) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         PipedProgram program{{"trace", "--live", "--method", "kf"}};
         program.write(until(log_text(), 40));
-        ASSERT_TRUE(program.line(wait_policy)); // and waits for more
+        ASSERT_TRUE(program.line(timeout)); // and waits for more
         program.signal(signal);
         const auto end = program.wait();
         EXPECT_EQ(end.exit_status, 1);
