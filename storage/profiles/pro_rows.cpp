@@ -8,21 +8,24 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace macadam {
 
 namespace {
 
-// Columns of a line: elevations, a comment, and, from profilers with a GNSS receiver, latitude,
-// longitude, height, heading and speed.
+// Columns of a line where the header does not state the wheel path: elevations, a comment, and,
+// from profilers with a GNSS receiver, latitude, longitude, height, heading and speed.
 constexpr std::size_t one_path = 2;
 constexpr std::size_t one_path_with_fix = 7;
 constexpr std::size_t two_paths = 3;
 constexpr std::size_t two_paths_with_fix = 8;
+
+/// Marks that begin a line of comment between points.
+constexpr std::string_view comment_marks = "#;*!/";
 
 std::vector<std::string_view> cells_of(std::string_view line) {
     std::vector<std::string_view> cells;
@@ -36,10 +39,36 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     }
 }
 
-/// Names a single path "left", "right" or "profile", as stated in the header.
-std::string name_of_path(std::string_view path) {
-    const auto letter = path.empty() ? '\0' : std::tolower(static_cast<unsigned char>(path[0]));
-    return letter == 'l' ? "left" : letter == 'r' ? "right" : "profile";
+/// Wheel paths of the points as stated in the header.
+enum class WheelPath : std::uint8_t { unstated, left, right, both };
+
+/// Parses "both", "B", "LR", "L&R", "left", "L", "right", "R" in any case; profilers differ.
+WheelPath parse_wheel_path(std::string_view text) {
+    std::string letters;
+    for (const char c : text) {
+        if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+            letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        }
+    }
+    if (letters == "lr" || letters == "b" || letters == "both") {
+        return WheelPath::both;
+    }
+    return letters.starts_with('l')   ? WheelPath::left
+           : letters.starts_with('r') ? WheelPath::right
+                                      : WheelPath::unstated;
+}
+
+std::vector<std::string> track_names(WheelPath path, std::size_t tracks) {
+    if (tracks == 2) {
+        return {"left", "right"};
+    }
+    return {path == WheelPath::left ? "left" : path == WheelPath::right ? "right" : "profile"};
+}
+
+/// Metres per unit of distance, which some profilers abbreviate to one letter: "3,i".
+std::optional<double> metres_of_distance(std::string_view unit) {
+    unit = trimmed(unit);
+    return metres_in(unit == "i" || unit == "I" ? "in" : unit == "f" || unit == "F" ? "ft" : unit);
 }
 
 class ProRows final : public ProfileRows {
@@ -56,8 +85,7 @@ public:
             throw InputError{
                 fmt::format("{}: has no points after its five header lines", file.string())};
         }
-        head_.tracks = tracks_ == 2 ? std::vector<std::string>{"left", "right"}
-                                    : std::vector{name_of_path(path_)};
+        head_.tracks = track_names(path_, tracks_);
     }
 
     const ProfileHead& head() const override { return head_; }
@@ -86,7 +114,8 @@ private:
         const auto cells = cells_of(line);
         const auto unit_m = cells.size() < needed ? std::nullopt : metres_in(cells[1]);
         const auto step = cells.size() < needed ? std::nullopt : parse_number(cells[3]);
-        const auto step_unit_m = cells.size() < needed ? std::nullopt : metres_in(cells[4]);
+        const auto step_unit_m =
+            cells.size() < needed ? std::nullopt : metres_of_distance(cells[4]);
         if (!unit_m || (!step_m && !(step && *step > 0 && step_unit_m))) {
             throw InputError{fmt::format("{}: {}, expected maker, unit of elevation, wheel path, "
                                          "distance between points and its unit ({})",
@@ -95,14 +124,14 @@ private:
                                          length_units)};
         }
         unit_m_ = *unit_m;
-        path_ = cells[2];
+        path_ = parse_wheel_path(cells[2]);
         head_.step_m = step_m ? step_m : *step * *step_unit_m;
     }
 
     /// Reads the elevations of the next line into row_, from index 1 on. Returns false at the end.
     bool read_line() {
         auto line = lines_.next();
-        while (line && (trimmed(*line).empty() || *line == "\x1a")) { // the end of a DOS text
+        while (line && is_no_point(*line)) {
             line = lines_.next();
         }
         if (!line) {
@@ -126,11 +155,22 @@ private:
         return true;
     }
 
+    /// Tests for a blank line, the end of a DOS text, and a comment. Before the first point every
+    /// line that does not begin with a number is a comment.
+    bool is_no_point(std::string_view line) const {
+        const auto text = trimmed(line);
+        return text.empty() || text == "\x1a" ||
+               comment_marks.find(text.front()) != std::string_view::npos ||
+               (tracks_ == 0 && !parse_number(cells_of(line).front()));
+    }
+
     std::size_t tracks_in(const std::vector<std::string_view>& cells, std::string_view line) const {
+        if (path_ != WheelPath::unstated) {
+            return path_ == WheelPath::both ? 2 : 1; // comment and position may take any cells
+        }
         switch (cells.size()) {
         case one_path:
-            // Without a comment: two elevations, unless the header states a single path.
-            return name_of_path(path_) == "profile" && parse_number(cells[1]) ? 2 : 1;
+            return parse_number(cells[1]) ? 2 : 1; // two elevations without a comment, or one
         case one_path_with_fix:
             return 1;
         case two_paths:
@@ -138,7 +178,8 @@ private:
             return 2;
         default:
             throw InputError{fmt::format("{}: {} has {} cells, expected 2 or 3 (one or two "
-                                         "elevations and a comment), or five more with a position",
+                                         "elevations and a comment), or five more with a position; "
+                                         "or a wheel path 'L', 'R' or 'LR' in line 3",
                                          lines_.where(),
                                          in_quotes(line),
                                          cells.size())};
@@ -148,7 +189,7 @@ private:
     TextLines lines_;
     ProfileHead head_;
     double unit_m_ = 0;
-    std::string path_;
+    WheelPath path_ = WheelPath::unstated;
     std::size_t tracks_ = 0;
     std::vector<double> row_;
     std::size_t count_ = 0;

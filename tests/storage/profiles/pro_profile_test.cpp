@@ -89,7 +89,48 @@ TEST(ProProfile, SaysWhatIsWrong) {
                          "lines"));
     EXPECT_THAT(refusal_of_text(head + "1,2,\n1,bump,\n"),
                 EndsWith("a.pro:7: '1,bump,', expected two elevations at its beginning"));
-    EXPECT_THAT(refusal_of_text(head + "1,2,3,4\n"),
+    auto unstated = head;
+    unstated.replace(unstated.find("both"), 4, "");
+    EXPECT_THAT(refusal_of_text(unstated + "1,2,3,4\n"),
                 EndsWith("a.pro:6: '1,2,3,4' has 4 cells, expected 2 or 3 (one or two elevations "
-                         "and a comment), or five more with a position"));
+                         "and a comment), or five more with a position; or a wheel path 'L', 'R' "
+                         "or 'LR' in line 3"));
+    EXPECT_THAT(refusal_of_text(head + "1,bridge\n"),
+                EndsWith("a.pro:6: '1,bridge', expected two elevations at its beginning"));
+}
+
+TEST(ProProfile, ReadsAbbreviatedUnitsAndPathsOfProfilers) {
+    const struct {
+        const char* units;
+        double step_m;
+    } cases[] = {{"Dynatest,mil,LR,3,i", 0.0762},
+                 {"Dynatest,mil,LR,0.25,f", 0.0762},
+                 {"ICC,mils,B,0.0762,m", 0.0762},
+                 {"SSI,mil,L&R,3,I", 0.0762}};
+    for (const auto& [units, step_m] : cases) {
+        auto other = head;
+        other.replace(other.find("Maker,mils,both,3.0,in"), 22, units);
+        const auto profile = read_text(other + "1,2\n3,4\n");
+        ASSERT_EQ(profile.tracks.size(), 2U) << units;
+        EXPECT_NEAR(profile.station_m[1], step_m, 1e-12) << units;
+        EXPECT_NEAR(profile.tracks[1].elevation_m[1], 4 * 2.54e-5, 1e-15) << units;
+    }
+}
+
+TEST(ProProfile, ReadsPositionsInAnyNumberOfColumnsWhereThePathIsStated) {
+    for (const char* const fix : {",30.1,-97.6", ",,30.1,-97.6", ",bridge,30.1,-97.6,150"}) {
+        const auto profile = read_text(head + "1,2" + fix + "\n" + "3,4" + fix + "\n");
+        ASSERT_EQ(profile.tracks.size(), 2U) << fix;
+        EXPECT_NEAR(profile.tracks[1].elevation_m[1], 4 * 2.54e-5, 1e-15) << fix;
+    }
+    auto left = head;
+    left.replace(left.find("both"), 4, "L");
+    EXPECT_EQ(read_text(left + "1,30.1,-97.6\n2,30.1,-97.6\n").tracks.size(), 1U);
+}
+
+TEST(ProProfile, LeavesLinesOfCommentOut) {
+    const auto profile = read_text(head + "operator: second run\nwet, cold\n1,2,\n# joint\n"
+                                          "3,4,\n* end of the bridge\n5,6,\n");
+    EXPECT_THAT(profile.station_m, Pointwise(IsNear(), {0.0, 0.0762, 0.1524}));
+    EXPECT_NEAR(profile.tracks[0].elevation_m[2], 5 * 2.54e-5, 1e-15);
 }
