@@ -23,12 +23,12 @@ double mean_slope(std::span<const double> elevation_m, std::size_t steps, double
     return (elevation_m[steps] - elevation_m[0]) / (static_cast<double>(steps) * step_m);
 }
 
-/// Calls `take` with every value of the stroke.
+/// Calls `take` with every signed value of the stroke.
 template <typename Take>
 void drive(std::span<const double> elevation_m, double step_m, bool envelope, Take take) {
     RectifiedStroke stroke{step_m, envelope};
     const auto drain = [&] {
-        while (const auto value = stroke.next()) {
+        while (const auto value = stroke.next_signed()) {
             take(*value);
         }
     };
@@ -88,6 +88,11 @@ void RectifiedStroke::start() {
 }
 
 std::optional<double> RectifiedStroke::next() {
+    const auto stroke = next_signed();
+    return stroke ? std::optional{std::abs(*stroke)} : std::nullopt;
+}
+
+std::optional<double> RectifiedStroke::next_signed() {
     if (!started_ || first_ + patch_ >= elevation_m_.size()) {
         return {};
     }
@@ -102,7 +107,7 @@ std::optional<double> RectifiedStroke::next() {
         elevation_m_.erase(elevation_m_.begin(), elevation_m_.begin() + worth_dropping);
         first_ = 0;
     }
-    return 1000 * std::abs(state_[0] - state_[2]);
+    return 1000 * (state_[2] - state_[0]);
 }
 
 std::vector<float>
@@ -110,8 +115,16 @@ rectified_stroke_mm_per_m(std::span<const double> elevation_m, double step_m, bo
     std::vector<float> stroke;
     stroke.reserve(elevation_m.size());
     drive(elevation_m, step_m, envelope, [&](double value) {
-        stroke.push_back(static_cast<float>(value));
+        stroke.push_back(static_cast<float>(std::abs(value)));
     });
+    return stroke;
+}
+
+std::vector<double>
+suspension_stroke_mm_per_m(std::span<const double> elevation_m, double step_m, bool envelope) {
+    std::vector<double> stroke;
+    stroke.reserve(elevation_m.size());
+    drive(elevation_m, step_m, envelope, [&](double value) { stroke.push_back(value); });
     return stroke;
 }
 
@@ -119,7 +132,7 @@ double iri_mm_per_m(std::span<const double> elevation_m, double step_m, bool env
     double sum = 0;
     std::size_t count = 0;
     drive(elevation_m, step_m, envelope, [&](double value) {
-        sum += value;
+        sum += std::abs(value);
         ++count;
     });
     return sum / static_cast<double>(count);

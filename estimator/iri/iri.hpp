@@ -35,6 +35,12 @@ rectified_stroke_mm_per_m(std::span<const double> elevation_m, double step_m, bo
 /// a profile much shorter than 50 m.
 double iri_mm_per_m(std::span<const double> elevation_m, double step_m, bool envelope = true);
 
+/// Returns the signed suspension stroke whose absolute values are rectified_stroke_mm_per_m: the
+/// profile as filtered by IRI, for the comparison of waveforms. Arguments and errors are the same.
+std::vector<double> suspension_stroke_mm_per_m(std::span<const double> elevation_m,
+                                               double step_m,
+                                               bool envelope = true);
+
 /// Incremental version of rectified_stroke_mm_per_m for a profile that arrives point by point; it
 /// stores the first 11 m.
 ///
@@ -52,6 +58,9 @@ public:
 
     /// Returns the next value in mm/m, in profile order; `std::nullopt` until more points arrive.
     std::optional<double> next();
+
+    /// Returns the next value with its sign: positive while the suspension is being compressed.
+    std::optional<double> next_signed();
 
 private:
     void start();
