@@ -52,6 +52,7 @@ extern const Command query_command;      // app/query/command_query.cpp
 extern const Command export_command;     // app/export/command_export.cpp
 extern const Command render_command;     // app/render/command_render.cpp
 extern const Command report_command;     // app/report/command_report.cpp
+extern const Command compare_command;    // app/compare/command_compare.cpp
 extern const Command info_command;       // app/store/command_info.cpp
 extern const Command iri_command;        // app/profile/command_iri.cpp
 extern const Command trace_command;      // app/trace/command_trace.cpp

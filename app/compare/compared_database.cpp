@@ -1,0 +1,133 @@
+#include "app/compare/compared_database.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+/// Mean of passes, weighted by the inverse of their variances.
+struct WeightedPasses {
+    double sum = 0;
+    double weight = 0;
+
+    void add(const Pass& pass) {
+        const double sd = static_cast<double>(pass.sd_um) / 1000;
+        weight += 1 / (sd * sd);
+        sum += static_cast<double>(pass.iri_um) / 1000 / (sd * sd);
+    }
+    double mean() const { return sum / weight; }
+};
+
+std::map<std::string, double> iri_by_car(const std::vector<HistoricPass>& passes) {
+    std::map<std::string, WeightedPasses> cars;
+    for (const auto& historic : passes) {
+        if (!historic.reference) {
+            cars[historic.vehicle].add(historic.pass);
+        }
+    }
+    std::map<std::string, double> means;
+    for (const auto& [car, sums] : cars) {
+        means.emplace(car, sums.mean());
+    }
+    return means;
+}
+
+std::optional<double> mean_speed_kmh(const std::vector<HistoricPass>& passes) {
+    constexpr double kmh_of_mmps = 3.6e-3;
+    double sum = 0, count = 0;
+    for (const auto& historic : passes) {
+        if (!historic.reference && historic.pass.speed_mmps > 0) {
+            sum += kmh_of_mmps * historic.pass.speed_mmps;
+            ++count;
+        }
+    }
+    return count > 0 ? std::optional{sum / count} : std::nullopt;
+}
+
+} // namespace
+
+ComparedSegments segments_by_cars(const RoadStore& store, SegmentFilter filter) {
+    filter.cars_alone = !store.surveys().empty();
+    ComparedSegments segments;
+    store.visit(filter, [&](const SegmentRecord& record) {
+        const auto& [key, from_m, to_m, line] = record.segment;
+        if (record.state) {
+            segments.emplace(key,
+                             ComparedSegment{static_cast<double>(record.state->iri_um) / 1000,
+                                             from_m,
+                                             to_m,
+                                             record.highway});
+        }
+    });
+    return segments;
+}
+
+ComparedSegments
+segments_by_car(const RoadStore& store, const SegmentFilter& filter, const std::string& car) {
+    if (filter.period) {
+        throw InputError{"--since and --until select passes of all cars; they cannot be combined "
+                         "with --car-a and --car-b"};
+    }
+    ComparedSegments segments;
+    for (auto& [key, segment] : segments_by_cars(store, filter)) {
+        const auto cars = iri_by_car(store.history(key));
+        if (const auto found = cars.find(car); found != cars.end()) {
+            segment.iri = found->second;
+            segments.emplace(key, std::move(segment));
+        }
+    }
+    return segments;
+}
+
+std::string car_named(const RoadStore& store, const std::string& name) {
+    if (store.settings().privacy == PrivacyProfile::crowd) {
+        throw InputError{fmt::format("{}: is a crowd database, which tells no cars apart; leave "
+                                     "--car-a and --car-b out",
+                                     store.file().string())};
+    }
+    const auto cars = store.cars();
+    const auto is_known = [&](const std::string& car) {
+        return std::ranges::find(cars, car) != cars.end();
+    };
+    if (is_known(name)) {
+        return name;
+    }
+    if (const auto* const key = store.key(); key != nullptr && is_known(key->pseudonym(name))) {
+        return key->pseudonym(name);
+    }
+    constexpr std::size_t shown = 5;
+    throw InputError{fmt::format(
+        "{}: has no car '{}', expected a vehicle_id or a pseudonym such as "
+        "{}; 'macadam info' lists them",
+        store.file().string(),
+        name,
+        fmt::join(cars.begin(),
+                  cars.begin() + static_cast<std::ptrdiff_t>(std::min(shown, cars.size())),
+                  ", "))};
+}
+
+int number_of_car(const std::vector<std::string>& cars, const std::string& car) {
+    return static_cast<int>(std::ranges::find(cars, car) - cars.begin()) + 1;
+}
+
+std::optional<PassesOfCars> passes_of_cars(const RoadStore& store,
+                                           const std::vector<AgreementPair>& pairs) {
+    if (store.settings().privacy == PrivacyProfile::crowd) {
+        return std::nullopt;
+    }
+    PassesOfCars passes;
+    for (const auto& pair : pairs) {
+        const auto history = store.history(pair.segment);
+        passes.speed_kmh.push_back(mean_speed_kmh(history));
+        passes.iri_by_car.push_back(iri_by_car(history));
+    }
+    return passes;
+}
+
+} // namespace macadam

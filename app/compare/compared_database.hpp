@@ -1,0 +1,61 @@
+#pragma once
+
+#include "app/cli/console.hpp"
+#include "mapping/comparison/method_agreement.hpp"
+#include "storage/store/road_store.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Value of one segment by one source.
+struct ComparedSegment {
+    double iri; ///< mm/m
+    double
+        from_m; ///< along the way; both NaN for a survey, which is placed on the other's segments
+    double to_m;
+    std::string highway; ///< OSM's class, "" if the source does not know it
+};
+
+using ComparedSegments = std::map<SegmentKey, ComparedSegment>;
+
+/// Reads the IRI of all segments, from cars alone: surveys in the database do not count. Of a crowd
+/// database that is its latest publication.
+///
+/// \param filter  conditions of the command line.
+ComparedSegments segments_by_cars(const RoadStore& store, SegmentFilter filter);
+
+/// Reads the IRI of all segments by one car: the mean of its passes, weighted by the inverse of
+/// their variances, as imported: neither aligned nor calibrated.
+///
+/// \param car  its pseudonym (car_named).
+ComparedSegments
+segments_by_car(const RoadStore& store, const SegmentFilter& filter, const std::string& car);
+
+/// Returns the pseudonym of a car, given by vehicle_id or pseudonym.
+///
+/// \throws InputError  for a crowd database, whose cars are never told apart, and for a car that
+///                     the database does not know.
+std::string car_named(const RoadStore& store, const std::string& name);
+
+/// Returns the number by which 'info' and reports call a car: pseudonyms stay in the database.
+///
+/// \param cars  RoadStore::cars().
+int number_of_car(const std::vector<std::string>& cars, const std::string& car);
+
+/// Passes of cars over compared segments, by car and speed.
+struct PassesOfCars {
+    std::vector<std::optional<double>> speed_kmh; ///< mean over all passes, for each pair
+    /// IRI of each car, for each pair; without calibration.
+    std::vector<std::map<std::string, double>> iri_by_car;
+};
+
+/// Reads the passes over the segments of the pairs. `std::nullopt` for a crowd database: single
+/// cars and speeds are not published.
+std::optional<PassesOfCars> passes_of_cars(const RoadStore& store,
+                                           const std::vector<AgreementPair>& pairs);
+
+} // namespace macadam

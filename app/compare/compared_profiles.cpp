@@ -1,0 +1,110 @@
+#include "app/compare/compared_profiles.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/profiles/profile_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+/// Interpolates the tracks of uneven stations to their mean step.
+MeasuredProfile at_even_steps(MeasuredProfile profile) {
+    if (profile.even_step_m) {
+        return profile;
+    }
+    const auto& stations = profile.station_m;
+    const double step_m =
+        (stations.back() - stations.front()) / static_cast<double>(stations.size() - 1);
+    std::vector<double> even_m(stations.size());
+    std::vector<std::vector<double>> elevations(profile.tracks.size());
+    std::size_t after = 1;
+    for (std::size_t i = 0; i < even_m.size(); ++i) {
+        even_m[i] = stations.front() + static_cast<double>(i) * step_m;
+        while (after + 1 < stations.size() && stations[after] < even_m[i]) {
+            ++after;
+        }
+        const double part = std::clamp(
+            (even_m[i] - stations[after - 1]) / (stations[after] - stations[after - 1]), 0.0, 1.0);
+        for (std::size_t track = 0; track < elevations.size(); ++track) {
+            const auto& z = profile.tracks[track].elevation_m;
+            elevations[track].push_back(z[after - 1] + part * (z[after] - z[after - 1]));
+        }
+    }
+    profile.station_m = std::move(even_m);
+    profile.even_step_m = step_m;
+    for (std::size_t track = 0; track < elevations.size(); ++track) {
+        profile.tracks[track].elevation_m = std::move(elevations[track]);
+    }
+    return profile;
+}
+
+std::vector<std::string> names_of(const MeasuredProfile& profile) {
+    std::vector<std::string> names;
+    for (const auto& track : profile.tracks) {
+        names.push_back(track.name);
+    }
+    return names;
+}
+
+/// Indices of a track in both profiles.
+struct TrackPair {
+    std::string name;
+    std::size_t a;
+    std::size_t b;
+};
+
+std::vector<TrackPair> common_tracks(const MeasuredProfile& a, const MeasuredProfile& b) {
+    std::vector<TrackPair> common;
+    const auto a_names = names_of(a), b_names = names_of(b);
+    for (std::size_t i = 0; i < a_names.size(); ++i) {
+        const auto found = std::ranges::find(b_names, a_names[i]);
+        if (found != b_names.end()) {
+            common.push_back({a_names[i], i, static_cast<std::size_t>(found - b_names.begin())});
+        }
+    }
+    if (common.empty() && a_names.size() == 1 && b_names.size() == 1) {
+        common.push_back({fmt::format("{} and {}", a_names[0], b_names[0]), 0, 0});
+    }
+    if (common.empty()) {
+        throw InputError{fmt::format("the profiles have no track in common ({}; {}), expected "
+                                     "tracks of equal names, or one track each",
+                                     fmt::join(a_names, ", "),
+                                     fmt::join(b_names, ", "))};
+    }
+    return common;
+}
+
+} // namespace
+
+SourceComparison compare_profiles(const std::filesystem::path& a,
+                                  const std::filesystem::path& b,
+                                  std::optional<double> step_m,
+                                  const ProfileComparisonConfig& config) {
+    const auto profile_a = at_even_steps(read_profile(a, step_m));
+    const auto profile_b = at_even_steps(read_profile(b, step_m));
+    SourceComparison comparison;
+    comparison.interval_m = config.interval_m;
+    const auto track_of = [](const MeasuredProfile& profile, std::size_t track) {
+        return TrackProfile{
+            profile.tracks[track].elevation_m, profile.station_m.front(), *profile.even_step_m};
+    };
+    for (const auto& [name, of_a, of_b] : common_tracks(profile_a, profile_b)) {
+        auto track = compare_tracks(track_of(profile_a, of_a),
+                                    track_of(profile_b, of_b),
+                                    static_cast<std::int64_t>(comparison.tracks.size()),
+                                    config);
+        comparison.pairs.insert(
+            comparison.pairs.end(), track.intervals.begin(), track.intervals.end());
+        comparison.tracks.push_back({name, std::move(track)});
+    }
+    comparison.all = agreement_of(comparison.pairs);
+    return comparison;
+}
+
+} // namespace macadam

@@ -1,0 +1,245 @@
+#include "render/report/comparison/comparison_page.hpp"
+
+#include "render/report/comparison/agreement_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace macadam {
+
+using namespace document;
+
+namespace {
+
+constexpr const char* no_value = "–";
+
+/// Returns the wording of the page: English, mm/m.
+Localisation english() {
+    return {};
+}
+
+std::string signed_text(double value, int decimals = 2) {
+    return std::isfinite(value) ? english().signed_number(value, decimals) : no_value;
+}
+
+std::string plain_text(double value, int decimals = 2) {
+    return std::isfinite(value) ? english().number(value, decimals) : no_value;
+}
+
+std::string interval_text(const Estimate& estimate, int decimals) {
+    return std::isfinite(estimate.low) ? fmt::format("{} to {}",
+                                                     signed_text(estimate.low, decimals),
+                                                     signed_text(estimate.high, decimals))
+                                       : std::string{};
+}
+
+/// Returns the value with its interval in the line below.
+Cell estimate_cell(const Estimate& estimate, int decimals = 2) {
+    RichText text = signed_text(estimate.value, decimals);
+    if (const auto interval = interval_text(estimate, decimals); !interval.empty()) {
+        text.spans.push_back({"\n" + interval, SpanLook::quiet});
+    }
+    return text;
+}
+
+std::string described(const SourceName& source) {
+    return source.car.empty() ? source.name : fmt::format("{}, {}", source.name, source.car);
+}
+
+const char* piece_word(const SourceComparison& comparison) {
+    return comparison.shared ? "segments" : "intervals";
+}
+
+KeyNumbers keys_of(const SourceComparison& comparison) {
+    const auto& [pairs, mean_a, mean_b, difference, relative] = comparison.all;
+    const auto length =
+        comparison.shared ? fmt::format("{} km of road", english().number(comparison.shared->km, 2))
+                          : fmt::format("of {:g} m", comparison.interval_m);
+    const auto bias = interval_text(difference.bias, 2);
+    return {{{fmt::format("Shared {}", piece_word(comparison)), english().count(pairs), length},
+             {"Bias A − B, mm/m",
+              signed_text(difference.bias.value),
+              bias.empty() ? "" : "95 %: " + bias},
+             {"Limits of agreement, mm/m",
+              std::isfinite(difference.sd) ? fmt::format("{} to {}",
+                                                         signed_text(difference.lower.value),
+                                                         signed_text(difference.upper.value))
+                                           : no_value,
+              "about 95 % of differences"},
+             {"Relative bias",
+              std::isfinite(relative.bias.value) ? signed_text(relative.bias.value, 1) + " %"
+                                                 : no_value,
+              std::isfinite(relative.sd) ? fmt::format("limits {} to {} %",
+                                                       signed_text(relative.lower.value, 1),
+                                                       signed_text(relative.upper.value, 1))
+                                         : ""}}};
+}
+
+std::vector<Column> agreement_columns(const SourceComparison& comparison, std::string first) {
+    return {{std::move(first)},
+            {comparison.shared ? "Segments" : "Intervals", true},
+            {"Inde\u00ADpendent", true, true},
+            {"Mean A", true, true},
+            {"Mean B", true, true},
+            {"Bias", true},
+            {"SD", true, true},
+            {"Lower limit", true},
+            {"Upper limit", true},
+            {"Bias, %", true, true}};
+}
+
+std::vector<Cell> agreement_row(std::string name, const MethodAgreement& agreement) {
+    const auto& difference = agreement.difference;
+    return {std::move(name),
+            english().count(agreement.pairs),
+            plain_text(difference.independent, 0),
+            plain_text(agreement.mean_a),
+            plain_text(agreement.mean_b),
+            estimate_cell(difference.bias),
+            plain_text(difference.sd),
+            estimate_cell(difference.lower),
+            estimate_cell(difference.upper),
+            estimate_cell(agreement.relative.bias, 1)};
+}
+
+DocumentSection agreement_section(const SourceComparison& comparison) {
+    DocumentSection section{"Agreement", {}};
+    if (comparison.pairs.empty()) {
+        section.blocks.emplace_back(Paragraph{"The sources have no " +
+                                              std::string{piece_word(comparison)} + " in common."});
+        return section;
+    }
+    auto [drawing, outside] = agreement_figure(comparison.pairs, comparison.all, english());
+    section.blocks.emplace_back(Paragraph{fmt::format(
+        "Each dot is one of the {}: the difference of both IRI over their mean. Dashed lines are "
+        "the bias and the limits of agreement, between which about 95 % of the differences lie; "
+        "the orange bars are their 95 % intervals.",
+        piece_word(comparison))});
+    section.blocks.emplace_back(std::move(drawing));
+    if (outside > 0) {
+        section.blocks.emplace_back(
+            Paragraph{fmt::format("{} with larger differences not shown.",
+                                  outside == 1 ? "One dot" : english().count(outside) + " dots"),
+                      true});
+    }
+    return section;
+}
+
+DocumentSection groups_section(const SourceComparison& comparison) {
+    Table table{"IRI in mm/m; 95 % intervals below the values",
+                agreement_columns(comparison, "Group"),
+                {agreement_row("All", comparison.all)}};
+    DocumentSection section{"In numbers", {std::move(table)}};
+    for (const auto& [property, groups] : comparison.groups) {
+        Table by{fmt::format("By {}", property), agreement_columns(comparison, "Group"), {}};
+        by.columns.front().title = property;
+        for (const auto& [name, agreement] : groups) {
+            by.rows.push_back(agreement_row(name, agreement));
+        }
+        section.blocks.emplace_back(std::move(by));
+    }
+    return section;
+}
+
+std::string waves_text(const ProfileBand& band) {
+    return band.to_m == 0 ? "golden car" : fmt::format("{:g} – {:g} m", band.from_m, band.to_m);
+}
+
+std::string verdict_text(const TrackAgreement& track) {
+    const double score = track.bands.front().score;
+    const auto meets = [&](double minimum) { return score >= minimum ? "meets" : "is below"; };
+    return fmt::format("The score of the IRI-filtered profiles, {:.3f}, {} the {:.2f} that AASHTO "
+                       "R 56 requires between runs of one profiler (repeatability), and {} the "
+                       "{:.2f} against a reference profile (accuracy); both are means over many "
+                       "pairs of runs there.",
+                       score,
+                       meets(min_repeatability_score),
+                       min_repeatability_score,
+                       meets(min_accuracy_score),
+                       min_accuracy_score);
+}
+
+DocumentSection track_section(const ComparedTrack& track) {
+    const auto& agreement = track.agreement;
+    Table table{fmt::format("Track {}, {} m: IRI {} (A) and {} mm/m (B)",
+                            track.name,
+                            english().whole(agreement.shared_m),
+                            plain_text(agreement.iri_a),
+                            plain_text(agreement.iri_b)),
+                {{"Band"},
+                 {"Wavelengths"},
+                 {"Score", true},
+                 {"Correlation", true},
+                 {"Gain A/B", true, true},
+                 {"Lag, m", true}},
+                {}};
+    for (const auto& band : agreement.bands) {
+        table.rows.push_back({std::string{band.band.name},
+                              waves_text(band.band),
+                              plain_text(band.score, 3),
+                              plain_text(band.correlation, 3),
+                              plain_text(band.gain, 3),
+                              signed_text(band.lag_m)});
+    }
+    return {"Profiles: " + track.name, {Paragraph{verdict_text(agreement)}, std::move(table)}};
+}
+
+DocumentSection method_section(const SourceComparison& comparison) {
+    Bullets bullets;
+    if (comparison.shared) {
+        const auto& shared = *comparison.shared;
+        bullets.items.emplace_back(fmt::format("{} segments are known to A alone, {} to B alone.",
+                                               english().count(shared.only_a),
+                                               english().count(shared.only_b)));
+        if (shared.cut_differently > 0) {
+            bullets.items.emplace_back(
+                fmt::format("{} segments are left out because their ends differ between the maps.",
+                            english().count(shared.cut_differently)));
+        }
+    } else {
+        bullets.items.emplace_back(
+            "A score is the correlation of the filtered profiles times the ratio of the smaller to "
+            "the larger standard deviation, at the best lag. A positive lag means that B has the "
+            "same road at larger stations.");
+    }
+    bullets.items.emplace_back(fmt::format(
+        "Neighbouring {0} have similar errors. “Independent” is the number of independent {0} that "
+        "would tell as much about the bias; all intervals are computed with it.",
+        piece_word(comparison)));
+    bullets.items.emplace_back(
+        "An error that all roads share, such as that of one car, is in the bias and not in its "
+        "interval.");
+    return {"How to read this", {std::move(bullets)}};
+}
+
+} // namespace
+
+Document comparison_document(const SourceComparison& comparison) {
+    const auto title = fmt::format("{} and {}", described(comparison.a), described(comparison.b));
+    Document document{.language = "en",
+                      .title = title,
+                      .subtitle = fmt::format("Comparison of two sources of roughness. A: {} ({}). "
+                                              "B: {} ({}).",
+                                              described(comparison.a),
+                                              comparison.a.kind,
+                                              described(comparison.b),
+                                              comparison.b.kind),
+                      .running_head = title,
+                      .page_of = "Page {page} of {pages}",
+                      .day = "",
+                      .keys = keys_of(comparison),
+                      .sections = {},
+                      .end = {method_section(comparison)}};
+    for (const auto& track : comparison.tracks) {
+        document.sections.push_back(track_section(track));
+    }
+    document.sections.push_back(agreement_section(comparison));
+    if (!comparison.pairs.empty()) {
+        document.sections.push_back(groups_section(comparison));
+    }
+    return document;
+}
+
+} // namespace macadam
