@@ -271,7 +271,7 @@ SourceComparison compare_segments(const CompareOptions& options, const Console& 
     comparison.all = agreement_of(comparison.pairs);
     add_groups(comparison, "Road class", agreement_by_group(comparison.pairs, pairs.road_classes));
     add_groups(comparison,
-               "Roughness class",
+               "Roughness",
                agreement_by_group(
                    comparison.pairs,
                    roughness_names(comparison.pairs, *class_table(roads.settings().class_table))));

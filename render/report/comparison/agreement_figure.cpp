@@ -89,6 +89,11 @@ AgreementFrame frame_of(std::span<const AgreementPair> pairs, const LimitsOfAgre
     return frame;
 }
 
+/// Returns the number with a minus sign instead of a hyphen.
+std::string axis_text(double value, const Localisation& say) {
+    return (value < 0 ? "−" : "") + say.shortest(std::abs(value));
+}
+
 void add_axes(Drawing& drawing, const AgreementFrame& frame, const Localisation& say) {
     const auto count = std::lround((frame.highest - frame.lowest) / frame.difference_step);
     for (long i = 0; i <= count; ++i) {
@@ -97,7 +102,7 @@ void add_axes(Drawing& drawing, const AgreementFrame& frame, const Localisation&
         const bool is_zero = std::abs(difference) < frame.difference_step / 2;
         drawing.shapes.emplace_back(Stroke{StrokeLook::grid, {{plot_left, y}, {plot_right, y}}});
         drawing.shapes.emplace_back(
-            Label{plot_left - 6, y + 4, Anchor::end, is_zero ? "0" : say.shortest(difference)});
+            Label{plot_left - 6, y + 4, Anchor::end, is_zero ? "0" : axis_text(difference, say)});
     }
     const auto columns = std::lround((frame.to - frame.from) / frame.mean_step);
     for (long i = 0; i <= columns; ++i) {
@@ -105,7 +110,7 @@ void add_axes(Drawing& drawing, const AgreementFrame& frame, const Localisation&
         drawing.shapes.emplace_back(
             Label{frame.x(mean), plot_bottom + 16, Anchor::middle, say.shortest(mean)});
     }
-    drawing.shapes.emplace_back(Label{plot_left - 6, 12, Anchor::start, "Difference A − B, mm/m"});
+    drawing.shapes.emplace_back(Label{6, 12, Anchor::start, "Difference A − B, mm/m"});
     drawing.shapes.emplace_back(Label{
         (plot_left + plot_right) / 2, plot_bottom + 36, Anchor::middle, "Mean of A and B, mm/m"});
 }
@@ -139,7 +144,7 @@ void add_limits(Drawing& drawing,
                 const Localisation& say) {
     constexpr double bar_width = 4;
     const std::array<std::pair<const Estimate*, const char*>, 3> lines{
-        {{&limits.upper, "+1.96 SD"}, {&limits.bias, "bias"}, {&limits.lower, "−1.96 SD"}}};
+        {{&limits.upper, "upper limit"}, {&limits.bias, "bias"}, {&limits.lower, "lower limit"}}};
     double last_label = plot_top - label_height;
     for (const auto& [line, name] : lines) {
         if (!std::isfinite(line->value)) {
@@ -161,7 +166,7 @@ void add_limits(Drawing& drawing,
             Label{plot_right + 12,
                   last_label,
                   Anchor::start,
-                  fmt::format("{} {}", name, say.signed_number(line->value, 2))});
+                  fmt::format("{} {}", say.signed_number(line->value, 2), name)});
     }
 }
 

@@ -52,42 +52,46 @@ const char* piece_word(const SourceComparison& comparison) {
     return comparison.shared ? "segments" : "intervals";
 }
 
+std::string limits_text(const LimitsOfAgreement& limits, int decimals) {
+    return fmt::format("{} to {}",
+                       signed_text(limits.lower.value, decimals),
+                       signed_text(limits.upper.value, decimals));
+}
+
 KeyNumbers keys_of(const SourceComparison& comparison) {
     const auto& [pairs, mean_a, mean_b, difference, relative] = comparison.all;
     const auto length =
         comparison.shared ? fmt::format("{} km of road", english().number(comparison.shared->km, 2))
                           : fmt::format("of {:g} m", comparison.interval_m);
-    const auto bias = interval_text(difference.bias, 2);
-    return {{{fmt::format("Shared {}", piece_word(comparison)), english().count(pairs), length},
-             {"Bias A − B, mm/m",
-              signed_text(difference.bias.value),
-              bias.empty() ? "" : "95 %: " + bias},
-             {"Limits of agreement, mm/m",
-              std::isfinite(difference.sd) ? fmt::format("{} to {}",
-                                                         signed_text(difference.lower.value),
-                                                         signed_text(difference.upper.value))
-                                           : no_value,
-              "about 95 % of differences"},
-             {"Relative bias",
-              std::isfinite(relative.bias.value) ? signed_text(relative.bias.value, 1) + " %"
-                                                 : no_value,
-              std::isfinite(relative.sd) ? fmt::format("limits {} to {} %",
-                                                       signed_text(relative.lower.value, 1),
-                                                       signed_text(relative.upper.value, 1))
-                                         : ""}}};
+    KeyNumbers keys{
+        {{fmt::format("Shared {}", piece_word(comparison)), english().count(pairs), length}}};
+    if (pairs == 0) {
+        return keys;
+    }
+    auto bias = signed_text(relative.bias.value, 1) + " %";
+    if (const auto interval = interval_text(difference.bias, 2); !interval.empty()) {
+        bias = fmt::format("95 %: {}\n{}", interval, bias);
+    }
+    keys.numbers.push_back({"Bias A − B, mm/m", signed_text(difference.bias.value), bias});
+    if (std::isfinite(difference.sd)) {
+        keys.numbers.push_back({"Limits of agreement, mm/m",
+                                limits_text(difference, 2),
+                                "about 95 % of differences\n" + limits_text(relative, 1) + " %"});
+    }
+    return keys;
 }
 
-std::vector<Column> agreement_columns(const SourceComparison& comparison, std::string first) {
-    return {{std::move(first)},
+std::vector<Column> agreement_columns(const SourceComparison& comparison) {
+    return {{"Group"},
             {comparison.shared ? "Segments" : "Intervals", true},
-            {"Inde\u00ADpendent", true, true},
-            {"Mean A", true, true},
-            {"Mean B", true, true},
+            {"Independent", true},
+            {"Mean A", true},
+            {"Mean B", true},
             {"Bias", true},
-            {"SD", true, true},
+            {"SD", true},
             {"Lower limit", true},
             {"Upper limit", true},
-            {"Bias, %", true, true}};
+            {"Bias, %", true}};
 }
 
 std::vector<Cell> agreement_row(std::string name, const MethodAgreement& agreement) {
@@ -129,18 +133,18 @@ DocumentSection agreement_section(const SourceComparison& comparison) {
 
 DocumentSection groups_section(const SourceComparison& comparison) {
     Table table{"IRI in mm/m; 95 % intervals below the values",
-                agreement_columns(comparison, "Group"),
+                agreement_columns(comparison),
                 {agreement_row("All", comparison.all)}};
-    DocumentSection section{"In numbers", {std::move(table)}};
+    table.stacks = true;
     for (const auto& [property, groups] : comparison.groups) {
-        Table by{fmt::format("By {}", property), agreement_columns(comparison, "Group"), {}};
-        by.columns.front().title = property;
+        std::vector<Cell> heading{RichText{std::vector<Span>{{property, SpanLook::strong}}}};
+        heading.resize(table.columns.size(), Cell{""});
+        table.rows.push_back(std::move(heading));
         for (const auto& [name, agreement] : groups) {
-            by.rows.push_back(agreement_row(name, agreement));
+            table.rows.push_back(agreement_row(name, agreement));
         }
-        section.blocks.emplace_back(std::move(by));
     }
-    return section;
+    return {"In numbers", {std::move(table)}};
 }
 
 std::string waves_text(const ProfileBand& band) {
