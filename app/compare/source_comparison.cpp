@@ -225,6 +225,10 @@ void add_cars(SourceComparison& comparison, const SegmentSource& a, const Segmen
     }
 }
 
+bool is_own(const SegmentSource& source) {
+    return source.store && source.store->settings().privacy == PrivacyProfile::own;
+}
+
 void expect_comparable(const SegmentSource& a, const SegmentSource& b) {
     if (a.store && b.store) {
         const double a_m = a.store->settings().segment_length_m;
@@ -268,6 +272,7 @@ SourceComparison compare_segments(const CompareOptions& options, const Console& 
                                 .shared = pairs.shared,
                                 .groups = {},
                                 .tracks = {}};
+    comparison.is_own = is_own(a) || is_own(b);
     comparison.all = agreement_of(comparison.pairs);
     add_groups(comparison, "Road class", agreement_by_group(comparison.pairs, pairs.road_classes));
     add_groups(comparison,

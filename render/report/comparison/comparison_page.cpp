@@ -215,7 +215,11 @@ DocumentSection method_section(const SourceComparison& comparison) {
     bullets.items.emplace_back(
         "An error that all roads share, such as that of one car, is in the bias and not in its "
         "interval.");
-    return {"How to read this", {std::move(bullets)}};
+    DocumentSection section{"How to read this", {std::move(bullets)}};
+    if (comparison.is_own) {
+        section.blocks.emplace_back(Paragraph{english()("data.own")});
+    }
+    return section;
 }
 
 } // namespace

@@ -48,6 +48,7 @@ struct SourceComparison {
     std::vector<GroupedAgreement> groups; ///< without properties that the sources do not know
     std::vector<ComparedTrack> tracks;    ///< of profiles
     double interval_m = 20;               ///< of profiles
+    bool is_own = false;                  ///< a database of the operator's own cars is compared
 };
 
 /// Builds the document, in English and mm/m.

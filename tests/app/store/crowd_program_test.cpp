@@ -161,5 +161,29 @@ TEST_F(Crowd, ComesOfOnesOwnCarsByTrimmingThem) {
     EXPECT_THAT(exported_ways(), Not(IsEmpty()));
 }
 
+TEST_F(Crowd, ComparesWhatIsPublishedWithoutCarsAndSpeeds) {
+    make("crowd");
+    std::string survey{"way_id,direction,from_m,to_m,mri\n"};
+    for (int way = 1; way <= blocks; ++way) {
+        survey += fmt::format("{},forward,0,199,2\n", way);
+    }
+    write_file(folder_ / "survey.csv", survey);
+    EXPECT_THAT(run({"compare", store_, at("survey.csv")}).out, HasSubstr("0 shared segments"));
+
+    run({"publish", store_});
+    const auto text = run({"compare", store_, at("survey.csv"), "-o", at("page.html")}).out;
+    EXPECT_THAT(text, Not(HasSubstr("\n0 shared segments")));
+    EXPECT_THAT(text, HasSubstr("Road class"));
+    for (const auto& shown : {text, read_file(folder_ / "page.html")}) {
+        EXPECT_THAT(shown,
+                    AllOf(Not(HasSubstr("Speed")),
+                          Not(HasSubstr("Car of")),
+                          Not(HasSubstr("v-")),
+                          Not(HasSubstr("not anonymised"))));
+    }
+    EXPECT_THAT(run({"compare", store_, at("survey.csv"), "--car-a", "car-1"}, 1).err,
+                HasSubstr("is a crowd database, which tells no cars apart"));
+}
+
 } // namespace
 } // namespace macadam::testing

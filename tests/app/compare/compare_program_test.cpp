@@ -1,0 +1,225 @@
+// `compare`, by the program itself: a simulated fleet whose truth is known, surveys, and profiles.
+
+#include "support/program/program.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string town = R"(<osm version="0.6">
+<node id="1" lat="48.4000000" lon="15.6000000"/>
+<node id="2" lat="48.4000000" lon="15.6054000"/>
+<node id="4" lat="48.4036000" lon="15.6000000"/>
+<node id="5" lat="48.4036000" lon="15.6054000"/>
+<way id="11"><nd ref="1"/><nd ref="2"/><tag k="highway" v="primary"/></way>
+<way id="12"><nd ref="4"/><nd ref="5"/><tag k="highway" v="primary"/></way>
+<way id="13"><nd ref="1"/><nd ref="4"/><tag k="highway" v="residential"/></way>
+<way id="14"><nd ref="2"/><nd ref="5"/><tag k="highway" v="residential"/></way>
+</osm>
+)";
+
+const std::string recipe = R"([trips]
+count = 4
+length_km = [1.4, 1.6]
+stop_share = 0
+[[car]]
+id = "one"
+[[car]]
+id = "two"
+)";
+
+testing::Run ran(const std::vector<std::string>& words, int exit_status = 0) {
+    auto run = run_macadam(words);
+    EXPECT_EQ(run.exit_status, exit_status) << run.err;
+    return run;
+}
+
+json compared(std::vector<std::string> words) {
+    words.insert(words.begin(), "compare");
+    words.emplace_back("--json");
+    return json::parse(ran(words).out);
+}
+
+/// Groups by that property; null if there are none.
+json groups_by(const json& comparison, const std::string& property) {
+    for (const auto& by : comparison["by"]) {
+        if (by["property"] == property) {
+            return by["groups"];
+        }
+    }
+    return nullptr;
+}
+
+/// A profile of three waves, with stations, moved and raised.
+std::string profile(double moved_m, double gain) {
+    std::string text{"station_m,left_m\n"};
+    for (int i = 0; i < 4000; ++i) {
+        const double at_m = 0.05 * i;
+        double z = 0;
+        for (const double wavelength_m : {0.9, 3.1, 4.7, 11.3, 23.0}) {
+            z += gain * 3e-4 * wavelength_m *
+                 std::sin(2 * std::numbers::pi * (at_m - moved_m) / wavelength_m);
+        }
+        text += fmt::format("{:.3f},{:.7f}\n", at_m, z);
+    }
+    return text;
+}
+
+/// A database with the trips of a fleet, made once.
+class Compare : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        // Tests may run at once, each as a process of its own.
+        fleet_ = fs::path{::testing::TempDir()} / fmt::format("macadam_compare_{}", ::getpid());
+        fs::remove_all(fleet_);
+        fs::create_directories(fleet_);
+        write_file(fleet_ / "town.osm", town);
+        write_file(fleet_ / "recipe.toml", recipe);
+        const auto made = (fleet_ / "fleet").string();
+        ran({"simulate",
+             "-o",
+             made,
+             "--network",
+             (fleet_ / "town.osm").string(),
+             "--recipe",
+             (fleet_ / "recipe.toml").string()});
+        ran({"init", made + "/roads.gpkg", "--network", made + "/network.osm.pbf"});
+        ran({"import", made + "/roads.gpkg", made + "/trips", "--method", "kf"});
+    }
+
+    static void TearDownTestSuite() { fs::remove_all(fleet_); }
+
+    void SetUp() override {
+        folder_ = fresh_folder();
+        store_ = (fleet_ / "fleet" / "roads.gpkg").string();
+        truth_ = (fleet_ / "fleet" / "truth.csv").string();
+    }
+
+    std::string written(const std::string& name, const std::string& text) const {
+        write_file(folder_ / name, text);
+        return (folder_ / name).string();
+    }
+
+    static fs::path fleet_;
+    fs::path folder_;
+    std::string store_;
+    std::string truth_;
+};
+
+fs::path Compare::fleet_;
+
+TEST_F(Compare, OfADatabaseAndTheTruthGivesTheErrorsThatInfoGives) {
+    const auto of_truth =
+        json::parse(ran({"info", store_, "--json", "--truth", truth_}).out)["truth"]["all"];
+    const auto comparison = compared({store_, truth_});
+    const auto& all = comparison["all"];
+    EXPECT_EQ(all["pairs"], of_truth["segments"]);
+    // Both files have micrometres per metre.
+    EXPECT_NEAR(all["difference"]["bias"]["value"], of_truth["bias"], 1e-3);
+    EXPECT_LT(all["difference"]["independent"], all["pairs"].get<double>() + 1);
+    EXPECT_LT(all["difference"]["bias"]["low_95"], all["difference"]["bias"]["value"]);
+    EXPECT_EQ(groups_by(comparison, "Road class").size(), 2U);
+    EXPECT_EQ(groups_by(comparison, "Car of A").size(), 2U);
+    std::size_t by_speed = 0;
+    for (const auto& group : groups_by(comparison, "Speed, km/h")) {
+        by_speed += group["pairs"].get<std::size_t>();
+    }
+    EXPECT_EQ(by_speed, all["pairs"].get<std::size_t>());
+    const auto turned = compared({truth_, store_})["all"];
+    EXPECT_NEAR(turned["difference"]["bias"]["value"].get<double>(),
+                -all["difference"]["bias"]["value"].get<double>(),
+                1e-9);
+}
+
+TEST_F(Compare, LeavesSurveysInsideADatabaseOut) {
+    const auto copy = (folder_ / "copy.gpkg").string();
+    fs::copy(store_, copy);
+    ran({"import", copy, "--reference", truth_, "--date", "2026-05-01"});
+    EXPECT_EQ(compared({copy, truth_})["all"], compared({store_, truth_})["all"]);
+}
+
+TEST_F(Compare, OfADatabaseAndItsCopyFindsNoDifference) {
+    const auto copy = (folder_ / "copy.gpkg").string();
+    fs::copy(store_, copy);
+    const auto comparison = compared({store_, copy});
+    EXPECT_GT(comparison["all"]["pairs"], 50);
+    EXPECT_EQ(comparison["all"]["difference"]["sd"], 0);
+    EXPECT_EQ(comparison["shared"]["only_a"], 0);
+    EXPECT_EQ(comparison["shared"]["cut_differently"], 0);
+}
+
+TEST_F(Compare, OfTwoCarsOfOneDatabaseTakesTheRoadsOfBoth) {
+    const auto comparison = compared({store_, store_, "--car-a", "one", "--car-b", "two"});
+    EXPECT_GT(comparison["all"]["pairs"], 20);
+    EXPECT_THAT(comparison["a"]["car"].get<std::string>(), HasSubstr("car "));
+    EXPECT_NE(comparison["a"]["car"], comparison["b"]["car"]);
+    const auto turned = compared({store_, store_, "--car-a", "two", "--car-b", "one"});
+    EXPECT_EQ(turned["all"]["mean_a"], comparison["all"]["mean_b"]);
+    EXPECT_THAT(ran({"compare", store_, store_, "--car-a", "three"}, 1).err,
+                HasSubstr("has no car 'three'"));
+    EXPECT_THAT(ran({"compare", store_, store_}, 2).err,
+                HasSubstr("--car-a and --car-b select two of its cars"));
+}
+
+TEST_F(Compare, OfTwoSurveysFindsTheirRatioOnTheRoadsOfADatabase) {
+    const std::string head{"way_id,direction,from_m,to_m,mri\n"};
+    std::string first{head}, second{head};
+    for (int i = 0; i < 10; ++i) {
+        first += fmt::format("11,forward,{},{},{}\n", 20 * i, 20 * i + 20, 1 + 0.1 * i);
+        second += fmt::format("11,forward,{},{},{}\n", 20 * i, 20 * i + 20, 1.1 * (1 + 0.1 * i));
+    }
+    const auto a = written("first.csv", first), b = written("second.csv", second);
+    const auto comparison = compared({a, b, "--roads", store_});
+    EXPECT_EQ(comparison["all"]["pairs"], 10);
+    // 100 (1 - 1.1) / 1.05, to the micrometres of passes.
+    EXPECT_NEAR(comparison["all"]["relative_percent"]["bias"]["value"], -9.524, 0.05);
+    EXPECT_THAT(ran({"compare", a, b}, 2).err, HasSubstr("add --roads STORE.gpkg"));
+}
+
+TEST_F(Compare, OfTwoProfilesFindsLagGainAndScore) {
+    const auto a = written("a.csv", profile(0, 1)), b = written("b.csv", profile(0.4, 0.8));
+    const auto comparison = compared({a, b});
+    ASSERT_EQ(comparison["tracks"].size(), 1U);
+    const auto& track = comparison["tracks"][0];
+    ASSERT_EQ(track["bands"].size(), 4U);
+    EXPECT_NEAR(track["bands"][0]["lag_m"], 0.4, 0.02);
+    EXPECT_NEAR(track["bands"][0]["gain"], 1.25, 0.01);
+    EXPECT_NEAR(track["bands"][0]["score"], 0.8, 0.01);
+    EXPECT_NEAR(track["iri_a"].get<double>() / track["iri_b"].get<double>(), 1.25, 0.01);
+    EXPECT_EQ(track["meets_accuracy"], false);
+    EXPECT_EQ(comparison["shared"], nullptr);
+    EXPECT_THAT(ran({"compare", a, store_}, 1).err, HasSubstr("a profile has no place on a road"));
+}
+
+TEST_F(Compare, WritesASelfContainedPage) {
+    const auto page = (folder_ / "page.html").string();
+    EXPECT_THAT(ran({"compare", store_, truth_, "-o", page}).out, HasSubstr("shared segments"));
+    const auto html = read_file(page);
+    EXPECT_THAT(html, HasSubstr("<svg"));
+    EXPECT_THAT(html, HasSubstr("not anonymised"));
+    EXPECT_THAT(html, Not(HasSubstr("http://")));
+    EXPECT_THAT(html, Not(HasSubstr("v-")));
+    EXPECT_THAT(ran({"compare", store_, truth_, "-o", "page.png"}, 2).err,
+                HasSubstr("expected a name that ends in .html or .pdf"));
+    EXPECT_THAT(ran({"compare", store_, truth_, "-o", store_ + ".html", "--car-b", "one"}, 2).err,
+                HasSubstr("--car-b requires a road database"));
+}
+
+} // namespace
+} // namespace macadam::testing
