@@ -52,29 +52,29 @@ std::optional<double> mean_speed_kmh(const std::vector<HistoricPass>& passes) {
 
 } // namespace
 
-ComparedSegments segments_by_cars(const RoadStore& store, SegmentFilter filter) {
+SourceSegments segments_by_cars(const RoadStore& store, SegmentFilter filter) {
     filter.cars_alone = !store.surveys().empty();
-    ComparedSegments segments;
+    SourceSegments segments;
     store.visit(filter, [&](const SegmentRecord& record) {
         const auto& [key, from_m, to_m, line] = record.segment;
         if (record.state) {
             segments.emplace(key,
-                             ComparedSegment{static_cast<double>(record.state->iri_um) / 1000,
-                                             from_m,
-                                             to_m,
-                                             record.highway});
+                             SourceSegment{static_cast<double>(record.state->iri_um) / 1000,
+                                           from_m,
+                                           to_m,
+                                           record.highway});
         }
     });
     return segments;
 }
 
-ComparedSegments
+SourceSegments
 segments_by_car(const RoadStore& store, const SegmentFilter& filter, const std::string& car) {
     if (filter.period) {
         throw InputError{"--since and --until select passes of all cars; they cannot be combined "
                          "with --car-a and --car-b"};
     }
-    ComparedSegments segments;
+    SourceSegments segments;
     for (auto& [key, segment] : segments_by_cars(store, filter)) {
         const auto cars = iri_by_car(store.history(key));
         if (const auto found = cars.find(car); found != cars.end()) {

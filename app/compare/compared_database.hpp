@@ -12,7 +12,7 @@
 namespace macadam {
 
 /// Value of one segment by one source.
-struct ComparedSegment {
+struct SourceSegment {
     double iri; ///< mm/m
     double
         from_m; ///< along the way; both NaN for a survey, which is placed on the other's segments
@@ -20,19 +20,19 @@ struct ComparedSegment {
     std::string highway; ///< OSM's class, "" if the source does not know it
 };
 
-using ComparedSegments = std::map<SegmentKey, ComparedSegment>;
+using SourceSegments = std::map<SegmentKey, SourceSegment>;
 
 /// Reads the IRI of all segments, from cars alone: surveys in the database do not count. Of a crowd
 /// database that is its latest publication.
 ///
 /// \param filter  conditions of the command line.
-ComparedSegments segments_by_cars(const RoadStore& store, SegmentFilter filter);
+SourceSegments segments_by_cars(const RoadStore& store, SegmentFilter filter);
 
 /// Reads the IRI of all segments by one car: the mean of its passes, weighted by the inverse of
 /// their variances, as imported: neither aligned nor calibrated.
 ///
 /// \param car  its pseudonym (car_named).
-ComparedSegments
+SourceSegments
 segments_by_car(const RoadStore& store, const SegmentFilter& filter, const std::string& car);
 
 /// Returns the pseudonym of a car, given by vehicle_id or pseudonym.

@@ -54,7 +54,7 @@ SourceName name_of(const SourceOption& source, const std::string& car) {
 struct SegmentSource {
     std::optional<RoadStore> store; ///< of a database
     std::string car;                ///< "car 1"; "" = all cars
-    ComparedSegments segments;
+    SourceSegments segments;
 };
 
 RoadStore opened_for_comparison(const std::filesystem::path& file, const Console& console) {
@@ -97,13 +97,13 @@ survey_source(const SourceOption& source, const CompareOptions& options, const R
     }
     SegmentSource opened;
     for (const auto& [key, sum] : sums) {
-        opened.segments.emplace(key, ComparedSegment{sum.first / sum.second, none, none, {}});
+        opened.segments.emplace(key, SourceSegment{sum.first / sum.second, none, none, {}});
     }
     return opened;
 }
 
 /// Keeps the segments of a survey that meet the filter, and gives them their road class.
-void keep_selected(ComparedSegments& segments, SegmentFilter filter, const RoadStore& roads) {
+void keep_selected(SourceSegments& segments, SegmentFilter filter, const RoadStore& roads) {
     filter.with_state_only = false;
     filter.period.reset();
     std::set<SegmentKey> selected;
@@ -118,7 +118,7 @@ void keep_selected(ComparedSegments& segments, SegmentFilter filter, const RoadS
     std::erase_if(segments, [&](const auto& segment) { return !selected.contains(segment.first); });
 }
 
-bool same_ends(const ComparedSegment& a, const ComparedSegment& b) {
+bool same_ends(const SourceSegment& a, const SourceSegment& b) {
     return std::isnan(a.from_m) || std::isnan(b.from_m) ||
            (std::abs(a.from_m - b.from_m) <= max_end_shift_m &&
             std::abs(a.to_m - b.to_m) <= max_end_shift_m);
@@ -131,7 +131,7 @@ struct PairedSegments {
     SharedSegments shared;
 };
 
-PairedSegments paired(const ComparedSegments& a, const ComparedSegments& b) {
+PairedSegments paired(const SourceSegments& a, const SourceSegments& b) {
     PairedSegments all;
     std::size_t known_to_both = 0;
     for (const auto& [key, ours] : a) {

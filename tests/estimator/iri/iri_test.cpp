@@ -202,6 +202,25 @@ TEST(Iri, OfAProfileThatComesPointByPointIsThatOfTheWhole) {
     EXPECT_EQ(values, whole);
 }
 
+TEST(Iri, OfTheSignedStrokeIsItsMagnitude) {
+    std::vector<double> elevation_m, mirrored_m;
+    for (int i = 0; i < 2000; ++i) {
+        elevation_m.push_back(0.01 * std::sin(0.13 * i) + 0.004 * std::sin(0.41 * i));
+        mirrored_m.push_back(-elevation_m.back());
+    }
+    const auto stroke = suspension_stroke_mm_per_m(elevation_m, 0.1);
+    const auto mirrored = suspension_stroke_mm_per_m(mirrored_m, 0.1);
+    const auto rectified = rectified_stroke_mm_per_m(elevation_m, 0.1);
+    ASSERT_EQ(stroke.size(), rectified.size());
+    int compressed = 0;
+    for (std::size_t i = 0; i < stroke.size(); ++i) {
+        EXPECT_FLOAT_EQ(static_cast<float>(std::abs(stroke[i])), rectified[i]);
+        EXPECT_DOUBLE_EQ(mirrored[i], -stroke[i]);
+        compressed += stroke[i] > 0 ? 1 : 0;
+    }
+    EXPECT_NEAR(compressed, 1000, 50); // a vibration has both signs alike
+}
+
 TEST(Iri, WithoutEnvelopeKeepsTheShortWaves) {
     const auto road_m = sampled(800, 0.05, [](double x) { return 0.001 * std::sin(2 * pi * x); });
     // Closed form without the 250 mm mean: 1.0923 for 1 mm at 1 m; 20 samples a
