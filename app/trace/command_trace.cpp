@@ -7,6 +7,7 @@
 #include "app/pipeline/vehicle_lookup.hpp"
 #include "app/trace/survey_check.hpp"
 #include "app/trace/survey_check_output.hpp"
+#include "app/trace/trace_events.hpp"
 #include "app/trace/trace_live.hpp"
 #include "app/trace/trace_profile.hpp"
 #include "app/trace/trace_rows.hpp"
@@ -19,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace macadam {
@@ -32,6 +34,7 @@ struct TraceOptions {
     double length_m;
     bool json;
     std::optional<std::filesystem::path> profile; ///< file to write
+    std::optional<std::filesystem::path> events;  ///< file to write
     std::optional<std::filesystem::path> survey;  ///< reference for the trip
     std::optional<std::filesystem::path> figure;  ///< chart of both, to write
     double mm_per_m_of_one;                       ///< mm/m of a survey IRI of 1
@@ -44,6 +47,17 @@ std::optional<std::filesystem::path> profile_file(const Arguments& arguments) {
     if (file && std::filesystem::path{*file}.extension() != ".erd") {
         throw UsageError{
             fmt::format("--profile is '{}', expected a name that ends in .erd", *file)};
+    }
+    return file;
+}
+
+std::optional<std::filesystem::path> events_file(const Arguments& arguments) {
+    const auto file = arguments.value("--events");
+    constexpr std::array<std::string_view, 3> suffixes{".csv", ".json", ".geojson"};
+    if (file && std::ranges::find(suffixes, std::filesystem::path{*file}.extension().string()) ==
+                    suffixes.end()) {
+        throw UsageError{fmt::format(
+            "--events is '{}', expected a name that ends in {}", *file, fmt::join(suffixes, ", "))};
     }
     return file;
 }
@@ -89,12 +103,16 @@ TraceOptions parse_trace(const Arguments& arguments) {
                          .length_m = arguments.number("--length", default_length_m),
                          .json = arguments.flag("--json"),
                          .profile = profile_file(arguments),
+                         .events = events_file(arguments),
                          .survey = {},
                          .figure = {},
                          .mm_per_m_of_one = 1,
                          .match = {},
                          .pipeline = pipeline_config_of(arguments)};
-    options.pipeline.estimator.profile = options.profile.has_value();
+    if (options.events && options.pipeline.estimator.method == Method::kf) {
+        throw UsageError{"--events requires --method smoother"};
+    }
+    options.pipeline.estimator.profile = options.profile || options.events;
     if (!(options.length_m >= 1 && options.length_m <= 100000)) {
         throw UsageError{fmt::format("--length is {}, expected 1 to 100000 m", options.length_m)};
     }
@@ -159,7 +177,7 @@ void print_rows(const TripLog& trip,
 
 /// Rejects options that need the whole trip or another reader.
 void expect_live(const Arguments& arguments) {
-    for (const auto* const option : {"--mapping", "--profile", "--against"}) {
+    for (const auto* const option : {"--mapping", "--profile", "--events", "--against"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("--live and {} cannot be combined", option)};
         }
@@ -178,7 +196,7 @@ void run_trace(const Arguments& arguments, const Console& console) {
         throw UsageError{"TRIP is missing; only --live reads standard input"};
     }
     VehicleChoice vehicles{arguments};
-    for (const auto& output : {options.profile, options.figure}) {
+    for (const auto& output : {options.profile, options.events, options.figure}) {
         if (output) {
             refuse_to_replace(*output, {options.trip, options.survey.value_or(options.trip)});
         }
@@ -203,6 +221,15 @@ void run_trace(const Arguments& arguments, const Console& console) {
     if (options.profile) {
         with_trip_name(source.name(),
                        [&] { return write_profile_of(trace, chosen.vehicle, options, console); });
+    }
+    if (options.events) {
+        const auto count = with_trip_name(source.name(), [&] {
+            return write_events(*options.events,
+                                trace,
+                                TripPositions{trip},
+                                antenna_ahead_m(trip.meta, chosen.vehicle));
+        });
+        console.say(fmt::format("{}: {}", options.events->string(), counted(count, "event")));
     }
     if (options.survey) {
         print_against(survey, trip, trace, chosen.vehicle, options, console);
@@ -229,6 +256,9 @@ constexpr std::array options{
            "Write each row within 2 s of driving while the log is still growing, from TRIP or "
            "standard input."},
     Option{"--profile", "FILE.erd", "Also write the estimated elevation of the road, for ProVAL."},
+    Option{"--events",
+           "FILE",
+           "Also write potholes, bumps, joints and rails: .csv, .json or .geojson."},
     Option{"--against",
            "SURVEY.csv",
            "Compare the trip with a survey, for each row of the survey that was driven."},

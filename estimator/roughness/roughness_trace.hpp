@@ -74,6 +74,9 @@ struct EstimatedProfile {
     double step_m = 0;
     std::vector<float> left_m{}, right_m{}; ///< empty: not observed
     std::vector<float> centre_m{};          ///< mean of both; empty: not observed or not requested
+
+    /// Smoother only: one draw of the error of each from its posterior.
+    std::vector<float> left_error_m{}, right_error_m{}, centre_error_m{};
 };
 
 /// Rectified suspension stroke of the golden car over one stretch, in cells of equal length. The

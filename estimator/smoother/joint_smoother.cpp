@@ -165,6 +165,7 @@ RoadEstimate smooth_passages(std::vector<CarPassage> cars,
             estimate.innovation = std::move(smoothed.innovation);
             estimate.log_variance = std::move(smoothed.log_variance);
             estimate.profile_m = std::move(smoothed.profile_m);
+            estimate.perturbation_m = std::move(smoothed.perturbation_m);
             break;
         }
         for (std::size_t i = 0; i < cars.size(); ++i) {

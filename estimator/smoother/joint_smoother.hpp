@@ -26,7 +26,8 @@ struct CarPassage {
 struct RoadEstimate {
     RoadGrid grid;
     ObservedModes felt;
-    std::vector<Pair> profile_m; ///< mean of the sampled roads
+    std::vector<Pair> profile_m;      ///< mean of the sampled roads
+    std::vector<Pair> perturbation_m; ///< of the last round, as in SmoothedRoad
     std::vector<float> left_mm_per_m, right_mm_per_m, centre_mm_per_m; ///< means over them
     /// Per sampled road: its deviation from the mean of left and right (`tracks`) and of the
     /// centre, over each metre of the grid from its beginning. The scatter is the uncertainty.

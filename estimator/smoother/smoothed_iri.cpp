@@ -69,24 +69,28 @@ void append(const RoadEstimate& estimate,
             std::ptrdiff_t from,
             std::ptrdiff_t to,
             EstimatedProfile& onto) {
-    const auto put = [&](double left, std::vector<float>& track_m) {
+    const auto put = [&](const std::vector<Pair>& road_m, double left, std::vector<float>& onto_m) {
         const auto height_m = [&](std::ptrdiff_t cell) {
             const std::ptrdiff_t at = std::max<std::ptrdiff_t>(0, cell - estimate.grid.first_cell);
-            const auto& [mean, half] = estimate.profile_m[static_cast<std::size_t>(at)];
+            const auto& [mean, half] = road_m[static_cast<std::size_t>(at)];
             return mean + left * half;
         };
         const double raise_m =
-            track_m.empty() ? 0 : static_cast<double>(track_m.back()) - height_m(from - 1);
+            onto_m.empty() ? 0 : static_cast<double>(onto_m.back()) - height_m(from - 1);
         for (std::ptrdiff_t cell = from; cell < to; ++cell) {
-            track_m.push_back(static_cast<float>(height_m(cell) + raise_m));
+            onto_m.push_back(static_cast<float>(height_m(cell) + raise_m));
         }
     };
+    const auto put_both = [&](double left, auto& track_m, auto& error_m) {
+        put(estimate.profile_m, left, track_m);
+        put(estimate.perturbation_m, left, error_m);
+    };
     if (estimate.felt.mean) {
-        put(0, onto.centre_m);
+        put_both(0, onto.centre_m, onto.centre_error_m);
     }
     if (estimate.felt.mean && estimate.felt.half) {
-        put(+1, onto.left_m);
-        put(-1, onto.right_m);
+        put_both(+1, onto.left_m, onto.left_error_m);
+        put_both(-1, onto.right_m, onto.right_error_m);
     }
 }
 
