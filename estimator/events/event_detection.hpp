@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// Thresholds of detection. Smaller events that one car found on a measured motorway were mostly
-/// not found again by others (docs/method/events.md).
+/// Thresholds of detection. On a measured motorway, what one car called a pothole of 10 to 13 mm
+/// others mostly called something else (docs/method/events.md).
 struct EventConfig {
     double min_score = 6;    ///< standard deviations of road and estimate
     double min_hole_mm = 15; ///< of potholes and bumps
