@@ -129,7 +129,7 @@ add_dots(Drawing& drawing, std::span<const AgreementPair> pairs, const Agreement
         places.emplace(std::lround(2 * frame.x((pair.a + pair.b) / 2)),
                        std::lround(2 * frame.y(difference)));
     }
-    Dots dots{{}, 3, dot_rgb};
+    Dots dots{{}, 4, dot_rgb};
     for (const auto& [x, y] : places) {
         dots.places.emplace_back(static_cast<double>(x) / 2, static_cast<double>(y) / 2);
     }
