@@ -17,7 +17,16 @@ constexpr double relative_step = 0.03; // of a finite difference
 constexpr double usual_mass_kg = 1400;
 constexpr double friction_step_n = 20; // search step, for a car of usual_mass_kg
 constexpr double max_friction_n = 120; // above this a suspension is stuck
-constexpr double min_friction_sd_n = 5;
+
+// For a car of usual_mass_kg, as are the next two: the likelihood's maximum lies this far from the
+// true friction in simulated fleets. A sensor's unstated low-pass looks like less friction, uneven
+// dampers like more (docs/decisions/42-friction-has-a-prior.md).
+constexpr double friction_model_sd_n = 12;
+
+// Friction that no file states: from none to 50 N, evenly.
+constexpr double usual_n = 25;
+constexpr double usual_sd_n = 15;
+
 constexpr double furthest = 1.5; // from the stated values, in prior standard deviations
 constexpr double trust = 0.25;   // weight of the likelihood, which ignores the model error
 constexpr int steps = 2;
@@ -153,7 +162,8 @@ Slope slope_at(const RoadEstimate& here,
     return slope;
 }
 
-/// Friction from the likelihood at even steps, with a parabola through the maximum.
+/// Friction from the likelihood at even steps, with a parabola through the maximum, and from what
+/// is usual.
 struct Friction {
     double force_n;
     double sd_n;
@@ -175,9 +185,11 @@ Friction friction_of(const DriveRecord& passage, Point point, const SmootherConf
     const double bend = 2 * likelihood(last - 1) - likelihood(last) - likelihood(last - 2);
     const double peak = bend > 0 ? std::clamp(rise / (2 * bend), -1.5, 1.5) : rise > 0 ? 1.0 : -1.0;
     const double found_n = (static_cast<double>(last - 1) + peak) * step_n;
-    return {.force_n = std::max(0.0, found_n),
-            .sd_n =
-                std::hypot(min_friction_sd_n * size, bend > 0 ? step_n / std::sqrt(bend) : step_n),
+    const double found_sd_n =
+        std::hypot(friction_model_sd_n * size, bend > 0 ? step_n / std::sqrt(bend) : step_n);
+    const double trust_in_found = 1 / (1 + std::pow(found_sd_n / (usual_sd_n * size), 2));
+    return {.force_n = std::lerp(usual_n * size, std::max(0.0, found_n), trust_in_found),
+            .sd_n = found_sd_n * std::sqrt(trust_in_found),
             .iri_per_n = (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n)};
 }
 
@@ -229,27 +241,34 @@ Peak peak_about(const DriveRecord& passage,
 
 } // namespace
 
-TunedCar
-tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config) {
+TunedCar tuned_car(const DriveRecord& passage,
+                   const DriveRecord& smooth,
+                   const Vehicle& vehicle,
+                   const SmootherConfig& config) {
     Point point{.vehicle = vehicle, .friction_n = vehicle.half_car.friction_n.value_or(0)};
     TunedCar tuned{.vehicle = vehicle};
     const Unknowns road{{colour_by, colour_sd, colour_step}};
     point = moved(point, road, peak_about(passage, point, road, config).by);
-    if (!vehicle.half_car.friction_n) {
-        const auto friction = friction_of(passage, point, config);
-        point.friction_n = friction.force_n;
-        tuned.friction_sd_n = friction.sd_n;
-        tuned.iri_sd = std::abs(friction.iri_per_n * friction.sd_n);
-    }
     auto unknowns = of_car(vehicle);
     unknowns.insert(unknowns.end(), road.begin(), road.end());
     const auto peak = peak_about(passage, point, unknowns, config);
     point = moved(point, unknowns, peak.by);
+    // With a wrong dynamic index the channels contradict each other, and friction is not found.
+    if (!vehicle.half_car.friction_n) {
+        const auto friction = friction_of(smooth, point, config);
+        point.friction_n = friction.force_n;
+        tuned.friction_sd_n = friction.sd_n;
+        tuned.iri_sd = std::abs(friction.iri_per_n * friction.sd_n);
+    }
     tuned.vehicle = point.vehicle;
     tuned.friction_n = point.friction_n;
     tuned.colour = point.colour;
     tuned.iri_sd = std::hypot(tuned.iri_sd, peak.iri_sd, untuned_iri_sd(vehicle, true));
     return tuned;
+}
+
+double usual_friction_n(const Vehicle& vehicle) {
+    return vehicle.half_car.friction_n.value_or(usual_n * vehicle.half_car.ms_kg / usual_mass_kg);
 }
 
 double untuned_iri_sd(const Vehicle& vehicle, bool is_car_tuned) {

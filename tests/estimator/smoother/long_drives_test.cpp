@@ -82,14 +82,14 @@ TEST(LongStretch, OfBrakingAndDrivingOffIsAsRoughAsItIs) {
 }
 
 TEST(TunedCar, FindsTheFrictionOfItsCar) {
-    for (const double friction_n : {20.0, 60.0}) {
+    for (const double friction_n : {10.0, 50.0}) {
         auto recipe = drive_of(1300);
         recipe.car.friction_n = friction_n;
         const auto tuned = car_in(driven_road(recipe).stretch, car(), smoother_config());
         std::printf(
             "friction %.0f N: %.1f +- %.1f N\n", friction_n, tuned.friction_n, tuned.friction_sd_n);
-        EXPECT_NEAR(tuned.friction_n, friction_n, 3 * tuned.friction_sd_n) << friction_n;
-        EXPECT_LT(tuned.friction_sd_n, 10);
+        EXPECT_NEAR(tuned.friction_n, friction_n, 2 * tuned.friction_sd_n) << friction_n;
+        EXPECT_LT(tuned.friction_sd_n, 15 * car().half_car.ms_kg / 1400) << "of what is usual";
     }
 }
 
@@ -100,8 +100,8 @@ TEST(TunedCar, LeavesAKnownCarAlone) {
     EXPECT_EQ(found.ks_n_per_m, car().half_car.ks_n_per_m);
     EXPECT_EQ(found.kt_n_per_m, car().half_car.kt_n_per_m);
     EXPECT_EQ(found.ms_kg, car().half_car.ms_kg);
-    EXPECT_LT(tuned.friction_n, 3 * tuned.friction_sd_n);
-    EXPECT_LT(tuned.iri_sd, 0.02);
+    EXPECT_LT(tuned.friction_n, 2 * tuned.friction_sd_n);
+    EXPECT_LT(tuned.iri_sd, 0.06);
 }
 
 /// A damper 20 % too soft in the file, which may be so: an unknown road explains it as well
@@ -124,7 +124,7 @@ TEST(TunedCar, WithOneAxleHasNoDynamicIndexToTune) {
     stated.uncertainty = {{"dynamic_index", 0.1}, {"kt_n_per_m", 0.05}};
     const auto stretch = driven_road(drive_of(1300)).stretch;
     const auto passage = exact_passage(stretch, stated).passage;
-    const auto tuned = tuned_car(passage, stated, {});
+    const auto tuned = tuned_car(passage, passage, stated, {});
     EXPECT_FALSE(tuned.vehicle.axles);
     EXPECT_NEAR(tuned.vehicle.half_car.kt_n_per_m / stated.half_car.kt_n_per_m, 1, 0.08);
 }
