@@ -95,12 +95,12 @@ std::vector<std::filesystem::path> inputs_of(const ExportOptions& options) {
 
 void export_sections(const RoadStore& store, const ExportOptions& options, const Console& console) {
     AtomicFile file{options.output};
-    SectionWriter writer{options.output.extension() == ".csv" ? "csv" : "geojson",
-                         *class_table(store.settings().class_table),
-                         [&](std::string_view text) { file.write(text); }};
+    const auto& classes = *class_table(store.settings().class_table);
+    auto writer = section_writer(options.output.extension() == ".csv" ? "csv" : "geojson",
+                                 [&](std::string_view text) { file.write(text); });
     const auto total =
         each_section(store, *options.sections, options.filter, [&](const NamedSection& section) {
-            writer.add(section);
+            writer.add({section, classes});
         });
     writer.finish();
     store.expect_in_place();

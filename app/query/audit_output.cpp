@@ -1,7 +1,6 @@
 #include "app/query/audit_output.hpp"
 
-#include "storage/exports/export.hpp"
-#include "storage/text/json.hpp"
+#include "app/cli/row_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -13,104 +12,58 @@ std::string second_of(const std::string& at) {
     return at.size() > 20 ? at.substr(0, 19) + "Z" : at;
 }
 
-std::string iri_words(const NumberChange& change) {
-    return change.iri_um ? fmt::format("{:>7.3f} {:>7.3f}",
-                                       *change.iri_um / 1000.0,
-                                       change.sd_um.value_or(0) / 1000.0)
-                         : fmt::format("{:>7} {:>7}", "-", "-");
+std::string words_of(const AuditEntry& entry) {
+    return fmt::format("{}: {}", entry.what, entry.detail);
 }
 
-std::string changes_table(const std::vector<NumberChange>& changes) {
-    if (changes.empty()) {
-        return "no recorded change of this segment's value\n";
-    }
-    auto text = fmt::format(
-        "{:<21} {:>3} {:>7} {:>7} {:>6}  {}\n", "when", "gen", "IRI", "sd", "passes", "why");
-    for (const auto& change : changes) {
-        text += fmt::format("{:<21} {:>3} {} {:>6}  {}: {}\n",
-                            second_of(change.cause.at),
-                            change.cause.generation,
-                            iri_words(change),
-                            change.passes,
-                            change.cause.what,
-                            change.cause.detail);
-    }
-    return text;
+Cell iri_of(const NumberChange& change) {
+    return change.iri_um ? Cell{*change.iri_um / 1000.0} : Cell{};
 }
 
-std::string changes_csv(const std::vector<NumberChange>& changes) {
-    std::string text = "at,generation,iri,iri_sd,passes,what,detail\n";
-    for (const auto& change : changes) {
-        const bool known = change.iri_um.has_value();
-        text += fmt::format("{},{},{},{},{},{},{}\n",
-                            change.cause.at,
-                            change.cause.generation,
-                            known ? fmt::format("{:.3f}", *change.iri_um / 1000.0) : "",
-                            known ? fmt::format("{:.3f}", change.sd_um.value_or(0) / 1000.0) : "",
-                            change.passes,
-                            csv_text(change.cause.what),
-                            csv_text(change.cause.detail));
-    }
-    return text;
+Cell sd_of(const NumberChange& change) {
+    return change.iri_um ? Cell{change.sd_um.value_or(0) / 1000.0} : Cell{};
 }
 
-void add_cause(JsonObject& object, const AuditEntry& cause) {
-    object.add("at", cause.at)
-        .add("generation", std::int64_t{cause.generation})
-        .add("what", cause.what)
-        .add("detail", cause.detail);
-}
+// clang-format off
+const Columns<AuditEntry> entry_columns{
+    {"", as::text, [](auto& r) { return second_of(r.at); }, {"when", "{:<21}"}},
+    {"at", as::text, [](auto& r) { return r.at; }},
+    {"generation", as::integer, [](auto& r) { return r.generation; }, {"gen", " {:>3}"}},
+    {"what", as::text, [](auto& r) { return r.what; }},
+    {"detail", as::text, [](auto& r) { return r.detail; }},
+    {"segments", as::integer, [](auto& r) { return r.segments; }, {"segments", " {:>9}"}},
+    {"", as::text, words_of, {"operation", "  {}"}},
+};
 
-std::string changes_json(const std::vector<NumberChange>& changes) {
-    std::vector<std::string> entries;
-    for (const auto& change : changes) {
-        JsonObject entry;
-        add_cause(entry, change.cause);
-        if (change.iri_um) {
-            entry.add("iri", JsonNumber{*change.iri_um / 1000.0, 3})
-                .add("iri_sd", JsonNumber{change.sd_um.value_or(0) / 1000.0, 3});
-        } else {
-            entry.add("iri", nullptr).add("iri_sd", nullptr);
-        }
-        entry.add("passes", change.passes);
-        entries.push_back(entry.text());
-    }
-    return json_array(entries) + "\n";
-}
+const Columns<NumberChange> change_columns{
+    {"", as::text, [](auto& r) { return second_of(r.cause.at); }, {"when", "{:<21}"}},
+    {"at", as::text, [](auto& r) { return r.cause.at; }},
+    {"generation", as::integer, [](auto& r) { return r.cause.generation; }, {"gen", " {:>3}"}},
+    {"what", as::json_only(as::text), [](auto& r) { return r.cause.what; }},
+    {"detail", as::json_only(as::text), [](auto& r) { return r.cause.detail; }},
+    {"iri", as::iri(3), iri_of, {"IRI", " {:>7}"}},
+    {"iri_sd", as::iri(3), sd_of, {"sd", " {:>7}"}},
+    {"passes", as::integer, [](auto& r) { return r.passes; }, {"passes", " {:>6}"}},
+    {"what", as::csv_only(as::text), [](auto& r) { return r.cause.what; }},
+    {"detail", as::csv_only(as::text), [](auto& r) { return r.cause.detail; }},
+    {"", as::text, [](auto& r) { return words_of(r.cause); }, {"why", "  {}"}},
+};
+// clang-format on
 
 } // namespace
 
 std::string text_of(const std::vector<AuditEntry>& entries) {
-    if (entries.empty()) {
-        return "no recorded change of any value\n";
-    }
-    auto text = fmt::format("{:<21} {:>3} {:>9}  {}\n", "when", "gen", "segments", "operation");
-    for (const auto& entry : entries) {
-        text += fmt::format("{:<21} {:>3} {:>9}  {}: {}\n",
-                            second_of(entry.at),
-                            entry.generation,
-                            entry.segments,
-                            entry.what,
-                            entry.detail);
-    }
-    return text;
+    return entries.empty() ? "no recorded change of any value\n"
+                           : table_text(entry_columns, entries);
 }
 
 std::string json_of(const std::vector<AuditEntry>& entries) {
-    std::vector<std::string> lines;
-    for (const auto& entry : entries) {
-        JsonObject object;
-        add_cause(object, entry);
-        object.add("segments", static_cast<std::int64_t>(entry.segments));
-        lines.push_back(object.text());
-    }
-    return json_array(lines) + "\n";
+    return json_rows(entry_columns, entries) + "\n";
 }
 
 std::string changes_text(const std::vector<NumberChange>& changes, std::string_view format) {
-    return format == "json"  ? changes_json(changes)
-           : format == "csv" ? changes_csv(changes)
-                             : changes_table(changes);
+    return changes.empty() && format == "table" ? "no recorded change of this segment's value\n"
+                                                : rows_text(change_columns, changes, format);
 }
 
 } // namespace macadam

@@ -6,12 +6,13 @@
 #include "app/query/audit_output.hpp"
 #include "app/query/monthly_history.hpp"
 #include "app/query/nearest_segments.hpp"
+#include "app/query/pass_output.hpp"
 #include "app/query/query_options.hpp"
 #include "app/query/section_output.hpp"
-#include "app/query/segment_output.hpp"
 #include "app/query/worst_sections_output.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/exports/export.hpp"
 #include "storage/networks/network_file.hpp"
 
 #include <fmt/format.h>
@@ -52,6 +53,15 @@ std::vector<SegmentRecord> found_in(const RoadStore& store,
     std::vector<SegmentRecord> records;
     store.visit(filter, [&](const SegmentRecord& record) { records.push_back(record); });
     return records;
+}
+
+/// Prints results: a table for people, the other formats for programs.
+void print_in(std::string_view format, std::string_view text) {
+    if (format == "table") {
+        print_words(text);
+    } else {
+        print(text);
+    }
 }
 
 void print_worst_sections(const RoadStore& store,
@@ -97,13 +107,17 @@ void print_history(const RoadStore& store, const QueryOptions& options, const Co
 }
 
 void print_segments(const RoadStore& store, const QueryOptions& options, const Console& console) {
-    SegmentPrinter printer{options.format, *class_table(store.settings().class_table)};
+    const auto& classes = *class_table(store.settings().class_table);
+    RowWriter<ClassedSegment> printer{
+        options.format,
+        segment_columns(),
+        [&](std::string_view text) { print_in(options.format, text); },
+        [](const ClassedSegment& segment) { return geojson_feature(segment); }};
+    const auto add = [&](const SegmentRecord& record) { printer.add({record, classes}); };
     if (options.near) {
-        for (const auto& record : segments_near(store, filter_of(options), *options.near)) {
-            printer.add(record);
-        }
+        std::ranges::for_each(segments_near(store, filter_of(options), *options.near), add);
     } else {
-        store.visit(filter_of(options), [&](const SegmentRecord& record) { printer.add(record); });
+        store.visit(filter_of(options), add);
     }
     printer.finish();
     if (printer.count() == 0) {
@@ -113,13 +127,14 @@ void print_segments(const RoadStore& store, const QueryOptions& options, const C
 }
 
 void print_sections(const RoadStore& store, const QueryOptions& options, const Console& console) {
-    SectionWriter writer{options.format,
-                         *class_table(store.settings().class_table),
-                         [&](std::string_view text) { print_in(options.format, text); }};
+    const auto& classes = *class_table(store.settings().class_table);
+    auto writer = section_writer(options.format,
+                                 [&](std::string_view text) { print_in(options.format, text); });
     const auto total =
         each_section(store, *options.sections, options.filter, [&](const NamedSection& section) {
-            writer.add(section);
+            writer.add({section, classes});
         });
+    writer.begin(); // a table without sections has headings, too
     writer.finish();
     console.say(spoken(total));
 }

@@ -1,6 +1,7 @@
 #include "app/query/monthly_history.hpp"
 
-#include "storage/text/json.hpp"
+#include "app/cli/row_writer.hpp"
+#include "app/query/mean_cells.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
@@ -64,79 +65,24 @@ Period shared_by(const Period& a, const Period& b) {
                                      : b.until_ms};
 }
 
-// ---------------------------------------------------------------------------------------- text
-
-std::string passes_of(const CorrelatedMean& road) {
-    return road.min_passes == road.median_passes
-               ? fmt::format("{}", road.min_passes)
-               : fmt::format("{}-{:g}", road.min_passes, road.median_passes);
-}
-
-std::string table_of(const std::vector<MonthRow>& months) {
-    auto table = fmt::format("{:<8} {:>8} {:>9} {:>6} {:>13} {:>6} {:>6} {:>4}\n",
-                             "month",
-                             "segments",
-                             "metres",
-                             "IRI",
-                             "90 %",
-                             "worst",
-                             "passes",
-                             "cars");
-    for (const auto& [month, segments, road] : months) {
-        table += fmt::format("{:<8} {:>8} {:>9.0f} {:>6.2f} {:>5.2f} - {:>5.2f} {:>6.2f} {:>6} "
-                             "{:>4}\n",
-                             month,
-                             segments,
-                             road.mean.length_m,
-                             road.mean.iri,
-                             road.mean.low,
-                             road.mean.high,
-                             road.worst_iri,
-                             passes_of(road),
-                             road.vehicles);
-    }
-    return table;
-}
-
-std::string csv_of(const std::vector<MonthRow>& months) {
-    std::string csv{"month,segments,length_m,iri,iri_sd,iri_low,iri_high,iri_worst,passes_least,"
-                    "passes_median,vehicles\n"};
-    for (const auto& [month, segments, road] : months) {
-        csv += fmt::format("{},{},{:.2f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{}\n",
-                           month,
-                           segments,
-                           road.mean.length_m,
-                           road.mean.iri,
-                           road.mean.sd,
-                           road.mean.low,
-                           road.mean.high,
-                           road.worst_iri,
-                           road.min_passes,
-                           road.median_passes,
-                           road.vehicles);
-    }
-    return csv;
-}
-
-std::string json_of(const std::vector<MonthRow>& months) {
-    std::vector<std::string> objects;
-    for (const auto& [month, segments, road] : months) {
-        JsonObject object;
-        object.add("month", month)
-            .add("segments", static_cast<std::int64_t>(segments))
-            .add("length_m", JsonNumber{road.mean.length_m, 2})
-            .add("iri", JsonNumber{road.mean.iri, 3})
-            .add("iri_sd", JsonNumber{road.mean.sd, 3})
-            .add("iri_low", JsonNumber{road.mean.low, 3})
-            .add("iri_high", JsonNumber{road.mean.high, 3})
-            .add("iri_worst", JsonNumber{road.worst_iri, 3})
-            .add("passes_least", std::int64_t{road.min_passes})
-            .add("passes_median", JsonRaw{fmt::format("{}", road.median_passes)})
-            .add("vehicles", std::int64_t{road.vehicles});
-        objects.push_back(object.text());
-    }
-    return json_array(objects) + "\n";
-}
+// clang-format off
+const Columns<MonthRow> columns{
+    {"month", as::text, [](auto& r) { return r.month; }, {"month", "{:<8}"}},
+    {"segments", as::integer, [](auto& r) { return r.segments; }, {"segments", " {:>8}"}},
+    {"length_m", as::metres(2), [](auto& r) { return r.road.mean.length_m; }, {"metres", " {:>9}", 0}},
+    {"iri", as::iri(3), [](auto& r) { return r.road.mean.iri; }, {"IRI", " {:>6}", 2}},
+    {"", as::text, [](auto& r) { return interval_text(r.road.mean); }, {"90 %", " {:>13}"}},
+    {"iri_sd", as::iri(3), [](auto& r) { return r.road.mean.sd; }},
+    {"iri_low", as::iri(3), [](auto& r) { return r.road.mean.low; }},
+    {"iri_high", as::iri(3), [](auto& r) { return r.road.mean.high; }},
+    {"iri_worst", as::iri(3), [](auto& r) { return r.road.worst_iri; }, {"worst", " {:>6}", 2}},
+    {"", as::text, [](auto& r) { return passes_cell(r.road.min_passes, r.road.median_passes); },
+     {"passes", " {:>6}"}},
+    {"passes_least", as::integer, [](auto& r) { return r.road.min_passes; }},
+    {"passes_median", as::shortest, [](auto& r) { return r.road.median_passes; }},
+    {"vehicles", as::integer, [](auto& r) { return r.road.vehicles; }, {"cars", " {:>4}"}},
+};
+// clang-format on
 
 } // namespace
 
@@ -169,7 +115,7 @@ history_by_month(const std::function<std::vector<SegmentRecord>(const Period&)>&
 }
 
 std::string months_text(const std::vector<MonthRow>& months, std::string_view format) {
-    return format == "json" ? json_of(months) : format == "csv" ? csv_of(months) : table_of(months);
+    return rows_text(columns, months, format);
 }
 
 } // namespace macadam

@@ -1,6 +1,6 @@
 #include "app/report/control_monitoring.hpp"
 
-#include "app/cli/terminal_escape.hpp"
+#include "app/cli/text_table.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
@@ -74,93 +74,114 @@ std::string day_of(const std::optional<std::int64_t>& utc_ms) {
     return utc_ms ? utc_day(*utc_ms) : "undated";
 }
 
-JsonValue json_day(const std::optional<std::int64_t>& utc_ms) {
-    return utc_ms ? JsonValue{day_of(utc_ms)} : JsonValue{nullptr};
+Cell day_cell(const std::optional<std::int64_t>& utc_ms) {
+    return utc_ms ? Cell{day_of(utc_ms)} : Cell{};
+}
+
+std::string json_of(const std::vector<MonthRow>& months, double known) {
+    const Columns<MonthRow> columns{
+        {"month", as::text, [](auto& r) { return r.month; }},
+        {"iri", as::iri(3), [](auto& r) { return r.road.mean.iri; }},
+        {"iri_sd", as::iri(3), [](auto& r) { return r.road.mean.sd; }},
+        {"difference", as::iri(3), [known](auto& r) { return r.road.mean.iri - known; }},
+        {"length_m", as::metres(2), [](auto& r) { return r.road.mean.length_m; }},
+        {"vehicles", as::integer, [](auto& r) { return r.road.vehicles; }}};
+    return json_rows(columns, months);
+}
+
+Cell json_of(const std::optional<Drift>& drift) {
+    static const Columns<Drift> columns{
+        {"per_year", as::iri(4), [](auto& r) { return r.per_year; }},
+        {"sd_per_year", as::iri(4), [](auto& r) { return r.sd_per_year; }},
+        {"significant", as::truth, [](auto& r) { return r.significant; }}};
+    return drift ? Cell{json_object(columns, *drift).text()} : Cell{};
+}
+
+bool has_pass(const WatchedSection& watched) {
+    return watched.cars.length_m > 0;
+}
+
+Cell of_cars(const WatchedSection& watched, double value) {
+    return has_pass(watched) ? Cell{value} : Cell{};
+}
+
+/// Difference from the known value, with some standard deviations.
+Cell difference_of(const WatchedSection& watched, double sds) {
+    return of_cars(watched, watched.off + sds * watched.off_sd);
+}
+
+// Words of a table, which shows nothing after "no pass yet".
+
+std::string cars_words(const WatchedSection& watched) {
+    return has_pass(watched) ? fmt::format("{:.2f}", watched.cars.iri) : " no pass yet";
+}
+
+std::string bias_words(const WatchedSection& watched) {
+    return has_pass(watched)
+               ? fmt::format("{:>+7.2f} ± {:<5.2f} ", watched.off, z_of_90_percent * watched.off_sd)
+               : "";
+}
+
+std::string metres_words(const WatchedSection& watched) {
+    return has_pass(watched) ? fmt::format("{:.0f}", watched.cars.length_m) : "";
 }
 
 std::string drift_words(const WatchedSection& watched) {
     if (!watched.drift) {
-        return fmt::format(
-            "too few months ({} of {})", watched.months.size(), min_control_readings);
+        return has_pass(watched) ? fmt::format("too few months ({} of {})",
+                                               watched.months.size(),
+                                               min_control_readings)
+                                 : "";
     }
     const auto& [per_year, sd, significant] = *watched.drift;
     return fmt::format(
         "{:+.2f} ± {:.2f} a year{}", per_year, z_of_90_percent * sd, significant ? ": DRIFTS" : "");
 }
 
-std::string json_of(const MonthRow& month, double known) {
-    JsonObject object;
-    object.add("month", month.month)
-        .add("iri", JsonNumber{month.road.mean.iri, 3})
-        .add("iri_sd", JsonNumber{month.road.mean.sd, 3})
-        .add("difference", JsonNumber{month.road.mean.iri - known, 3})
-        .add("length_m", JsonNumber{month.road.mean.length_m, 2})
-        .add("vehicles", std::int64_t{month.road.vehicles});
-    return object.text();
-}
+// clang-format off
+const Columns<WatchedSection> control_columns{
+    {"name", as::text, [](auto& r) { return r.section.name; }, {"control section", "{:<18.18}"}},
+    {"way_id", as::integer, [](auto& r) { return r.section.way_id; }},
+    {"direction", as::text, [](auto& r) { return r.section.forward ? "forward" : "backward"; }},
+    {"from_m", as::metres(3), [](auto& r) { return r.section.from_m; }},
+    {"to_m", as::metres(3), [](auto& r) { return r.section.to_m; }},
+    {"date", as::day, [](auto& r) { return day_cell(r.section.utc_ms); }},
+    {"known_iri", as::iri(3), [](auto& r) { return r.section.iri_mm_per_m; },
+     {"known", " {:>6}", 2}},
+    {"known_sd", as::iri(3), [](auto& r) { return r.section.sd_mm_per_m; }},
+    {"measured_m", as::metres(2), [](auto& r) { return r.cars.length_m; }},
+    {"iri", as::iri(3), [](auto& r) { return of_cars(r, r.cars.iri); }},
+    {"iri_sd", as::iri(3), [](auto& r) { return of_cars(r, r.cars.sd); }},
+    {"difference", as::iri(3), [](auto& r) { return of_cars(r, r.off); }},
+    {"difference_low", as::iri(3), [](auto& r) { return difference_of(r, -z_of_90_percent); }},
+    {"difference_high", as::iri(3), [](auto& r) { return difference_of(r, z_of_90_percent); }},
+    {"drift", as::raw, [](auto& r) { return json_of(r.drift); }},
+    {"", as::text, cars_words, {"cars", " {:>6}"}},
+    {"", as::text, bias_words, {"bias (90 %)", " {:>16}"}},
+    {"", as::text, metres_words, {"metres", " {:>9}"}},
+    {"", as::text, drift_words, {"drift, mm/m (90 %)", "  {}"}},
+    {"months", as::raw, [](auto& r) { return json_of(r.months, r.section.iri_mm_per_m); }},
+};
 
-std::string json_of(const Drift& drift) {
-    JsonObject object;
-    object.add("per_year", JsonNumber{drift.per_year, 4})
-        .add("sd_per_year", JsonNumber{drift.sd_per_year, 4})
-        .add("significant", drift.significant);
-    return object.text();
-}
-
-std::string json_of(const WatchedSection& watched) {
-    const auto& section = watched.section;
-    const auto known = [&](double value) {
-        return watched.cars.length_m > 0 ? JsonValue{JsonNumber{value, 3}} : JsonValue{nullptr};
-    };
-    std::vector<std::string> months;
-    for (const auto& month : watched.months) {
-        months.push_back(json_of(month, section.iri_mm_per_m));
-    }
-    JsonObject object;
-    object.add("name", section.name)
-        .add("way_id", section.way_id)
-        .add("direction", section.forward ? std::string{"forward"} : std::string{"backward"})
-        .add("from_m", JsonNumber{section.from_m, 3})
-        .add("to_m", JsonNumber{section.to_m, 3})
-        .add("date", json_day(section.utc_ms))
-        .add("known_iri", JsonNumber{section.iri_mm_per_m, 3})
-        .add("known_sd", JsonNumber{section.sd_mm_per_m, 3})
-        .add("measured_m", JsonNumber{watched.cars.length_m, 2})
-        .add("iri", known(watched.cars.iri))
-        .add("iri_sd", known(watched.cars.sd))
-        .add("difference", known(watched.off))
-        .add("difference_low", known(watched.off - z_of_90_percent * watched.off_sd))
-        .add("difference_high", known(watched.off + z_of_90_percent * watched.off_sd))
-        .add("drift",
-             watched.drift ? JsonValue{JsonRaw{json_of(*watched.drift)}} : JsonValue{nullptr})
-        .add("months", JsonRaw{json_array(months)});
-    return object.text();
-}
-
-std::string json_of(const SurveyUse& survey) {
-    JsonObject object;
-    object.add("name", survey.name)
-        .add("file", survey.file_name)
-        .add("sha256", survey.sha256)
-        .add("date", json_day(survey.utc_ms))
-        .add("accuracy", JsonNumber{survey.relative_sd, 4})
-        .add("row_m", JsonNumber{survey.row_m, 2})
-        .add("rows_read", static_cast<std::int64_t>(survey.rows_read))
-        .add("rows_used", static_cast<std::int64_t>(survey.rows_used))
-        .add("segments", static_cast<std::int64_t>(survey.passes))
-        .add("km", JsonNumber{survey.km, 3})
-        .add("alone_km", JsonNumber{survey.alone_km, 3});
-    return object.text();
-}
-
-template <typename Values>
-std::string array_of(const Values& values) {
-    std::vector<std::string> objects;
-    for (const auto& value : values) {
-        objects.push_back(json_of(value));
-    }
-    return json_array(objects);
-}
+const Columns<SurveyUse> survey_columns{
+    {"name", as::text, [](auto& r) { return r.name; }, {"reference survey", "{:<24.24}"}},
+    {"file", as::text, [](auto& r) { return r.file_name; }},
+    {"sha256", as::text, [](auto& r) { return r.sha256; }},
+    {"date", as::day, [](auto& r) { return day_cell(r.utc_ms); }},
+    {"", as::text, [](auto& r) { return day_of(r.utc_ms); }, {"date", " {:<10}"}},
+    {"accuracy", as::real(4), [](auto& r) { return r.relative_sd; }},
+    {"", as::text, [](auto& r) { return fmt::format("{:.1f} %", 100 * r.relative_sd); },
+     {"accuracy", " {:>8}"}},
+    {"", as::text, [](auto& r) { return fmt::format("{:.0f} m", r.row_m); }, {"rows of", " {:>8}"}},
+    {"row_m", as::metres(2), [](auto& r) { return r.row_m; }},
+    {"rows_read", as::integer, [](auto& r) { return r.rows_read; }},
+    {"rows_used", as::integer, [](auto& r) { return r.rows_used; }},
+    {"segments", as::integer, [](auto& r) { return r.passes; }, {"segments", " {:>9}"}},
+    {"km", as::real(3, "km"), [](auto& r) { return r.km; }, {"km", " {:>9}", 2}},
+    {"alone_km", as::real(3, "km"), [](auto& r) { return r.alone_km; },
+     {"km, no car", " {:>13}", 2}},
+};
+// clang-format on
 
 } // namespace
 
@@ -176,66 +197,19 @@ std::vector<WatchedSection> watched_sections(const RoadStore& store) {
 }
 
 std::string text_of(const std::vector<WatchedSection>& sections) {
-    if (sections.empty()) {
-        return {};
-    }
-    auto text = fmt::format("\n{:<18} {:>6} {:>6} {:>16} {:>9}  {}\n",
-                            "control section",
-                            "known",
-                            "cars",
-                            "bias (90 %)",
-                            "metres",
-                            "drift, mm/m (90 %)");
-    for (const auto& watched : sections) {
-        const auto name = printable_name(watched.section.name);
-        if (watched.cars.length_m <= 0) {
-            text += fmt::format(
-                "{:<18.18} {:>6.2f}  no pass yet\n", name, watched.section.iri_mm_per_m);
-            continue;
-        }
-        text += fmt::format("{:<18.18} {:>6.2f} {:>6.2f} {:>+7.2f} ± {:<5.2f} {:>10.0f}  {}\n",
-                            name,
-                            watched.section.iri_mm_per_m,
-                            watched.cars.iri,
-                            watched.off,
-                            z_of_90_percent * watched.off_sd,
-                            watched.cars.length_m,
-                            drift_words(watched));
-    }
-    return text;
+    return sections.empty() ? "" : fmt::format("\n{}", table_text(control_columns, sections));
 }
 
 std::string json_of(const std::vector<WatchedSection>& sections) {
-    return array_of(sections);
+    return json_rows(control_columns, sections);
 }
 
 std::string text_of(const std::vector<SurveyUse>& surveys) {
-    if (surveys.empty()) {
-        return {};
-    }
-    auto text = fmt::format("\n{:<24} {:<10} {:>8} {:>8} {:>9} {:>9} {:>13}\n",
-                            "reference survey",
-                            "date",
-                            "accuracy",
-                            "rows of",
-                            "segments",
-                            "km",
-                            "km, no car");
-    for (const auto& survey : surveys) {
-        text += fmt::format("{:<24.24} {:<10} {:>6.1f} % {:>6.0f} m {:>9} {:>9.2f} {:>13.2f}\n",
-                            printable_name(survey.name),
-                            day_of(survey.utc_ms),
-                            100 * survey.relative_sd,
-                            survey.row_m,
-                            survey.passes,
-                            survey.km,
-                            survey.alone_km);
-    }
-    return text;
+    return surveys.empty() ? "" : fmt::format("\n{}", table_text(survey_columns, surveys));
 }
 
 std::string json_of(const std::vector<SurveyUse>& surveys) {
-    return array_of(surveys);
+    return json_rows(survey_columns, surveys);
 }
 
 } // namespace macadam

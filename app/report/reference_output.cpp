@@ -1,12 +1,15 @@
 #include "app/report/reference_output.hpp"
 
 #include "app/cli/terminal_escape.hpp"
-#include "storage/exports/export.hpp"
-#include "storage/text/json.hpp"
+#include "app/cli/text_table.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -18,33 +21,65 @@ std::string span_of(const ComparedDays& days) {
     return Localisation{}.period(days.first, days.last);
 }
 
-// ---------------------------------------------------------------------------------------- JSON
+Cell unless_empty(const std::string& text) {
+    return text.empty() ? Cell{} : Cell{text};
+}
 
-std::string json_of(const SurveyScore& score, bool with_level) {
-    JsonObject object;
-    if (with_level) {
-        object.add("from", json_number(score.from_mm_per_m, 0))
-            .add("to", json_number(score.to_mm_per_m, 0));
+// -------------------------------------------------------------------------------------- scores
+
+struct Level {
+    std::string name; ///< in tables
+    SurveyScore score;
+};
+
+std::string bias_words(const Level& level) {
+    return std::isnan(level.score.bias) ? "-" : fmt::format("{:+.2f}", level.score.bias);
+}
+
+// clang-format off
+const Columns<Level> range_columns{
+    {"from", as::iri(0), [](auto& r) { return r.score.from_mm_per_m; }},
+    {"to", as::iri(0), [](auto& r) { return r.score.to_mm_per_m; }},
+};
+
+Columns<Level> score_columns(std::string_view heading) {
+    return {
+        {"", as::text, [](auto& r) { return r.name; }, {heading, "{:<18}"}},
+        {"pieces", as::integer, [](auto& r) { return r.score.pieces; }, {"pieces", "{:>8}"}},
+        {"mean_reference", as::iri(4), [](auto& r) { return r.score.mean_survey; },
+         {"reference", "{:>10}", 2}},
+        {"mean_cars", as::iri(4), [](auto& r) { return r.score.mean_trip; }, {"cars", "{:>8}", 2}},
+        {"bias", as::iri(4), [](auto& r) { return r.score.bias; }},
+        {"", as::text, bias_words, {"bias", "{:>8}"}},
+        {"sd", as::iri(4), [](auto& r) { return r.score.sd; }},
+        {"rmse", as::iri(4), [](auto& r) { return r.score.rmse; }, {"RMSE", "{:>8}", 2}},
+        {"correlation", as::real(4), [](auto& r) { return r.score.correlation; },
+         {"corr.", "{:>8}", 2}},
+        {"coverage_90", as::real(4), [](auto& r) { return r.score.coverage; }},
+        {"", as::real(0, "%"), [](auto& r) { return 100 * r.score.coverage; }, {"in 90 %", "{:>9}"}},
+    };
+}
+// clang-format on
+
+std::string json_of(const SurveyScore& score) {
+    return json_object(score_columns(""), {"", score}).text();
+}
+
+std::vector<Level> levels_of(const ReferenceScores& scores) {
+    std::vector<Level> levels;
+    for (const auto& score : scores.by_level) {
+        levels.push_back(
+            {fmt::format("{:g} to {:g}", score.from_mm_per_m, score.to_mm_per_m), score});
     }
-    object.add("pieces", static_cast<std::int64_t>(score.pieces))
-        .add("mean_reference", json_number(score.mean_survey, 4))
-        .add("mean_cars", json_number(score.mean_trip, 4))
-        .add("bias", json_number(score.bias, 4))
-        .add("sd", json_number(score.sd, 4))
-        .add("rmse", json_number(score.rmse, 4))
-        .add("correlation", json_number(score.correlation, 4))
-        .add("coverage_90", json_number(score.coverage, 4));
-    return object.text();
+    return levels;
 }
 
 std::string json_of(const ReferenceScores& scores) {
-    std::vector<std::string> levels;
-    for (const auto& score : scores.by_level) {
-        levels.push_back(json_of(score, true));
-    }
+    auto columns = range_columns;
+    std::ranges::copy(score_columns(""), std::back_inserter(columns));
     JsonObject object;
-    object.add("all", JsonRaw{json_of(scores.all, false)})
-        .add("by_level", JsonRaw{json_array(levels)});
+    object.add("all", JsonRaw{json_of(scores.all)})
+        .add("by_level", JsonRaw{json_rows(columns, levels_of(scores))});
     return object.text();
 }
 
@@ -56,131 +91,93 @@ std::string json_of(const ComparedPieces& pieces) {
     return object.text();
 }
 
-JsonValue unless_empty(const std::string& text) {
-    return text.empty() ? JsonValue{nullptr} : JsonValue{text};
-}
-
-std::string json_of(const ComparedSurvey& survey) {
-    JsonObject object;
-    object.add("name", survey.name)
-        .add("date", unless_empty(survey.day))
-        .add("accuracy", JsonNumber{survey.relative_sd, 4})
-        .add("row_m", JsonNumber{survey.row_m, 2})
-        .add("segments", static_cast<std::int64_t>(survey.segments))
-        .add("km", JsonNumber{survey.km, 3})
-        .add("alone_km", JsonNumber{survey.alone_km, 3})
-        .add("hundred_metres", JsonRaw{json_of(survey.score, false)});
-    return object.text();
-}
-
-std::string json_of(const ComparedControl& control) {
-    const auto of_cars = [&](double value) {
-        return control.cars.length_m > 0 ? json_number(value, 3) : JsonValue{nullptr};
-    };
-    const auto of_drift = [&](double Drift::*value) {
-        return control.drift ? json_number((*control.drift).*value, 4) : JsonValue{nullptr};
-    };
-    JsonObject object;
-    object.add("name", control.name)
-        .add("known_iri", json_number(control.known, 3))
-        .add("iri", of_cars(control.cars.iri))
-        .add("difference", of_cars(control.off))
-        .add("difference_low", of_cars(control.off - z_of_90_percent * control.off_sd))
-        .add("difference_high", of_cars(control.off + z_of_90_percent * control.off_sd))
-        .add("months", static_cast<std::int64_t>(control.months))
-        .add("drift_per_year", of_drift(&Drift::per_year))
-        .add("drift_sd_per_year", of_drift(&Drift::sd_per_year))
-        .add("drifts", control.drift ? JsonValue{control.drift->significant} : JsonValue{nullptr});
-    return object.text();
-}
-
-template <typename Values>
-std::string array_of(const Values& values) {
-    std::vector<std::string> objects;
-    for (const auto& value : values) {
-        objects.push_back(json_of(value));
-    }
-    return json_array(objects);
-}
-
-// ----------------------------------------------------------------------------------------- CSV
-
-std::string cell(const std::optional<double>& value) {
-    return value && !std::isnan(*value) ? fmt::format("{:.3f}", *value) : "";
-}
-
-std::optional<double> part(const std::optional<SurveyPair>& pair, double SurveyPair::*value) {
-    return pair ? std::optional{(*pair).*value} : std::nullopt;
-}
-
-std::string
-csv_rows(const ReferenceReport& report, const ComparedPieces& pieces, const char* level) {
-    std::string rows;
-    for (const auto& pair : pieces.pairs) {
-        rows += fmt::format("{},{},{},{},{:.2f},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                            level,
-                            csv_text(report.surveys[pair.survey].name),
-                            csv_text(name_of(pair.first)),
-                            csv_text(name_of(pair.last)),
-                            pair.length_m,
-                            pair.passes,
-                            cell(pair.headline.survey),
-                            cell(pair.reference_sd),
-                            cell(pair.headline.trip),
-                            cell(pair.headline.low),
-                            cell(pair.headline.high),
-                            cell(pair.headline.trip - pair.headline.survey),
-                            cell(part(pair.left, &SurveyPair::survey)),
-                            cell(part(pair.left, &SurveyPair::trip)),
-                            cell(part(pair.right, &SurveyPair::survey)),
-                            cell(part(pair.right, &SurveyPair::trip)),
-                            pair.days_after ? fmt::format("{:.1f}", *pair.days_after) : "");
-    }
-    return rows;
-}
-
-// ---------------------------------------------------------------------------------------- text
-
-std::string number_text(double value, int decimals) {
-    return std::isnan(value) ? std::string{"-"} : fmt::format("{:.{}f}", value, decimals);
-}
-
-std::string score_line(const std::string& name, const SurveyScore& score) {
-    return fmt::format("{:<18}{:>8}{:>10}{:>8}{:>8}{:>8}{:>8}{:>9}\n",
-                       name,
-                       score.pieces,
-                       number_text(score.mean_survey, 2),
-                       number_text(score.mean_trip, 2),
-                       std::isnan(score.bias) ? "-" : fmt::format("{:+.2f}", score.bias),
-                       number_text(score.rmse, 2),
-                       number_text(score.correlation, 2),
-                       number_text(100 * score.coverage, 0));
-}
-
-std::string scores_text(const std::string& what, const ReferenceScores& scores) {
+std::string scores_text(const std::string& heading, const ReferenceScores& scores) {
     if (scores.all.pieces == 0) {
         return {};
     }
-    auto text = fmt::format("\n{:<18}{:>8}{:>10}{:>8}{:>8}{:>8}{:>8}{:>9}\n",
-                            what,
-                            "pieces",
-                            "reference",
-                            "cars",
-                            "bias",
-                            "RMSE",
-                            "corr.",
-                            "in 90 %");
-    for (const auto& score : scores.by_level) {
-        text +=
-            score_line(fmt::format("{:g} to {:g}", score.from_mm_per_m, score.to_mm_per_m), score);
-    }
-    return text + score_line("all", scores.all);
+    auto levels = levels_of(scores);
+    levels.push_back({"all", scores.all});
+    return fmt::format("\n{}", table_text(score_columns(heading), levels));
 }
 
-std::string pieces_text(const std::string& what, const ComparedPieces& pieces) {
-    return scores_text(what, pieces.headline) + scores_text(what + ", left", pieces.left) +
-           scores_text(what + ", right", pieces.right);
+std::string pieces_text(const std::string& heading, const ComparedPieces& pieces) {
+    return scores_text(heading, pieces.headline) + scores_text(heading + ", left", pieces.left) +
+           scores_text(heading + ", right", pieces.right);
 }
+
+// --------------------------------------------------------------- surveys, control sections, pairs
+
+Cell of_cars(const ComparedControl& control, double value) {
+    return control.cars.length_m > 0 ? Cell{value} : Cell{};
+}
+
+Cell difference_of(const ComparedControl& control, double sds) {
+    return of_cars(control, control.off + sds * control.off_sd);
+}
+
+template <typename Member>
+Cell of_drift(const ComparedControl& control, Member member) {
+    return control.drift ? Cell{(*control.drift).*member} : Cell{};
+}
+
+struct PairRow {
+    const char* level;
+    const ReferenceReport& report;
+    const ReferencePair& pair;
+};
+
+Cell of_side(const std::optional<SurveyPair>& side, double SurveyPair::*value) {
+    return side ? Cell{(*side).*value} : Cell{};
+}
+
+// clang-format off
+const Columns<ComparedSurvey> survey_columns{
+    {"name", as::text, [](auto& r) { return r.name; }},
+    {"date", as::day, [](auto& r) { return unless_empty(r.day); }},
+    {"accuracy", as::real(4), [](auto& r) { return r.relative_sd; }},
+    {"row_m", as::metres(2), [](auto& r) { return r.row_m; }},
+    {"segments", as::integer, [](auto& r) { return r.segments; }},
+    {"km", as::real(3, "km"), [](auto& r) { return r.km; }},
+    {"alone_km", as::real(3, "km"), [](auto& r) { return r.alone_km; }},
+    {"hundred_metres", as::raw, [](auto& r) { return json_of(r.score); }},
+};
+
+const Columns<ComparedControl> control_columns{
+    {"name", as::text, [](auto& r) { return r.name; }},
+    {"known_iri", as::iri(3), [](auto& r) { return r.known; }},
+    {"iri", as::iri(3), [](auto& r) { return of_cars(r, r.cars.iri); }},
+    {"difference", as::iri(3), [](auto& r) { return of_cars(r, r.off); }},
+    {"difference_low", as::iri(3), [](auto& r) { return difference_of(r, -z_of_90_percent); }},
+    {"difference_high", as::iri(3), [](auto& r) { return difference_of(r, z_of_90_percent); }},
+    {"months", as::integer, [](auto& r) { return r.months; }},
+    {"drift_per_year", as::iri(4), [](auto& r) { return of_drift(r, &Drift::per_year); }},
+    {"drift_sd_per_year", as::iri(4), [](auto& r) { return of_drift(r, &Drift::sd_per_year); }},
+    {"drifts", as::truth, [](auto& r) { return of_drift(r, &Drift::significant); }},
+};
+
+const Columns<PairRow> pair_columns{
+    {"pieces", as::text, [](auto& r) { return r.level; }},
+    {"survey", as::text, [](auto& r) { return r.report.surveys[r.pair.survey].name; }},
+    {"first_segment", as::text, [](auto& r) { return name_of(r.pair.first); }},
+    {"last_segment", as::text, [](auto& r) { return name_of(r.pair.last); }},
+    {"length_m", as::metres(2), [](auto& r) { return r.pair.length_m; }},
+    {"passes", as::integer, [](auto& r) { return r.pair.passes; }},
+    {"reference", as::iri(3), [](auto& r) { return r.pair.headline.survey; }},
+    {"reference_sd", as::iri(3), [](auto& r) { return r.pair.reference_sd; }},
+    {"iri", as::iri(3), [](auto& r) { return r.pair.headline.trip; }},
+    {"iri_low", as::iri(3), [](auto& r) { return r.pair.headline.low; }},
+    {"iri_high", as::iri(3), [](auto& r) { return r.pair.headline.high; }},
+    {"difference", as::iri(3),
+     [](auto& r) { return r.pair.headline.trip - r.pair.headline.survey; }},
+    {"reference_left", as::iri(3), [](auto& r) { return of_side(r.pair.left, &SurveyPair::survey); }},
+    {"iri_left", as::iri(3), [](auto& r) { return of_side(r.pair.left, &SurveyPair::trip); }},
+    {"reference_right", as::iri(3), [](auto& r) { return of_side(r.pair.right, &SurveyPair::survey); }},
+    {"iri_right", as::iri(3), [](auto& r) { return of_side(r.pair.right, &SurveyPair::trip); }},
+    {"days_after", as::real(1, "d"), [](auto& r) { return r.pair.days_after; }},
+};
+// clang-format on
+
+// ---------------------------------------------------------------------------------------- text
 
 std::string surveys_text(const ReferenceReport& report) {
     std::string text;
@@ -227,22 +224,29 @@ std::string controls_text(const ReferenceReport& report) {
 } // namespace
 
 std::string reference_json(const ReferenceReport& report) {
+    const auto text_or_null = [](const std::string& text) {
+        return json_value(as::text, unless_empty(text));
+    };
     JsonObject object;
-    object.add("surveys", JsonRaw{array_of(report.surveys)})
-        .add("passes_span", unless_empty(span_of(report.passed)))
-        .add("references_span", unless_empty(span_of(report.surveyed)))
+    object.add("surveys", JsonRaw{json_rows(survey_columns, report.surveys)})
+        .add("passes_span", text_or_null(span_of(report.passed)))
+        .add("references_span", text_or_null(span_of(report.surveyed)))
         .add("segment_length_m", JsonNumber{report.segment_length_m, 2})
         .add("segments", JsonRaw{json_of(report.segments)})
         .add("hundred_metres", JsonRaw{json_of(report.hundreds)})
-        .add("control_sections", JsonRaw{array_of(report.controls)});
+        .add("control_sections", JsonRaw{json_rows(control_columns, report.controls)});
     return object.text() + "\n";
 }
 
 std::string reference_csv(const ReferenceReport& report) {
-    return "pieces,survey,first_segment,last_segment,length_m,passes,reference,reference_sd,iri,"
-           "iri_low,iri_high,difference,reference_left,iri_left,reference_right,iri_right,"
-           "days_after\n" +
-           csv_rows(report, report.segments, "segment") + csv_rows(report, report.hundreds, "100m");
+    auto csv = csv_header(pair_columns);
+    for (const auto& pair : report.segments.pairs) {
+        csv += csv_line(pair_columns, {"segment", report, pair});
+    }
+    for (const auto& pair : report.hundreds.pairs) {
+        csv += csv_line(pair_columns, {"100m", report, pair});
+    }
+    return csv;
 }
 
 std::string reference_text(const ReferenceReport& report) {

@@ -1,37 +1,60 @@
 #include "app/store/calibration_output.hpp"
 
 #include "app/cli/console.hpp"
-#include "storage/text/json.hpp"
+#include "app/cli/text_table.hpp"
 
 #include <fmt/format.h>
-
-#include <cmath>
-#include <vector>
 
 namespace macadam {
 namespace {
 
 constexpr double um_per_mm = 1000;
 
-std::string row_of(const CalibratedCar& car) {
-    const auto row = fmt::format("{:<34} {:>6} {:>9}", car.vehicle, car.trips, car.shared);
-    if (!car.calibration) {
-        return row + "       -  too few roads shared with other cars\n";
-    }
-    const auto& [gain, offset_um, relative_sd] = *car.calibration;
-    return row +
-           fmt::format(
-               " {:>7.3f} {:>+9.3f} {:>7.1f} %\n", gain, offset_um / um_per_mm, 100 * relative_sd);
+Cell calibrated(const CalibratedCar& car, double CarCalibration::*value) {
+    return car.calibration ? Cell{(*car.calibration).*value} : Cell{};
 }
+
+std::string offset_words(const CalibratedCar& car) {
+    return car.calibration ? fmt::format("{:+.3f}", car.calibration->offset_um / um_per_mm)
+                           : " too few roads shared with other cars";
+}
+
+std::string sd_words(const CalibratedCar& car) {
+    return car.calibration ? fmt::format("{:.1f} %", 100 * car.calibration->relative_sd) : "";
+}
+
+// clang-format off
+const Columns<CalibratedCar> car_columns{
+    {"vehicle", as::text, [](auto& r) { return r.vehicle; }, {"car", "{:<34}"}},
+    {"trips", as::integer, [](auto& r) { return r.trips; }, {"trips", " {:>6}"}},
+    {"shared_passes", as::integer, [](auto& r) { return r.shared; }, {"shared", " {:>9}"}},
+    {"gain", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::gain); },
+     {"gain", " {:>7}", 3}},
+    {"offset_mm_per_m", as::iri(3), [](auto& r) {
+         return r.calibration ? Cell{r.calibration->offset_um / um_per_mm} : Cell{}; }},
+    {"", as::text, offset_words, {"offset", " {:>9}"}},
+    {"relative_sd", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::relative_sd); }},
+    {"", as::text, sd_words, {"sd", " {:>9}"}},
+};
+
+const Columns<CalibrationReport> report_columns{
+    {"generation", as::integer, [](auto& r) { return r.generation; }},
+    {"cars", as::raw, [](auto& r) { return json_rows(car_columns, r.cars); }},
+    {"car_relative_sd", as::real(4), [](auto& r) { return r.car_relative_sd; }},
+    {"trip_relative_sd", as::real(4), [](auto& r) { return r.components.trip_relative_sd; }},
+    {"rest_relative_sd", as::real(4), [](auto& r) { return r.components.rest_relative_sd; }},
+    {"rest_sd_mm_per_m", as::iri(4), [](auto& r) { return r.components.rest_sd_mm_per_m; }},
+    {"anchor_relative_sd", as::real(4), [](auto& r) { return r.components.anchor_relative_sd; }},
+    {"passes", as::integer, [](auto& r) { return r.readings; }},
+    {"shared_places", as::integer, [](auto& r) { return r.places; }},
+    {"reference_surveys", as::integer, [](auto& r) { return r.surveys; }},
+};
+// clang-format on
 
 } // namespace
 
 std::string text_of(const CalibrationReport& report) {
-    auto text = fmt::format(
-        "{:<34} {:>6} {:>9} {:>7} {:>9} {:>9}\n", "car", "trips", "shared", "gain", "offset", "sd");
-    for (const auto& car : report.cars) {
-        text += row_of(car);
-    }
+    const auto text = table_text(car_columns, report.cars);
     if (report.places == 0) { // the error components are not known
         return text;
     }
@@ -53,35 +76,7 @@ std::string text_of(const CalibrationReport& report) {
 }
 
 std::string json_of(const CalibrationReport& report) {
-    const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-    std::vector<std::string> cars;
-    for (const auto& car : report.cars) {
-        JsonObject entry;
-        entry.add("vehicle", car.vehicle)
-            .add("trips", whole(car.trips))
-            .add("shared_passes", whole(car.shared));
-        if (car.calibration) {
-            entry.add("gain", JsonNumber{car.calibration->gain, 4})
-                .add("offset_mm_per_m", JsonNumber{car.calibration->offset_um / um_per_mm, 3})
-                .add("relative_sd", JsonNumber{car.calibration->relative_sd, 4});
-        } else {
-            entry.add("gain", nullptr).add("offset_mm_per_m", nullptr).add("relative_sd", nullptr);
-        }
-        cars.push_back(entry.text());
-    }
-    const auto& components = report.components;
-    JsonObject object;
-    object.add("generation", std::int64_t{report.generation})
-        .add("cars", JsonRaw{json_array(cars)})
-        .add("car_relative_sd", JsonNumber{report.car_relative_sd, 4})
-        .add("trip_relative_sd", JsonNumber{components.trip_relative_sd, 4})
-        .add("rest_relative_sd", JsonNumber{components.rest_relative_sd, 4})
-        .add("rest_sd_mm_per_m", JsonNumber{components.rest_sd_mm_per_m, 4})
-        .add("anchor_relative_sd", JsonNumber{components.anchor_relative_sd, 4})
-        .add("passes", whole(report.readings))
-        .add("shared_places", whole(report.places))
-        .add("reference_surveys", whole(report.surveys));
-    return object.text() + "\n";
+    return json_object(report_columns, report).text() + "\n";
 }
 
 } // namespace macadam

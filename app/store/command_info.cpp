@@ -51,14 +51,6 @@ std::string json_of(const StoreInfo& info,
                     const std::string& digest,
                     const std::string& truth) {
     const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-    std::vector<std::string> classes;
-    for (const auto& [name, km] : info.classes) {
-        JsonObject entry;
-        entry.add("class", name)
-            .add("km", JsonNumber{km, 3})
-            .add("share", JsonNumber{share(km, info.km), 4});
-        classes.push_back(entry.text());
-    }
     JsonObject object;
     object.add("trips", whole(info.trips))
         .add("undated_trips", whole(info.undated_trips))
@@ -69,7 +61,7 @@ std::string json_of(const StoreInfo& info,
         .add("segments_with_passes", whole(info.segments_with_passes))
         .add("km", JsonNumber{info.km, 3})
         .add("network_km", JsonNumber{info.network_km, 3})
-        .add("classes", JsonRaw{json_array(classes)})
+        .add("classes", JsonRaw{class_lengths_json(info.classes, info.km)})
         .add("laid_on_others", JsonRaw{json_of(info.laid)});
     add_to(object, tables);
     object.add("privacy", std::string{name_of(info.settings.privacy)}).add("operator", operates);

@@ -1,6 +1,6 @@
 #include "app/store/info_tables.hpp"
 
-#include "app/cli/terminal_escape.hpp"
+#include "app/cli/text_table.hpp"
 
 #include "storage/networks/network_file.hpp"
 
@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
+#include <string_view>
 
 namespace macadam {
 namespace {
@@ -79,108 +81,90 @@ std::vector<CarInfo> cars_of(const RoadStore& store) {
     return cars;
 }
 
-std::string road_class_lines(const std::vector<RoadClassInfo>& infos) {
-    std::string text = fmt::format(
-        "\n{:<18} {:>11} {:>10} {:>8}\n", "road class", "network km", "driven km", "covered");
-    for (const auto& info : infos) {
-        text += fmt::format("{:<18} {:>11.1f} {:>10.2f} {:>6.1f} %",
-                            info.highway.empty() ? "-" : printable_name(info.highway),
-                            info.network_km,
-                            info.km,
-                            100 * share(info.km, info.network_km));
-        for (const auto& [name, km] : info.classes) {
-            text += fmt::format("  {} {:.0f} %", name, 100 * share(km, info.km));
-        }
-        text += "\n";
-    }
-    return text;
-}
-
-std::string calibration_words(const CarInfo& car) {
-    if (!car.calibration) {
-        return {};
-    }
-    const auto& [gain, offset_um, relative_sd] = *car.calibration;
-    return fmt::format("  reads {:.3f} x IRI {:+.2f} mm/m, sd {:.1f} %",
-                       gain,
-                       offset_um / 1000,
-                       100 * relative_sd);
-}
-
-std::string car_lines(const std::vector<CarInfo>& cars) {
-    auto text = fmt::format(
-        "\n{:>4} {:<34} {:>6} {:>9} {:>7} {:>9}\n", "no.", "car", "trips", "passes", "share", "km");
-    for (std::size_t i = 0; i < std::min(cars.size(), max_rows); ++i) {
-        const auto& car = cars[i];
-        text += fmt::format("{:>4} {:<34} {:>6} {:>9} {:>5.1f} % {:>9.1f}{}\n",
-                            car.number > 0 ? std::to_string(car.number) : "-",
-                            car.vehicle,
-                            car.trips,
-                            car.passes,
-                            100 * car.share,
-                            car.km,
-                            calibration_words(car));
-    }
-    return cars.size() > max_rows ? text + fmt::format("and {} more\n", cars.size() - max_rows)
-                                  : text;
-}
-
-std::string month_lines(const std::map<std::string, DailyUsage>& months) {
-    auto text = fmt::format("\n{:<18} {:>6} {:>9}\n", "month", "trips", "passes");
-    std::size_t left_out = months.size() - std::min(months.size(), max_rows);
-    for (const auto& [month, use] : months) {
-        if (left_out > 0) {
-            --left_out; // the last months are shown
-            continue;
-        }
-        text += fmt::format("{:<18} {:>6} {:>9}\n", month, use.trips, use.passes);
-    }
-    return text;
-}
-
-std::string json_of(const RoadClassInfo& info) {
-    std::vector<std::string> classes;
-    for (const auto& [name, km] : info.classes) {
-        JsonObject entry;
-        entry.add("class", name)
-            .add("km", JsonNumber{km, 3})
-            .add("share", JsonNumber{share(km, info.km), 4});
-        classes.push_back(entry.text());
-    }
-    JsonObject object;
-    object.add("highway", info.highway.empty() ? JsonValue{nullptr} : JsonValue{info.highway})
-        .add("network_km", JsonNumber{info.network_km, 3})
-        .add("km", JsonNumber{info.km, 3})
-        .add("covered", JsonNumber{share(info.km, info.network_km), 4})
-        .add("classes", JsonRaw{json_array(classes)});
-    return object.text();
-}
-
-std::string json_of(const CarInfo& car) {
-    JsonObject object;
-    object.add("vehicle", car.vehicle)
-        .add("number",
-             car.number > 0 ? JsonValue{static_cast<std::int64_t>(car.number)} : JsonValue{nullptr})
-        .add("trips", static_cast<std::int64_t>(car.trips))
-        .add("passes", static_cast<std::int64_t>(car.passes))
-        .add("share", JsonNumber{car.share, 4})
-        .add("km", JsonNumber{car.km, 3});
+std::string km_words(const CarInfo& car) {
+    auto words = fmt::format("{:>9.1f}", car.km);
     if (const auto& calibration = car.calibration) {
-        object.add("gain", JsonNumber{calibration->gain, 4})
-            .add("offset_mm_per_m", JsonNumber{calibration->offset_um / 1000, 3})
-            .add("relative_sd", JsonNumber{calibration->relative_sd, 4});
-    } else {
-        object.add("gain", nullptr).add("offset_mm_per_m", nullptr).add("relative_sd", nullptr);
+        words += fmt::format("  reads {:.3f} x IRI {:+.2f} mm/m, sd {:.1f} %",
+                             calibration->gain,
+                             calibration->offset_um / 1000,
+                             100 * calibration->relative_sd);
     }
-    return object.text();
+    return words;
 }
 
-std::string json_of(std::string_view key, const DailyUsage& use) {
-    JsonObject object;
-    object.add(key, use.day)
-        .add("trips", static_cast<std::int64_t>(use.trips))
-        .add("passes", static_cast<std::int64_t>(use.passes));
-    return object.text();
+std::string covered_words(const RoadClassInfo& info) {
+    auto words = fmt::format("{:>6.1f} %", 100 * share(info.km, info.network_km));
+    for (const auto& [name, km] : info.classes) {
+        words += fmt::format("  {} {:.0f} %", name, 100 * share(km, info.km));
+    }
+    return words;
+}
+
+Cell number_of(const CarInfo& car) {
+    return car.number > 0 ? Cell{car.number} : Cell{};
+}
+
+Cell calibrated(const CarInfo& car, double CarCalibration::*value, double unit = 1) {
+    return car.calibration ? Cell{(*car.calibration).*value / unit} : Cell{};
+}
+
+// clang-format off
+const Columns<CarInfo> car_columns{
+    {"", as::integer, number_of, {"no.", "{:>4}"}},
+    {"vehicle", as::text, [](auto& r) { return r.vehicle; }, {"car", " {:<34}"}},
+    {"number", as::integer, number_of},
+    {"trips", as::integer, [](auto& r) { return r.trips; }, {"trips", " {:>6}"}},
+    {"passes", as::integer, [](auto& r) { return r.passes; }, {"passes", " {:>9}"}},
+    {"share", as::real(4), [](auto& r) { return r.share; }},
+    {"", as::text, [](auto& r) { return fmt::format("{:.1f} %", 100 * r.share); },
+     {"share", " {:>7}"}},
+    {"km", as::real(3, "km"), [](auto& r) { return r.km; }},
+    {"", as::text, km_words, {"km", " {:>9}"}},
+    {"gain", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::gain); }},
+    {"offset_mm_per_m", as::iri(3),
+     [](auto& r) { return calibrated(r, &CarCalibration::offset_um, 1000); }},
+    {"relative_sd", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::relative_sd); }},
+};
+
+/// Columns of the use in each day, or month.
+Columns<DailyUsage> usage_columns(std::string_view period) {
+    return {
+        {period, as::text, [](auto& r) { return r.day; }, {period, "{:<18}"}},
+        {"trips", as::integer, [](auto& r) { return r.trips; }, {"trips", " {:>6}"}},
+        {"passes", as::integer, [](auto& r) { return r.passes; }, {"passes", " {:>9}"}},
+    };
+}
+
+const Columns<RoadClassInfo> road_class_columns{
+    {"highway", as::text, [](auto& r) { return r.highway.empty() ? Cell{} : Cell{r.highway}; },
+     {"road class", "{:<18}"}},
+    {"network_km", as::real(3, "km"), [](auto& r) { return r.network_km; },
+     {"network km", " {:>11}", 1}},
+    {"km", as::real(3, "km"), [](auto& r) { return r.km; }, {"driven km", " {:>10}", 2}},
+    {"covered", as::real(4), [](auto& r) { return share(r.km, r.network_km); }},
+    {"", as::text, covered_words, {"covered", " {:>8}"}},
+    {"classes", as::raw, [](auto& r) { return class_lengths_json(r.classes, r.km); }},
+};
+// clang-format on
+
+std::vector<DailyUsage> month_rows(const std::vector<DailyUsage>& days) {
+    std::vector<DailyUsage> rows;
+    for (const auto& [month, use] : months_of(days)) {
+        rows.push_back(use);
+    }
+    return rows;
+}
+
+std::string car_lines(std::span<const CarInfo> cars) {
+    const auto count = std::min(cars.size(), max_rows);
+    const auto text = fmt::format("\n{}", table_text(car_columns, cars.first(count)));
+    return cars.size() > count ? text + fmt::format("and {} more\n", cars.size() - count) : text;
+}
+
+/// Formats the last months.
+std::string month_lines(std::span<const DailyUsage> months) {
+    const auto last = months.last(std::min(months.size(), max_rows));
+    return fmt::format("\n{}", table_text(usage_columns("month"), last));
 }
 
 } // namespace
@@ -201,29 +185,25 @@ std::map<std::string, DailyUsage> months_of(const std::vector<DailyUsage>& days)
 }
 
 std::string text_of(const InfoTables& tables) {
-    auto text = road_class_lines(tables.road_classes);
-    text += tables.cars.empty() ? "" : car_lines(tables.cars);
-    return text + (tables.days.empty() ? "" : month_lines(months_of(tables.days)));
+    return fmt::format("\n{}", table_text(road_class_columns, tables.road_classes)) +
+           (tables.cars.empty() ? "" : car_lines(tables.cars)) +
+           (tables.days.empty() ? "" : month_lines(month_rows(tables.days)));
+}
+
+std::string class_lengths_json(const std::vector<ClassLength>& lengths, double km) {
+    const Columns<ClassLength> columns{
+        {"class", as::text, [](auto& r) { return r.name; }},
+        {"km", as::real(3, "km"), [](auto& r) { return r.km; }},
+        {"share", as::real(4), [km](auto& r) { return share(r.km, km); }}};
+    return json_rows(columns, lengths);
 }
 
 void add_to(JsonObject& object, const InfoTables& tables) {
-    std::vector<std::string> road_classes, cars, days, months;
-    for (const auto& info : tables.road_classes) {
-        road_classes.push_back(json_of(info));
-    }
-    for (const auto& car : tables.cars) {
-        cars.push_back(json_of(car));
-    }
-    for (const auto& day : tables.days) {
-        days.push_back(json_of("day", day));
-    }
-    for (const auto& [month, use] : months_of(tables.days)) {
-        months.push_back(json_of("month", use));
-    }
-    object.add("road_classes", JsonRaw{json_array(road_classes)})
-        .add("cars", JsonRaw{json_array(cars)})
-        .add("passes_per_month", JsonRaw{json_array(months)})
-        .add("passes_per_day", JsonRaw{json_array(days)});
+    object.add("road_classes", JsonRaw{json_rows(road_class_columns, tables.road_classes)})
+        .add("cars", JsonRaw{json_rows(car_columns, tables.cars)})
+        .add("passes_per_month",
+             JsonRaw{json_rows(usage_columns("month"), month_rows(tables.days))})
+        .add("passes_per_day", JsonRaw{json_rows(usage_columns("day"), tables.days)});
 }
 
 } // namespace macadam

@@ -40,6 +40,9 @@ InfoTables info_tables(const RoadStore& store);
 /// Sums the days by month, such as "2026-03".
 std::map<std::string, DailyUsage> months_of(const std::vector<DailyUsage>& days);
 
+/// Formats lengths by class as JSON, with their shares of `km`.
+std::string class_lengths_json(const std::vector<ClassLength>& lengths, double km);
+
 std::string text_of(const InfoTables& tables);
 void add_to(JsonObject& object, const InfoTables& tables);
 

@@ -1,55 +1,45 @@
 #include "app/store/truth_output.hpp"
 
+#include "app/cli/text_table.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/surveys/truth_file.hpp"
-#include "storage/text/json.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdint>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 namespace macadam {
 namespace {
 
-std::string cell(double value, int decimals) {
-    return std::isnan(value) ? std::string{"-"} : fmt::format("{:.{}f}", value, decimals);
+using Row = TruthComparison::Class;
+
+double bias_share(const Row& row) {
+    return row.score.bias / row.score.mean_truth;
 }
 
-std::string row(std::string_view name, const TruthScore& score) {
-    return fmt::format("{:<16}{:>9}{:>8.2f}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n",
-                       name.empty() ? "(no class)" : name,
-                       score.segments,
-                       score.km,
-                       cell(score.mean_truth, 2),
-                       cell(score.bias, 2),
-                       cell(100 * score.bias / score.mean_truth, 1),
-                       cell(score.rmse, 2),
-                       cell(score.rmse_100m, 2),
-                       cell(score.correlation, 2),
-                       cell(100 * score.coverage, 0));
-}
+// clang-format off
+const Columns<Row> columns{
+    {"", as::text, [](auto& r) { return r.highway.empty() ? "(no class)" : r.highway; },
+     {"against truth", "{:<16}"}},
+    {"segments", as::integer, [](auto& r) { return r.score.segments; }, {"segments", "{:>9}"}},
+    {"km", as::real(3, "km"), [](auto& r) { return r.score.km; }, {"km", "{:>8}", 2}},
+    {"mean_truth", as::iri(4), [](auto& r) { return r.score.mean_truth; }, {"truth", "{:>8}", 2}},
+    {"bias", as::iri(4), [](auto& r) { return r.score.bias; }, {"bias", "{:>8}", 2}},
+    {"bias_share", as::real(4), bias_share},
+    {"", as::real(1, "%"), [](auto& r) { return 100 * bias_share(r); }, {"bias %", "{:>8}"}},
+    {"rmse_20m", as::iri(4), [](auto& r) { return r.score.rmse; }, {"RMSE", "{:>8}", 2}},
+    {"runs_100m", as::integer, [](auto& r) { return r.score.runs; }},
+    {"rmse_100m", as::iri(4), [](auto& r) { return r.score.rmse_100m; }, {"at 100", "{:>8}", 2}},
+    {"correlation", as::real(4), [](auto& r) { return r.score.correlation; }, {"corr.", "{:>8}", 2}},
+    {"coverage_90", as::real(4), [](auto& r) { return r.score.coverage; }},
+    {"", as::real(0, "%"), [](auto& r) { return 100 * r.score.coverage; }, {"in 90 %", "{:>8}"}},
+};
 
-JsonObject json_object(const TruthScore& score) {
-    const auto number = [](double value, int decimals) {
-        return json_number(std::isnan(value) ? std::optional<double>{} : value, decimals);
-    };
-    JsonObject object;
-    object.add("segments", static_cast<std::int64_t>(score.segments))
-        .add("km", number(score.km, 3))
-        .add("mean_truth", number(score.mean_truth, 4))
-        .add("bias", number(score.bias, 4))
-        .add("bias_share", number(score.bias / score.mean_truth, 4))
-        .add("rmse_20m", number(score.rmse, 4))
-        .add("runs_100m", static_cast<std::int64_t>(score.runs))
-        .add("rmse_100m", number(score.rmse_100m, 4))
-        .add("correlation", number(score.correlation, 4))
-        .add("coverage_90", number(score.coverage, 4));
-    return object;
-}
+const Columns<Row> class_columns{
+    {"highway", as::text, [](auto& r) { return r.highway; }},
+    {"score", as::raw, [](auto& r) { return json_object(columns, r).text(); }},
+};
+// clang-format on
 
 } // namespace
 
@@ -68,36 +58,18 @@ TruthComparison compared(const RoadStore& store, const std::filesystem::path& fi
 }
 
 std::string text_of(const TruthComparison& comparison) {
-    auto text = fmt::format("{:<16}{:>9}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n",
-                            "against truth",
-                            "segments",
-                            "km",
-                            "truth",
-                            "bias",
-                            "bias %",
-                            "RMSE",
-                            "at 100",
-                            "corr.",
-                            "in 90 %");
-    text += row("all", comparison.all);
-    for (const auto& [highway, score] : comparison.classes) {
-        text += row(highway, score);
-    }
-    return text + "IRI (MRI) in mm/m; RMSE of single segments, and of five in a row (about 100 "
-                  "m); share of true\n"
-                  "values within the 90 % interval, %\n";
+    std::vector<Row> rows{{"all", comparison.all}};
+    rows.insert(rows.end(), comparison.classes.begin(), comparison.classes.end());
+    return table_text(columns, rows) +
+           "IRI (MRI) in mm/m; RMSE of single segments, and of five in a row (about 100 "
+           "m); share of true\n"
+           "values within the 90 % interval, %\n";
 }
 
 std::string json_of(const TruthComparison& comparison) {
-    std::vector<std::string> classes;
-    for (const auto& [highway, score] : comparison.classes) {
-        JsonObject entry;
-        entry.add("highway", highway).add("score", JsonRaw{json_object(score).text()});
-        classes.push_back(entry.text());
-    }
     JsonObject object;
-    object.add("all", JsonRaw{json_object(comparison.all).text()})
-        .add("classes", JsonRaw{json_array(classes)});
+    object.add("all", JsonRaw{json_object(columns, {"", comparison.all}).text()})
+        .add("classes", JsonRaw{json_rows(class_columns, comparison.classes)});
     return object.text();
 }
 

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_writer.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
 #include "app/pipeline/pipeline.hpp"
@@ -165,14 +166,12 @@ void print_rows(const TripLog& trip,
                                      whole_m,
                                      options.length_m)};
     }
-    std::string_view before{""};
-    print(options.json ? "[" : trace_csv_header());
+    RowWriter<TraceRow> writer{
+        options.json ? "json" : "csv", trace_columns(), [](std::string_view text) { print(text); }};
     each_trace_row(trace, options.length_m, TripPositions{trip}, vehicle, [&](const TraceRow& row) {
-        print(before);
-        print(options.json ? json_object_of(row) : csv_line_of(row));
-        before = options.json ? "," : "";
+        writer.add(row);
     });
-    print(options.json ? "]\n" : "");
+    writer.finish();
 }
 
 /// Rejects options that need the whole trip or another reader.

@@ -1,13 +1,13 @@
 #include "app/trace/match_output.hpp"
 
+#include "app/cli/row_writer.hpp"
 #include "mapping/matching/arcs.hpp"
-#include "storage/text/json.hpp"
+#include "storage/exports/export.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -37,25 +37,68 @@ double along_way_m(const RoadNetwork& roads, EdgeId edge, double offset_m) {
     return is_forward(edge) ? link.from_m + offset_m : link.to_m - offset_m;
 }
 
-/// Matched interval in output columns; from_m < to_m along the way in either direction.
-struct RoadCells {
-    std::int64_t way_id;
-    std::int64_t from_node;
-    std::int64_t to_node;
-    std::string_view direction;
-    double from_m;
-    double to_m;
+struct Row {
+    const MatchedInterval& interval;
+    const RoadNetwork& roads;
 };
 
-RoadCells road_cells(const MatchedInterval& piece, const RoadNetwork& roads) {
-    const double a_m = along_way_m(roads, piece.edge, piece.from_offset_m);
-    const double b_m = along_way_m(roads, piece.edge, piece.to_offset_m);
-    return {.way_id = way_of(roads, piece.edge).id,
-            .from_node = end_node_id(roads, piece.edge, true),
-            .to_node = end_node_id(roads, piece.edge, false),
-            .direction = is_forward(piece.edge) ? "forward" : "backward",
-            .from_m = std::min(a_m, b_m),
-            .to_m = std::max(a_m, b_m)};
+bool is_road(const Row& row) {
+    return row.interval.kind == IntervalKind::road;
+}
+
+Cell way_of(const Row& row) {
+    return is_road(row) ? Cell{way_of(row.roads, row.interval.edge).id} : Cell{};
+}
+
+Cell node_of(const Row& row, bool at_start) {
+    return is_road(row) ? Cell{end_node_id(row.roads, row.interval.edge, at_start)} : Cell{};
+}
+
+Cell direction_of(const Row& row) {
+    return is_road(row) ? Cell{is_forward(row.interval.edge) ? "forward" : "backward"} : Cell{};
+}
+
+/// Distance of an end along the way; from_m < to_m in either direction.
+Cell along_way_of(const Row& row, bool is_first) {
+    const auto& [interval, roads] = row;
+    if (!is_road(row)) {
+        return {};
+    }
+    const double a_m = along_way_m(roads, interval.edge, interval.from_offset_m);
+    const double b_m = along_way_m(roads, interval.edge, interval.to_offset_m);
+    return is_first ? std::min(a_m, b_m) : std::max(a_m, b_m);
+}
+
+// clang-format off
+const Columns<Row> road_columns{
+    {"way_id", as::integer, [](auto& r) { return way_of(r); }},
+    {"from_node", as::integer, [](auto& r) { return node_of(r, true); }},
+    {"to_node", as::integer, [](auto& r) { return node_of(r, false); }},
+    {"direction", as::text, direction_of},
+    {"from_m", as::metres(2), [](auto& r) { return along_way_of(r, true); }},
+    {"to_m", as::metres(2), [](auto& r) { return along_way_of(r, false); }},
+    {"offset_sd_m", as::json_only(as::metres(2)), [](auto& r) { return r.interval.offset_sd_m; }},
+};
+const Columns<Row> interval_columns{
+    {"t_enter_s", as::seconds(3), [](auto& r) { return r.interval.t_enter_s; }},
+    {"t_leave_s", as::seconds(3), [](auto& r) { return r.interval.t_leave_s; }},
+    {"confidence", as::real(4), [](auto& r) { return r.interval.confidence; }},
+    {"kind", as::text, [](auto& r) { return kind_name(r.interval.kind); }},
+    {"reason", as::text, [](auto& r) { return r.interval.reason; }},
+};
+const Columns<Arc> arc_columns{
+    {"from_node", as::integer, [](auto& r) { return r.from_node; }},
+    {"to_node", as::integer, [](auto& r) { return r.to_node; }},
+    {"way_id", as::integer, [](auto& r) { return r.way_id; }},
+    {"t_enter_s", as::seconds(3), [](auto& r) { return r.t_enter_s; }},
+};
+// clang-format on
+
+/// Columns of an interval on a road; others lack the first of them in GeoJSON.
+Columns<Row> all_columns() {
+    auto columns = road_columns;
+    columns.insert(columns.end(), interval_columns.begin(), interval_columns.end());
+    return columns;
 }
 
 /// Returns the part of an edge that an interval covers.
@@ -73,42 +116,19 @@ std::vector<GeoPoint> line_of_piece(const MatchedInterval& piece, const RoadNetw
     return line;
 }
 
-std::string coordinates(const std::vector<GeoPoint>& line) {
-    std::vector<std::string> points;
-    points.reserve(line.size());
-    for (const auto& point : line) {
-        points.push_back(fmt::format("[{:.7f},{:.7f}]", point.lon_deg, point.lat_deg));
-    }
-    return json_array(points);
+std::string feature_of(const Row& row) {
+    return is_road(row) ? geojson_feature({},
+                                          line_of_piece(row.interval, row.roads),
+                                          json_object(all_columns(), row))
+                        : geojson_feature({}, {}, json_object(interval_columns, row));
 }
 
-std::string geojson_feature(const MatchedInterval& piece, const RoadNetwork& roads) {
-    JsonObject properties;
-    JsonValue geometry = nullptr;
-    if (piece.kind == IntervalKind::road) {
-        const auto cells = road_cells(piece, roads);
-        properties.add("way_id", cells.way_id)
-            .add("from_node", cells.from_node)
-            .add("to_node", cells.to_node)
-            .add("direction", std::string{cells.direction})
-            .add("from_m", JsonNumber{cells.from_m, 2})
-            .add("to_m", JsonNumber{cells.to_m, 2})
-            .add("offset_sd_m", JsonNumber{piece.offset_sd_m, 2});
-        JsonObject line;
-        line.add("type", std::string{"LineString"})
-            .add("coordinates", JsonRaw{coordinates(line_of_piece(piece, roads))});
-        geometry = JsonRaw{line.text()};
+std::vector<Row> rows_of(const MatchedTrace& passages, const RoadNetwork& roads) {
+    std::vector<Row> rows;
+    for (const auto& interval : passages) {
+        rows.push_back({interval, roads});
     }
-    properties.add("t_enter_s", JsonNumber{piece.t_enter_s, 3})
-        .add("t_leave_s", JsonNumber{piece.t_leave_s, 3})
-        .add("confidence", JsonNumber{piece.confidence, 4})
-        .add("kind", std::string{kind_name(piece.kind)})
-        .add("reason", piece.reason);
-    JsonObject feature;
-    feature.add("type", std::string{"Feature"})
-        .add("geometry", geometry)
-        .add("properties", JsonRaw{properties.text()});
-    return feature.text();
+    return rows;
 }
 
 /// Returns the length within an interval that was not driven, because the recording was paused and
@@ -126,50 +146,15 @@ double paused_within_m(const MatchedInterval& piece, const Odometer& odometer) {
 } // namespace
 
 std::string passages_csv(const MatchedTrace& passages, const RoadNetwork& roads) {
-    std::string csv = "way_id,from_node,to_node,direction,from_m,to_m,t_enter_s,t_leave_s,"
-                      "confidence,kind,reason\n";
-    for (const auto& piece : passages) {
-        if (piece.kind == IntervalKind::road) {
-            const auto cells = road_cells(piece, roads);
-            csv += fmt::format("{},{},{},{},{:.2f},{:.2f}",
-                               cells.way_id,
-                               cells.from_node,
-                               cells.to_node,
-                               cells.direction,
-                               cells.from_m,
-                               cells.to_m);
-        } else {
-            csv += ",,,,,";
-        }
-        csv += fmt::format(",{:.3f},{:.3f},{:.4f},{},{}\n",
-                           piece.t_enter_s,
-                           piece.t_leave_s,
-                           piece.confidence,
-                           kind_name(piece.kind),
-                           piece.reason);
-    }
-    return csv;
+    return rows_text(all_columns(), rows_of(passages, roads), "csv");
 }
 
 std::string passages_geojson(const MatchedTrace& passages, const RoadNetwork& roads) {
-    std::vector<std::string> features;
-    features.reserve(passages.size());
-    for (const auto& piece : passages) {
-        features.push_back(geojson_feature(piece, roads));
-    }
-    JsonObject collection;
-    collection.add("type", std::string{"FeatureCollection"})
-        .add("features", JsonRaw{json_array(features)});
-    return collection.text() + "\n";
+    return rows_text(all_columns(), rows_of(passages, roads), "geojson", feature_of);
 }
 
 std::string arcs_csv(const MatchedTrace& trace, const RoadNetwork& roads) {
-    std::string csv = "from_node,to_node,way_id,t_enter_s\n";
-    for (const auto& arc : arcs_of(trace, roads)) {
-        csv +=
-            fmt::format("{},{},{},{:.3f}\n", arc.from_node, arc.to_node, arc.way_id, arc.t_enter_s);
-    }
-    return csv;
+    return rows_text(arc_columns, arcs_of(trace, roads), "csv");
 }
 
 std::string matched_words(const MatchedTrace& trace, const Odometer& odometer) {

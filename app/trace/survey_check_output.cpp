@@ -1,6 +1,7 @@
 
 #include "app/trace/survey_check_output.hpp"
 
+#include "app/cli/row_writer.hpp"
 #include "render/report/document/line_chart.hpp"
 #include "storage/text/json.hpp"
 
@@ -32,81 +33,65 @@ bool is_compared(const AgainstRow& row) {
     return whole && row.survey_mm_per_m && headline_of(row);
 }
 
-/// Returns the columns, with values and decimals as in JSON.
-std::vector<std::pair<std::string_view, JsonValue>> cells_of(const AgainstRow& row) {
+Cell known_if(bool is_known, const Cell& value) {
+    return is_known ? value : Cell{};
+}
+
+Cell error_of(const AgainstRow& row) {
     const auto iri = headline_of(row);
-    const auto [low, high] = interval_of(row);
-    const auto known = [&](double value) {
-        return json_number(iri ? std::optional{value} : std::nullopt, 3);
-    };
-    const bool both = iri && row.survey_mm_per_m;
-    return {
-        {"survey_line", static_cast<std::int64_t>(row.survey.line)},
-        {"pass", static_cast<std::int64_t>(row.pass.pass)},
-        {"lat_deg", JsonNumber{row.survey.at.lat_deg, 7}},
-        {"lon_deg", JsonNumber{row.survey.at.lon_deg, 7}},
-        {"from_m", JsonNumber{row.pass.from_m, 2}},
-        {"to_m", JsonNumber{row.pass.to_m, 2}},
-        {"t_s", json_number(row.t_s, 3)},
-        {"speed_mps", known(row.mean.speed_mps)},
-        {"distance_m", JsonNumber{row.pass.distance_m, 2}},
-        {"survey", json_number(row.survey_mm_per_m, 3)},
-        {"survey_index",
-         row.survey_mm_per_m ? JsonValue{std::string{row.survey_index}} : JsonValue{nullptr}},
-        {"iri", json_number(iri, 3)},
-        {"index",
-         iri ? JsonValue{std::string{row.mean.mri_mm_per_m ? "MRI" : "HRI"}} : JsonValue{nullptr}},
-        {"error", json_number(both ? std::optional{*iri - *row.survey_mm_per_m} : std::nullopt, 3)},
-        {"iri_sd", known(row.mean.sd_mm_per_m)},
-        {"iri_low", known(low)},
-        {"iri_high", known(high)},
-        {"survey_left", json_number(row.survey.left_mm_per_m, 3)},
-        {"iri_left", json_number(row.mean.left_mm_per_m, 3)},
-        {"survey_right", json_number(row.survey.right_mm_per_m, 3)},
-        {"iri_right", json_number(row.mean.right_mm_per_m, 3)},
-        {"validity", name_of_validity(row.mean.validity)}};
+    return iri && row.survey_mm_per_m ? Cell{*iri - *row.survey_mm_per_m} : Cell{};
 }
 
-std::string cell_text(const JsonValue& value) {
-    if (const auto* const number = std::get_if<JsonNumber>(&value)) {
-        return fmt::format("{:.{}f}", number->value, number->decimals);
-    }
-    if (const auto* const whole = std::get_if<std::int64_t>(&value)) {
-        return fmt::format("{}", *whole);
-    }
-    const auto* const words = std::get_if<std::string>(&value);
-    return words ? *words : std::string{};
-}
+// clang-format off
+const Columns<AgainstRow> columns{
+    {"survey_line", as::integer, [](auto& r) { return r.survey.line; }},
+    {"pass", as::integer, [](auto& r) { return r.pass.pass; }},
+    {"lat_deg", as::degrees, [](auto& r) { return r.survey.at.lat_deg; }},
+    {"lon_deg", as::degrees, [](auto& r) { return r.survey.at.lon_deg; }},
+    {"from_m", as::metres(2), [](auto& r) { return r.pass.from_m; }},
+    {"to_m", as::metres(2), [](auto& r) { return r.pass.to_m; }},
+    {"t_s", as::seconds(3), [](auto& r) { return r.t_s; }},
+    {"speed_mps", as::real(3, "m/s"),
+     [](auto& r) { return known_if(headline_of(r).has_value(), r.mean.speed_mps); }},
+    {"distance_m", as::metres(2), [](auto& r) { return r.pass.distance_m; }},
+    {"survey", as::iri(3), [](auto& r) { return r.survey_mm_per_m; }},
+    {"survey_index", as::text,
+     [](auto& r) { return known_if(r.survey_mm_per_m.has_value(), r.survey_index); }},
+    {"iri", as::iri(3), headline_of},
+    {"index", as::text, [](auto& r) {
+         return known_if(headline_of(r).has_value(), r.mean.mri_mm_per_m ? "MRI" : "HRI"); }},
+    {"error", as::iri(3), error_of},
+    {"iri_sd", as::iri(3),
+     [](auto& r) { return known_if(headline_of(r).has_value(), r.mean.sd_mm_per_m); }},
+    {"iri_low", as::iri(3),
+     [](auto& r) { return known_if(headline_of(r).has_value(), interval_of(r).first); }},
+    {"iri_high", as::iri(3),
+     [](auto& r) { return known_if(headline_of(r).has_value(), interval_of(r).second); }},
+    {"survey_left", as::iri(3), [](auto& r) { return r.survey.left_mm_per_m; }},
+    {"iri_left", as::iri(3), [](auto& r) { return r.mean.left_mm_per_m; }},
+    {"survey_right", as::iri(3), [](auto& r) { return r.survey.right_mm_per_m; }},
+    {"iri_right", as::iri(3), [](auto& r) { return r.mean.right_mm_per_m; }},
+    {"validity", as::text, [](auto& r) { return name_of_validity(r.mean.validity); }},
+};
 
-JsonObject json_object(const SurveyScore& score) {
-    JsonObject object;
-    object.add("pieces", static_cast<std::int64_t>(score.pieces))
-        .add("mean_survey", json_number(score.mean_survey, 4))
-        .add("mean_trip", json_number(score.mean_trip, 4))
-        .add("bias", json_number(score.bias, 4))
-        .add("sd", json_number(score.sd, 4))
-        .add("rmse", json_number(score.rmse, 4))
-        .add("correlation", json_number(score.correlation, 4))
-        .add("coverage_90", json_number(score.coverage, 4));
-    return object;
-}
+struct BandScore {
+    std::string name;
+    SurveyScore score;
+};
 
-std::string number_text(double value, int decimals) {
-    return std::isnan(value) ? std::string{"-"} : fmt::format("{:.{}f}", value, decimals);
-}
-
-std::string score_line(const std::string& name, const SurveyScore& score) {
-    return fmt::format("{:<14}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}\n",
-                       name,
-                       score.pieces,
-                       number_text(score.mean_survey, 2),
-                       number_text(score.mean_trip, 2),
-                       number_text(score.bias, 2),
-                       number_text(score.sd, 2),
-                       number_text(score.rmse, 2),
-                       number_text(score.correlation, 2),
-                       number_text(100 * score.coverage, 0));
-}
+const Columns<BandScore> score_columns{
+    {"", as::text, [](auto& r) { return r.name; }, {"IRI, mm/m", "{:<14}"}},
+    {"pieces", as::integer, [](auto& r) { return r.score.pieces; }, {"pieces", "{:>8}"}},
+    {"mean_survey", as::iri(4), [](auto& r) { return r.score.mean_survey; }, {"survey", "{:>8}", 2}},
+    {"mean_trip", as::iri(4), [](auto& r) { return r.score.mean_trip; }, {"trip", "{:>8}", 2}},
+    {"bias", as::iri(4), [](auto& r) { return r.score.bias; }, {"bias", "{:>8}", 2}},
+    {"sd", as::iri(4), [](auto& r) { return r.score.sd; }, {"sd", "{:>8}", 2}},
+    {"rmse", as::iri(4), [](auto& r) { return r.score.rmse; }, {"RMSE", "{:>8}", 2}},
+    {"correlation", as::real(4), [](auto& r) { return r.score.correlation; }, {"corr.", "{:>8}", 2}},
+    {"coverage_90", as::real(4), [](auto& r) { return r.score.coverage; }},
+    {"", as::real(0, "%"), [](auto& r) { return 100 * r.score.coverage; }, {"in 90 %", "{:>9}"}},
+};
+// clang-format on
 
 std::string band_name(const SurveyScore& score) {
     return std::isinf(score.to_mm_per_m)
@@ -170,49 +155,25 @@ std::vector<SurveyPair> compared_pairs(const Against& against) {
 }
 
 std::string against_csv(const Against& against) {
-    std::string csv;
-    for (const auto& row : against.rows) {
-        const auto cells = cells_of(row);
-        if (csv.empty()) {
-            for (const auto& [name, value] : cells) {
-                csv += fmt::format("{}{}", csv.empty() ? "" : ",", name);
-            }
-            csv += '\n';
-        }
-        std::string line;
-        for (const auto& [name, value] : cells) {
-            line += line.empty() ? "" : ",";
-            line += cell_text(value);
-        }
-        csv += line + '\n';
-    }
-    return csv;
+    return against.rows.empty() ? "" : rows_text(columns, against.rows, "csv");
 }
 
 std::string against_json(const Against& against) {
-    std::vector<std::string> rows;
-    for (const auto& row : against.rows) {
-        JsonObject object;
-        for (auto& [name, value] : cells_of(row)) {
-            object.add(name, value);
-        }
-        rows.push_back(object.text());
-    }
     const auto pairs = compared_pairs(against);
     std::vector<std::string> bands;
     for (const auto& score : scores_by_band(pairs)) {
         JsonObject band;
         band.add("from", JsonNumber{score.from_mm_per_m, 0})
             .add("to", json_number(score.to_mm_per_m, 0))
-            .add("score", JsonRaw{json_object(score).text()});
+            .add("score", JsonRaw{json_object(score_columns, {"", score}).text()});
         bands.push_back(band.text());
     }
     JsonObject object;
     object.add("survey_rows", static_cast<std::int64_t>(against.survey_rows))
         .add("met", static_cast<std::int64_t>(against.met))
-        .add("score", JsonRaw{json_object(score_of(pairs)).text()})
+        .add("score", JsonRaw{json_object(score_columns, {"", score_of(pairs)}).text()})
         .add("bands", JsonRaw{json_array(bands)})
-        .add("rows", JsonRaw{json_array(rows)});
+        .add("rows", JsonRaw{json_rows(columns, against.rows)});
     return object.text() + "\n";
 }
 
@@ -227,21 +188,11 @@ std::string against_summary(const Against& against) {
     if (pairs.empty()) {
         return text;
     }
-    text += fmt::format("{:<14}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}\n",
-                        "IRI, mm/m",
-                        "pieces",
-                        "survey",
-                        "trip",
-                        "bias",
-                        "sd",
-                        "RMSE",
-                        "corr.",
-                        "in 90 %");
-    text += score_line("all", score_of(pairs));
+    std::vector<BandScore> scores{{"all", score_of(pairs)}};
     for (const auto& score : scores_by_band(pairs)) {
-        text += score_line(band_name(score), score);
+        scores.push_back({band_name(score), score});
     }
-    return text;
+    return text + table_text(score_columns, scores);
 }
 
 std::string against_svg(const Against& against) {

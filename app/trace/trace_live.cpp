@@ -32,7 +32,9 @@ TraceRow row_of(const LiveRow& row) {
 /// Prints the rows and returns their number.
 std::size_t tell(const std::vector<LiveRow>& rows, bool json) {
     for (const auto& row : rows) {
-        print(json ? json_line_of(row_of(row)) : csv_line_of(row_of(row)));
+        const auto& columns = trace_columns();
+        print(json ? json_object(columns, row_of(row)).text() + "\n"
+                   : csv_line(columns, row_of(row)));
     }
     if (!rows.empty()) {
         flush_results();
@@ -135,7 +137,7 @@ void trace_live(const std::filesystem::path& trip,
                     .window = {},
                     .length_m = length_m}};
     if (!json) {
-        print(trace_csv_header());
+        print(csv_header(trace_columns()));
         flush_results();
     }
     DroppedSamples left_out;

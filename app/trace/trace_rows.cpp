@@ -1,54 +1,49 @@
 #include "app/trace/trace_rows.hpp"
 
 #include "estimator/roughness/roughness_mean.hpp"
-#include "storage/text/json.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace macadam {
 namespace {
 
 constexpr double z_of_90_percent = 1.645;
 
-/// Returns the columns, with values and decimals as in JSON.
-std::vector<std::pair<std::string_view, JsonValue>> cells_of(const TraceRow& row) {
-    const auto& mean = row.mean;
-    // The headline: MRI where both tracks were observed, else HRI.
-    const auto headline = mean.mri_mm_per_m ? mean.mri_mm_per_m : mean.hri_mm_per_m;
-    const double iri = headline.value_or(0);
-    const double reach = z_of_90_percent * mean.sd_mm_per_m;
-    const auto known = [&](double value) { return headline ? std::optional{value} : std::nullopt; };
-    const auto index = std::string{mean.mri_mm_per_m ? "MRI" : "HRI"};
-    return {{"from_m", JsonNumber{row.from_m, 3}},
-            {"to_m", JsonNumber{row.to_m, 3}},
-            {"t_s", json_number(row.t_s, 3)},
-            {"lat_deg", json_number(row.at ? std::optional{row.at->lat_deg} : std::nullopt, 7)},
-            {"lon_deg", json_number(row.at ? std::optional{row.at->lon_deg} : std::nullopt, 7)},
-            {"speed_mps", json_number(row.speed_mps, 3)},
-            {"iri", json_number(headline, 3)},
-            {"iri_sd", json_number(known(mean.sd_mm_per_m), 3)},
-            {"iri_low", json_number(known(std::max(0.0, iri - reach)), 3)},
-            {"iri_high", json_number(known(iri + reach), 3)},
-            {"iri_left", json_number(mean.left_mm_per_m, 3)},
-            {"iri_right", json_number(mean.right_mm_per_m, 3)},
-            {"mri", json_number(mean.mri_mm_per_m, 3)},
-            {"hri", json_number(mean.hri_mm_per_m, 3)},
-            {"index", headline ? JsonValue{index} : JsonValue{nullptr}},
-            {"validity", name_of_validity(mean.validity)}};
+/// The headline: MRI where both tracks were observed, else HRI.
+std::optional<double> headline_of(const TraceRow& row) {
+    return row.mean.mri_mm_per_m ? row.mean.mri_mm_per_m : row.mean.hri_mm_per_m;
 }
 
-std::string cell_text(const JsonValue& value) {
-    if (const auto* const number = std::get_if<JsonNumber>(&value)) {
-        return fmt::format("{:.{}f}", number->value, number->decimals);
-    }
-    const auto* const words = std::get_if<std::string>(&value);
-    return words ? *words : std::string{};
+/// Bound of the 90 % interval, `sds` standard deviations from the headline.
+Cell bound_of(const TraceRow& row, double sds) {
+    const auto iri = headline_of(row);
+    return iri ? Cell{std::max(0.0, *iri + sds * row.mean.sd_mm_per_m)} : Cell{};
 }
+
+Cell index_of(const TraceRow& row) {
+    return !headline_of(row) ? Cell{} : row.mean.mri_mm_per_m ? "MRI" : "HRI";
+}
+
+// clang-format off
+const Columns<TraceRow> columns{
+    {"from_m", as::metres(3), [](auto& r) { return r.from_m; }},
+    {"to_m", as::metres(3), [](auto& r) { return r.to_m; }},
+    {"t_s", as::seconds(3), [](auto& r) { return r.t_s; }},
+    {"lat_deg", as::degrees, [](auto& r) { return r.at ? Cell{r.at->lat_deg} : Cell{}; }},
+    {"lon_deg", as::degrees, [](auto& r) { return r.at ? Cell{r.at->lon_deg} : Cell{}; }},
+    {"speed_mps", as::real(3, "m/s"), [](auto& r) { return r.speed_mps; }},
+    {"iri", as::iri(3), headline_of},
+    {"iri_sd", as::iri(3), [](auto& r) { return headline_of(r) ? Cell{r.mean.sd_mm_per_m} : Cell{}; }},
+    {"iri_low", as::iri(3), [](auto& r) { return bound_of(r, -z_of_90_percent); }},
+    {"iri_high", as::iri(3), [](auto& r) { return bound_of(r, z_of_90_percent); }},
+    {"iri_left", as::iri(3), [](auto& r) { return r.mean.left_mm_per_m; }},
+    {"iri_right", as::iri(3), [](auto& r) { return r.mean.right_mm_per_m; }},
+    {"mri", as::iri(3), [](auto& r) { return r.mean.mri_mm_per_m; }},
+    {"hri", as::iri(3), [](auto& r) { return r.mean.hri_mm_per_m; }},
+    {"index", as::text, index_of},
+    {"validity", as::text, [](auto& r) { return name_of_validity(r.mean.validity); }},
+};
+// clang-format on
 
 TraceRow trace_row(double from_m,
                    double length_m,
@@ -67,32 +62,8 @@ TraceRow trace_row(double from_m,
 
 } // namespace
 
-std::string trace_csv_header() {
-    return "from_m,to_m,t_s,lat_deg,lon_deg,speed_mps,iri,iri_sd,iri_low,iri_high,iri_left,"
-           "iri_right,mri,hri,index,validity\n";
-}
-
-std::string csv_line_of(const TraceRow& row) {
-    std::string line;
-    std::string_view before;
-    for (const auto& [name, value] : cells_of(row)) {
-        line += before;
-        line += cell_text(value);
-        before = ",";
-    }
-    return line + "\n";
-}
-
-std::string json_line_of(const TraceRow& row) {
-    return json_object_of(row) + "\n";
-}
-
-std::string json_object_of(const TraceRow& row) {
-    JsonObject object;
-    for (auto& [name, value] : cells_of(row)) {
-        object.add(name, value);
-    }
-    return object.text();
+const Columns<TraceRow>& trace_columns() {
+    return columns;
 }
 
 void each_trace_row(const TripTrace& trace,

@@ -2,10 +2,10 @@
 
 #include "app/pipeline/pipeline.hpp"
 #include "app/pipeline/single_trip.hpp"
+#include "storage/text/columns.hpp"
 
 #include <functional>
 #include <optional>
-#include <string>
 
 namespace macadam {
 
@@ -27,13 +27,7 @@ void each_trace_row(const TripTrace& trace,
                     const Vehicle& vehicle,
                     const std::function<void(const TraceRow&)>& take);
 
-/// Returns the column names, with a newline.
-std::string trace_csv_header();
-
-/// Formats a row as a line of CSV, or as a JSON object of the same names; lines include the
-/// newline.
-std::string csv_line_of(const TraceRow& row);
-std::string json_line_of(const TraceRow& row);
-std::string json_object_of(const TraceRow& row);
+/// Columns of CSV, and members of JSON.
+const Columns<TraceRow>& trace_columns();
 
 } // namespace macadam

@@ -22,7 +22,7 @@ std::size_t write_geojson(const SegmentExport& what, AtomicFile& file) {
                json_text(what.store.settings().attribution) + ",\"features\":[");
     const char* separator = "\n";
     const auto written = each_segment(what, [&](const SegmentRecord& record) {
-        file.write(separator + geojson_feature(record, what.classes));
+        file.write(separator + geojson_feature({record, what.classes}));
         separator = ",\n";
     });
     file.write("\n]}\n");
@@ -31,14 +31,15 @@ std::size_t write_geojson(const SegmentExport& what, AtomicFile& file) {
 
 std::size_t write_geojson_lines(const SegmentExport& what, AtomicFile& file) {
     return each_segment(what, [&](const SegmentRecord& record) {
-        file.write(geojson_feature(record, what.classes) + "\n");
+        file.write(geojson_feature({record, what.classes}) + "\n");
     });
 }
 
 std::size_t write_csv(const SegmentExport& what, AtomicFile& file) {
-    file.write(csv_header() + "\n");
+    const auto& columns = segment_columns();
+    file.write(csv_header(columns));
     return each_segment(what, [&](const SegmentRecord& record) {
-        file.write(csv_row(record, what.classes) + "\n");
+        file.write(csv_line(columns, {record, what.classes}));
     });
 }
 

@@ -22,7 +22,7 @@ namespace macadam {
 namespace {
 
 using Type = LineFileColumn::Type;
-using Values = std::vector<std::optional<std::string>>;
+using Kind = ColumnType::Kind;
 
 std::size_t write_lines(const SegmentExport& what,
                         const LineFile& file,
@@ -32,7 +32,7 @@ std::size_t write_lines(const SegmentExport& what,
     try {
         write(file, [&](const LinePut& put) {
             written = each_segment(what, [&](const SegmentRecord& record) {
-                put(shape_of(record), field_values(record, what.classes));
+                put(shape_of(record), attribute_texts({record, what.classes}));
             });
         });
     } catch (const InputError& error) {
@@ -45,11 +45,11 @@ std::size_t write_lines(const SegmentExport& what,
 
 std::vector<LineFileColumn> flatgeobuf_columns() {
     std::vector<LineFileColumn> columns;
-    for (const auto& field : segment_fields()) {
-        columns.push_back({field.name,
-                           field.type == Field::Type::text   ? Type::text
-                           : field.type == Field::Type::real ? Type::real
-                                                             : Type::integer});
+    for (const auto& [name, type, value, shown] : segment_attributes()) {
+        columns.push_back({name,
+                           type.kind == Kind::real      ? Type::real
+                           : type.kind == Kind::integer ? Type::integer
+                                                        : Type::text});
     }
     return columns;
 }
@@ -74,10 +74,10 @@ constexpr int day_bytes = 8;
 constexpr int integer_bytes = 18; // with more digits, GDAL reads the column as real numbers
 constexpr int real_bytes = 13;    // 2147483.647 mm/m, and positions along a way of any length
 
-/// Shapefile column name, of at most 10 bytes: mostly the field name itself.
-std::string_view short_name(const Field& field) {
+/// Shapefile column name, of at most 10 bytes: mostly the name itself.
+std::string_view short_name(std::string_view name) {
     constexpr std::size_t max_bytes = 10;
-    return field.name.size() <= max_bytes ? field.name : "trend_year";
+    return name.size() <= max_bytes ? name : "trend_year";
 }
 
 /// Sizes that must be known before the first row of a Shapefile.
@@ -95,7 +95,7 @@ Measure measured(const SegmentExport& what) {
         for (const auto& part : cut_at_antimeridian(record.segment.line)) {
             measure.shp_bytes += shp_part_bytes + part.size() * shp_point_bytes;
         }
-        const auto values = field_values(record, what.classes);
+        const auto values = attribute_texts({record, what.classes});
         for (std::size_t i = 0; i < values.size(); ++i) {
             measure.widest[i] = std::max(measure.widest[i], values[i] ? values[i]->size() : 0);
         }
@@ -106,17 +106,16 @@ Measure measured(const SegmentExport& what) {
     return measure;
 }
 
-LineFileColumn shapefile_column(const Field& field, std::size_t widest) {
-    const auto name = short_name(field);
-    if (is_day(field)) {
+LineFileColumn shapefile_column(const Column<ClassedSegment>& column, std::size_t widest) {
+    const auto name = short_name(column.name);
+    switch (column.type.kind) {
+    case Kind::day:
         return {name, Type::day, day_bytes};
-    }
-    switch (field.type) {
-    case Field::Type::integer:
+    case Kind::integer:
         return {name, Type::integer, integer_bytes};
-    case Field::Type::real:
-        return {name, Type::real, real_bytes, field.decimals};
-    case Field::Type::text:
+    case Kind::real:
+        return {name, Type::real, real_bytes, column.type.decimals};
+    default:
         break;
     }
     const auto width = std::clamp<std::size_t>(widest, 1, max_text_bytes);
@@ -125,8 +124,8 @@ LineFileColumn shapefile_column(const Field& field, std::size_t widest) {
 
 std::vector<LineFileColumn> shapefile_columns(const Measure& measure) {
     std::vector<LineFileColumn> columns;
-    for (const auto& field : segment_fields()) {
-        columns.push_back(shapefile_column(field, measure.widest[columns.size()]));
+    for (const auto& column : segment_attributes()) {
+        columns.push_back(shapefile_column(column, measure.widest[columns.size()]));
     }
     return columns;
 }

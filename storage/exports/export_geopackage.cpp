@@ -9,39 +9,42 @@
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/text/utc.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
 namespace macadam {
 namespace {
 
-constexpr const char* roughness_table = R"(
-CREATE TABLE roughness (
-    fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,
-    geom LINESTRING,
-    segment TEXT NOT NULL,
-    way_id INTEGER NOT NULL,
-    name TEXT,
-    highway TEXT,
-    direction TEXT NOT NULL,
-    from_m DOUBLE NOT NULL,
-    to_m DOUBLE NOT NULL,
-    iri DOUBLE,
-    iri_sd DOUBLE,
-    iri_low DOUBLE,
-    iri_high DOUBLE,
-    iri_left DOUBLE,
-    iri_right DOUBLE,
-    "index" TEXT,
-    class TEXT,
-    passes INTEGER NOT NULL,
-    vehicles INTEGER NOT NULL,
-    first_seen DATE,
-    last_seen DATE,
-    trend_per_year DOUBLE,
-    trend_sd DOUBLE,
-    changed DATE,
-    change DOUBLE,
-    validity TEXT
-);
-)";
+std::string_view sql_type(ColumnType::Kind kind) {
+    using Kind = ColumnType::Kind;
+    return kind == Kind::integer ? "INTEGER"
+           : kind == Kind::real  ? "DOUBLE"
+           : kind == Kind::day   ? "DATE"
+                                 : "TEXT";
+}
+
+std::string roughness_table() {
+    std::string sql = "\nCREATE TABLE roughness (\n"
+                      "    fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,\n"
+                      "    geom LINESTRING";
+    for (const auto& [name, type, value, shown] : segment_attributes()) {
+        sql += fmt::format(",\n    {} {}{}",
+                           name == "index" ? "\"index\"" : name, // a keyword of SQL
+                           sql_type(type.kind),
+                           type.required ? " NOT NULL" : "");
+    }
+    return sql + "\n);\n";
+}
+
+std::string roughness_insert() {
+    std::string sql = "INSERT INTO roughness VALUES (NULL, ?";
+    for (std::size_t i = 0; i < segment_attributes().size(); ++i) {
+        sql += ", ?";
+    }
+    return sql + ")";
+}
 
 /// Line with continuous longitudes across the antimeridian, because the table does not allow
 /// multi-part lines.
@@ -55,7 +58,7 @@ void write_row(Statement& insert,
                const SegmentRecord& record,
                std::span<const GeoPoint> line,
                const ClassTable& classes) {
-    const auto values = field_values(record, classes);
+    const auto values = attribute_texts({record, classes});
     insert.bind(Blob{geometry_of(line)});
     for (std::size_t i = 0; i < values.size(); ++i) {
         insert.bind_at(static_cast<int>(i) + 2, values[i]);
@@ -77,13 +80,11 @@ std::size_t write_geopackage(const SegmentExport& what, const std::filesystem::p
     add_geometry_functions(database);
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
-    database.run(roughness_table);
+    database.run(roughness_table());
     GeoBox box;
     std::size_t written = 0;
     {
-        auto insert = database.prepare(
-            "INSERT INTO roughness VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?,"
-            " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        auto insert = database.prepare(roughness_insert());
         written = each_segment(what, [&](const SegmentRecord& record) {
             const auto line = smooth_line(record);
             write_row(insert, record, line, what.classes);

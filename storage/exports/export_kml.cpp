@@ -31,24 +31,25 @@ std::string style(std::string_view id, std::uint32_t rgb) {
                        line_px);
 }
 
-/// Tests for a field that is a member of the Placemark itself: the name, which is that of the road.
-/// A way id does not fit the 32-bit integers of KML.
-bool is_own_member(const Field& field) {
-    return field.name == "name";
+/// Tests for a column that is a member of the Placemark itself: the name, which is that of the
+/// road.
+bool is_own_member(std::string_view column) {
+    return column == "name";
 }
 
-std::string_view type_of(const Field& field) {
-    return field.type == Field::Type::real      ? "double"
-           : field.type == Field::Type::integer ? field.name == "way_id" ? "string" : "int"
-                                                : "string";
+/// A way id does not fit the 32-bit integers of KML.
+std::string_view type_of(const Column<ClassedSegment>& column) {
+    using Kind = ColumnType::Kind;
+    const bool is_int = column.type.kind == Kind::integer && column.name != "way_id";
+    return column.type.kind == Kind::real ? "double" : is_int ? "int" : "string";
 }
 
 std::string schema() {
     std::string text = "<Schema name=\"roughness\" id=\"roughness\">\n";
-    for (const auto& field : segment_fields()) {
-        if (!is_own_member(field)) {
-            text +=
-                fmt::format("<SimpleField type=\"{}\" name=\"{}\"/>\n", type_of(field), field.name);
+    for (const auto& column : segment_attributes()) {
+        if (!is_own_member(column.name)) {
+            text += fmt::format(
+                "<SimpleField type=\"{}\" name=\"{}\"/>\n", type_of(column), column.name);
         }
     }
     return text + "</Schema>\n";
@@ -89,22 +90,22 @@ std::string shape_of(const std::vector<GeoPoint>& line) {
 }
 
 std::string placemark(const SegmentRecord& record, const ClassTable& classes) {
-    const auto fields = segment_fields();
-    const auto values = field_values(record, classes);
+    const auto& columns = segment_attributes();
+    const auto values = attribute_texts({record, classes});
     std::string name;
     std::string data;
     auto style_id = std::string{unmeasured_style};
-    for (std::size_t i = 0; i < fields.size(); ++i) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
         if (!values[i]) {
             continue;
         }
         const auto text = xml_text(*values[i]);
-        if (is_own_member(fields[i])) {
+        if (is_own_member(columns[i].name)) {
             name = fmt::format("<name>{}</name>", text);
         } else {
-            data += fmt::format("<SimpleData name=\"{}\">{}</SimpleData>", fields[i].name, text);
+            data += fmt::format("<SimpleData name=\"{}\">{}</SimpleData>", columns[i].name, text);
         }
-        if (fields[i].name == "class") {
+        if (columns[i].name == "class") {
             style_id = text;
         }
     }

@@ -2,74 +2,88 @@
 
 #include "mapping/geometry/antimeridian.hpp"
 #include "storage/store/rows/segment_row.hpp"
-#include "storage/text/json.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
+#include <functional>
 
 namespace macadam {
 namespace {
 
-using Type = Field::Type;
-
 constexpr int place_decimals = 7; // 1 cm
 
-constexpr std::array fields{
-    Field{"segment", Type::text, 0},     Field{"way_id", Type::integer, 0},
-    Field{"name", Type::text, 0},        Field{"highway", Type::text, 0},
-    Field{"direction", Type::text, 0},   Field{"from_m", Type::real, 2},
-    Field{"to_m", Type::real, 2},        Field{"iri", Type::real, 3},
-    Field{"iri_sd", Type::real, 3},      Field{"iri_low", Type::real, 3},
-    Field{"iri_high", Type::real, 3},    Field{"iri_left", Type::real, 3},
-    Field{"iri_right", Type::real, 3},   Field{"index", Type::text, 0},
-    Field{"class", Type::text, 0},       Field{"passes", Type::integer, 0},
-    Field{"vehicles", Type::integer, 0}, Field{"first_seen", Type::text, 0},
-    Field{"last_seen", Type::text, 0},   Field{"trend_per_year", Type::real, 3},
-    Field{"trend_sd", Type::real, 3},    Field{"changed", Type::text, 0},
-    Field{"change", Type::real, 3},      Field{"validity", Type::text, 0}};
-
+using Row = ClassedSegment;
 using Text = std::optional<std::string>;
 
 Text unless_empty(const std::string& text) {
     return text.empty() ? std::nullopt : Text{text};
 }
 
-Text um_text(const std::optional<IriUm>& um) {
-    return um ? Text{fmt::format("{:.3f}", mm_per_m(*um))} : std::nullopt;
+/// Value of a state; unknown without a pass.
+template <typename Member>
+Cell of_state(const Row& row, Member member) {
+    return row.record.state ? Cell{std::invoke(member, *row.record.state)} : Cell{};
 }
 
-Text day_text(const std::optional<std::int64_t>& utc_ms) {
-    return utc_ms ? Text{utc_day(*utc_ms)} : std::nullopt;
+template <typename Member>
+Cell iri_of(const Row& row, Member member) {
+    const std::optional<IriUm> none;
+    const auto um = row.record.state ? std::invoke(member, *row.record.state) : none;
+    return um ? Cell{mm_per_m(*um)} : Cell{};
 }
 
-/// Values of the fields from `iri` on, in their order.
-std::vector<Text> state_values(const SegmentState& state, const ClassTable& classes) {
-    return {um_text(state.iri_um),
-            um_text(state.sd_um),
-            um_text(state.low_um),
-            um_text(state.high_um),
-            um_text(state.left_um),
-            um_text(state.right_um),
-            name_of_index(state.centre_only),
-            std::string{classes.classes[class_index(classes, mm_per_m(state.iri_um))].name},
-            fmt::format("{}", state.passes),
-            fmt::format("{}", state.vehicles),
-            day_text(state.first_seen_ms),
-            day_text(state.last_seen_ms),
-            um_text(state.trend_um_per_year),
-            um_text(state.trend_sd_um_per_year),
-            state.change ? day_text(state.change->utc_ms) : std::nullopt,
-            state.change ? um_text(state.change->um) : std::nullopt,
-            name_of_validity(state.validity)};
+template <typename Member>
+Cell day_of(const Row& row, Member member) {
+    const std::optional<std::int64_t> none;
+    const auto utc_ms = row.record.state ? std::invoke(member, *row.record.state) : none;
+    return utc_ms ? Cell{utc_day(*utc_ms)} : Cell{};
 }
 
-std::vector<Text> values_without_state() {
-    std::vector<Text> values(17);
-    values[8] = values[9] = "0"; // passes and vehicles: 0 is a known value
-    return values;
+/// Value of a state in a table, which shows nothing after "(no pass)".
+template <typename Member>
+std::string in_table(const Row& row, Member member) {
+    return row.record.state ? fmt::format("{}", std::invoke(member, *row.record.state)) : "";
+}
+
+std::optional<std::int64_t> changed_ms(const SegmentState& state) {
+    return state.change ? std::optional{state.change->utc_ms} : std::nullopt;
+}
+
+std::optional<IriUm> change_um(const SegmentState& state) {
+    return state.change ? std::optional{state.change->um} : std::nullopt;
+}
+
+Cell class_of(const Row& row) {
+    return of_state(row, [&](const SegmentState& state) {
+        return row.classes.classes[class_index(row.classes, mm_per_m(state.iri_um))].name;
+    });
+}
+
+std::string road_interval_of(const Row& row) {
+    return fmt::format("{:>8.1f}-{:>8.1f}", row.record.segment.from_m, row.record.segment.to_m);
+}
+
+Cell iri_interval_of(const Row& row) {
+    return of_state(row, [](const SegmentState& state) {
+        return fmt::format("{:>5.2f} - {:>5.2f}", mm_per_m(state.low_um), mm_per_m(state.high_um));
+    });
+}
+
+std::string last_seen_words(const Row& row) {
+    const auto& state = row.record.state;
+    return !state ? "" : state->last_seen_ms ? utc_day(*state->last_seen_ms) : "undated";
+}
+
+/// Point halfway along a segment.
+GeoPoint middle_of(const Row& row) {
+    const auto& line = row.record.segment.line;
+    if (!crosses_antimeridian(line)) {
+        return halfway_along(line);
+    }
+    const auto middle = halfway_along(unwrapped(line, line.front().lon_deg));
+    return {middle.lat_deg, std::remainder(middle.lon_deg, 360.0)};
 }
 
 std::string positions_of(const std::vector<GeoPoint>& line) {
@@ -82,60 +96,71 @@ std::string positions_of(const std::vector<GeoPoint>& line) {
     return json_array(points);
 }
 
-JsonValue json_of(const Field& field, const Text& value) {
-    if (!value) {
-        return nullptr;
-    }
-    return field.type == Type::text ? JsonValue{*value} : JsonValue{JsonRaw{*value}};
-}
+using State = SegmentState;
 
-GeoPoint middle_of(const std::vector<GeoPoint>& line) {
-    if (!crosses_antimeridian(line)) {
-        return halfway_along(line);
-    }
-    const auto middle = halfway_along(unwrapped(line, line.front().lon_deg));
-    return {middle.lat_deg, std::remainder(middle.lon_deg, 360.0)};
-}
-
-/// Tests for text that a spreadsheet would interpret as a formula, even in quotes.
-bool looks_like_formula(std::string_view text) {
-    return text.find_first_of("=+-@\t\r") == 0;
-}
-
-std::string quoted_cell(std::string_view text) {
-    std::string cell{"\""};
-    for (const char c : text) {
-        cell += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return cell + "\"";
-}
-
-std::string csv_cell(const Field& field, const Text& value) {
-    return field.type == Type::text ? csv_text(value.value_or("")) : value.value_or("");
-}
+// clang-format off
+const Columns<Row> columns{
+    {"segment", as::required(as::text),
+     [](auto& r) { return name_of(r.record.segment.key); }, {"segment", "{:<18}"}},
+    {"way_id", as::required(as::integer), [](auto& r) { return r.record.segment.key.way_id; }},
+    {"name", as::text, [](auto& r) { return unless_empty(r.record.name); }},
+    {"highway", as::text, [](auto& r) { return unless_empty(r.record.highway); }},
+    {"", as::text, [](auto& r) { return r.record.name.empty() ? r.record.highway : r.record.name; },
+     {"road", " {:<24.24}"}},
+    {"direction", as::required(as::text),
+     [](auto& r) { return r.record.segment.key.forward ? "forward" : "backward"; }},
+    {"from_m", as::required(as::metres(2)), [](auto& r) { return r.record.segment.from_m; }},
+    {"to_m", as::required(as::metres(2)), [](auto& r) { return r.record.segment.to_m; }},
+    {"", as::text, road_interval_of, {"from-to m", " {:>17}"}},
+    {"iri", as::iri(3), [](auto& r) { return iri_of(r, &State::iri_um); }, {"IRI", " {:>6}", 2}},
+    {"iri_sd", as::iri(3), [](auto& r) { return iri_of(r, &State::sd_um); }},
+    {"iri_low", as::iri(3), [](auto& r) { return iri_of(r, &State::low_um); }},
+    {"iri_high", as::iri(3), [](auto& r) { return iri_of(r, &State::high_um); }},
+    {"", as::text, iri_interval_of, {"90 %", " {:>13}"}},
+    {"iri_left", as::iri(3), [](auto& r) { return iri_of(r, &State::left_um); }},
+    {"iri_right", as::iri(3), [](auto& r) { return iri_of(r, &State::right_um); }},
+    {"index", as::text,
+     [](auto& r) { return of_state(r, [](auto& s) { return name_of_index(s.centre_only); }); }},
+    {"class", as::text, class_of},
+    {"", as::text, [](auto& r) { return r.record.state ? class_of(r) : Cell{"(no pass)"}; },
+     {"class", "  {:<6}"}},
+    {"passes", as::required(as::integer),
+     [](auto& r) { return r.record.state ? r.record.state->passes : 0; }},
+    {"vehicles", as::required(as::integer),
+     [](auto& r) { return r.record.state ? r.record.state->vehicles : 0; }},
+    {"", as::text, [](auto& r) { return in_table(r, &State::passes); }, {"passes", " {:>6}"}},
+    {"", as::text, [](auto& r) { return in_table(r, &State::vehicles); }, {"cars", " {:>5}"}},
+    {"first_seen", as::day, [](auto& r) { return day_of(r, &State::first_seen_ms); }},
+    {"last_seen", as::day, [](auto& r) { return day_of(r, &State::last_seen_ms); }},
+    {"", as::text, last_seen_words, {"last seen", "  {}"}},
+    {"trend_per_year", as::iri(3), [](auto& r) { return iri_of(r, &State::trend_um_per_year); }},
+    {"trend_sd", as::iri(3), [](auto& r) { return iri_of(r, &State::trend_sd_um_per_year); }},
+    {"changed", as::day, [](auto& r) { return day_of(r, changed_ms); }},
+    {"change", as::iri(3), [](auto& r) { return iri_of(r, change_um); }},
+    {"validity", as::text,
+     [](auto& r) { return of_state(r, [](auto& s) { return name_of_validity(s.validity); }); }},
+    {"lat_deg", as::csv_only(as::degrees), [](auto& r) { return middle_of(r).lat_deg; }},
+    {"lon_deg", as::csv_only(as::degrees), [](auto& r) { return middle_of(r).lon_deg; }},
+};
+// clang-format on
 
 } // namespace
 
-std::span<const Field> segment_fields() {
-    return fields;
+const Columns<ClassedSegment>& segment_columns() {
+    return columns;
 }
 
-bool is_day(const Field& field) {
-    return field.name == "first_seen" || field.name == "last_seen" || field.name == "changed";
+const Columns<ClassedSegment>& segment_attributes() {
+    static const auto attributes = attributes_of(columns);
+    return attributes;
 }
 
-std::vector<Text> field_values(const SegmentRecord& record, const ClassTable& classes) {
-    const auto& segment = record.segment;
-    std::vector<Text> values{name_of(segment.key),
-                             fmt::format("{}", segment.key.way_id),
-                             unless_empty(record.name),
-                             unless_empty(record.highway),
-                             segment.key.forward ? "forward" : "backward",
-                             fmt::format("{:.2f}", segment.from_m),
-                             fmt::format("{:.2f}", segment.to_m)};
-    const auto state = record.state ? state_values(*record.state, classes) : values_without_state();
-    values.insert(values.end(), state.begin(), state.end());
-    return values;
+std::vector<Text> attribute_texts(const ClassedSegment& segment) {
+    std::vector<Text> texts;
+    for (const auto& column : segment_attributes()) {
+        texts.push_back(plain_text(column.type, column.value(segment)));
+    }
+    return texts;
 }
 
 std::string geojson_geometry(const std::vector<GeoPoint>& line) {
@@ -152,46 +177,25 @@ std::string geojson_geometry(const std::vector<GeoPoint>& line) {
     return geometry.text();
 }
 
-std::string geojson_feature(const SegmentRecord& record, const ClassTable& classes) {
-    const auto values = field_values(record, classes);
-    JsonObject properties;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        properties.add(fields[i].name, json_of(fields[i], values[i]));
-    }
+std::string geojson_feature(const std::optional<JsonValue>& id,
+                            const std::vector<GeoPoint>& line,
+                            const JsonObject& properties) {
     JsonObject feature;
-    feature.add("type", "Feature")
-        .add("id", name_of(record.segment.key))
-        .add("geometry", JsonRaw{geojson_geometry(record.segment.line)})
+    feature.add("type", "Feature");
+    if (id) {
+        feature.add("id", *id);
+    }
+    feature
+        .add("geometry",
+             line.empty() ? JsonValue{nullptr} : JsonValue{JsonRaw{geojson_geometry(line)}})
         .add("properties", JsonRaw{properties.text()});
     return feature.text();
 }
 
-std::string csv_row(const SegmentRecord& record, const ClassTable& classes) {
-    const auto values = field_values(record, classes);
-    std::string row;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        row += csv_cell(fields[i], values[i]) + ",";
-    }
-    const auto middle = middle_of(record.segment.line);
-    return row +
-           fmt::format(
-               "{:.{}f},{:.{}f}", middle.lat_deg, place_decimals, middle.lon_deg, place_decimals);
-}
-
-std::string csv_header() {
-    std::string header;
-    for (const auto& field : fields) {
-        header += fmt::format("{},", field.name);
-    }
-    return header + "lat_deg,lon_deg";
-}
-
-std::string csv_text(std::string_view text) {
-    if (looks_like_formula(text)) {
-        return quoted_cell(fmt::format("'{}", text)); // prefix with which spreadsheets mark text
-    }
-    const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos;
-    return plain ? std::string{text} : quoted_cell(text);
+std::string geojson_feature(const ClassedSegment& segment) {
+    return geojson_feature(name_of(segment.record.segment.key),
+                           segment.record.segment.line,
+                           json_object(columns, segment));
 }
 
 } // namespace macadam

@@ -92,7 +92,9 @@ Answer read_store(const fs::path& file) {
     everything.with_state_only = false;
     read([&] { store.visit_summaries(everything, [](const SegmentSummary&) {}); });
     read([&] {
-        store.visit(everything, [&](const SegmentRecord& record) { csv_row(record, classes); });
+        store.visit(everything, [&](const SegmentRecord& record) {
+            csv_line(segment_columns(), {record, classes});
+        });
     });
     SegmentFilter of_a_month;
     of_a_month.period = Period{october_2025_ms, november_2026_ms};

@@ -74,9 +74,9 @@ using Limits = std::function<Values(Values)>;
 
 Values values_of(const SegmentRecord& record) {
     Values values;
-    const auto texts = field_values(record, *class_table("fhwa"));
+    const auto texts = attribute_texts({record, *class_table("fhwa")});
     for (std::size_t i = 0; i < texts.size(); ++i) {
-        values.emplace(segment_fields()[i].name, texts[i]);
+        values.emplace(segment_attributes()[i].name, texts[i]);
     }
     return values;
 }
@@ -84,14 +84,15 @@ Values values_of(const SegmentRecord& record) {
 /// A field of a feature against the text that it should be.
 void expect_equal(const json& found,
                   const std::optional<std::string>& expected,
-                  const Field& field,
+                  const Column<ClassedSegment>& field,
                   const std::string& where) {
     if (!expected) {
         EXPECT_TRUE(found.is_null() || found == "") << where << " " << found;
         return;
     }
     ASSERT_FALSE(found.is_null()) << where;
-    if (field.type != Field::Type::text) {
+    const auto kind = field.type.kind;
+    if (kind == ColumnType::Kind::integer || kind == ColumnType::Kind::real) {
         const double value =
             found.is_number() ? found.get<double>() : std::stod(found.get<std::string>());
         EXPECT_EQ(value, std::stod(*expected)) << where;
@@ -99,7 +100,7 @@ void expect_equal(const json& found,
     }
     ASSERT_TRUE(found.is_string()) << where << " " << found;
     auto text = found.get<std::string>();
-    if (is_day(field)) { // 2018/08/02
+    if (kind == ColumnType::Kind::day) { // 2018/08/02
         std::ranges::replace(text, '/', '-');
     }
     EXPECT_EQ(text, *expected) << where;
@@ -131,7 +132,7 @@ void expect_round_trip(const Kind& kind) {
         ASSERT_TRUE(features.contains(segment)) << segment;
         const auto& feature = features.at(segment);
         const auto expected = kind.limits(values_of(record));
-        for (const auto& field : segment_fields()) {
+        for (const auto& field : segment_attributes()) {
             const std::string name{field.name};
             const auto renamed = kind.renamed.find(name);
             const auto& there = renamed == kind.renamed.end() ? name : renamed->second;

@@ -74,7 +74,8 @@ const ClassTable& fhwa() {
 }
 
 TEST(Export, WritesAFeatureInTheWordsOfRfc7946) {
-    EXPECT_EQ(geojson_feature(record(), fhwa()),
+    const auto shown = record();
+    EXPECT_EQ(geojson_feature({shown, fhwa()}),
               R"({"type":"Feature","id":"1234-0007","geometry":{"type":"LineString",)"
               R"("coordinates":[[10.0000000,50.1234568],[-10.0000000,50.1236000]]},"properties":{)"
               R"("segment":"1234-0007","way_id":1234,"name":"=A, \"B\"","highway":"residential",)"
@@ -88,21 +89,22 @@ TEST(Export, WritesAFeatureInTheWordsOfRfc7946) {
 TEST(Export, WritesACsvRowWithTheSameValues) {
     auto even = record();
     even.segment.line = {{50, 10}, {50.001, 10}, {50.002, 10}};
-    EXPECT_EQ(csv_header(),
+    EXPECT_EQ(csv_header(segment_columns()),
               "segment,way_id,name,highway,direction,from_m,to_m,iri,iri_sd,iri_low,iri_high,"
               "iri_left,iri_right,index,class,passes,vehicles,first_seen,last_seen,trend_per_year,"
-              "trend_sd,changed,change,validity,lat_deg,lon_deg");
-    EXPECT_EQ(csv_row(even, fhwa()),
+              "trend_sd,changed,change,validity,lat_deg,lon_deg\n");
+    EXPECT_EQ(csv_line(segment_columns(), {even, fhwa()}),
               "1234-0007,1234,\"'=A, \"\"B\"\"\",residential,backward,140.00,160.01,2.345,0.300,"
               "1.852,2.839,2.400,,MRI,fair,5,3,2018-08-02,2018-08-02,"
-              "-0.051,0.020,2018-08-02,-0.812,start_up,50.0010000,10.0000000");
+              "-0.051,0.020,2018-08-02,-0.812,start_up,50.0010000,10.0000000\n");
 }
 
 TEST(Export, MakesTextOfWhatASpreadsheetWouldRun) {
     for (const auto* name : {"=1", "+1", "-1", "@a"}) {
         auto odd = record();
         odd.name = name;
-        EXPECT_THAT(csv_row(odd, fhwa()), HasSubstr(",\"'" + std::string{name} + "\","));
+        EXPECT_THAT(csv_line(segment_columns(), {odd, fhwa()}),
+                    HasSubstr(",\"'" + std::string{name} + "\","));
     }
 }
 
@@ -110,12 +112,12 @@ TEST(Export, LeavesUnknownValuesEmpty) {
     auto unknown = record();
     unknown.state.reset();
     unknown.name = "";
-    const auto properties = json::parse(geojson_feature(unknown, fhwa()))["properties"];
+    const auto properties = json::parse(geojson_feature({unknown, fhwa()}))["properties"];
     for (const auto* name : {"name", "iri", "iri_sd", "class", "index", "first_seen", "validity"}) {
         EXPECT_TRUE(properties[name].is_null()) << name;
     }
     EXPECT_EQ(properties["passes"], 0);
-    EXPECT_THAT(csv_row(unknown, fhwa()),
+    EXPECT_THAT(csv_line(segment_columns(), {unknown, fhwa()}),
                 HasSubstr("1234,,residential,backward,140.00,160.01,,,,,,,,,0,0,,,,,,,,50."));
 }
 

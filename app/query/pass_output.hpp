@@ -1,0 +1,15 @@
+#pragma once
+
+#include "storage/store/road_store.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+/// Formats the passes over one segment.
+/// \param format  table, json or csv
+std::string passes_text(const std::vector<HistoricPass>& passes, std::string_view format);
+
+} // namespace macadam
