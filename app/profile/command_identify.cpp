@@ -3,33 +3,31 @@
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/single_trip.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
+#include "app/profile/identify_output.hpp"
+#include "app/profile/place_on_profile.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/identification/car_modes.hpp"
-#include "estimator/identification/profile_registration.hpp"
-#include "estimator/identification/spectrum_fit.hpp"
 #include "estimator/motion/make_odometer.hpp"
 #include "estimator/motion/mounting.hpp"
 #include "estimator/motion/stretch.hpp"
-#include "render/report/document/line_chart.hpp"
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/profiles/profile_reader.hpp"
 #include "storage/settings/vehicle_writer.hpp"
-#include "storage/text/json.hpp"
 #include "storage/trips/trip_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <optional>
 
 namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double sure_correlation = 0.5; // over 300 m; wrong positions stay below 0.45
+constexpr std::string_view likelihood = "likelihood";
+constexpr std::string_view spectrum = "spectrum";
 
 struct IdentifyOptions {
     fs::path trip;
@@ -37,12 +35,13 @@ struct IdentifyOptions {
     std::optional<double> at_m;
     std::optional<double> step_m;
     std::vector<fs::path> outputs;
+    std::string method;
+    bool is_method_given;
     bool json;
 };
 
 IdentifyOptions parse_identify(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 1> methods{"spectrum"};
-    arguments.choice("--method", methods);
+    constexpr std::array methods{likelihood, spectrum};
     const auto profile = arguments.value("--profile");
     if (!profile) {
         throw UsageError{"--profile FILE is missing: the measured profile of the road"};
@@ -52,6 +51,8 @@ IdentifyOptions parse_identify(const Arguments& arguments) {
                             .at_m = arguments.number("--at"),
                             .step_m = arguments.number("--step"),
                             .outputs = {},
+                            .method = arguments.choice("--method", methods),
+                            .is_method_given = arguments.value("--method").has_value(),
                             .json = arguments.flag("--json")};
     for (const auto& output : arguments.values("--output")) {
         options.outputs.emplace_back(output);
@@ -97,226 +98,107 @@ std::vector<Stretch> stretches_of(const TripLog& trip) {
     return stretches;
 }
 
-/// Position of the trip on the profile, and its source.
-struct Place {
-    double at_m;
-    std::optional<ProfileRegistration> found; ///< `std::nullopt`: given by the user
+/// What all methods fit to.
+struct LocatedTrip {
+    std::string name;
+    std::vector<Stretch> stretches;
+    RoadProfile road;
+    PlaceOnProfile place;
 };
 
-Place place_of(const std::vector<Stretch>& stretches,
-               const RoadProfile& road,
-               const Vehicle& vehicle,
-               const IdentifyOptions& options) {
-    if (options.at_m) {
-        return {*options.at_m, {}};
-    }
-    const auto found = find_place(stretches, road, vehicle);
-    if (!found) {
-        throw InputError{fmt::format("{}: has less than 100 m of driving that could be located "
-                                     "on {}, expected more, or --at METRE",
-                                     options.trip.string(),
-                                     options.profile.string())};
-    }
-    if (found->correlation < sure_correlation) {
-        throw InputError{fmt::format("{}: cannot be located on {}: the best position has a "
-                                     "correlation of {:.2f}, expected {:.2f}, or --at METRE",
-                                     options.trip.string(),
-                                     options.profile.string(),
-                                     found->correlation,
-                                     sure_correlation)};
-    }
-    return {found->at_m, found};
+InputError nothing_on_profile(const LocatedTrip& trip, const IdentifyOptions& options) {
+    return InputError{fmt::format("{}: has no driving on {}, whose stations go from {:.1f} to "
+                                  "{:.1f} m, with its start at {:.1f} m",
+                                  options.trip.string(),
+                                  options.profile.string(),
+                                  trip.road.station_m.front(),
+                                  trip.road.station_m.back(),
+                                  trip.place.at_m)};
 }
 
-ProfileResponse longest_ride(const std::vector<Stretch>& stretches,
-                             const RoadProfile& road,
-                             const Place& place,
-                             const IdentifyOptions& options) {
+struct Identified {
+    Vehicle vehicle;
+    IdentifyOutput output;
+    std::vector<std::string> not_excited;
+};
+
+std::string name_of(const Vehicle& vehicle, const std::string& vehicle_id) {
+    return vehicle_id.empty() ? vehicle.name : vehicle_id;
+}
+
+Identified identified_by_spectrum(const LocatedTrip& trip,
+                                  const Vehicle& vehicle,
+                                  const std::string& vehicle_id,
+                                  const IdentifyOptions& options) {
     std::optional<ProfileResponse> longest;
-    for (const auto& stretch : stretches) {
-        auto ride = simulate_response(stretch, road, place.at_m);
+    for (const auto& stretch : trip.stretches) {
+        auto ride = simulate_response(stretch, trip.road, trip.place.at_m);
         if (ride && (!longest || ride->to_m - ride->from_m > longest->to_m - longest->from_m)) {
             longest = std::move(ride);
         }
     }
     if (!longest) {
-        throw InputError{fmt::format("{}: has no driving on {}, whose stations go from {:.1f} to "
-                                     "{:.1f} m, with its start at {:.1f} m",
-                                     options.trip.string(),
-                                     options.profile.string(),
-                                     road.station_m.front(),
-                                     road.station_m.back(),
-                                     place.at_m)};
+        throw nothing_on_profile(trip, options);
     }
-    return *std::move(longest);
+    const auto fit = with_trip_name(trip.name, [&] {
+        return fit_spectra(
+            *longest, vehicle.half_car, vehicle.imu.height_above_roll_axis_m, SpectrumFitConfig{});
+    });
+    auto found = identified(vehicle, fit);
+    found.name = name_of(vehicle, vehicle_id);
+    auto output = output_of(fit, *longest, trip.place, found);
+    return {std::move(found), std::move(output), {}};
 }
 
-struct Row {
-    std::string_view name;
-    double start;
-    double found;
-    int decimals;
-};
-
-std::vector<Row> rows_of(const SpectrumFit& fit) {
-    const auto& [start, found] = std::pair{fit.start, fit.found};
-    std::vector<Row> rows{{"ks_n_per_m", start.ks_n_per_m, found.ks_n_per_m, 0},
-                          {"cs_ns_per_m", start.cs_ns_per_m, found.cs_ns_per_m, 0},
-                          {"kt_n_per_m", start.kt_n_per_m, found.kt_n_per_m, 0}};
-    if (fit.lateral) {
-        rows.push_back({"is_kgm2", start.is_kgm2, found.is_kgm2, 0});
+Identified identified_by_likelihood(const LocatedTrip& trip,
+                                    const Vehicle& vehicle,
+                                    const std::string& vehicle_id,
+                                    const IdentifyOptions& options) {
+    std::optional<ProfileDrive> longest;
+    for (const auto& stretch : trip.stretches) {
+        auto drive = drive_on_profile(stretch, trip.road, vehicle, trip.place.at_m);
+        if (drive && (!longest || drive->station_m.size() > longest->station_m.size())) {
+            longest = std::move(drive);
+        }
     }
-    rows.push_back({"gain", 1, fit.gain, 3});
-    return rows;
+    if (!longest) {
+        throw nothing_on_profile(trip, options);
+    }
+    const auto fit = with_trip_name(
+        trip.name, [&] { return fit_likelihood(*longest, vehicle, LikelihoodFitConfig{}); });
+    auto found = fit.vehicle;
+    found.name = name_of(vehicle, vehicle_id);
+    auto output = output_of(fit, trip.place, found);
+    return {std::move(found), std::move(output), unexcited_parameters(fit)};
 }
 
-/// Explains a gain in plain words.
-std::string meaning_of(double gain, const Vehicle& vehicle) {
-    constexpr double one_axle = 0.93; // above it fit errors hide the wheelbase
-    constexpr double comb_low = 0.6;
-    if (gain >= one_axle) {
-        return fmt::format("gain {:.2f}: the sensor responds about as a car with one axle "
-                           "would on this road.",
-                           gain);
+/// Selects the method. The likelihood needs both axles: without them and without --method, the
+/// paper's method is used.
+bool is_likelihood(const Vehicle& vehicle, const IdentifyOptions& options, const Console& console) {
+    if (options.method == spectrum || vehicle.axles) {
+        return options.method == likelihood;
     }
-    if (gain < comb_low) {
-        return fmt::format(
-            "gain {:.2f}: lower than two axles can explain (0.71). Check that the profile is "
-            "of this road and in\nmetres, and that the sensor's scale is right.",
-            gain);
+    if (options.is_method_given) {
+        throw InputError{fmt::format("vehicle '{}' has no [axles], which --method likelihood "
+                                     "needs: give wheelbase_m and cg_to_front_m, or use --method "
+                                     "spectrum",
+                                     vehicle.name)};
     }
-    return fmt::format(
-        "gain {:.2f}: the response is {:.2f} of that of the same car with one axle. A car has "
-        "two, and a sensor\n"
-        "between them measures the mean of both: waves of 2, 2/3, 2/5, ... wheelbases cancel, "
-        "long ones do not.\n"
-        "The rms of this comb filter is 0.71, whatever the wheelbase. The gain therefore "
-        "reflects the wheelbase,\n"
-        "not a modern suspension; it removes the bias of a one-axle method, but not the "
-        "scatter{}.",
-        gain,
-        gain,
-        vehicle.axles ? ""
-                      : ". Give [axles] in the vehicle file for a method that models both "
-                        "axles");
+    console.warn(fmt::format("vehicle '{}' has no [axles]: fitted with one axle, as by --method "
+                             "spectrum; give wheelbase_m and cg_to_front_m for the likelihood fit",
+                             vehicle.name));
+    return false;
 }
 
-std::string place_text(const Place& place) {
-    if (!place.found) {
-        return fmt::format("travel 0 is at station {:.2f} m (as given)", place.at_m);
-    }
-    return fmt::format("travel 0 is at station {:.2f} m (located: the correlation of estimated "
-                       "and measured profile is {:.2f} over {:.0f} m)",
-                       place.at_m,
-                       place.found->correlation,
-                       place.found->compared_m);
-}
-
-std::string misfit_text(std::string_view name, const ChannelSpectra& spectra) {
-    return fmt::format("{} spectra differ by {:.1f} % (rms), {:.1f} % before the fit\n",
-                       name,
-                       100 * spectra.misfit_after,
-                       100 * spectra.misfit_before);
-}
-
-std::string table_of(const SpectrumFit& fit,
-                     const ProfileResponse& ride,
-                     const Place& place,
-                     const Vehicle& vehicle) {
-    auto text = fmt::format("{}\ncompared: stations {:.1f} to {:.1f} m, {:.0f} s\n\n",
-                            place_text(place),
-                            ride.from_m,
-                            ride.to_m,
-                            static_cast<double>(ride.vertical_mps2.size() - 1) * ride.step_s);
-    text += fmt::format("{:<14}{:>10}{:>10}{:>8}\n", "", "start", "found", "sd");
-    for (const auto& [name, start, found, decimals] : rows_of(fit)) {
-        text += fmt::format("{:<14}{:>10.{}f}{:>10.{}f}{:>6.1f} %\n",
-                            name,
-                            start,
-                            decimals,
-                            found,
-                            decimals,
-                            100 * fit.relative_sd.at(std::string{name}));
-    }
-    text += fmt::format("not fitted: ms_kg {:g}, mu_kg {:g}, l_m {:g}{}\n"
-                        "\n",
-                        fit.found.ms_kg,
-                        fit.found.mu_kg,
-                        fit.found.l_m,
-                        fit.lateral ? "" : fmt::format(", is_kgm2 {:g}", fit.found.is_kgm2));
-    text += misfit_text("vertical", fit.vertical);
-    if (fit.lateral) {
-        text += misfit_text("lateral", *fit.lateral);
-    }
-    const auto modes = modes_of(fit.found);
-    return text +
-           fmt::format("body bounce at {:.2f} Hz with a damping ratio of {:.2f}, wheel hop at "
-                       "{:.1f} Hz\n"
-                       "{}\n",
-                       modes.bounce_hz,
-                       modes.bounce_damping,
-                       modes.hop_hz,
-                       meaning_of(fit.gain, vehicle));
-}
-
-std::string json_of(const SpectrumFit& fit,
-                    const ProfileResponse& ride,
-                    const Place& place,
-                    const Vehicle& vehicle) {
-    JsonObject parameters;
-    for (const auto& [name, start, found, decimals] : rows_of(fit)) {
-        JsonObject one;
-        one.add("start", JsonNumber{start, decimals + 1})
-            .add("found", JsonNumber{found, decimals + 1})
-            .add("relative_sd", json_number(fit.relative_sd.at(std::string{name}), 4));
-        parameters.add(name, JsonRaw{one.text()});
-    }
-    auto meaning = meaning_of(fit.gain, vehicle);
-    std::ranges::replace(meaning, '\n', ' ');
-    const auto modes = modes_of(fit.found);
-    const auto correlation = place.found ? std::optional{place.found->correlation} : std::nullopt;
-    const auto misfit = [](const ChannelSpectra& spectra) {
-        return JsonNumber{spectra.misfit_after, 5};
-    };
-    JsonObject object;
-    object.add("vehicle", vehicle.name)
-        .add("at_m", JsonNumber{place.at_m, 2})
-        .add("correlation", json_number(correlation, 3))
-        .add("from_m", JsonNumber{ride.from_m, 2})
-        .add("to_m", JsonNumber{ride.to_m, 2})
-        .add("parameters", JsonRaw{parameters.text()})
-        .add("misfit_vertical", misfit(fit.vertical))
-        .add("misfit_lateral", fit.lateral ? JsonValue{misfit(*fit.lateral)} : JsonValue{nullptr})
-        .add("bounce_hz", JsonNumber{modes.bounce_hz, 3})
-        .add("bounce_damping", JsonNumber{modes.bounce_damping, 3})
-        .add("hop_hz", JsonNumber{modes.hop_hz, 2})
-        .add("meaning", std::move(meaning));
-    return object.text() + "\n";
-}
-
-ChartPanel panel_of(const char* title, const ChannelSpectra& spectra) {
-    using enum ChartLine::Look;
-    const auto& hz = spectra.measured.hz;
-    return {.title = title,
-            .x_label = "frequency, Hz",
-            .y_label = "amplitude, m/s² per √Hz",
-            .lines = {{"model, before the fit", hz, spectra.before, faint},
-                      {"measured", hz, spectra.measured.amplitude, solid},
-                      {"model, fitted", hz, spectra.after, dashed}}};
-}
-
-std::string figure_of(const SpectrumFit& fit) {
-    std::vector<ChartPanel> panels{panel_of("Vertical acceleration of the body", fit.vertical)};
-    if (fit.lateral) {
-        panels.push_back(panel_of("Lateral acceleration of the body", *fit.lateral));
-    }
-    return line_charts_svg(panels);
-}
-
-std::string vehicle_file_text(const Vehicle& vehicle, const IdentifyOptions& options) {
-    return fmt::format("# Identified by 'macadam identify --method spectrum' from {} on {}.\n{}",
+std::string
+vehicle_file_text(const Vehicle& vehicle, bool by_likelihood, const IdentifyOptions& options) {
+    return fmt::format("# Identified by 'macadam identify --method {}' from {} on {}.\n{}{}",
+                       by_likelihood ? likelihood : spectrum,
                        options.trip.filename().string(),
                        options.profile.filename().string(),
+                       by_likelihood ? "# The uncertainties hold if ms_kg is right: roughness "
+                                       "depends only on ratios to it.\n"
+                                     : "",
                        vehicle_text(vehicle));
 }
 
@@ -339,25 +221,25 @@ void run_identify(const Arguments& arguments, const Console& console) {
     if (!chosen.warning.empty()) {
         console.warn(chosen.warning);
     }
-    const auto stretches = with_trip_name(source.name(), [&] { return stretches_of(trip); });
-    const auto place = place_of(stretches, road, chosen.vehicle, options);
-    const auto ride = longest_ride(stretches, road, place, options);
-    const auto fit = with_trip_name(source.name(), [&] {
-        return fit_spectra(ride,
-                           chosen.vehicle.half_car,
-                           chosen.vehicle.imu.height_above_roll_axis_m,
-                           SpectrumFitConfig{});
-    });
-    auto vehicle = identified(chosen.vehicle, fit);
-    if (!trip.meta.vehicle_id.empty()) {
-        vehicle.name = trip.meta.vehicle_id;
+    auto stretches = with_trip_name(source.name(), [&] { return stretches_of(trip); });
+    const auto place = place_on_profile(
+        stretches, road, chosen.vehicle, options.at_m, options.trip, options.profile);
+    const LocatedTrip located{source.name(), std::move(stretches), road, place};
+    const bool by_likelihood = is_likelihood(chosen.vehicle, options, console);
+    const auto identify = by_likelihood ? identified_by_likelihood : identified_by_spectrum;
+    const auto result = identify(located, chosen.vehicle, trip.meta.vehicle_id, options);
+    if (!result.not_excited.empty()) {
+        console.warn(fmt::format("the drive did not excite {}: mostly the values of the vehicle "
+                                 "file",
+                                 fmt::join(result.not_excited, ", ")));
     }
     for (const auto& output : options.outputs) {
         write_file(output,
-                   output.extension() == ".svg" ? figure_of(fit)
-                                                : vehicle_file_text(vehicle, options));
+                   output.extension() == ".svg"
+                       ? result.output.figure
+                       : vehicle_file_text(result.vehicle, by_likelihood, options));
     }
-    print(options.json ? json_of(fit, ride, place, vehicle) : table_of(fit, ride, place, vehicle));
+    print(options.json ? result.output.json : result.output.table);
 }
 
 constexpr std::array operands{
@@ -370,7 +252,10 @@ constexpr std::array options{
            "Elevations of the wheel tracks, in any format that 'macadam iri' "
            "reads."},
     Option{"--step", "METRES", "Distance between rows, for a profile without stations."},
-    Option{"--method", "spectrum", "Identification method: spectrum, as in the paper.", "spectrum"},
+    Option{"--method",
+           "METHOD",
+           "likelihood: both axles, all sensors; spectrum: one axle, as in the paper.",
+           "likelihood"},
     vehicle_option,
     vehicles_option,
     mapping_option,
@@ -391,13 +276,13 @@ const Command identify_command{
     .name = "identify",
     .summary = "Identify a car's springs, damper, tyre and gain from a drive over a measured "
                "road",
-    .about = "Drives a one-axle car model over the profile as the trip drove over the road, "
-             "and fits its parameters so\n"
-             "that the amplitude spectrum of its vibration matches the measured one from 0.5 "
-             "to 15 Hz. Masses and\n"
-             "width are taken from the vehicle; all other parameters start at the golden car. "
-             "Vertical vibration gives\n"
-             "ks, cs, kt and gain, lateral vibration is_kgm2.",
+    .about = "Drives a car model over the profile as the trip drove over the road, and finds the "
+             "parameters that explain the\n"
+             "readings best within the uncertainties of the vehicle file, each with its standard "
+             "deviation. The vehicle\n"
+             "needs [axles]; without them, or with --method spectrum, a one-axle model is fitted "
+             "so that the amplitude\n"
+             "spectra match from 0.5 to 15 Hz.",
     .example = "  macadam identify drive.trip.csv --profile survey.csv --vehicle my_car.toml -o "
                "found.toml spectra.svg",
     .operands = operands,

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <iterator>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace macadam::testing {
@@ -83,8 +84,8 @@ protected:
     std::filesystem::path folder_;
 };
 
-TEST_F(Identify, SaysWhatItFoundAndWhatTheGainMeans) {
-    const auto run = identify({});
+TEST_F(Identify, SaysBySpectrumWhatItFoundAndWhatTheGainMeans) {
+    const auto run = identify({"--method", "spectrum"});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("(located: the correlation of estimated and measured profile"));
     EXPECT_THAT(run.out, HasSubstr("ks_n_per_m         15825"));
@@ -108,8 +109,78 @@ TEST_F(Identify, TakesThePlaceThatItIsTold) {
     EXPECT_THAT(run.out, StartsWith("travel 0 is at station 1000.00 m (as given)\n"));
 }
 
-TEST_F(Identify, LeavesAVehicleThatReadsBack) {
+TEST_F(Identify, TellsEachParameterWithItsUncertaintyAndWhatTheDriveDidNotExcite) {
+    const auto run = identify({});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("ms_kg is right"));
+    EXPECT_THAT(run.out, HasSubstr("\ncs_ns_per_m "));
+    EXPECT_THAT(run.out, HasSubstr("\ncorrelation "));
+    EXPECT_THAT(run.out, HasSubstr("Vertical acceleration of the body: the model leaves "));
+    // Without a gyroscope, the ends of a car cannot be told apart well.
+    EXPECT_THAT(run.err, StartsWith("macadam: warning: the drive did not excite "));
+    EXPECT_THAT(run.err, HasSubstr("dynamic_index"));
+}
+
+TEST_F(Identify, FindsTheCarThatDrove) {
     const auto run = identify({"-o", at("found.toml")});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto found = read_vehicle(folder_ / "found.toml");
+    EXPECT_EQ(found.name, "mine");
+    EXPECT_EQ(found.half_car.ms_kg, 1600);
+    EXPECT_FALSE(found.one_axle_gain);
+    for (const auto& [key, value, truth] : {std::tuple{"gain", found.gain, 1.0},
+                                            {"ks_n_per_m", found.half_car.ks_n_per_m, 30000.0},
+                                            {"cs_ns_per_m", found.half_car.cs_ns_per_m, 2500.0},
+                                            {"kt_n_per_m", found.half_car.kt_n_per_m, 250000.0}}) {
+        ASSERT_TRUE(found.uncertainty.contains(key)) << key;
+        const double sd = found.uncertainty.at(key);
+        EXPECT_LT(sd, 0.1) << key;
+        EXPECT_NEAR(value / truth, 1, 3 * sd) << key;
+    }
+    EXPECT_THAT(read_file(folder_ / "found.toml"),
+                StartsWith("# Identified by 'macadam identify --method likelihood' from "));
+}
+
+TEST_F(Identify, TellsTheSameAsJson) {
+    const auto run = identify({"--json"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("\"method\":\"likelihood\""));
+    EXPECT_THAT(run.out, HasSubstr("\"parameter_correlation\":{\"mu_kg\":{\"mu_kg\":1.000,"));
+    EXPECT_THAT(run.out, HasSubstr("\"relative_sd_given_mass\":"));
+    EXPECT_THAT(run.out, HasSubstr("\"not_excited\":[\""));
+}
+
+TEST_F(Identify, FitsACarWithoutAxlesByItsSpectrumAndSaysSo) {
+    const auto run = run_macadam({"identify",
+                                  at("drive.trip.csv"),
+                                  "--profile",
+                                  at("road.csv"),
+                                  "--at",
+                                  "1000",
+                                  "--vehicle",
+                                  "generic"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("vehicle 'generic' has no [axles]: fitted with one axle"));
+    EXPECT_THAT(run.out, HasSubstr("vertical spectra differ by "));
+}
+
+TEST_F(Identify, RefusesTheLikelihoodOfACarWithoutAxles) {
+    const auto run = run_macadam({"identify",
+                                  at("drive.trip.csv"),
+                                  "--profile",
+                                  at("road.csv"),
+                                  "--at",
+                                  "1000",
+                                  "--vehicle",
+                                  "generic",
+                                  "--method",
+                                  "likelihood"});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.err, HasSubstr("vehicle 'generic' has no [axles], which --method likelihood"));
+}
+
+TEST_F(Identify, LeavesAVehicleThatReadsBack) {
+    const auto run = identify({"--method", "spectrum", "-o", at("found.toml")});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     const auto found = read_vehicle(folder_ / "found.toml");
     EXPECT_EQ(found.name, "mine");
@@ -122,7 +193,7 @@ TEST_F(Identify, LeavesAVehicleThatReadsBack) {
 }
 
 TEST_F(Identify, LeavesAFigureOfBothChannelsThatNeedsNothingElse) {
-    const auto run = identify({"-o", at("found.toml"), at("spectra.svg")});
+    const auto run = identify({"--method", "spectrum", "-o", at("found.toml"), at("spectra.svg")});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     const auto svg = read_file(folder_ / "spectra.svg");
     EXPECT_THAT(svg, StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\""));

@@ -1,0 +1,423 @@
+#include "estimator/identification/likelihood/likelihood_fit.hpp"
+
+#include "estimator/common/error.hpp"
+#include "estimator/identification/likelihood/station_shift.hpp"
+#include "estimator/identification/likelihood/whitening.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr double min_duration_s = 10; // twenty periods of 0.5 Hz, the whitening's resolution
+constexpr double taper_s = 1;
+// Steps of finite differences, of a parameter and of the stations. They are small, since a common
+// scale of masses, springs, dampers and friction must leave the readings exactly as they are.
+constexpr double difference = 1e-4;
+constexpr double shift_difference_m = 1e-3;
+constexpr double shift_rise_sd_m = 0.5; // from knot to knot: 1 % of the travel
+constexpr double shift_sd_m = 3;        // of the first knot
+constexpr double max_step_sd = 1.5;     // of a parameter, in its prior's standard deviations
+constexpr double max_shift_step_m = 0.4;
+constexpr double block_s = 5; // residuals of two blocks are independent
+constexpr std::size_t min_blocks = 10;
+constexpr int max_iterations = 25;
+constexpr double settled = 0.1; // last step, in posterior standard deviations
+constexpr double unexcited_above = 2.0 / 3;
+
+// Upper ends of the band in the first iterations: long waves match in spite of stations that are
+// half a metre wrong.
+constexpr double first_bands_hz[] = {4, 4, 8, 8};
+
+/// Readings of all channels as columns, without the run-in and tapered at both ends.
+class Window {
+public:
+    Window(const ProfileDrive& drive, double run_in_s) {
+        first_ = static_cast<Eigen::Index>(std::ceil(run_in_s / drive.step_s));
+        const auto samples = static_cast<Eigen::Index>(drive.station_m.size()) - first_;
+        rows_ = samples - samples % 64; // the Fourier transform of large primes is slow
+        taper_ = Eigen::VectorXd::Ones(rows_);
+        const auto ramp = static_cast<Eigen::Index>(taper_s / drive.step_s);
+        for (Eigen::Index i = 0; i < ramp; ++i) {
+            const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(ramp);
+            taper_[i] = taper_[rows_ - 1 - i] = (1 - std::cos(std::numbers::pi * part)) / 2;
+        }
+        for (std::size_t channel = 0; channel < channel_count; ++channel) {
+            if (!drive.felt[channel].empty()) {
+                channels_.push_back(channel);
+            }
+        }
+    }
+
+    Eigen::MatrixXd operator()(const Readings& readings) const {
+        Eigen::MatrixXd out(rows_, static_cast<Eigen::Index>(channels_.size()));
+        for (std::size_t i = 0; i < channels_.size(); ++i) {
+            const auto& values = readings[channels_[i]];
+            out.col(static_cast<Eigen::Index>(i)) =
+                Eigen::Map<const Eigen::VectorXd>{values.data() + first_, rows_};
+        }
+        out.rowwise() -= out.colwise().mean();
+        return taper_.asDiagonal() * out;
+    }
+
+    Eigen::Index rows() const { return rows_; }
+    std::size_t first() const { return static_cast<std::size_t>(first_); }
+    const std::vector<std::size_t>& channels() const { return channels_; }
+
+private:
+    Eigen::Index first_, rows_;
+    Eigen::VectorXd taper_;
+    std::vector<std::size_t> channels_;
+};
+
+/// Drive, the parameters of its car, and the corrections of its stations behind them.
+class Problem {
+public:
+    Problem(const ProfileDrive& drive, const Vehicle& vehicle, const LikelihoodFitConfig& config)
+        : drive_{drive}, expected_{expected_car(vehicle)},
+          parameters_{parameters_of(vehicle, !drive.felt[1].empty() || !drive.felt[2].empty())},
+          knots_{knots_along(drive.station_m)}, window_{drive, config.run_in_s}, measured_{window_(
+                                                                                     drive.felt)} {
+        const auto cars = static_cast<Eigen::Index>(parameters_.size());
+        prior_ = Eigen::MatrixXd::Zero(size(), size());
+        for (Eigen::Index i = 0; i < cars; ++i) {
+            prior_(i, i) = std::pow(parameters_[static_cast<std::size_t>(i)].prior_sd, -2);
+        }
+        prior_(cars, cars) = std::pow(shift_sd_m, -2);
+        const double rise = std::pow(shift_rise_sd_m, -2);
+        for (Eigen::Index i = cars; i + 1 < size(); ++i) {
+            prior_(i, i) += rise;
+            prior_(i + 1, i + 1) += rise;
+            prior_(i, i + 1) -= rise;
+            prior_(i + 1, i) -= rise;
+        }
+    }
+
+    Eigen::Index size() const {
+        return static_cast<Eigen::Index>(parameters_.size() + knots_.count);
+    }
+    const std::vector<CarParameter>& parameters() const { return parameters_; }
+    const FittedCar& expected() const { return expected_; }
+    const Eigen::MatrixXd& prior() const { return prior_; }
+    const Eigen::MatrixXd& measured() const { return measured_; }
+    const Window& window() const { return window_; }
+    double step_s() const { return drive_.step_s; }
+
+    FittedCar car(const Eigen::VectorXd& by) const { return moved(expected_, parameters_, by); }
+
+    std::span<const double> shifts(const Eigen::VectorXd& by) const {
+        return {by.data() + parameters_.size(), knots_.count};
+    }
+
+    /// Returns the start: the expected car, at stations that match the measured readings.
+    Eigen::VectorXd start() const {
+        Eigen::VectorXd by = Eigen::VectorXd::Zero(size());
+        const auto modelled = readings(by, 0);
+        const auto shift_m =
+            correlated_shifts(knots_, drive_.station_m, drive_.felt[0], modelled[0], drive_.step_s);
+        std::ranges::copy(shift_m, by.data() + parameters_.size());
+        return by;
+    }
+
+    Eigen::MatrixXd modelled(const Eigen::VectorXd& by) const { return window_(readings(by, 0)); }
+
+    /// Returns the derivatives of the modelled readings, one matrix per unknown. That by a knot is
+    /// that by a shift of the whole drive, times the knot's share: a car forgets within a fraction
+    /// of the distance between knots.
+    std::vector<Eigen::MatrixXd> slopes(const Eigen::VectorXd& by,
+                                        const Eigen::MatrixXd& here) const {
+        std::vector<Eigen::MatrixXd> slopes;
+        for (std::size_t i = 0; i < parameters_.size(); ++i) {
+            Eigen::VectorXd beside = by;
+            beside[static_cast<Eigen::Index>(i)] += difference;
+            slopes.emplace_back((modelled(beside) - here) / difference);
+        }
+        const Eigen::MatrixXd shifted =
+            (window_(readings(by, shift_difference_m)) - here) / shift_difference_m;
+        for (std::size_t knot = 0; knot < knots_.count; ++knot) {
+            Eigen::VectorXd share(window_.rows());
+            for (Eigen::Index k = 0; k < share.size(); ++k) {
+                share[k] = share_of(
+                    knots_, knot, drive_.station_m[window_.first() + static_cast<std::size_t>(k)]);
+            }
+            slopes.emplace_back(share.asDiagonal() * shifted);
+        }
+        return slopes;
+    }
+
+private:
+    Readings readings(const Eigen::VectorXd& by, double further_m) const {
+        auto shift_m = shifts_at(knots_, shifts(by), drive_.station_m);
+        std::ranges::for_each(shift_m, [=](double& shift) { shift += further_m; });
+        return simulated_readings(drive_, car(by), expected_.vehicle.gain, shift_m);
+    }
+
+    const ProfileDrive& drive_;
+    FittedCar expected_;
+    std::vector<CarParameter> parameters_;
+    ShiftKnots knots_;
+    Window window_;
+    Eigen::MatrixXd measured_;
+    Eigen::MatrixXd prior_;
+};
+
+/// Whitened residuals and their derivatives, all channels in one column.
+struct Linearised {
+    Eigen::MatrixXd residual; ///< not whitened
+    Eigen::VectorXd white;
+    Eigen::MatrixXd slopes; ///< of the modelled readings, whitened
+};
+
+Linearised linearised(const Problem& problem, const Eigen::VectorXd& by, FrequencyBand band) {
+    const auto here = problem.modelled(by);
+    Linearised local{.residual = problem.measured() - here, .white = {}, .slopes = {}};
+    const Whitening whitening{local.residual, problem.step_s(), band};
+    local.white = whitening(local.residual).reshaped();
+    local.slopes.resize(local.white.size(), problem.size());
+    const auto slopes = problem.slopes(by, here);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        local.slopes.col(static_cast<Eigen::Index>(i)) = whitening(slopes[i]).reshaped();
+    }
+    return local;
+}
+
+/// Limits a step to some prior standard deviations and some decimetres.
+Eigen::VectorXd limited(Eigen::VectorXd step, const Problem& problem) {
+    const auto& parameters = problem.parameters();
+    double most = 1;
+    for (Eigen::Index i = 0; i < step.size(); ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const double limit =
+            at < parameters.size() ? max_step_sd * parameters[at].prior_sd : max_shift_step_m;
+        most = std::max(most, std::abs(step[i]) / limit);
+    }
+    return step / most;
+}
+
+double last_frequency_hz(const Problem& problem, const LikelihoodFitConfig& config) {
+    return std::min(config.to_hz, 0.45 / problem.step_s());
+}
+
+/// Maximum of the posterior.
+struct Peak {
+    Eigen::VectorXd by;
+    Eigen::MatrixXd covariance;
+    Eigen::MatrixXd residual;
+};
+
+/// Returns the sum over blocks of time of the squared gradient of the log-likelihood.
+Eigen::MatrixXd score_squares(const Problem& problem, const Linearised& local) {
+    const auto rows = problem.window().rows();
+    const auto block = static_cast<Eigen::Index>(block_s / problem.step_s());
+    Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(problem.size(), problem.size());
+    for (Eigen::Index from = 0; from < rows; from += block) {
+        const auto count = std::min(block, rows - from);
+        Eigen::VectorXd score = Eigen::VectorXd::Zero(problem.size());
+        for (Eigen::Index at = from; at < local.white.size(); at += rows) {
+            score +=
+                local.slopes.middleRows(at, count).transpose() * local.white.segment(at, count);
+        }
+        squares += score * score.transpose();
+    }
+    return squares;
+}
+
+/// Returns the inverse information, widened to the sandwich's standard deviations and by the model
+/// error.
+Eigen::MatrixXd covariance_of(const Problem& problem, const Linearised& local) {
+    const Eigen::MatrixXd inverse =
+        (local.slopes.transpose() * local.slopes + problem.prior()).inverse();
+    Eigen::MatrixXd covariance = inverse;
+    const auto blocks = static_cast<double>(problem.window().rows()) * problem.step_s() / block_s;
+    if (blocks >= static_cast<double>(min_blocks)) {
+        const Eigen::MatrixXd sandwich =
+            inverse * (score_squares(problem, local) + problem.prior()) * inverse;
+        const Eigen::VectorXd wider =
+            (sandwich.diagonal().array() / inverse.diagonal().array()).max(1).sqrt();
+        covariance = wider.asDiagonal() * inverse * wider.asDiagonal();
+    }
+    const auto& parameters = problem.parameters();
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        covariance(row, row) += std::pow(parameters[i].model_sd, 2);
+    }
+    return covariance;
+}
+
+Peak peak_of(const Problem& problem, const LikelihoodFitConfig& config) {
+    Eigen::VectorXd by = problem.start();
+    const double last_hz = last_frequency_hz(problem, config);
+    for (int iteration = 0;; ++iteration) {
+        const auto stage = static_cast<std::size_t>(iteration);
+        const bool is_last_band = stage >= std::size(first_bands_hz);
+        const auto local = linearised(
+            problem,
+            by,
+            {config.from_hz, is_last_band ? last_hz : std::min(first_bands_hz[stage], last_hz)});
+        const Eigen::MatrixXd information =
+            local.slopes.transpose() * local.slopes + problem.prior();
+        const Eigen::VectorXd gradient =
+            local.slopes.transpose() * local.white - problem.prior() * by;
+        const Eigen::VectorXd step = limited(information.ldlt().solve(gradient), problem);
+        const double size = std::sqrt(step.dot(information * step));
+        if (is_last_band && (size < settled || iteration >= max_iterations)) {
+            return {by, covariance_of(problem, local), local.residual};
+        }
+        by += step;
+    }
+}
+
+std::vector<FittedParameter>
+parameters_in(const Problem& problem, const Peak& peak, std::vector<Eigen::Index>& rows) {
+    auto start = problem.expected();
+    auto found = problem.car(peak.by);
+    const auto& parameters = problem.parameters();
+    std::vector<FittedParameter> out;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const auto& parameter = parameters[i];
+        const auto row = static_cast<Eigen::Index>(i);
+        const double sd = std::sqrt(peak.covariance(row, row));
+        if (parameter.in_file) {
+            rows.push_back(row);
+            out.push_back({.name = std::string{parameter.name},
+                           .start = parameter.in(start),
+                           .found = parameter.in(found),
+                           .prior_sd = parameter.prior_sd,
+                           .sd = sd,
+                           .sd_given_mass = sd});
+        }
+    }
+    return out;
+}
+
+/// Conditions the standard deviations on the mass, which is the first parameter if it is one.
+void condition_on_mass(std::vector<FittedParameter>& parameters,
+                       const Eigen::MatrixXd& correlation) {
+    if (parameters.empty() || parameters.front().name != "ms_kg") {
+        return;
+    }
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const double with_mass = correlation(0, static_cast<Eigen::Index>(i));
+        parameters[i].sd_given_mass *= std::sqrt(std::max(0.0, 1 - with_mass * with_mass));
+    }
+}
+
+std::vector<double> column_of(const Eigen::MatrixXd& readings, Eigen::Index channel) {
+    return {readings.col(channel).begin(), readings.col(channel).end()};
+}
+
+double norm_of(const AmplitudeSpectrum& spectrum) {
+    return Eigen::Map<const Eigen::VectorXd>{spectrum.amplitude.data(),
+                                             static_cast<Eigen::Index>(spectrum.amplitude.size())}
+        .norm();
+}
+
+std::vector<ChannelFit>
+spectra_of(const Problem& problem, const Peak& peak, const LikelihoodFitConfig& config) {
+    const Band band{.from_hz = config.from_hz,
+                    .to_hz = last_frequency_hz(problem, config),
+                    .smoothing_hz = 0.5};
+    Eigen::VectorXd file = peak.by; // the corrected stations under the file's car
+    file.head(static_cast<Eigen::Index>(problem.parameters().size())).setZero();
+    const auto before = problem.modelled(file);
+    const Eigen::MatrixXd after = problem.measured() - peak.residual;
+    std::vector<ChannelFit> out;
+    for (Eigen::Index i = 0; i < after.cols(); ++i) {
+        const auto spectrum = [&](const Eigen::MatrixXd& readings) {
+            return amplitude_spectrum(column_of(readings, i), problem.step_s(), band);
+        };
+        const auto measured = spectrum(problem.measured());
+        const auto misfit = [&](const Eigen::MatrixXd& model) {
+            return norm_of(spectrum(problem.measured() - model)) / norm_of(measured);
+        };
+        const auto channel = problem.window().channels()[static_cast<std::size_t>(i)];
+        out.push_back({.channel = static_cast<Channel>(channel),
+                       .spectra = {.measured = measured,
+                                   .before = spectrum(before).amplitude,
+                                   .after = spectrum(after).amplitude,
+                                   .misfit_before = misfit(before),
+                                   .misfit_after = misfit(after)}});
+    }
+    return out;
+}
+
+void check(const ProfileDrive& drive, const LikelihoodFitConfig& config) {
+    const double duration_s = static_cast<double>(drive.station_m.size()) * drive.step_s;
+    if (duration_s < config.run_in_s + min_duration_s) {
+        throw InputError{
+            fmt::format("has {:.1f} s on the profile, from station {:.1f} to {:.1f} m, expected "
+                        "{:.0f} s or more without a stop",
+                        duration_s,
+                        drive.station_m.front(),
+                        drive.station_m.back(),
+                        config.run_in_s + min_duration_s)};
+    }
+}
+
+bool is_unexcited(const FittedParameter& parameter) {
+    return parameter.sd > unexcited_above * parameter.prior_sd;
+}
+
+/// Sets the uncertainty of a fitted vehicle. Mass and friction are left out: the roughness that a
+/// car estimates depends on ratios to the mass alone, and little on friction. A friction that
+/// neither the file nor the drive tells is left to be estimated from later drives.
+void set_uncertainty(Vehicle& vehicle,
+                     const std::vector<FittedParameter>& parameters,
+                     bool is_friction_stated) {
+    for (const auto& parameter : parameters) {
+        vehicle.uncertainty[parameter.name] = parameter.sd_given_mass;
+        if (parameter.name == "friction_n" && !is_friction_stated && is_unexcited(parameter)) {
+            vehicle.half_car.friction_n.reset();
+        }
+    }
+    vehicle.uncertainty.erase("ms_kg");
+    vehicle.uncertainty.erase("friction_n");
+}
+
+} // namespace
+
+LikelihoodFit fit_likelihood(const ProfileDrive& drive,
+                             const Vehicle& vehicle,
+                             const LikelihoodFitConfig& config) {
+    check(drive, config);
+    const Problem problem{drive, vehicle, config};
+    const auto peak = peak_of(problem, config);
+    std::vector<Eigen::Index> rows;
+    auto parameters = parameters_in(problem, peak, rows);
+    const Eigen::MatrixXd covariance = peak.covariance(rows, rows);
+    const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+    condition_on_mass(parameters, correlation);
+    auto found = problem.car(peak.by).vehicle;
+    set_uncertainty(found, parameters, vehicle.half_car.friction_n.has_value());
+    const auto [least, most] = std::ranges::minmax(problem.shifts(peak.by));
+    return {.vehicle = std::move(found),
+            .parameters = std::move(parameters),
+            .correlation = correlation,
+            .channels = spectra_of(problem, peak, config),
+            .from_m = drive.station_m.front(),
+            .to_m = drive.station_m.back(),
+            .duration_s = static_cast<double>(drive.station_m.size() - 1) * drive.step_s,
+            .min_shift_m = least,
+            .max_shift_m = most};
+}
+
+std::vector<std::string> unexcited_parameters(const LikelihoodFit& fit) {
+    std::vector<std::string> names;
+    for (const auto& parameter : fit.parameters) {
+        if (is_unexcited(parameter)) {
+            names.push_back(parameter.name);
+        }
+    }
+    return names;
+}
+
+} // namespace macadam

@@ -1,0 +1,24 @@
+// The likelihood fit on cars that are not what their files say, over measured roads that they do
+// not hit exactly, and what the identified cars make of other roads.
+
+#include "likelihood_runs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace macadam::testing {
+namespace {
+
+TEST(LikelihoodFit, HoldsTheTruthInItsIntervalsAndReadsOtherRoadsWithinThreePercent) {
+    const auto report = report_of_runs(6); // a hundred: likelihood_long_test.cpp
+    print(report);
+    ASSERT_EQ(report.parameters.size(), 11U);
+    for (const auto& [name, count] : report.parameters) {
+        EXPECT_GE(count.inside, 4U) << name; // three or more of six outside: one in 500
+    }
+    EXPECT_LE(report.found.rms(), 0.03);
+    EXPECT_LT(report.found.rms(), report.spectrum.rms());
+    EXPECT_LT(report.found.rms(), report.file.rms());
+}
+
+} // namespace
+} // namespace macadam::testing
