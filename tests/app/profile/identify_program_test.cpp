@@ -96,7 +96,7 @@ TEST_F(Identify, SaysBySpectrumWhatItFoundAndWhatTheGainMeans) {
 }
 
 TEST_F(Identify, FindsThePlaceWithinAMetre) {
-    const auto run = identify({"--json"});
+    const auto run = identify({"--method", "spectrum", "--json"});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     const auto found = run.out.find("\"at_m\":");
     ASSERT_NE(found, std::string::npos);
@@ -104,7 +104,7 @@ TEST_F(Identify, FindsThePlaceWithinAMetre) {
 }
 
 TEST_F(Identify, TakesThePlaceThatItIsTold) {
-    const auto run = identify({"--at", "1000"});
+    const auto run = identify({"--method", "spectrum", "--at", "1000"});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     EXPECT_THAT(run.out, StartsWith("travel 0 is at station 1000.00 m (as given)\n"));
 }
