@@ -203,7 +203,8 @@ std::size_t IriErrors::within(double limit) const {
 }
 
 RunsReport report_of_runs(std::size_t count) {
-    RunsReport report{.runs = count, .parameters = {}, .found = {}, .spectrum = {}, .file = {}};
+    RunsReport report{};
+    report.runs = count;
     for (std::size_t number = 0; number < count; ++number) {
         const auto run = run_of(number);
         const auto place = find_place(std::vector{run.stretch}, run.profile, run.file);
@@ -215,7 +216,11 @@ RunsReport report_of_runs(std::size_t count) {
             run.file,
             fit_spectra(*ride, run.file.half_car, run.file.imu.height_above_roll_axis_m, {}));
         const OtherRoad other{run, number};
+        auto truth = run.truth;
+        truth.half_car.friction_n = run.recipe.car.friction_n;
         report.found.each.push_back(other.error_of(fit.vehicle));
+        report.truth.each.push_back(other.error_of(truth));
+        report.found_to_truth.each.push_back(report.found.each.back() - report.truth.each.back());
         report.spectrum.each.push_back(other.error_of(by_spectrum));
         report.file.each.push_back(other.error_of(run.file));
     }
@@ -244,6 +249,8 @@ void print(const RunsReport& report) {
     line("the identified car", report.found);
     line("--method spectrum", report.spectrum);
     line("the file's car", report.file);
+    line("the true car", report.truth);
+    line("the identified car, relative to the true one", report.found_to_truth);
 }
 
 } // namespace macadam::testing

@@ -25,7 +25,9 @@ struct IriErrors {
 struct RunsReport {
     std::size_t runs;
     std::map<std::string, IntervalCount> parameters;
-    IriErrors found, spectrum, file; ///< by the cars of the fits, and by the file's
+    IriErrors found, spectrum; ///< by the cars of the fits
+    IriErrors file, truth;     ///< by the file's car, and by the true one: the smoother's own error
+    IriErrors found_to_truth;  ///< of the identified car relative to the true one
 };
 
 /// Identifies cars by the likelihood fit and by the paper's, and lets the smoother read another
