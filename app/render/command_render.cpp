@@ -108,19 +108,18 @@ void run_render(const Arguments& arguments, const Console& console) {
         }
         options.style.base_opacity = options.base->opacity.value_or(options.style.base_opacity);
     }
-    auto scene = map_scene(store,
-                           {.box = options.box,
-                            .title = options.title,
-                            .style = options.style,
-                            .projection = projection_of(options.output),
-                            .base = base.map,
-                            .width_px = options.output.width_px,
-                            .height_px = options.output.height_px});
+    auto plan = load_map(store,
+                         {.box = options.box,
+                          .title = options.title,
+                          .style = options.style,
+                          .projection = projection_of(options.output),
+                          .base = base.map,
+                          .width_px = options.output.width_px,
+                          .height_px = options.output.height_px});
     const auto progress = console.progress("drawing");
     const auto last_seen_ms = store.seen().last_ms;
     const auto words =
-        write_picture(std::move(scene),
-                      options.style,
+        write_picture(std::move(plan),
                       options.output,
                       last_seen_ms ? utc_day(*last_seen_ms) + "T00:00:00Z" : std::string{},
                       progress,

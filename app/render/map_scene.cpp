@@ -19,19 +19,12 @@ namespace {
 
 constexpr double margin_share = 0.05; // of the driven extent, to keep roads off the frame
 constexpr double min_margin_m = 50;
-constexpr double edge_share = 0.02; // share of a picture's diagonal
-constexpr double certain_sd = 0.5;  // relative; above it the line has a narrower core
+constexpr double certain_sd = 0.5; // relative; above it the line has a narrower core
 
 GeoBox box_with_margin(const GeoBox& box) {
     const double diagonal_m =
         distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg});
     return grown(box, std::max(min_margin_m, margin_share * diagonal_m));
-}
-
-/// Grows a box by far, for projections whose visible extent is unknown.
-GeoBox shown_around(const GeoBox& box) {
-    return grown_over(
-        box, 1.5 * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
 }
 
 std::string period_of(const ObservedPeriod& seen) {
@@ -72,6 +65,7 @@ const ClassTable& classes_of(const MapRequest& request) {
 MapScene scene_around(const RoadStore& store, const MapRequest& request) {
     MapScene scene;
     scene.title = request.title;
+    scene.projection = request.projection;
     scene.attribution = store.settings().attribution;
     if (request.base) {
         scene.base = request.base;
@@ -94,13 +88,6 @@ MapScene scene_around(const RoadStore& store, const MapRequest& request) {
         scene.class_km = class_km_of(store, classes, request.style.min_passes);
     }
     return scene;
-}
-
-/// Returns the visible ground with a margin for thick lines and labels that cross the edges.
-GeoBox ground_of(const MapScene& scene, const MapRequest& request) {
-    const auto box = ground_shown(scene, request.style, request.width_px, request.height_px);
-    return grown_over(
-        box, edge_share * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
 }
 
 bool holds(const GeoBox& outer, const GeoBox& inner) {
@@ -194,25 +181,19 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, 
     return lines;
 }
 
-MapScene map_scene(const RoadStore& store, const MapRequest& request) {
-    auto scene = scene_around(store, request);
-    scene.projection = request.projection;
-    const auto lines_in = [&](const GeoBox& box) {
+MapPlan load_map(const RoadStore& store, const MapRequest& request) {
+    const auto load = [&](const GeoBox& box) {
         return map_lines(store, box, classes_of(request), request.style.min_passes);
     };
-    if (scene.projection) {
-        scene.lines = lines_in(shown_around(scene.box));
-    } else {
-        // If the legend finds no corner without roads, the map makes room for it and shows more
-        // ground.
-        auto shown = ground_of(scene, request);
-        scene.lines = lines_in(shown);
-        if (const auto with_roads = ground_of(scene, request); !holds(shown, with_roads)) {
-            scene.lines = lines_in(with_roads);
-        }
+    MapPlan plan{
+        scene_around(store, request), request.style, {request.width_px, request.height_px}};
+    const auto ground = plan.ground();
+    plan.set_lines(load(ground));
+    if (!holds(ground, plan.ground())) {
+        plan.set_lines(load(plan.ground()));
     }
-    expect_roads(scene);
-    return scene;
+    expect_roads(plan.scene());
+    return plan;
 }
 
 } // namespace macadam

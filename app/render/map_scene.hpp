@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/scene/scene.hpp"
+#include "render/map/map_plan.hpp"
 #include "storage/store/road_store.hpp"
 
 #include <cstdint>
@@ -38,10 +38,10 @@ struct MapRequest {
     int width_px = 0, height_px = 0;
 };
 
-/// Builds the scene of a picture: the segments on it with their classes, the roads without a
+/// Plans a picture and loads its roads: the segments on it with their classes, the roads without a
 /// measurement, and the text around them.
 ///
 /// \throws InputError  if the database has no segment in the box.
-MapScene map_scene(const RoadStore& store, const MapRequest& request);
+MapPlan load_map(const RoadStore& store, const MapRequest& request);
 
 } // namespace macadam

@@ -2,7 +2,6 @@
 
 #include "estimator/common/error.hpp"
 #include "render/canvas/png.hpp"
-#include "render/map/pdf_map.hpp"
 #include "render/projection/projection.hpp"
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/rasters/georeferenced_picture.hpp"
@@ -106,8 +105,12 @@ void expect_fitting(const Arguments& arguments, Kind kind) {
     }
 }
 
-/// Returns the largest size with the box's own shape within the requested size.
-std::pair<int, int> bare_size(const MapScene& scene, const PictureOutput& output) {
+/// Returns the size of a bare map: the sheet's, or the largest of the box's own shape within the
+/// requested size of a picture.
+PictureSize bare_size(const MapScene& scene, const PictureOutput& output) {
+    if (output.kind == Kind::pdf) {
+        return {output.width_px, output.height_px};
+    }
     const auto plane = plane_extent(scene.box, scene.projection.get());
     const double scale = std::min(output.width_px / std::max(1e-12, plane.width_rad),
                                   output.height_px / std::max(1e-12, plane.height_rad));
@@ -117,25 +120,29 @@ std::pair<int, int> bare_size(const MapScene& scene, const PictureOutput& output
     return {side(plane.width_rad, output.width_px), side(plane.height_rad, output.height_px)};
 }
 
-void make_bare(MapScene& scene, MapStyle& style) {
+/// Plans the map without anything around it.
+MapPlan bare_plan(const MapPlan& plan, const PictureOutput& output) {
+    auto scene = plan.scene();
+    auto style = plan.style();
     scene.title.clear();
     scene.subtitle.clear();
     scene.attribution.clear();
     scene.scale_bar = false;
     scene.to_the_edge = true;
     style.legend = false;
+    const auto size = bare_size(scene, output);
+    return {std::move(scene), std::move(style), size};
 }
 
-PlacedPicture placed(const MapScene& scene, const MapStyle& style, const PictureSize& size) {
-    const auto place = place_of(scene, style, size.width_px, size.height_px);
-    const auto wkt =
-        scene.projection ? scene.projection->wkt : plane_projection(std::string{web_mercator})->wkt;
-    return {.width_px = size.width_px,
-            .height_px = size.height_px,
+PlacedPicture placed(const MapPlan& plan) {
+    const auto place = plan.place();
+    const auto& projection = plan.scene().projection;
+    return {.width_px = plan.size().width_px,
+            .height_px = plan.size().height_px,
             .left = place.left,
             .top = place.top,
             .per_px = place.per_px,
-            .wkt = wkt,
+            .wkt = projection ? projection->wkt : plane_projection(std::string{web_mercator})->wkt,
             .copyright = {}};
 }
 
@@ -151,48 +158,33 @@ void expect_not_stopped(const Progress& progress) {
     }
 }
 
-/// Map that is drawn as pixels, with its size and the check after drawing.
-struct PixelMap {
-    const MapScene& scene;
-    const MapStyle& style;
-    PictureSize size;
-    const std::function<void()>& expect_valid;
-};
+using ExpectValid = std::function<void()>;
 
-void give_png(const PixelMap& map, const PngWriter::PutBytes& put, const Progress& progress) {
-    PngWriter png{map.size.width_px, map.size.height_px, put};
-    draw_map(
-        map.scene, map.style, map.size, [&](auto rows) { png.add(rows); }, progress);
+void give_png(MapPlan& plan,
+              const PngWriter::PutBytes& put,
+              const Progress& progress,
+              const ExpectValid& expect_valid) {
+    PngWriter png{plan.size().width_px, plan.size().height_px, put};
+    plan.draw([&](auto rows) { png.add(rows); }, progress);
     png.finish();
-    map.expect_valid();
+    expect_valid();
 }
 
-void write_png(const PixelMap& map, const PictureOutput& output, const Progress& progress) {
+void write_png(MapPlan& plan,
+               const PictureOutput& output,
+               const Progress& progress,
+               const ExpectValid& expect_valid) {
     if (output.world_file) {
-        write_png_with_world_file([&](const auto& take) { give_png(map, take, progress); },
-                                  placed(map.scene, map.style, map.size),
-                                  output.file);
+        write_png_with_world_file(
+            [&](const auto& take) { give_png(plan, take, progress, expect_valid); },
+            placed(plan),
+            output.file);
         return;
     }
     AtomicFile file{output.file};
     give_png(
-        map, [&](std::string_view bytes) { file.write(bytes); }, progress);
+        plan, [&](std::string_view bytes) { file.write(bytes); }, progress, expect_valid);
     file.commit();
-}
-
-void write_tif(const PixelMap& map,
-               const std::string& copyright,
-               const std::filesystem::path& file,
-               const Progress& progress) {
-    auto picture = placed(map.scene, map.style, map.size);
-    picture.copyright = copyright;
-    write_geotiff(
-        picture,
-        [&](const auto& take) {
-            draw_map(map.scene, map.style, map.size, take, progress);
-            map.expect_valid();
-        },
-        file);
 }
 
 } // namespace
@@ -233,43 +225,45 @@ std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output
     return is_mercator ? nullptr : plane_projection(output.crs);
 }
 
-std::string write_picture(MapScene scene,
-                          MapStyle style,
+std::string write_picture(MapPlan plan,
                           const PictureOutput& output,
                           const std::string& made,
                           const Progress& progress,
                           const std::function<void()>& expect_valid) {
-    const auto copyright = scene.attribution;
-    const auto title = scene.title;
+    const auto copyright = plan.scene().attribution;
+    const auto title = plan.scene().title;
     if (output.bare) {
-        make_bare(scene, style);
+        plan = bare_plan(plan, output);
     }
+    const auto [width_px, height_px, band_px] = plan.size();
     if (output.kind == Kind::pdf) {
-        const auto pdf = map_pdf(scene,
-                                 style,
-                                 {.width_px = double(output.width_px),
-                                  .height_px = double(output.height_px),
-                                  .px_per_inch = px_per_inch,
-                                  .title = title,
-                                  .author = copyright,
-                                  .made = made});
+        const auto pdf = plan.pdf({.width_px = double(width_px),
+                                   .height_px = double(height_px),
+                                   .px_per_inch = px_per_inch,
+                                   .title = title,
+                                   .author = copyright,
+                                   .made = made});
         expect_not_stopped(progress);
         expect_valid();
         write_bytes(output.file, pdf);
         return fmt::format("{:.0f} x {:.0f} mm",
-                           output.width_px / px_per_inch * mm_per_inch,
-                           output.height_px / px_per_inch * mm_per_inch);
+                           width_px / px_per_inch * mm_per_inch,
+                           height_px / px_per_inch * mm_per_inch);
     }
-
-    const auto [width, height] =
-        output.bare ? bare_size(scene, output) : std::pair{output.width_px, output.height_px};
-    const PixelMap map{scene, style, {width, height}, expect_valid};
     if (output.kind == Kind::geotiff) {
-        write_tif(map, copyright, output.file, progress);
+        auto picture = placed(plan);
+        picture.copyright = copyright;
+        write_geotiff(
+            picture,
+            [&](const auto& take) {
+                plan.draw(take, progress);
+                expect_valid();
+            },
+            output.file);
     } else {
-        write_png(map, output, progress);
+        write_png(plan, output, progress, expect_valid);
     }
-    return fmt::format("{} x {} pixels", width, height);
+    return fmt::format("{} x {} pixels", width_px, height_px);
 }
 
 } // namespace macadam

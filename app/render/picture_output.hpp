@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/cli/arguments.hpp"
-#include "render/scene/scene.hpp"
+#include "render/map/map_plan.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -56,14 +56,13 @@ inline constexpr Option landscape_option{"--landscape", "", "Landscape paper."};
 /// Returns the requested projection; null: spherical Mercator.
 std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output);
 
-/// Draws the scene and writes it. The file appears complete or not at all.
+/// Draws the map and writes it. The file appears complete or not at all.
 ///
 /// \param made          creation time in PDF metadata, ISO 8601 in UTC; "" = not known
 /// \param expect_valid  throws if the picture must not be written after all
 /// \returns             size of the picture, for people: "1600 x 1200 pixels"
 /// \throws InputError   also if `progress`, which counts rows of pixels, requests a stop
-std::string write_picture(MapScene scene,
-                          MapStyle style,
+std::string write_picture(MapPlan plan,
                           const PictureOutput& output,
                           const std::string& made,
                           const Progress& progress,

@@ -103,12 +103,13 @@ ReportPicture ReportPictures::stretch(const MapScene& scene, const ClassTable* c
 
 double ReportPictures::map_width_m(const MapScene& scene) const {
     const int width_px = sizes_for(use_).map_width_px;
-    return ground_width_m(scene, style_, width_px, map_height_px(scene.box, width_px));
+    return MapPlan{scene, style_, {width_px, map_height_px(scene.box, width_px)}}.ground_width_m();
 }
 
 MapScene whole_scene(const RoadStore& store, const MapStyle& style) {
-    auto scene = map_scene(
+    const auto plan = load_map(
         store, {.style = unadorned(style), .width_px = max_width_px, .height_px = max_height_px});
+    auto scene = plan.scene();
     scene.subtitle.clear();    // on the page
     scene.attribution.clear(); // likewise
     scene.scale_bar = false;   // likewise, in letters as large as all others on a phone

@@ -48,12 +48,11 @@ void VertexBuffer::Gl::describe_vertices(std::size_t vertex_bytes,
     GenBuffers(1, &vertices);
     BindBuffer(GL_ARRAY_BUFFER, vertices);
     for (GLuint location = 0; const auto& part : parts) {
-        const bool is_share = part.kind == VertexPart::Kind::shares;
         EnableVertexAttribArray(location);
         VertexAttribPointer(location++,
                             part.count,
-                            is_share ? GL_UNSIGNED_BYTE : GL_FLOAT,
-                            is_share ? GL_TRUE : GL_FALSE,
+                            GL_FLOAT,
+                            GL_FALSE,
                             GLsizei(vertex_bytes),
                             // OpenGL interprets the offset as an address.
                             reinterpret_cast<const void*>(part.offset)); // NOLINT

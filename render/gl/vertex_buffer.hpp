@@ -11,11 +11,7 @@ namespace macadam {
 
 /// Vertex attribute at a location of the shader.
 struct VertexPart {
-    enum class Kind {
-        floats,
-        shares ///< bytes that represent 0 to 1
-    } kind;
-    int count;          ///< 1 .. 4
+    int count;          ///< of floats, 1 .. 4
     std::size_t offset; ///< bytes from the beginning of the vertex
 };
 

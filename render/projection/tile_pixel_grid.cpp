@@ -1,13 +1,16 @@
 #include "render/projection/tile_pixel_grid.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace macadam {
 
-SubpixelPoint grid_point(const GeoPoint& place, const WorldScale& scale) {
-    const auto at = tile_place(place, scale.zoom);
-    const double per_tile = double(scale.tile_px) * grid_per_px;
-    return {std::llround(at.x * per_tile), std::llround(at.y * per_tile)};
+MapFrame world_frame(const WorldScale& scale) {
+    const double side_px = std::ldexp(double(scale.tile_px), scale.zoom);
+    return {.px_per_rad = side_px / (2 * std::numbers::pi),
+            .centre_x_rad = 0,
+            .centre_y_rad = 0,
+            .centre = {side_px / 2, side_px / 2}};
 }
 
 WorldWindow window_of(const TileId& first, int tile_px, int across) {

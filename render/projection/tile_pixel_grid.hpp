@@ -1,7 +1,7 @@
 #pragma once
 
-#include "estimator/common/geo.hpp"
 #include "mapping/tiles/tile_grid.hpp"
+#include "render/projection/projection.hpp"
 
 #include <cstdint>
 
@@ -13,17 +13,9 @@ struct WorldScale {
     int tile_px; ///< side of a tile
 };
 
-inline constexpr std::int64_t grid_per_px = 256;
-
-/// Position on that picture, in 1/256 px from the corner of tile 0/0: x eastwards, y southwards.
-/// Integers make differences exact, so that the drawing around a position is the same in every
-/// window of the world.
-struct SubpixelPoint {
-    std::int64_t x = 0, y = 0;
-    friend bool operator==(const SubpixelPoint&, const SubpixelPoint&) = default;
-};
-
-SubpixelPoint grid_point(const GeoPoint& place, const WorldScale& scale);
+/// Returns the frame of that picture; (0, 0) is the corner of tile 0/0. A position has the same
+/// coordinates for every tile, so that the drawing around it is the same in all of them.
+MapFrame world_frame(const WorldScale& scale);
 
 /// Square window of that picture.
 struct WorldWindow {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstring>
 #include <utility>
 
 namespace macadam {
@@ -31,14 +32,15 @@ std::uint64_t looks_of(bool certain) {
 
 /// Part of the sheet that OpenGL draws at once.
 struct Window {
-    int left_px, top_px, width_px, height_px;
+    double left_px, top_px; ///< on the polylines' plane
+    int width_px, height_px;
 };
 
 PixelBox box_of(const Window& window) {
-    return {double(window.left_px),
-            double(window.top_px),
-            double(window.left_px + window.width_px),
-            double(window.top_px + window.height_px)};
+    return {window.left_px,
+            window.top_px,
+            window.left_px + window.width_px,
+            window.top_px + window.height_px};
 }
 
 PixelBox common(const PixelBox& a, const PixelBox& b) {
@@ -140,16 +142,16 @@ struct GlRoadPainter {
     PixelPainter pixels;
 };
 
-/// Copies four bytes per pixel to three, onto a band of the sheet, `down` rows below its first.
-void lay(const GlRoadPainter& easel, const Window& window, int down, Image& band) {
+/// Copies four bytes per pixel to three, onto a band of the sheet.
+void lay(const GlRoadPainter& easel, const Window& window, int left, int down, Image& band) {
     for (int y = 0; y < window.height_px; ++y) {
         const auto* from = easel.rgba.data() + std::size_t(y) * std::size_t(easel.width_px) * 4;
-        auto* to =
-            band.rgb.data() +
-            (std::size_t(down + y) * std::size_t(band.width) + std::size_t(window.left_px)) * 3;
-        for (int x = 0; x < window.width_px; ++x, from += 4, to += 3) {
-            std::copy_n(from, 3, to);
+        auto* to = band.rgb.data() +
+                   (std::size_t(down + y) * std::size_t(band.width) + std::size_t(left)) * 3;
+        for (int x = 1; x < window.width_px; ++x, from += 4, to += 3) {
+            std::memcpy(to, from, 4); // faster than three; the next pixel overwrites the fourth
         }
+        std::copy_n(from, 3, to);
     }
 }
 
@@ -162,11 +164,11 @@ struct RoadPainter::Impl {
     void paint_measured(int rank, const StrokePass& view);
     void prepare(int width_px, int height_px);
 
-    Sheet sheet;
-    std::array<Layer, lowest_rank + 1> layers;
-    LineWidths widths;
     Palette palette;
     std::vector<std::uint32_t> class_colours;
+    Sheet sheet{};
+    std::array<Layer, lowest_rank + 1> layers{};
+    LineWidths widths{};
     std::unique_ptr<GlRoadPainter> easel{};
 };
 
@@ -188,7 +190,7 @@ void RoadPainter::Impl::lay_ground(const Window& window, const PixelBox& map) {
     const int rows = std::max(1, pixels / width);
     for (int top = int(map.top); top < bottom; top += rows) {
         const int height = std::min(rows, bottom - top);
-        easel->pixels.lay({left - window.left_px, top - window.top_px, width, height},
+        easel->pixels.lay({left - int(window.left_px), top - int(window.top_px), width, height},
                           sheet.ground({left, top, width, height}));
     }
 }
@@ -232,7 +234,9 @@ void RoadPainter::Impl::paint_measured(int rank, const StrokePass& view) {
 void RoadPainter::Impl::paint(const Window& window) {
     const auto whole = box_of(window);
     const auto map = common(whole, sheet.map);
-    easel->painter.clear(moved(whole, -whole.left, -whole.top), palette.page);
+    if (map != whole) {
+        easel->painter.clear(moved(whole, -whole.left, -whole.top), palette.page);
+    }
     easel->painter.clear(moved(map, -whole.left, -whole.top), palette.ground);
     const StrokePass view{.radius_px = 0,
                           .looks = 0,
@@ -257,23 +261,24 @@ void RoadPainter::Impl::paint(const Window& window) {
     easel->painter.finish();
 }
 
-RoadPainter::RoadPainter(const Sheet& sheet,
-                         std::span<const Polyline> strands,
-                         const LineWidths& widths,
-                         const Palette& palette,
-                         std::span<const std::uint32_t> class_colours)
-    : impl_{std::make_unique<Impl>(
-          Impl{.sheet = sheet,
-               .layers = layers_of(strands),
-               .widths = widths,
-               .palette = palette,
-               .class_colours = {class_colours.begin(), class_colours.end()}})} {}
+RoadPainter::RoadPainter(const Palette& palette, std::span<const std::uint32_t> class_colours)
+    : impl_{std::make_unique<Impl>(Impl{
+          .palette = palette, .class_colours = {class_colours.begin(), class_colours.end()}})} {}
 
 RoadPainter::~RoadPainter() = default;
+RoadPainter::RoadPainter(RoadPainter&&) noexcept = default;
+RoadPainter& RoadPainter::operator=(RoadPainter&&) noexcept = default;
+
+void RoadPainter::begin(Sheet sheet, std::span<const Polyline> strands, const LineWidths& widths) {
+    impl_->sheet = std::move(sheet);
+    impl_->layers = layers_of(strands);
+    impl_->widths = widths;
+}
 
 Image RoadPainter::rows(int top_px, int count) {
     assert(top_px >= 0 && count > 0 && top_px + count <= impl_->sheet.height_px);
-    const int width_px = impl_->sheet.width_px;
+    const auto& sheet = impl_->sheet;
+    const int width_px = sheet.width_px;
     Image image{width_px, count, {}};
     image.rgb.resize(std::size_t(width_px) * std::size_t(count) * 3);
     const int window_width_px = std::min(width_px, max_stroke_window_px);
@@ -281,12 +286,12 @@ Image RoadPainter::rows(int top_px, int count) {
     impl_->prepare(window_width_px, window_height_px);
     for (int down = 0; down < count; down += window_height_px) {
         for (int left = 0; left < width_px; left += window_width_px) {
-            const Window window{left,
-                                top_px + down,
+            const Window window{sheet.left_px + left,
+                                sheet.top_px + top_px + down,
                                 std::min(window_width_px, width_px - left),
                                 std::min(window_height_px, count - down)};
             impl_->paint(window);
-            lay(*impl_->easel, window, down, image);
+            lay(*impl_->easel, window, left, down, image);
         }
     }
     return image;
@@ -297,7 +302,9 @@ Image painted_roads(const Sheet& sheet,
                     const LineWidths& widths,
                     const Palette& palette,
                     std::span<const std::uint32_t> class_colours) {
-    return RoadPainter{sheet, strands, widths, palette, class_colours}.rows(0, sheet.height_px);
+    RoadPainter painter{palette, class_colours};
+    painter.begin(sheet, strands, widths);
+    return painter.rows(0, sheet.height_px);
 }
 
 } // namespace macadam

@@ -15,26 +15,33 @@ namespace macadam {
 /// Size and ground of the picture on which roads are painted.
 struct Sheet {
     int width_px, height_px;
-    PixelBox map; ///< whole pixels; the rest is page
+    PixelBox map; ///< whole pixels of the polylines' plane; the rest is page
 
     /// Pixels of the map under the roads, opaque; empty: the palette's ground colour. With pixels,
     /// roads without a measurement get an edge in that colour for contrast.
     PaintPart ground{};
+
+    double left_px = 0, top_px = 0; ///< whole pixels: the sheet's corner on the polylines' plane
 };
 
-/// Paints a sheet with its roads, any number of rows at a time: those without a measurement below
-/// all others; then rank by rank, service roads first, all casings of a rank before all its cores.
-/// The bytes of a row do not depend on the rows painted with it.
+/// Paints sheets with their roads: those without a measurement below all others; then rank by rank,
+/// service roads first, all casings of a rank before all its cores. Among roads painted together
+/// the order is that of the polylines.
+///
+/// A pixel depends on its position on the polylines' plane and on the polylines near it, not on the
+/// sheet or on the rows painted with it.
 class RoadPainter {
 public:
-    /// \param strands        must outlive the painter
     /// \param class_colours  of the classes in the polylines' looks
-    RoadPainter(const Sheet& sheet,
-                std::span<const Polyline> strands,
-                const LineWidths& widths,
-                const Palette& palette,
-                std::span<const std::uint32_t> class_colours);
+    RoadPainter(const Palette& palette, std::span<const std::uint32_t> class_colours);
     ~RoadPainter();
+    RoadPainter(RoadPainter&&) noexcept;
+    RoadPainter& operator=(RoadPainter&&) noexcept;
+
+    /// Sets the sheet to paint.
+    ///
+    /// \param strands  must outlive its painting
+    void begin(Sheet sheet, std::span<const Polyline> strands, const LineWidths& widths);
 
     /// Paints some rows of the sheet, which must lie on it.
     ///

@@ -1,7 +1,12 @@
 #include "render/roads/road_polylines.hpp"
 
+#include "estimator/common/error.hpp"
+
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -85,6 +90,69 @@ private:
     std::vector<PixelPoint> passed_; // points skipped by the last line segment
 };
 
+/// Makes one line segment of the last two if the last is invisibly short; a joint with it would not
+/// fit.
+Polyline without_short_end(Polyline polyline) {
+    auto& [points, looks, rank, first, past] = polyline;
+    if (looks.size() > 1 && apart_px(points.back(), points[points.size() - 2]) < min_piece_px) {
+        points.erase(points.end() - 2);
+        looks.pop_back();
+    }
+    return polyline;
+}
+
+/// Number of a neighbour's line segments that shape a joint: where a line is offset, the end of the
+/// first depends on the second.
+constexpr std::size_t context = 2;
+
+/// Polyline of one line between the nearest line segments of its neighbours.
+class InContext {
+public:
+    InContext(const std::vector<Polyline>& alone, const Neighbours& neighbours)
+        : alone_{alone}, neighbours_{neighbours} {}
+
+    Polyline at(std::size_t use) const {
+        Polyline polyline{.points = {}, .looks = {}, .rank = alone_[use].rank};
+        add_before(polyline, neighbours_.previous[use]);
+        polyline.first = polyline.looks.size();
+        const auto& own = alone_[use];
+        polyline.points.insert(polyline.points.end(), own.points.begin(), own.points.end());
+        polyline.looks.insert(polyline.looks.end(), own.looks.begin(), own.looks.end());
+        polyline.past = polyline.looks.size();
+        add_after(polyline, neighbours_.next[use]);
+        return polyline;
+    }
+
+private:
+    /// Adds the beginnings of the last line segments before a joint.
+    void add_before(Polyline& polyline, std::size_t use) const {
+        for (; use != no_neighbour && !alone_[use].looks.empty() && polyline.looks.size() < context;
+             use = neighbours_.previous[use]) {
+            const auto& [points, looks, rank, first, past] = alone_[use];
+            for (auto i = looks.size(); i > 0 && polyline.looks.size() < context; --i) {
+                polyline.points.insert(polyline.points.begin(), points[i - 1]);
+                polyline.looks.insert(polyline.looks.begin(), looks[i - 1]);
+            }
+        }
+    }
+
+    /// Adds the ends of the first line segments after a joint.
+    void add_after(Polyline& polyline, std::size_t use) const {
+        const auto most = polyline.past + context;
+        for (; use != no_neighbour && !alone_[use].looks.empty() && polyline.looks.size() < most;
+             use = neighbours_.next[use]) {
+            const auto& [points, looks, rank, first, past] = alone_[use];
+            for (std::size_t i = 0; i < looks.size() && polyline.looks.size() < most; ++i) {
+                polyline.points.push_back(points[i + 1]);
+                polyline.looks.push_back(looks[i]);
+            }
+        }
+    }
+
+    const std::vector<Polyline>& alone_;
+    const Neighbours& neighbours_;
+};
+
 } // namespace
 
 int line_look(const MapLine& line) {
@@ -114,6 +182,76 @@ Polyline strand_of(std::span<const MapLine> lines,
         }
     }
     return std::move(strand).finished();
+}
+
+std::vector<Polyline> joined_polylines(std::span<const MapLine> lines,
+                                       const std::vector<LineUse>& uses,
+                                       const MapFrame& frame) {
+    std::vector<Polyline> strands;
+    for (const auto& chain : joined(lines, uses)) {
+        auto strand = strand_of(lines, chain, frame);
+        if (!strand.looks.empty()) {
+            strands.push_back(std::move(strand));
+        }
+    }
+    return strands;
+}
+
+std::vector<Polyline> separate_polylines(std::span<const MapLine> lines,
+                                         const std::vector<LineUse>& uses,
+                                         const MapFrame& frame) {
+    std::vector<Polyline> alone;
+    alone.reserve(uses.size());
+    for (const auto& use : uses) {
+        alone.push_back(without_short_end(strand_of(lines, {use}, frame)));
+    }
+    const auto neighbours = neighbours_of(lines, uses);
+    const InContext in_context{alone, neighbours};
+    std::vector<Polyline> strands;
+    strands.reserve(uses.size());
+    for (std::size_t use = 0; use < uses.size(); ++use) {
+        if (!alone[use].looks.empty()) {
+            strands.push_back(in_context.at(use));
+        }
+    }
+    return strands;
+}
+
+std::vector<Polyline> side_by_side(std::span<const MapLine> lines,
+                                   const MapFrame& frame,
+                                   const LineWidths& widths,
+                                   bool left_hand_traffic,
+                                   MakePolylines polylines) {
+    std::vector<LineUse> alone;
+    std::vector<LineUse> paired;
+    for (const auto& use : all_lines(lines)) {
+        const auto& line = lines[use.line];
+        (line.both_ways && line.iri_class >= 0 ? paired : alone).push_back(use);
+    }
+    auto strands = polylines(lines, alone, frame);
+    for (const auto& strand : polylines(lines, paired, frame)) {
+        const double right_px = way_offset_px(widths, strand.rank);
+        strands.push_back(beside(strand, left_hand_traffic ? -right_px : right_px));
+    }
+    return strands;
+}
+
+void check_classes(std::span<const MapLine> lines, const ClassTable& table) {
+    if (table.classes.empty() || table.classes.size() > max_classes) {
+        throw InputError{fmt::format("table '{}' has {} classes, expected 1 to {}",
+                                     table.name,
+                                     table.classes.size(),
+                                     max_classes)};
+    }
+    const int last = int(table.classes.size()) - 1;
+    for (const auto& line : lines) {
+        if (line.iri_class < -1 || line.iri_class > last) {
+            throw InputError{fmt::format("a line of class '{}', expected -1 to {} as in table '{}'",
+                                         line.iri_class,
+                                         last,
+                                         table.name)};
+        }
+    }
 }
 
 } // namespace macadam

@@ -189,7 +189,8 @@ seen_parts(const Piece& piece, int parts, const PixelBox& box, double reach_px) 
 std::vector<StrokeQuad> ribbon(const Polyline& strand, const StrokePass& pass) {
     const double reach_px = pass.radius_px + fringe_px;
     std::vector<StrokeQuad> quads;
-    for (std::size_t i = 0; i < strand.looks.size(); ++i) {
+    const auto past = std::min(strand.past, strand.looks.size());
+    for (auto i = strand.first; i < past; ++i) {
         if ((pass.looks & only(strand.looks[i])) == 0) {
             continue;
         }

@@ -3,6 +3,7 @@
 #include "render/projection/projection.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct Polyline {
     std::vector<PixelPoint> points; ///< consecutive ones differ
     std::vector<int> looks;         ///< one per line segment, 0 to 63, in painting order
     int rank = 0;
+    /// Index range of the line segments to draw. Those around it belong to the next roads and only
+    /// shape the joints with these.
+    std::size_t first = 0, past = SIZE_MAX;
 };
 
 /// Signed distance of a pixel's centre from a line: x * dx + y * dy + at_anchor_px for a pixel at
@@ -45,9 +49,9 @@ constexpr std::uint64_t only(int look) {
 /// Selection of a polyline for one draw call.
 struct StrokePass {
     double radius_px;
-    std::uint64_t looks;         ///< bit n: line segments of look n; they are drawn together
-    PixelBox visible;            ///< line segments outside are skipped
-    int left_px = 0, top_px = 0; ///< whole pixels: origin of the vertex positions
+    std::uint64_t looks;            ///< bit n: line segments of look n; they are drawn together
+    PixelBox visible;               ///< line segments outside are skipped
+    double left_px = 0, top_px = 0; ///< whole pixels: origin of the vertex positions
 };
 
 /// Builds the quads of a polyline, one per line segment, or several for a long one. At gentle bends

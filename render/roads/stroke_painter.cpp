@@ -23,13 +23,12 @@ namespace {
 constexpr int view_px = max_window_px;
 constexpr int beyond_px = (view_px - max_stroke_window_px) / 2;
 
-constexpr auto floats = VertexPart::Kind::floats;
-constexpr std::array vertex_parts{VertexPart{floats, 2, offsetof(StrokeVertex, x_px)},
-                                  VertexPart{floats, 2, offsetof(StrokeVertex, anchor_x_px)},
-                                  VertexPart{floats, 3, offsetof(StrokeVertex, across)},
-                                  VertexPart{floats, 3, offsetof(StrokeVertex, before)},
-                                  VertexPart{floats, 3, offsetof(StrokeVertex, after)},
-                                  VertexPart{floats, 2, offsetof(StrokeVertex, round_before)}};
+constexpr std::array vertex_parts{VertexPart{2, offsetof(StrokeVertex, x_px)},
+                                  VertexPart{2, offsetof(StrokeVertex, anchor_x_px)},
+                                  VertexPart{3, offsetof(StrokeVertex, across)},
+                                  VertexPart{3, offsetof(StrokeVertex, before)},
+                                  VertexPart{3, offsetof(StrokeVertex, after)},
+                                  VertexPart{2, offsetof(StrokeVertex, round_before)}};
 
 // The picture's first row is OpenGL's bottom row, so y is not flipped.
 constexpr const char* vertex_shader = R"(#version 330 core

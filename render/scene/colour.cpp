@@ -59,6 +59,10 @@ std::vector<std::uint32_t> class_colours(const MapStyle& style, std::size_t clas
                                      : spread(style.own_ramp, classes);
 }
 
+const ClassTable& classes_of(const MapStyle& style) {
+    return style.classes != nullptr ? *style.classes : *class_table("fhwa");
+}
+
 Palette palette(MapStyle::Theme theme) {
     switch (theme) {
     case MapStyle::Theme::dark:

@@ -12,6 +12,9 @@ namespace macadam {
 /// \throws InputError  for an unknown ramp.
 std::vector<std::uint32_t> class_colours(const MapStyle& style, std::size_t classes);
 
+/// Returns the class table of a style.
+const ClassTable& classes_of(const MapStyle& style);
+
 /// Colours of all elements except the classes, 0xRRGGBB.
 struct Palette {
     std::uint32_t page;       ///< background of title, scale bar and legend

@@ -83,33 +83,6 @@ struct PictureSize {
 /// eight-bit RGB.
 using TakeRows = std::function<void(std::span<const std::uint8_t> rgb)>;
 
-/// Draws the map with title, legend, scale bar, north arrow and attribution. Text and lines scale
-/// with the picture, so that 512 and 8192 px look alike.
-///
-/// \throws InputError  for a size out of range, an empty box, an unknown ramp, a missing font, or
-///                     if OSMesa cannot draw.
-Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
-
-/// Draws the same picture, byte for byte, row by row: only the roads and one band of rows are in
-/// memory. `progress` counts rows.
-///
-/// \throws InputError  as render_map does, and when it is stopped.
-void draw_map(const MapScene& scene,
-              const MapStyle& style,
-              const PictureSize& size,
-              const TakeRows& take,
-              const Progress& progress = {});
-
-/// Returns the area of the globe in the picture, up to its edges and also under title and legend.
-/// It applies to spherical Mercator only: the scene's projection is ignored.
-GeoBox ground_shown(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
-
-/// Returns the ground width of the picture at half its height.
-double ground_width_m(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
-
-/// Returns the position of the picture on the plane of its projection.
-PlanePlace place_of(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
-
 /// Encodes the picture as the bytes of a PNG file.
 std::vector<std::uint8_t> encode_png(const Image& image);
 

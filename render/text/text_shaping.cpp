@@ -100,6 +100,8 @@ TypeSetter::TypeSetter() : TypeSetter{fonts_folder} {}
 TypeSetter::TypeSetter(const std::filesystem::path& fonts)
     : desk_{std::make_unique<ShapingCache>(fonts)} {}
 TypeSetter::~TypeSetter() = default;
+TypeSetter::TypeSetter(TypeSetter&&) noexcept = default;
+TypeSetter& TypeSetter::operator=(TypeSetter&&) noexcept = default;
 
 SetLine TypeSetter::set(std::string_view utf8, const TextLook& look) {
     const auto text = characters_of(without_controls(utf8));

@@ -68,6 +68,8 @@ public:
     TypeSetter();
     explicit TypeSetter(const std::filesystem::path& fonts);
     ~TypeSetter();
+    TypeSetter(TypeSetter&&) noexcept;
+    TypeSetter& operator=(TypeSetter&&) noexcept;
 
     SetLine set(std::string_view utf8, const TextLook& look);
 

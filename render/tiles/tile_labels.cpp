@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -18,17 +19,11 @@ bool is_named(const MapLine& line, const WorldWindow& window) {
     return !line.name.empty() && zoom_of_256_px(window.scale) >= named_from_zoom[std::size_t(rank)];
 }
 
-RoadName road_name(const MapLine& line, const WorldWindow& window, const LineWidths& widths) {
-    RoadName road{.line = {},
-                  .name = is_named(line, window) ? line.name : "",
-                  .rank = std::clamp(line.rank, 0, 5),
-                  .quiet = line.iri_class < 0,
-                  .half_width_px = painted_half_width_px(widths, line)};
-    for (const auto& place : line.line) {
-        const auto at = grid_point(place, window.scale);
-        road.line.push_back({double(at.x) / grid_per_px, double(at.y) / grid_per_px});
-    }
-    return road;
+/// Rounds a position to 1/256 px: equally good places for a name must not be told apart by the last
+/// bits of a coordinate.
+PixelPoint rounded(const PixelPoint& at) {
+    constexpr double per_px = 256;
+    return {std::round(at.x * per_px) / per_px, std::round(at.y * per_px) / per_px};
 }
 
 } // namespace
@@ -41,9 +36,9 @@ std::vector<Label> tile_labels(std::span<const MapLine> lines,
     if (zoom_of_256_px(window.scale) > max_labelled_zoom || std::ranges::none_of(lines, has_name)) {
         return {};
     }
-    std::vector<RoadName> roads;
-    for (const auto& line : lines) {
-        roads.push_back(road_name(line, window, widths));
+    auto roads = road_names(lines, world_frame(window.scale), widths, has_name);
+    for (auto& road : roads) {
+        std::ranges::transform(road.line, road.line.begin(), rounded);
     }
     std::vector<Label> labels;
     const auto first_of = [](std::int64_t px) { return px / label_cell_px; };

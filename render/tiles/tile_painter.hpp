@@ -16,8 +16,8 @@ struct TileLook {
     int across = 1;    ///< n: n x n tiles are drawn at once
 };
 
-/// Draws web map tiles: the ground, roads without a measurement in light grey, then every measured
-/// road as a core of its class's colour in a casing.
+/// Draws web map tiles with the painter of maps: the ground, roads without a measurement in light
+/// grey, then every measured road as a core of its class's colour in a casing.
 ///
 /// A pixel depends on its position in the world and on the lines near it, not on the tile: tiles
 /// drawn one by one are, byte for byte, the parts of one large picture. Widths therefore depend on
@@ -25,12 +25,13 @@ struct TileLook {
 /// independently. Below zoom 13 (of tiles of 256 px) the two directions of a road are one line of
 /// the worse class; from there on each is drawn on its own side.
 ///
-/// The painter holds one OpenGL context, bound to the thread that created it. Drawing in parallel
-/// requires several processes, not threads: fork before the first painter is created.
+/// The painter holds one OpenGL context, bound to the thread that draws first. Drawing in parallel
+/// requires several processes, not threads: fork before the first tile is drawn.
 class TilePainter {
 public:
-    /// \throws InputError  if a tile is not 64 to 4096 px or the picture larger than 8192 px, the
-    ///                     ramp is unknown, or OSMesa cannot draw.
+    /// \throws InputError  if a tile is not 64 to 4096 px or the picture larger than 8192 px, or
+    /// the
+    ///                     ramp is unknown
     explicit TilePainter(const TileLook& look);
     ~TilePainter();
     TilePainter(TilePainter&&) noexcept;
@@ -42,7 +43,7 @@ public:
     ///               point with one of these; in the same order for every tile. Distant lines cost
     ///               little. With labels, all lines of every label cell that a tile touches
     ///               (label_cell_px).
-    /// \throws InputError  if a line's class is not in the table
+    /// \throws InputError  if a line's class is not in the table, or OSMesa cannot draw
     Image draw(const TileId& first, std::span<const MapLine> lines);
 
     /// Returns the maximum distance of a line's painted pixels from its points.

@@ -49,8 +49,7 @@ std::uint32_t mixed(std::uint32_t a, std::uint32_t b, double share) {
 /// Returns the colours of a style, then steps between those that are adjacent on a tile.
 std::vector<std::uint32_t> palette_of(const MapStyle& style) {
     const auto other = palette(style);
-    const auto* classes = style.classes != nullptr ? style.classes : class_table("fhwa");
-    const auto ramp = class_colours(style, classes->classes.size());
+    const auto ramp = class_colours(style, classes_of(style).classes.size());
 
     std::vector<std::uint32_t> colours{
         other.ground, other.casing, other.unmeasured, other.few_passes, other.ink, other.quiet_ink};

@@ -1,7 +1,7 @@
 // What a picture costs: the product's map beside the same lines drawn by Cairo, with towns of
 // doubling size.
 
-#include "render/scene/scene.hpp"
+#include "render/map/map_plan.hpp"
 #include "support/roads/town.hpp"
 
 #include <benchmark/benchmark.h>

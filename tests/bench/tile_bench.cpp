@@ -222,7 +222,7 @@ void measure_map(const fs::path& file) {
     Image image;
     MapRequest request{.box = box, .title = "Town", .width_px = 4096, .height_px = 4096};
     request.style.classes = class_table("fhwa");
-    const double query_ms = cost_ms([&] { scene = map_scene(store, request); });
+    const double query_ms = cost_ms([&] { scene = load_map(store, request).scene(); });
     const double draw_ms = cost_ms([&] { image = render_map(scene, {}, 4096, 4096); });
     const double encode_ms = cost_ms([&] { encode_png(image); });
     fmt::print("A map of 4096 x 4096 px with {} segments: {:.2f} s to draw and {:.2f} s for the "

@@ -2,11 +2,10 @@
 
 #include "mapping/style/base_map.hpp"
 #include "render/map/base_map_blend.hpp"
-#include "render/map/pdf_map.hpp"
+#include "render/map/map_plan.hpp"
 #include "render/roads/road_painter.hpp"
 #include "render/roads/road_polylines.hpp"
 #include "render/scene/colour.hpp"
-#include "render/scene/scene.hpp"
 #include "support/program/shell.hpp"
 
 #include <gmock/gmock.h>
@@ -192,7 +191,7 @@ TEST(BaseMap, IsAskedForOnThePlaneOfThePicture) {
                                                            return base->laid_on(plane);
                                                        }});
         render_map(scene, plain, 500, 400);
-        const auto place = place_of(scene, plain, 500, 400);
+        const auto place = MapPlan(scene, plain, {500, 400}).place();
         ASSERT_TRUE(asked);
         EXPECT_EQ(asked->wkt, scene.projection ? scene.projection->wkt : "");
         EXPECT_EQ(asked->left, place.left);
@@ -209,7 +208,7 @@ TEST(BaseMap, IsTheSameInBandsAsWhole) {
     scene.base = painted(patterned);
     const auto drawn = [&](int band_px) {
         std::vector<std::uint8_t> rgb;
-        draw_map(scene, {}, {700, 520, band_px}, [&](std::span<const std::uint8_t> rows) {
+        MapPlan{scene, {}, {700, 520, band_px}}.draw([&](std::span<const std::uint8_t> rows) {
             rgb.insert(rgb.end(), rows.begin(), rows.end());
         });
         return rgb;
@@ -254,14 +253,12 @@ protected:
     }
 
     std::string pdf_of(const MapScene& scene, const MapStyle& style) const {
-        return map_pdf(scene,
-                       style,
-                       {.width_px = 1240,
-                        .height_px = 877,
-                        .px_per_inch = 150,
-                        .title = {},
-                        .author = {},
-                        .made = {}});
+        return MapPlan{scene, style, {1240, 877}}.pdf({.width_px = 1240,
+                                                       .height_px = 877,
+                                                       .px_per_inch = 150,
+                                                       .title = {},
+                                                       .author = {},
+                                                       .made = {}});
     }
 
     std::string written(const std::string& pdf) const {

@@ -1,5 +1,5 @@
 #include "golden.hpp"
-#include "render/scene/scene.hpp"
+#include "render/map/map_plan.hpp"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H

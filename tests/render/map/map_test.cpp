@@ -1,4 +1,4 @@
-#include "render/scene/scene.hpp"
+#include "render/map/map_plan.hpp"
 
 #include "estimator/common/error.hpp"
 #include "render/map/map_surround.hpp"

@@ -1,4 +1,4 @@
-#include "render/map/pdf_map.hpp"
+#include "render/map/map_plan.hpp"
 
 #include "estimator/common/error.hpp"
 #include "render/scene/colour.hpp"
@@ -63,9 +63,13 @@ PdfSheet a4_landscape() {
             .made = "2026-04-02T10:00:00Z"};
 }
 
+std::string pdf_of(const MapScene& scene, const MapStyle& style) {
+    return MapPlan{scene, style, {1754, 1240}}.pdf(a4_landscape());
+}
+
 fs::path pdf_in(const fs::path& folder, const MapScene& scene, const MapStyle& style) {
     auto file = folder / "map.pdf";
-    std::ofstream{file, std::ios::binary} << map_pdf(scene, style, a4_landscape());
+    std::ofstream{file, std::ios::binary} << pdf_of(scene, style);
     return file;
 }
 
@@ -288,8 +292,8 @@ TEST(PdfMap, SaysOfItselfWhatItWasToldAndNotTheTime) {
 }
 
 TEST(PdfMap, IsTheSameByteForByteEachTime) {
-    const auto once = map_pdf(crossing(), {}, a4_landscape());
-    EXPECT_TRUE(map_pdf(crossing(), {}, a4_landscape()) == once);
+    const auto once = pdf_of(crossing(), {});
+    EXPECT_TRUE(pdf_of(crossing(), {}) == once);
 }
 
 TEST(PdfMap, SetsAnyScriptAndTextThatIsNone) {
@@ -302,10 +306,10 @@ TEST(PdfMap, SetsAnyScriptAndTextThatIsNone) {
 }
 
 TEST(PdfMap, RefusesWhatAPictureRefuses) {
-    EXPECT_THAT([] { map_pdf({}, {}, a4_landscape()); },
+    EXPECT_THAT([] { pdf_of({}, {}); },
                 ::testing::ThrowsMessage<InputError>(
                     "the box of the map is empty, expected west <= east and south <= north"));
-    EXPECT_THAT([] { map_pdf(crossing(), {.ramp = "jet"}, a4_landscape()); },
+    EXPECT_THAT([] { pdf_of(crossing(), {.ramp = "jet"}); },
                 ::testing::ThrowsMessage<InputError>(
                     "unknown colour ramp 'jet', expected one of rdylbu, cividis, viridis"));
 }

@@ -1,8 +1,8 @@
 #include "render/projection/crs_projection.hpp"
 
 #include "estimator/common/error.hpp"
+#include "render/map/map_plan.hpp"
 #include "render/projection/projection.hpp"
-#include "render/scene/scene.hpp"
 
 #include <gmock/gmock.h>
 
@@ -207,7 +207,7 @@ TEST(ProjectedMap, HasARoadWhereItsPlaceSaysWithinHalfAPixel) {
         auto scene = bare_scene(box, road);
         const auto plane = plane_projection(crs);
         scene.projection = crs == std::string{"EPSG:3857"} ? nullptr : plane;
-        const auto place = place_of(scene, style, 800, 600);
+        const auto place = MapPlan(scene, style, {800, 600}).place();
         const auto spot = spot_in(render_map(scene, style, 800, 600));
         const auto expected = plane->to_plane(road).value();
         EXPECT_NEAR((expected.x - place.left) / place.per_px, spot.x, 0.5) << crs;
@@ -221,7 +221,7 @@ TEST(ProjectedMap, IsFilledByItsBoxWhereItIsBare) {
     const auto extent = plane_extent(box, nullptr);
     const int width = 900;
     const int height = int(std::lround(width * extent.height_rad / extent.width_rad));
-    const auto place = place_of(scene, {.legend = false}, width, height);
+    const auto place = MapPlan(scene, {.legend = false}, {width, height}).place();
     const auto corner = plane_projection("EPSG:3857")->to_plane({59.4, 17.9}).value();
     EXPECT_NEAR(place.left, corner.x, 0.5 * place.per_px);
     EXPECT_NEAR(place.top, corner.y, 0.5 * place.per_px);

@@ -1,10 +1,10 @@
 // A picture drawn some rows at a time is the one drawn whole.
 
 #include "estimator/common/error.hpp"
+#include "render/map/map_plan.hpp"
 #include "render/roads/road_painter.hpp"
 #include "render/roads/road_polylines.hpp"
 #include "render/roads/stroke_painter.hpp"
-#include "render/scene/scene.hpp"
 
 #include <gmock/gmock.h>
 
@@ -60,7 +60,7 @@ MapScene town() {
 std::vector<std::uint8_t>
 drawn(const MapScene& scene, const MapStyle& style, const PictureSize& size) {
     std::vector<std::uint8_t> rgb;
-    draw_map(scene, style, size, [&](std::span<const std::uint8_t> rows) {
+    MapPlan{scene, style, size}.draw([&](std::span<const std::uint8_t> rows) {
         rgb.insert(rgb.end(), rows.begin(), rows.end());
     });
     return rgb;
@@ -162,8 +162,8 @@ TEST(PictureBands, AreToldAsTheyAreDrawn) {
         told.push_back(done);
         EXPECT_EQ(whole, 400U);
     };
-    draw_map(
-        town(), {}, {300, 400, 150}, [&](auto rows) { taken.push_back(rows.size()); }, progress);
+    MapPlan{town(), {}, {300, 400, 150}}.draw([&](auto rows) { taken.push_back(rows.size()); },
+                                              progress);
     EXPECT_THAT(told, ::testing::ElementsAre(150, 300, 400));
     EXPECT_THAT(taken, ::testing::ElementsAre(150 * 900, 150 * 900, 100 * 900));
 }
@@ -173,12 +173,10 @@ TEST(PictureBands, EndWhereTheyAreNoLongerWanted) {
     Progress progress;
     progress.stop = source.get_token();
     int taken = 0;
+    MapPlan plan{town(), {}, {300, 400, 150}};
     EXPECT_THAT(
         [&] {
-            draw_map(
-                town(),
-                {},
-                {300, 400, 150},
+            plan.draw(
                 [&](auto) {
                     ++taken;
                     source.request_stop();

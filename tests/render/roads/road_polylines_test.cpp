@@ -33,6 +33,22 @@ double distance_px(const Polyline& strand, const PixelPoint& at) {
     return least;
 }
 
+/// A winding road of one line every 40 px, from the west to the east.
+std::vector<MapLine> winding_road(int first, int count) {
+    std::vector<MapLine> lines;
+    for (int i = first; i < first + count; ++i) {
+        const double x = 40.0 * i;
+        const auto y = [](double at_px) { return 500 + 30 * std::sin(at_px / 25); };
+        lines.push_back(line({{x, y(x)}, {x + 15, y(x + 15)}, {x + 40, y(x + 40)}}, i % 3));
+    }
+    return lines;
+}
+
+std::vector<PixelPoint> drawn_points(const Polyline& strand) {
+    return {strand.points.begin() + std::ptrdiff_t(strand.first),
+            strand.points.begin() + std::ptrdiff_t(strand.past) + 1};
+}
+
 } // namespace
 
 TEST(RoadPolylines, MakeOnePieceOfAStraightRoad) {
@@ -73,6 +89,60 @@ TEST(RoadPolylines, RunBackwardsWhereALineIsReversed) {
     const auto strand = strand_of(lines, {{0, true}}, frame);
     EXPECT_NEAR(strand.points.front().x, 200, 1e-5);
     EXPECT_NEAR(strand.points.back().x, 100, 1e-5);
+}
+
+TEST(RoadPolylines, AreOneForEachLineWhereTheyAreSeparate) {
+    const auto lines = winding_road(0, 5);
+    const auto strands = separate_polylines(lines, all_lines(lines), frame);
+    ASSERT_EQ(strands.size(), lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const auto alone = strand_of(lines, {{i}}, frame);
+        EXPECT_EQ(drawn_points(strands[i]), alone.points) << i;
+        EXPECT_EQ(strands[i].looks[strands[i].first], look_of(int(i) % 3, true)) << i;
+    }
+}
+
+TEST(RoadPolylines, DependOnNoDistantLineWhereTheyAreSeparate) {
+    const auto road = winding_road(0, 12);
+    const auto near = winding_road(3, 5); // the lines 3 to 7 of the road
+    const auto all = separate_polylines(road, all_lines(road), frame);
+    const auto some = separate_polylines(near, all_lines(near), frame);
+    ASSERT_EQ(all.size(), road.size());
+    ASSERT_EQ(some.size(), near.size());
+    for (const double right_px : {0.0, 4.0}) {
+        const StrokePass pass{.radius_px = 5, .looks = every_look, .visible = {0, 0, 1000, 1000}};
+        const auto quads_of = [&](const Polyline& strand) {
+            std::vector<float> corners;
+            for (const auto& quad : ribbon(beside(strand, right_px), pass)) {
+                for (const auto& corner : quad) {
+                    corners.insert(corners.end(), {corner.x_px, corner.y_px, corner.round_after});
+                }
+            }
+            return corners;
+        };
+        const auto whole = quads_of(all[5]);
+        ASSERT_FALSE(whole.empty());
+        EXPECT_EQ(whole, quads_of(some[2])) << right_px;
+    }
+}
+
+TEST(RoadPolylines, CloseARingWhereTheyAreSeparate) {
+    std::vector<MapLine> ring;
+    const auto at = [](int i) {
+        const double angle = 2 * std::numbers::pi * i / 12;
+        return PixelPoint{500 + 60 * std::cos(angle), 500 + 60 * std::sin(angle)};
+    };
+    for (int i = 0; i < 12; ++i) {
+        ring.push_back(line({at(i), at((i + 1) % 12)}, 1));
+    }
+    for (const auto& strand : separate_polylines(ring, all_lines(ring), frame)) {
+        EXPECT_EQ(strand.first, 2U); // two line segments before the line, and two after it
+        EXPECT_EQ(strand.looks.size(), 5U);
+        for (const auto& quad : ribbon(strand, {5, every_look, {0, 0, 1000, 1000}})) {
+            EXPECT_EQ(quad[0].round_before, 0); // mitred, also where the ring's numbers begin
+            EXPECT_EQ(quad[0].round_after, 0);
+        }
+    }
 }
 
 } // namespace macadam::testing

@@ -1,0 +1,214 @@
+#include "render/map/map_plan.hpp"
+
+#include "estimator/common/error.hpp"
+#include "mapping/geometry/antimeridian.hpp"
+#include "render/labels/label_painter.hpp"
+#include "render/map/base_map_blend.hpp"
+#include "render/map/map_labels.hpp"
+#include "render/map/pdf_labels.hpp"
+#include "render/map/pdf_roads.hpp"
+#include "render/roads/line_joining.hpp"
+#include "render/roads/road_painter.hpp"
+#include "render/roads/road_polylines.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+const PictureSize& checked(const PictureSize& size) {
+    for (const int side_px : {size.width_px, size.height_px}) {
+        if (side_px < min_image_px || side_px > max_image_px) {
+            throw InputError{fmt::format("picture size '{}x{}', expected sides of {} to {} px",
+                                         size.width_px,
+                                         size.height_px,
+                                         min_image_px,
+                                         max_image_px)};
+        }
+    }
+    return size;
+}
+
+/// Returns the scene with its lines densified for the projection.
+MapScene bent_scene(const MapScene& scene, const MapFrame& frame) {
+    auto shown = scene;
+    for (auto& line : shown.lines) {
+        line.line = bent(frame, line.line);
+    }
+    return shown;
+}
+
+struct Roads {
+    std::vector<Polyline> strands;
+    LineWidths widths;
+};
+
+Roads roads_of(const MapScene& scene,
+               const MapStyle& style,
+               const MapFrame& frame,
+               const Layout& layout) {
+    const double middle_px = (layout.map.top + layout.map.bottom) / 2;
+    auto wanted = line_widths(metres_per_px(frame, middle_px), layout.unit);
+    wanted.core_px *= style.lines.width;
+    wanted.casing_px *= style.lines.casing;
+    auto merged = joined_polylines(scene.lines, worse_of_both_ways(scene.lines), frame);
+    const double ink = ink_per_px(merged, layout.map, layout.unit);
+    if (!wanted.separate_ways) {
+        return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
+    }
+    const auto separate = uncrowded(wanted, 2 * ink, layout.unit);
+    if (separate.separate_ways) {
+        return {
+            side_by_side(scene.lines, frame, separate, style.left_hand_traffic, joined_polylines),
+            separate};
+    }
+    return {std::move(merged), uncrowded(wanted, ink, layout.unit)};
+}
+
+Roads shown_roads(const MapScene& scene,
+                  const MapStyle& style,
+                  const MapFrame& frame,
+                  const Layout& layout) {
+    check_classes(scene.lines, classes_of(style));
+    return scene.projection ? roads_of(bent_scene(scene, frame), style, frame, layout)
+                            : roads_of(scene, style, frame, layout); // without a copy of all lines
+}
+
+LabelInks label_inks(const Palette& colours) {
+    return {colours.ink, colours.quiet_ink, colours.ground};
+}
+
+/// Returns the base map resampled to a picture; empty if the scene has none.
+PaintPart ground_of(const MapScene& scene,
+                    const MapStyle& style,
+                    const MapFrame& frame,
+                    const PictureSize& size) {
+    if (!scene.base) {
+        return {};
+    }
+    const auto place = plane_place(frame);
+    return ground_with(scene.base->laid_on({.wkt = scene.projection ? scene.projection->wkt : "",
+                                            .left = place.left,
+                                            .top = place.top,
+                                            .per_px = place.per_px,
+                                            .width_px = size.width_px,
+                                            .height_px = size.height_px}),
+                       {.ground = palette(style).ground, .opacity = style.base_opacity});
+}
+
+PicturePart part_of(const PixelBox& box) {
+    return {int(box.left), int(box.top), int(box.width()), int(box.height())};
+}
+
+int rows_of_band(const PictureSize& size) {
+    constexpr int pixels = 8'388'608; // 25 MB, and 67 MB of OpenGL memory
+    return size.band_px > 0 ? size.band_px : std::max(1, pixels / size.width_px);
+}
+
+} // namespace
+
+MapPlan::MapPlan(MapScene scene, MapStyle style, const PictureSize& size)
+    : scene_{std::move(scene)}, style_{std::move(style)}, size_{checked(size)},
+      layout_{layout_of(scene_, size.width_px, size.height_px, setter_)},
+      placement_{
+          placement_of(scene_, legend_of(scene_, style_, classes_of(style_)), layout_, setter_)} {}
+
+void MapPlan::set_lines(std::vector<MapLine> lines) {
+    scene_.lines = std::move(lines);
+    placement_ =
+        placement_of(scene_, legend_of(scene_, style_, classes_of(style_)), layout_, setter_);
+}
+
+GeoBox MapPlan::ground() const {
+    constexpr double by_far = 1.5;      // of the box's diagonal
+    constexpr double edge_share = 0.02; // of the picture's diagonal
+    const auto grown_by = [](const GeoBox& box, double share) {
+        return grown_over(
+            box, share * distance_m({box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}));
+    };
+    if (scene_.projection) {
+        return grown_by(scene_.box, by_far);
+    }
+    const auto north_west = to_geo(placement_.frame, {0, 0});
+    const auto south_east =
+        to_geo(placement_.frame, {double(size_.width_px), double(size_.height_px)});
+    return grown_by({.west_deg = north_west.lon_deg,
+                     .south_deg = south_east.lat_deg,
+                     .east_deg = south_east.lon_deg,
+                     .north_deg = north_west.lat_deg},
+                    edge_share);
+}
+
+PlanePlace MapPlan::place() const {
+    return plane_place(placement_.frame);
+}
+
+double MapPlan::ground_width_m() const {
+    return size_.width_px * metres_per_px(placement_.frame, size_.height_px / 2.0);
+}
+
+void MapPlan::draw(const TakeRows& take, const Progress& progress) {
+    const auto colours = palette(style_);
+    const auto roads = shown_roads(scene_, style_, placement_.frame, layout_);
+    RoadPainter painter{colours, class_colours(style_, classes_of(style_).classes.size())};
+    painter.begin({.width_px = size_.width_px,
+                   .height_px = size_.height_px,
+                   .map = layout_.map,
+                   .ground = ground_of(scene_, style_, placement_.frame, size_)},
+                  roads.strands,
+                  roads.widths);
+    const auto labels = map_labels(scene_, style_, layout_, placement_, roads.widths, setter_);
+    const int band_px = rows_of_band(size_);
+    for (int top_px = 0; top_px < size_.height_px; top_px += band_px) {
+        if (progress.stop.stop_requested()) {
+            throw InputError{"stopped before the picture was complete"};
+        }
+        const int count = std::min(band_px, size_.height_px - top_px);
+        Canvas canvas{painter.rows(top_px, count), top_px};
+        for (const auto& label : labels) {
+            if (label.box.bottom >= top_px && label.box.top <= top_px + count) {
+                draw_labels(canvas, {&label, 1}, {}, label_inks(colours), setter_);
+            }
+        }
+        draw_map_surround(canvas, layout_, placement_, style_, setter_);
+        take(std::move(canvas).finished().rgb);
+        progress(std::size_t(top_px + count), std::size_t(size_.height_px));
+    }
+}
+
+std::string MapPlan::pdf(const PdfSheet& sheet) {
+    const auto theme = palette(style_);
+    const auto colours = class_colours(style_, classes_of(style_).classes.size());
+    const auto roads = shown_roads(scene_, style_, placement_.frame, layout_);
+    const auto labels = map_labels(scene_, style_, layout_, placement_, roads.widths, setter_);
+    const auto ground = ground_of(scene_, style_, placement_.frame, size_);
+    return pdf_file(sheet, [&](PdfPage& page) {
+        page.fill({{0, 0, sheet.width_px, sheet.height_px}}, theme.page);
+        page.fill({layout_.map}, theme.ground);
+        page.begin_clip(layout_.map);
+        if (ground) {
+            page.lay(part_of(layout_.map), ground(part_of(layout_.map)));
+            draw_unmeasured_edges(page, roads.strands, roads.widths, theme.ground);
+        }
+        draw_roads(page, roads.strands, roads.widths, theme, colours);
+        page.end_clip();
+        draw_labels(page, labels, label_inks(theme), setter_);
+        draw_map_surround(page, layout_, placement_, style_, setter_);
+    });
+}
+
+Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px) {
+    MapPlan plan{scene, style, {width_px, height_px}};
+    Image image{width_px, height_px, {}};
+    image.rgb.reserve(std::size_t(width_px) * std::size_t(height_px) * 3);
+    plan.draw([&](std::span<const std::uint8_t> rgb) {
+        image.rgb.insert(image.rgb.end(), rgb.begin(), rgb.end());
+    });
+    return image;
+}
+
+} // namespace macadam

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "render/canvas/pdf_page.hpp"
+#include "render/map/layout.hpp"
+#include "render/map/map_surround.hpp"
+#include "render/scene/scene.hpp"
+#include "render/text/text_shaping.hpp"
+
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Map on a picture. Its texts are set once, when it is planned from a scene without lines; then
+/// the lines on its ground are loaded, beside which it places the legend; then it is drawn:
+///
+///     MapPlan plan{scene, style, size};
+///     plan.set_lines(load(plan.ground()));
+///     plan.draw(take);
+class MapPlan {
+public:
+    /// \param style  its classes must outlive the plan
+    /// \throws InputError  for a size out of range, an empty box, or a missing font
+    MapPlan(MapScene scene, MapStyle style, const PictureSize& size);
+
+    /// Returns the area whose roads are needed: that of the picture up to its edges, also under
+    /// title and legend, with a margin for thick lines and labels that cross the edges. In a
+    /// projection whose visible extent is unknown it is the box, grown by far.
+    GeoBox ground() const;
+
+    /// Sets the roads. If the legend finds no corner without roads, the map makes room for it and
+    /// needs the roads of a larger ground.
+    void set_lines(std::vector<MapLine> lines);
+
+    const MapScene& scene() const { return scene_; }
+    const MapStyle& style() const { return style_; }
+    const PictureSize& size() const { return size_; }
+
+    /// Returns the position of the picture on the plane of its projection.
+    PlanePlace place() const;
+
+    /// Returns the ground width of the picture at half its height.
+    double ground_width_m() const;
+
+    /// Draws the map with title, legend, scale bar, north arrow and attribution, row by row: only
+    /// the roads and one band of rows are in memory. Text and lines scale with the picture, so that
+    /// 512 and 8192 px look alike. `progress` counts rows.
+    ///
+    /// \throws InputError  for an unknown ramp or class, if OSMesa cannot draw, and when it is
+    ///                     stopped.
+    void draw(const TakeRows& take, const Progress& progress = {});
+
+    /// Returns the map as the bytes of a PDF file, with vector lines and text and the same layout.
+    ///
+    /// \param sheet  of the plan's size
+    /// \throws InputError  as draw, and if Cairo cannot write it.
+    std::string pdf(const PdfSheet& sheet);
+
+private:
+    MapScene scene_;
+    MapStyle style_;
+    PictureSize size_;
+    TypeSetter setter_;
+    Layout layout_;
+    Placement placement_;
+};
+
+/// Plans and draws a scene with its lines.
+Image render_map(const MapScene& scene, const MapStyle& style, int width_px, int height_px);
+
+} // namespace macadam

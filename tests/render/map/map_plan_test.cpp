@@ -1,0 +1,99 @@
+#include "render/map/map_plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace macadam::testing {
+namespace {
+
+const GeoBox town{16, 48, 16.01, 48.006};
+constexpr PictureSize size{700, 520};
+
+MapScene words() {
+    return {.box = town,
+            .lines = {},
+            .title = "Roads of a town",
+            .subtitle = "May to June",
+            .attribution = "© contributors",
+            .class_km = {1, 2, 3}};
+}
+
+/// Streets from the west to the east, so dense that a legend hides some of them anywhere.
+std::vector<MapLine> dense_streets() {
+    std::vector<MapLine> lines;
+    for (int i = 0; i <= 30; ++i) {
+        MapLine line;
+        const double lat_deg = 47.998 + 0.01 * i / 30;
+        line.line = {{lat_deg, 15.99}, {lat_deg, 16.02}};
+        line.iri_class = i % 3;
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+std::vector<MapLine> one_street() {
+    MapLine line;
+    line.line = {{48.003, 16.004}, {48.003, 16.006}};
+    line.iri_class = 1;
+    return {line};
+}
+
+bool is_within(const GeoBox& inner, const GeoBox& outer) {
+    return outer.west_deg <= inner.west_deg && outer.south_deg <= inner.south_deg &&
+           outer.east_deg >= inner.east_deg && outer.north_deg >= inner.north_deg;
+}
+
+std::vector<std::uint8_t> drawn(MapPlan& plan) {
+    std::vector<std::uint8_t> rgb;
+    plan.draw([&](std::span<const std::uint8_t> rows) {
+        rgb.insert(rgb.end(), rows.begin(), rows.end());
+    });
+    return rgb;
+}
+
+} // namespace
+
+TEST(MapPlan, NeedsTheRoadsOfItsWholePicture) {
+    const MapPlan plan{words(), {}, size};
+    const auto place = plan.place();
+    const auto ground = plan.ground();
+    EXPECT_TRUE(is_within(town, ground));
+    // EPSG:3857 has 6,378,137 m to a radian of longitude.
+    constexpr double deg_per_m = 180 / (3.14159265358979 * 6378137);
+    EXPECT_LT(ground.west_deg, place.left * deg_per_m);
+    EXPECT_GT(ground.east_deg, (place.left + size.width_px * place.per_px) * deg_per_m);
+}
+
+TEST(MapPlan, NeedsRoadsFarAroundInAProjection) {
+    auto projected = words();
+    projected.projection = plane_projection("EPSG:31287");
+    EXPECT_TRUE(
+        is_within(MapPlan(words(), {}, size).ground(), MapPlan(projected, {}, size).ground()));
+}
+
+TEST(MapPlan, KeepsItsGroundWhereTheLegendFindsACorner) {
+    MapPlan plan{words(), {}, size};
+    const auto ground = plan.ground();
+    plan.set_lines(one_street());
+    EXPECT_TRUE(is_within(plan.ground(), ground));
+}
+
+TEST(MapPlan, NeedsMoreGroundWhereTheLegendFindsNoCornerWithoutRoads) {
+    MapPlan plan{words(), {}, size};
+    const auto ground = plan.ground();
+    plan.set_lines(dense_streets());
+    EXPECT_FALSE(is_within(plan.ground(), ground));
+}
+
+TEST(MapPlan, DrawsLinesThatItGetsLaterLikeThoseOfItsScene) {
+    for (const auto& lines : {one_street(), dense_streets()}) {
+        auto scene = words();
+        MapPlan plan{scene, {}, size};
+        plan.set_lines(lines);
+        scene.lines = lines;
+        EXPECT_TRUE(drawn(plan) == render_map(scene, {}, size.width_px, size.height_px).rgb);
+    }
+}
+
+} // namespace macadam::testing
