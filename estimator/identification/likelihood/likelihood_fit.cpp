@@ -30,7 +30,7 @@ constexpr double max_shift_step_m = 0.4;
 constexpr double block_s = 5; // residuals of two blocks are independent
 constexpr std::size_t min_blocks = 10;
 constexpr int max_iterations = 16; // 8 are usual; smooth roads leave the stations open
-constexpr double settled = 0.1; // last step, in posterior standard deviations
+constexpr double settled = 0.1;    // last step, in posterior standard deviations
 constexpr double unexcited_above = 2.0 / 3;
 
 // Upper ends of the band in the first iterations: long waves match in spite of stations that are
