@@ -15,8 +15,6 @@ namespace {
 
 constexpr int lowest_rank = 5;
 
-using Strands = std::vector<const Polyline*>;
-
 bool is_measured(const Polyline& strand) {
     return strand.looks.front() != unmeasured_look;
 }
@@ -78,7 +76,18 @@ PixelBox box_around(const Polyline& strand) {
 struct Road {
     const Polyline* strand;
     PixelBox box;
+    std::uint64_t looks; ///< of its line segments
 };
+
+using Roads = std::vector<const Road*>;
+
+std::uint64_t looks_of(const Polyline& strand) {
+    std::uint64_t looks = 0;
+    for (auto i = strand.first; i < std::min(strand.past, strand.looks.size()); ++i) {
+        looks |= only(strand.looks[i]);
+    }
+    return looks;
+}
 
 /// Roads painted together.
 struct Layer {
@@ -91,7 +100,7 @@ std::array<Layer, lowest_rank + 1> layers_of(std::span<const Polyline> strands) 
         if (!strand.looks.empty()) {
             auto& layer = layers[std::size_t(std::clamp(strand.rank, 0, lowest_rank))];
             (is_measured(strand) ? layer.measured : layer.unmeasured)
-                .push_back({&strand, box_around(strand)});
+                .push_back({&strand, box_around(strand), looks_of(strand)});
         }
     }
     return layers;
@@ -100,33 +109,14 @@ std::array<Layer, lowest_rank + 1> layers_of(std::span<const Polyline> strands) 
 /// Margin beyond the line itself: half a pixel of antialiasing, the overlap of looks, and rounding.
 constexpr double beyond_line_px = 4;
 
-Strands near(const std::vector<Road>& roads, const PixelBox& box, double radius_px) {
-    Strands found;
+Roads near(const std::vector<Road>& roads, const PixelBox& box, double radius_px) {
+    Roads found;
     for (const auto& road : roads) {
         if (meet(road.box, box, radius_px + beyond_line_px)) {
-            found.push_back(road.strand);
+            found.push_back(&road);
         }
     }
     return found;
-}
-
-void draw(StrokePainter& painter,
-          const Strands& strands,
-          const StrokePass& pass,
-          std::uint32_t rgb) {
-    // Polylines are drawn in batches, so that the quads of a large city need not be in memory at
-    // once.
-    constexpr std::size_t enough = 16384;
-    std::vector<StrokeQuad> quads;
-    for (const auto* strand : strands) {
-        const auto more = ribbon(*strand, pass);
-        quads.insert(quads.end(), more.begin(), more.end());
-        if (quads.size() >= enough) {
-            painter.draw(quads, rgb, pass.radius_px);
-            quads.clear();
-        }
-    }
-    painter.draw(quads, rgb, pass.radius_px);
 }
 
 /// OpenGL painter with its memory.
@@ -140,7 +130,28 @@ struct GlRoadPainter {
     GlContext context;
     StrokePainter painter;
     PixelPainter pixels;
+    std::vector<StrokeQuad> quads; ///< memory of draw()
 };
+
+/// Draws roads in batches, so that the quads of a large city need not be in memory at once.
+void draw(GlRoadPainter& easel, const Roads& roads, const StrokePass& pass, std::uint32_t rgb) {
+    constexpr std::size_t enough = 16384;
+    auto& quads = easel.quads;
+    const auto flush = [&] {
+        easel.painter.draw(quads, rgb, pass.radius_px);
+        quads.clear();
+    };
+    for (const auto* road : roads) {
+        if ((road->looks & pass.looks) == 0) {
+            continue;
+        }
+        add_ribbon(quads, *road->strand, pass);
+        if (quads.size() >= enough) {
+            flush();
+        }
+    }
+    flush();
+}
 
 /// Copies four bytes per pixel to three, onto a band of the sheet.
 void lay(const GlRoadPainter& easel, const Window& window, int left, int down, Image& band) {
@@ -202,21 +213,18 @@ void RoadPainter::Impl::paint_unmeasured(int rank,
     auto pass = view;
     pass.radius_px = radius_px;
     pass.looks = every_look;
-    draw(easel->painter,
-         near(layers[std::size_t(rank)].unmeasured, view.visible, radius_px),
-         pass,
-         rgb);
+    draw(*easel, near(layers[std::size_t(rank)].unmeasured, view.visible, radius_px), pass, rgb);
 }
 
 void RoadPainter::Impl::paint_measured(int rank, const StrokePass& view) {
     const double widest_px =
         std::max(casing_radius_px(widths, rank, true), casing_radius_px(widths, rank, false));
-    const auto strands = near(layers[std::size_t(rank)].measured, view.visible, widest_px);
+    const auto roads = near(layers[std::size_t(rank)].measured, view.visible, widest_px);
     const auto paint = [&](double radius_px, std::uint64_t looks, std::uint32_t rgb) {
         auto pass = view;
         pass.radius_px = radius_px;
         pass.looks = looks;
-        draw(easel->painter, strands, pass, rgb);
+        draw(*easel, roads, pass, rgb);
     };
     for (const bool certain : {false, true}) {
         paint(casing_radius_px(widths, rank, certain), looks_of(certain), palette.casing);

@@ -32,7 +32,11 @@ bool between(const PixelPoint& from, const PixelPoint& to, const PixelPoint& poi
 /// Polyline under construction, point by point.
 class Growing {
 public:
-    explicit Growing(int rank) { strand_.rank = rank; }
+    Growing(int rank, std::size_t max_points) {
+        strand_.rank = rank;
+        strand_.points.reserve(max_points);
+        strand_.looks.reserve(max_points);
+    }
 
     void begin(const PixelPoint& point) { strand_.points.push_back(point); }
 
@@ -113,6 +117,8 @@ public:
 
     Polyline at(std::size_t use) const {
         Polyline polyline{.points = {}, .looks = {}, .rank = alone_[use].rank};
+        polyline.points.reserve(alone_[use].points.size() + 2 * context);
+        polyline.looks.reserve(alone_[use].looks.size() + 2 * context);
         add_before(polyline, neighbours_.previous[use]);
         polyline.first = polyline.looks.size();
         const auto& own = alone_[use];
@@ -165,7 +171,10 @@ int line_look(const MapLine& line) {
 Polyline strand_of(std::span<const MapLine> lines,
                    const std::vector<LineUse>& chain,
                    const MapFrame& frame) {
-    Growing strand{lines[chain.front().line].rank};
+    // Most points of a long chain are left out.
+    constexpr std::size_t enough = 16;
+    const auto& first = lines[chain.front().line];
+    Growing strand{first.rank, std::min(enough, first.line.size())};
     bool begun = false;
     for (const auto& [index, reversed] : chain) {
         const auto& line = lines[index];
@@ -202,8 +211,10 @@ std::vector<Polyline> separate_polylines(std::span<const MapLine> lines,
                                          const MapFrame& frame) {
     std::vector<Polyline> alone;
     alone.reserve(uses.size());
+    std::vector<LineUse> chain(1);
     for (const auto& use : uses) {
-        alone.push_back(without_short_end(strand_of(lines, {use}, frame)));
+        chain.front() = use;
+        alone.push_back(without_short_end(strand_of(lines, chain, frame)));
     }
     const auto neighbours = neighbours_of(lines, uses);
     const InContext in_context{alone, neighbours};
@@ -229,7 +240,9 @@ std::vector<Polyline> side_by_side(std::span<const MapLine> lines,
         (line.both_ways && line.iri_class >= 0 ? paired : alone).push_back(use);
     }
     auto strands = polylines(lines, alone, frame);
-    for (const auto& strand : polylines(lines, paired, frame)) {
+    const auto centred = polylines(lines, paired, frame);
+    strands.reserve(strands.size() + centred.size());
+    for (const auto& strand : centred) {
         const double right_px = way_offset_px(widths, strand.rank);
         strands.push_back(beside(strand, left_hand_traffic ? -right_px : right_px));
     }

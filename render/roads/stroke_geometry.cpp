@@ -51,6 +51,26 @@ Piece piece_at(const Polyline& strand, std::size_t i) {
     return {from, to, {step.x / length_px, step.y / length_px}, length_px};
 }
 
+/// Line segments of a polyline, the last three of which are remembered.
+class Pieces {
+public:
+    explicit Pieces(const Polyline& strand) : strand_{strand} {}
+
+    const Piece& at(std::size_t i) {
+        auto& [index, piece] = known_[i % known_.size()];
+        if (index != i) {
+            index = i;
+            piece = piece_at(strand_, i);
+        }
+        return piece;
+    }
+
+private:
+    const Polyline& strand_;
+    std::array<std::pair<std::size_t, Piece>, 3> known_{
+        {{SIZE_MAX, {}}, {SIZE_MAX, {}}, {SIZE_MAX, {}}}};
+};
+
 /// Joint of two line segments that share an edge.
 struct Mitre {
     PixelPoint forward; ///< unit vector, across the shared edge
@@ -153,9 +173,9 @@ StrokeQuad quad_of(const Piece& piece,
     return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2]), vertex(corners[3])};
 }
 
-bool outside(const Piece& piece, const PixelBox& box, double reach_px) {
-    const auto [left, right] = std::minmax(piece.from.x, piece.to.x);
-    const auto [top, bottom] = std::minmax(piece.from.y, piece.to.y);
+bool outside(const PixelPoint& from, const PixelPoint& to, const PixelBox& box, double reach_px) {
+    const auto [left, right] = std::minmax(from.x, to.x);
+    const auto [top, bottom] = std::minmax(from.y, to.y);
     return right + reach_px < box.left || left - reach_px > box.right ||
            bottom + reach_px < box.top || top - reach_px > box.bottom;
 }
@@ -187,54 +207,62 @@ seen_parts(const Piece& piece, int parts, const PixelBox& box, double reach_px) 
 } // namespace
 
 std::vector<StrokeQuad> ribbon(const Polyline& strand, const StrokePass& pass) {
-    const double reach_px = pass.radius_px + fringe_px;
     std::vector<StrokeQuad> quads;
+    add_ribbon(quads, strand, pass);
+    return quads;
+}
+
+void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& strand, const StrokePass& pass) {
+    const double reach_px = pass.radius_px + fringe_px;
+    Pieces pieces{strand};
     const auto past = std::min(strand.past, strand.looks.size());
     for (auto i = strand.first; i < past; ++i) {
         if ((pass.looks & only(strand.looks[i])) == 0) {
             continue;
         }
-        const auto piece = piece_at(strand, i);
-        if (outside(piece, pass.visible, reach_px + overlap_px)) {
+        if (outside(strand.points[i], strand.points[i + 1], pass.visible, reach_px + overlap_px)) {
             continue;
         }
+        const auto& piece = pieces.at(i);
         const auto side = right_of(piece.direction);
         auto start =
             round_end(piece.from, {-piece.direction.x, -piece.direction.y}, side, reach_px);
         auto end = round_end(piece.to, piece.direction, side, reach_px);
         if (i > 0) {
-            if (const auto shared = mitre(piece_at(strand, i - 1), piece, reach_px)) {
+            if (const auto shared = mitre(pieces.at(i - 1), piece, reach_px)) {
                 start =
                     mitred_end(piece.from, *shared, -1, join_of(strand, pass, i, i - 1), reach_px);
             }
         }
         if (i + 1 < strand.looks.size()) {
-            if (const auto shared = mitre(piece, piece_at(strand, i + 1), reach_px)) {
+            if (const auto shared = mitre(piece, pieces.at(i + 1), reach_px)) {
                 end = mitred_end(piece.to, *shared, 1, join_of(strand, pass, i, i + 1), reach_px);
             }
         }
         const int parts = std::max(1, int(std::ceil(piece.length_px / part_px)));
-        const auto [first, last] = seen_parts(piece, parts, pass.visible, reach_px + overlap_px);
+        const auto [first, last] =
+            parts == 1 ? std::pair{0, 1}
+                       : seen_parts(piece, parts, pass.visible, reach_px + overlap_px);
         for (int part = first; part < last; ++part) {
             quads.push_back(
                 quad_of(piece, start, end, {double(part) / parts, double(part + 1) / parts}, pass));
         }
     }
-    return quads;
 }
 
 Polyline beside(const Polyline& strand, double right_px) {
     Polyline moved = strand;
     const auto last = strand.looks.size();
+    auto before = right_of(piece_at(strand, 0).direction);
     for (std::size_t i = 0; i <= last; ++i) {
-        const auto before = right_of(piece_at(strand, i == 0 ? 0 : i - 1).direction);
-        const auto after = right_of(piece_at(strand, i == last ? last - 1 : i).direction);
+        const auto after = i == last ? before : right_of(piece_at(strand, i).direction);
         const auto sum = plus(before, after, 1);
         const double squared = dot(sum, sum);
         // Exact for gentle bends; limited for hairpins, whose corner would lie at infinity.
         const double stretch =
             squared > 0 ? std::min(2 / squared, max_stretch / std::sqrt(squared)) : 0.0;
         moved.points[i] = plus(strand.points[i], sum, stretch * right_px);
+        before = after;
     }
     return moved;
 }

@@ -63,6 +63,9 @@ struct StrokePass {
 /// picture is painted as in the whole picture.
 std::vector<StrokeQuad> ribbon(const Polyline& strand, const StrokePass& pass);
 
+/// Appends the quads of a polyline to others.
+void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& strand, const StrokePass& pass);
+
 /// Offsets the polyline to the right of its direction (to the left if negative).
 Polyline beside(const Polyline& strand, double right_px);
 
