@@ -14,6 +14,9 @@
 
 #include <array>
 #include <filesystem>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -73,6 +76,41 @@ void expect_two_sources(const CompareOptions& options) {
     }
 }
 
+void expect_none_of(const Arguments& arguments,
+                    std::initializer_list<std::string_view> names,
+                    std::string_view why) {
+    for (const auto name : names) {
+        if (arguments.value(name)) {
+            throw UsageError{fmt::format("{} {}", name, why)};
+        }
+    }
+}
+
+/// Refuses options that would have no effect on these sources.
+void expect_effect(const Arguments& arguments, const CompareOptions& options) {
+    const auto count = [&](SourceKind kind) {
+        return (options.a.kind == kind ? 1 : 0) + (options.b.kind == kind ? 1 : 0);
+    };
+    if (count(SourceKind::profile) == 2) {
+        expect_none_of(arguments,
+                       {"--bbox", "--way", "--name", "--highway", "--since", "--until"},
+                       "selects roads or passes, but A and B are profiles, which have neither");
+    }
+    if (count(SourceKind::survey) == 2) {
+        expect_none_of(arguments,
+                       {"--since", "--until"},
+                       "selects passes of a road database, but A and B are surveys");
+    }
+    if (count(SourceKind::profile) == 0) {
+        expect_none_of(arguments,
+                       {"--step", "--length", "--max-lag"},
+                       "requires two profiles, but neither A nor B is one");
+    }
+    if (count(SourceKind::survey) == 0) {
+        expect_none_of(arguments, {"--unit"}, "is that of a survey, but neither A nor B is one");
+    }
+}
+
 CompareOptions parse_compare(const Arguments& arguments) {
     constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
     constexpr double max_interval_m = 1000, max_lag_m = 100;
@@ -90,6 +128,7 @@ CompareOptions parse_compare(const Arguments& arguments) {
     options.profiles.interval_m =
         parse_length(arguments, "--length", options.profiles.interval_m, max_interval_m);
     expect_two_sources(options);
+    expect_effect(arguments, options);
     return options;
 }
 
@@ -114,7 +153,11 @@ void run_compare(const Arguments& arguments, const Console& console) {
     const auto output = parse_output(arguments);
     const auto options = parse_compare(arguments);
     if (!output.empty()) {
-        refuse_to_replace(output, {options.a.file, options.b.file});
+        std::vector<fs::path> inputs{options.a.file, options.b.file};
+        if (options.roads) {
+            inputs.push_back(*options.roads);
+        }
+        refuse_to_replace(output, inputs);
     }
     const auto comparison = compare_sources(options, console);
     if (comparison.pairs.empty()) {

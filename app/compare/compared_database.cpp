@@ -17,12 +17,24 @@ struct WeightedPasses {
     double weight = 0;
 
     void add(const Pass& pass) {
+        if (pass.sd_um <= 0) {
+            return; // of a damaged database: its weight would be infinite
+        }
         const double sd = static_cast<double>(pass.sd_um) / 1000;
         weight += 1 / (sd * sd);
         sum += static_cast<double>(pass.iri_um) / 1000 / (sd * sd);
     }
     double mean() const { return sum / weight; }
 };
+
+/// Tests whether a pass is chosen, by the borders that the store has for states of a period.
+bool is_chosen(const PassesOfInterest& of, const HistoricPass& historic) {
+    const auto& [period, car] = of;
+    const auto& utc_ms = historic.utc_ms;
+    const bool in_period = !period || (utc_ms && !(period->from_ms && *utc_ms < *period->from_ms) &&
+                                       !(period->until_ms && *utc_ms >= *period->until_ms));
+    return in_period && (car.empty() || historic.vehicle == car);
+}
 
 std::map<std::string, double> iri_by_car(const std::vector<HistoricPass>& passes) {
     std::map<std::string, WeightedPasses> cars;
@@ -33,7 +45,9 @@ std::map<std::string, double> iri_by_car(const std::vector<HistoricPass>& passes
     }
     std::map<std::string, double> means;
     for (const auto& [car, sums] : cars) {
-        means.emplace(car, sums.mean());
+        if (sums.weight > 0) {
+            means.emplace(car, sums.mean());
+        }
     }
     return means;
 }
@@ -117,13 +131,15 @@ int number_of_car(const std::vector<std::string>& cars, const std::string& car) 
 }
 
 std::optional<PassesOfCars> passes_of_cars(const RoadStore& store,
-                                           const std::vector<AgreementPair>& pairs) {
+                                           const std::vector<AgreementPair>& pairs,
+                                           const PassesOfInterest& of) {
     if (store.settings().privacy == PrivacyProfile::crowd) {
         return std::nullopt;
     }
     PassesOfCars passes;
     for (const auto& pair : pairs) {
-        const auto history = store.history(pair.segment);
+        auto history = store.history(pair.segment);
+        std::erase_if(history, [&](const HistoricPass& pass) { return !is_chosen(of, pass); });
         passes.speed_kmh.push_back(mean_speed_kmh(history));
         passes.iri_by_car.push_back(iri_by_car(history));
     }

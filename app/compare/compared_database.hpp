@@ -53,9 +53,16 @@ struct PassesOfCars {
     std::vector<std::map<std::string, double>> iri_by_car;
 };
 
-/// Reads the passes over the segments of the pairs. `std::nullopt` for a crowd database: single
-/// cars and speeds are not published.
+/// Selection of passes.
+struct PassesOfInterest {
+    std::optional<Period> period; ///< only dated passes within it, as for SegmentFilter
+    std::string car;              ///< only of the car with this pseudonym; "" = all cars
+};
+
+/// Reads the chosen passes over the segments of the pairs. `std::nullopt` for a crowd database:
+/// single cars and speeds are not published.
 std::optional<PassesOfCars> passes_of_cars(const RoadStore& store,
-                                           const std::vector<AgreementPair>& pairs);
+                                           const std::vector<AgreementPair>& pairs,
+                                           const PassesOfInterest& of);
 
 } // namespace macadam

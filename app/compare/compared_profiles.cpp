@@ -1,6 +1,7 @@
 #include "app/compare/compared_profiles.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/iri/iri.hpp"
 #include "storage/profiles/profile_reader.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +13,40 @@
 
 namespace macadam {
 namespace {
+
+/// Tests whether the points are dense enough for IRI; straight lines across a gap would be smooth.
+void expect_dense(const MeasuredProfile& profile, const std::filesystem::path& file) {
+    constexpr double longest_gap_m = 2 * coarsest_step_m;
+    constexpr double rounding = 1 + 1e-9;
+    const auto& stations = profile.station_m;
+    const double step_m = profile.even_step_m.value_or((stations.back() - stations.front()) /
+                                                       static_cast<double>(stations.size() - 1));
+    if (step_m > coarsest_step_m * rounding) {
+        throw InputError{fmt::format("{}: has a point every {:.6g} m, expected at most {:g} m",
+                                     file.string(),
+                                     step_m,
+                                     coarsest_step_m)};
+    }
+    for (std::size_t i = 1; i < stations.size(); ++i) {
+        if (stations[i] - stations[i - 1] > longest_gap_m * rounding) {
+            throw InputError{fmt::format(
+                "{}: has no point between stations {:.3f} and {:.3f} m, expected one at "
+                "least every {:g} m",
+                file.string(),
+                stations[i - 1],
+                stations[i],
+                longest_gap_m)};
+        }
+    }
+}
+
+/// Reads a profile that is dense enough for IRI.
+MeasuredProfile read_dense_profile(const std::filesystem::path& file,
+                                   std::optional<double> step_m) {
+    auto profile = read_profile(file, step_m);
+    expect_dense(profile, file);
+    return profile;
+}
 
 /// Interpolates the tracks of uneven stations to their mean step.
 MeasuredProfile at_even_steps(MeasuredProfile profile) {
@@ -86,8 +121,8 @@ SourceComparison compare_profiles(const std::filesystem::path& a,
                                   const std::filesystem::path& b,
                                   std::optional<double> step_m,
                                   const ProfileComparisonConfig& config) {
-    const auto profile_a = at_even_steps(read_profile(a, step_m));
-    const auto profile_b = at_even_steps(read_profile(b, step_m));
+    const auto profile_a = at_even_steps(read_dense_profile(a, step_m));
+    const auto profile_b = at_even_steps(read_dense_profile(b, step_m));
     SourceComparison comparison;
     comparison.interval_m = config.interval_m;
     const auto track_of = [](const MeasuredProfile& profile, std::size_t track) {

@@ -136,7 +136,7 @@ std::string agreement_line(std::string name, const MethodAgreement& agreement) {
         name += "..";
     }
     const auto& difference = agreement.difference;
-    return fmt::format("{:<24}{:>7}{:>7}{:>8}{:>8}{:>22}{:>7}{:>22}{:>22}{:>9}\n",
+    return fmt::format("{:<24}{:>7}{:>7}{:>8}{:>8} {:>22}{:>7} {:>22} {:>22}{:>9}\n",
                        name,
                        agreement.pairs,
                        plain_text(difference.independent, 0),
@@ -150,7 +150,7 @@ std::string agreement_line(std::string name, const MethodAgreement& agreement) {
 }
 
 std::string agreement_head(const std::string& property) {
-    return fmt::format("\n{:<24}{:>7}{:>7}{:>8}{:>8}{:>22}{:>7}{:>22}{:>22}{:>9}\n",
+    return fmt::format("\n{:<24}{:>7}{:>7}{:>8}{:>8} {:>22}{:>7} {:>22} {:>22}{:>9}\n",
                        property,
                        "pairs",
                        "indep.",

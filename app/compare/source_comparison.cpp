@@ -54,6 +54,7 @@ SourceName name_of(const SourceOption& source, const std::string& car) {
 struct SegmentSource {
     std::optional<RoadStore> store; ///< of a database
     std::string car;                ///< "car 1"; "" = all cars
+    std::string pseudonym;          ///< of that car
     SourceSegments segments;
 };
 
@@ -66,11 +67,11 @@ RoadStore opened_for_comparison(const std::filesystem::path& file, const Console
 
 SegmentSource
 database_source(const SourceOption& source, const SegmentFilter& filter, const Console& console) {
-    SegmentSource opened{opened_for_comparison(source.file, console), {}, {}};
+    SegmentSource opened{opened_for_comparison(source.file, console), {}, {}, {}};
     if (source.car) {
-        const auto car = car_named(*opened.store, *source.car);
-        opened.car = fmt::format("car {}", number_of_car(opened.store->cars(), car));
-        opened.segments = segments_by_car(*opened.store, filter, car);
+        opened.pseudonym = car_named(*opened.store, *source.car);
+        opened.car = fmt::format("car {}", number_of_car(opened.store->cars(), opened.pseudonym));
+        opened.segments = segments_by_car(*opened.store, filter, opened.pseudonym);
     } else {
         opened.segments = segments_by_cars(*opened.store, filter);
     }
@@ -209,11 +210,20 @@ void add_groups(SourceComparison& comparison,
     }
 }
 
-/// Adds speeds and cars from the passes of the first database that may show them.
-void add_cars(SourceComparison& comparison, const SegmentSource& a, const SegmentSource& b) {
-    const auto* const source = a.store ? &a : b.store ? &b : nullptr;
+bool is_own(const SegmentSource& source) {
+    return source.store && source.store->settings().privacy == PrivacyProfile::own;
+}
+
+/// Adds speeds and cars from the compared passes of the first database that may show them.
+void add_cars(SourceComparison& comparison,
+              const SegmentSource& a,
+              const SegmentSource& b,
+              const std::optional<Period>& period) {
+    const auto* const source = is_own(a) ? &a : is_own(b) ? &b : nullptr;
     const auto passes =
-        source == nullptr ? std::nullopt : passes_of_cars(*source->store, comparison.pairs);
+        source == nullptr
+            ? std::nullopt
+            : passes_of_cars(*source->store, comparison.pairs, {period, source->pseudonym});
     if (!passes) {
         return;
     }
@@ -223,10 +233,6 @@ void add_cars(SourceComparison& comparison, const SegmentSource& a, const Segmen
     if (source == &a && a.car.empty()) {
         add_groups(comparison, "Car of A", agreement_by_car(comparison.pairs, *passes, *a.store));
     }
-}
-
-bool is_own(const SegmentSource& source) {
-    return source.store && source.store->settings().privacy == PrivacyProfile::own;
 }
 
 void expect_comparable(const SegmentSource& a, const SegmentSource& b) {
@@ -280,7 +286,7 @@ SourceComparison compare_segments(const CompareOptions& options, const Console& 
                agreement_by_group(
                    comparison.pairs,
                    roughness_names(comparison.pairs, *class_table(roads.settings().class_table))));
-    add_cars(comparison, a, b);
+    add_cars(comparison, a, b, options.filter.period);
     return comparison;
 }
 

@@ -119,7 +119,7 @@ InputError nothing_on_profile(const LocatedTrip& trip, const IdentifyOptions& op
 struct Identified {
     Vehicle vehicle;
     IdentifyOutput output;
-    std::vector<std::string> not_excited;
+    std::vector<std::string> warnings;
 };
 
 std::string name_of(const Vehicle& vehicle, const std::string& vehicle_id) {
@@ -150,6 +150,28 @@ Identified identified_by_spectrum(const LocatedTrip& trip,
     return {std::move(found), std::move(output), {}};
 }
 
+std::vector<std::string> warnings_of(const ProfileDrive& drive, const LikelihoodFit& fit) {
+    std::vector<std::string> warnings;
+    if (drive.left_out_m > 0) {
+        warnings.push_back(fmt::format("the drive on the profile is {:.1f} km long: fitted to the "
+                                       "{:.0f} km nearest its middle",
+                                       (max_drive_m + drive.left_out_m) / 1000,
+                                       max_drive_m / 1000));
+    }
+    if (!fit.settled) {
+        warnings.emplace_back("the fit did not settle: do not rely on its values and standard "
+                              "deviations; use a longer drive over a rougher road, or check the "
+                              "masses and axles of the vehicle file, the profile and --at");
+    }
+    const auto not_excited = unexcited_parameters(fit);
+    if (!not_excited.empty()) {
+        warnings.push_back(fmt::format("the drive did not excite {}: mostly the values of the "
+                                       "vehicle file",
+                                       fmt::join(not_excited, ", ")));
+    }
+    return warnings;
+}
+
 Identified identified_by_likelihood(const LocatedTrip& trip,
                                     const Vehicle& vehicle,
                                     const std::string& vehicle_id,
@@ -169,7 +191,7 @@ Identified identified_by_likelihood(const LocatedTrip& trip,
     auto found = fit.vehicle;
     found.name = name_of(vehicle, vehicle_id);
     auto output = output_of(fit, trip.place, found);
-    return {std::move(found), std::move(output), unexcited_parameters(fit)};
+    return {std::move(found), std::move(output), warnings_of(*longest, fit)};
 }
 
 /// Selects the method. The likelihood needs both axles: without them and without --method, the
@@ -228,10 +250,8 @@ void run_identify(const Arguments& arguments, const Console& console) {
     const bool by_likelihood = is_likelihood(chosen.vehicle, options, console);
     const auto identify = by_likelihood ? identified_by_likelihood : identified_by_spectrum;
     const auto result = identify(located, chosen.vehicle, trip.meta.vehicle_id, options);
-    if (!result.not_excited.empty()) {
-        console.warn(fmt::format("the drive did not excite {}: mostly the values of the vehicle "
-                                 "file",
-                                 fmt::join(result.not_excited, ", ")));
+    for (const auto& warning : result.warnings) {
+        console.warn(warning);
     }
     for (const auto& output : options.outputs) {
         write_file(output,

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -153,7 +153,8 @@ json_of(const LikelihoodFit& fit, const PlaceOnProfile& place, const Vehicle& id
         .add("to_m", JsonNumber{fit.to_m, 2})
         .add("parameters", parameters_json(fit))
         .add("parameter_correlation", correlation_json(fit))
-        .add("not_excited", JsonRaw{json_string_array(unexcited_parameters(fit))});
+        .add("not_excited", JsonRaw{json_string_array(unexcited_parameters(fit))})
+        .add("settled", fit.settled);
     for (const auto channel :
          {Channel::vertical, Channel::lateral, Channel::roll_rate, Channel::pitch_rate}) {
         object.add(fmt::format("misfit_{}", words_of(channel).key), misfit_of(fit, channel));

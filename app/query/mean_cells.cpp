@@ -41,10 +41,6 @@ Cell day_cell(const std::optional<std::int64_t>& utc_ms) {
     return utc_ms ? Cell{utc_day(*utc_ms)} : Cell{};
 }
 
-Cell known_if(bool is_known, const Cell& value) {
-    return is_known ? value : Cell{};
-}
-
 std::string way_ids_list(const std::vector<StretchPart>& parts) {
     return list_of(parts, [](const auto& part) { return part.way_id; });
 }

@@ -20,9 +20,6 @@ std::string passes_cell(std::int32_t min_passes, double median_passes);
 
 Cell day_cell(const std::optional<std::int64_t>& utc_ms);
 
-/// Returns a value if it is known.
-Cell known_if(bool is_known, const Cell& value);
-
 /// Lists one value for each interval on a way, separated by semicolons.
 std::string way_ids_list(const std::vector<StretchPart>& parts);
 std::string directions_list(const std::vector<StretchPart>& parts);

@@ -22,8 +22,11 @@ Cell of_mean(const Row& row, double RoadMean::*value) {
 }
 
 Cell class_of(const Row& row) {
+    if (!is_measured(row)) {
+        return {};
+    }
     const double iri = row.named.section.measured.mean.iri;
-    return known_if(is_measured(row), row.classes.classes[class_index(row.classes, iri)].name);
+    return row.classes.classes[class_index(row.classes, iri)].name;
 }
 
 /// Value in a table, which shows nothing after the interval of a section without a pass.

@@ -33,10 +33,6 @@ bool is_compared(const AgainstRow& row) {
     return whole && row.survey_mm_per_m && headline_of(row);
 }
 
-Cell known_if(bool is_known, const Cell& value) {
-    return is_known ? value : Cell{};
-}
-
 Cell error_of(const AgainstRow& row) {
     const auto iri = headline_of(row);
     return iri && row.survey_mm_per_m ? Cell{*iri - *row.survey_mm_per_m} : Cell{};

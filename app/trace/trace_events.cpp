@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace macadam {
@@ -52,7 +53,7 @@ std::string csv_of(const std::vector<EventRow>& rows) {
     std::string csv = "kind,severity,track,size_mm,size_sd_mm,length_m,travel_m,t_s,lat_deg,"
                       "lon_deg,speed_mps,score\n";
     for (const auto& [event, t_s, at, speed_mps] : rows) {
-        csv += fmt::format("{},{},{},{:.0f},{:.0f},{:.2f},{:.2f},{:.3f},{},{:.3f},{:.1f}\n",
+        csv += fmt::format("{},{},{},{:.0f},{:.0f},{:.2f},{:.2f},{:.3f},{},{},{:.1f}\n",
                            name_of(event.kind),
                            name_of(severity_of(event.size_mm)),
                            name_of(event.track),
@@ -62,7 +63,7 @@ std::string csv_of(const std::vector<EventRow>& rows) {
                            event.travel_m,
                            t_s,
                            at ? fmt::format("{:.7f},{:.7f}", at->lat_deg, at->lon_deg) : ",",
-                           speed_mps,
+                           std::isfinite(speed_mps) ? fmt::format("{:.3f}", speed_mps) : "",
                            event.score);
     }
     return csv;

@@ -67,7 +67,7 @@ bool is_line(const LaneEvent& event) {
 bool are_rails(const LaneEvent& first, const LaneEvent& second) {
     const double apart_m = second.event.at_m - first.event.at_m;
     const auto [smaller, larger] =
-        std::minmax(magnitude_mm(first.event), magnitude_mm(second.event));
+        std::minmax({magnitude_mm(first.event), magnitude_mm(second.event)});
     return is_line(first) && is_line(second) && first.event.shape == second.event.shape &&
            apart_m >= min_rails_m && apart_m <= max_rails_m && smaller >= alike_rails * larger;
 }

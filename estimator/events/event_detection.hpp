@@ -24,7 +24,7 @@ struct EventConfig {
 /// smaller ones beside a large event are its echo and are dropped.
 ///
 /// \param profile  of the smoother, with its errors; the mean of both tracks serves where the
-///                 tracks were not observed. Empty: no events.
+///                 tracks were not observed. Empty, or without errors: no events.
 /// \returns        in order of travel
 std::vector<RoadEvent> detect_events(const EstimatedProfile& profile,
                                      const EventConfig& config = {});

@@ -24,7 +24,7 @@ struct EventTemplate {
 };
 
 /// Returns templates of all shapes and lengths: dips of 0.5 to 1.5 m, raises of 0.5 to 4 m, both
-/// of the form of half a cosine wave averaged over the step, and steps.
+/// of the form of one wave of a cosine, averaged over the step, and steps.
 ///
 /// \param step_m  distance of stations, 0.05 to 0.25
 std::vector<EventTemplate> event_templates(double step_m);

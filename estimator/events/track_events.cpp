@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace macadam {
@@ -141,6 +142,32 @@ bool explains(const TrackEvent& stronger, const TrackEvent& other) {
            (apart < echo_m && std::abs(other.size_mm) < echo_part * std::abs(stronger.size_mm));
 }
 
+// An event explains others within this distance only: two raises of 4 m overlap up to 4 m apart.
+constexpr double explains_m = echo_m;
+static_assert(explains_m >= 4 && explains_m >= apart_m);
+
+/// Keeps the events that no stronger one explains.
+///
+/// \param all  the strongest first.
+/// \returns    in order along the track
+std::vector<TrackEvent> unexplained(const std::vector<TrackEvent>& all) {
+    std::multimap<double, TrackEvent> kept; // by place
+    for (const auto& event : all) {
+        const auto first = kept.lower_bound(event.at_m - explains_m);
+        const auto past = kept.upper_bound(event.at_m + explains_m);
+        if (std::none_of(
+                first, past, [&](const auto& other) { return explains(other.second, event); })) {
+            kept.emplace(event.at_m, event);
+        }
+    }
+    std::vector<TrackEvent> events;
+    events.reserve(kept.size());
+    for (const auto& [at_m, event] : kept) {
+        events.push_back(event);
+    }
+    return events;
+}
+
 } // namespace
 
 std::vector<TrackEvent> events_in_track(std::span<const float> profile_m,
@@ -148,7 +175,7 @@ std::vector<TrackEvent> events_in_track(std::span<const float> profile_m,
                                         double step_m,
                                         const EventConfig& config) {
     std::vector<TrackEvent> all;
-    if (profile_m.empty()) {
+    if (profile_m.empty() || error_m.size() != profile_m.size()) {
         return all;
     }
     for (const auto& shape : event_templates(step_m)) {
@@ -157,15 +184,7 @@ std::vector<TrackEvent> events_in_track(std::span<const float> profile_m,
     std::ranges::sort(all, [](const TrackEvent& a, const TrackEvent& b) {
         return std::tuple{-a.score, a.at_m, a.length_m} < std::tuple{-b.score, b.at_m, b.length_m};
     });
-    std::vector<TrackEvent> kept;
-    for (const auto& event : all) {
-        if (std::ranges::none_of(kept,
-                                 [&](const TrackEvent& other) { return explains(other, event); })) {
-            kept.push_back(event);
-        }
-    }
-    std::ranges::sort(kept, {}, &TrackEvent::at_m);
-    return kept;
+    return unexplained(all);
 }
 
 } // namespace macadam

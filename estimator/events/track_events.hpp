@@ -21,7 +21,7 @@ struct TrackEvent {
 /// Detects events in one wheel track.
 ///
 /// \param profile_m  elevation at even stations
-/// \param error_m    one draw of its error, of the same size
+/// \param error_m    one draw of its error, of the same size; of another size: no events
 /// \returns          in order along the track, at least 1 m apart
 std::vector<TrackEvent> events_in_track(std::span<const float> profile_m,
                                         std::span<const float> error_m,

@@ -18,9 +18,9 @@ constexpr double usual_mass_kg = 1400;
 constexpr double friction_step_n = 20; // search step, for a car of usual_mass_kg
 constexpr double max_friction_n = 120; // above this a suspension is stuck
 
-// For a car of usual_mass_kg, as are the next two: the likelihood's maximum lies this far from the
-// true friction in simulated fleets. A sensor's unstated low-pass looks like less friction, uneven
-// dampers like more (docs/decisions/42-friction-has-a-prior.md).
+// This and the next two are for a car of usual_mass_kg. In simulated fleets the maximum of the
+// likelihood lies this far from the true friction: a sensor's unstated low-pass looks like less of
+// it, uneven dampers like more (docs/decisions/42-friction-has-a-prior.md).
 constexpr double friction_model_sd_n = 12;
 
 // Friction that no file states: from none to 50 N, evenly.
@@ -241,25 +241,22 @@ Peak peak_about(const DriveRecord& passage,
 
 } // namespace
 
-TunedCar tuned_car(const DriveRecord& passage,
-                   const DriveRecord& smooth,
-                   const Vehicle& vehicle,
-                   const SmootherConfig& config) {
+TunedCar
+tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config) {
     Point point{.vehicle = vehicle, .friction_n = vehicle.half_car.friction_n.value_or(0)};
     TunedCar tuned{.vehicle = vehicle};
     const Unknowns road{{colour_by, colour_sd, colour_step}};
     point = moved(point, road, peak_about(passage, point, road, config).by);
-    auto unknowns = of_car(vehicle);
-    unknowns.insert(unknowns.end(), road.begin(), road.end());
-    const auto peak = peak_about(passage, point, unknowns, config);
-    point = moved(point, unknowns, peak.by);
-    // With a wrong dynamic index the channels contradict each other, and friction is not found.
     if (!vehicle.half_car.friction_n) {
-        const auto friction = friction_of(smooth, point, config);
+        const auto friction = friction_of(passage, point, config);
         point.friction_n = friction.force_n;
         tuned.friction_sd_n = friction.sd_n;
         tuned.iri_sd = std::abs(friction.iri_per_n * friction.sd_n);
     }
+    auto unknowns = of_car(vehicle);
+    unknowns.insert(unknowns.end(), road.begin(), road.end());
+    const auto peak = peak_about(passage, point, unknowns, config);
+    point = moved(point, unknowns, peak.by);
     tuned.vehicle = point.vehicle;
     tuned.friction_n = point.friction_n;
     tuned.colour = point.colour;

@@ -160,26 +160,6 @@ Piece piece_at(const DriveRecord& passage,
     return {from, to, sample_at(passage, from_m - config.margin_m), last};
 }
 
-/// Returns the first of `count` samples with the least vibration.
-std::size_t smoothest(const DriveRecord& passage, std::size_t count) {
-    const auto& felt =
-        *std::ranges::find_if(passage.felt, [](const auto& channel) { return !channel.empty(); });
-    double power = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        power += felt[k] * felt[k];
-    }
-    double least = power;
-    std::size_t first = 0;
-    for (std::size_t k = count; k < felt.size(); ++k) {
-        power += felt[k] * felt[k] - felt[k - count] * felt[k - count];
-        if (power < least) {
-            least = power;
-            first = k + 1 - count;
-        }
-    }
-    return first;
-}
-
 } // namespace
 
 TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
@@ -193,12 +173,9 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     if (passage.felt[0].empty() || passage.felt[3].empty()) {
         tunable.uncertainty.clear();
     }
-    const auto piece_from = [&](std::size_t first) {
-        auto piece = piece_of(passage, first, first + count);
-        piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
-        return piece;
-    };
-    auto tuned = tuned_car(piece_from(from), piece_from(smoothest(passage, count)), tunable, {});
+    auto piece = piece_of(passage, from, from + count);
+    piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
+    auto tuned = tuned_car(piece, tunable, {});
     tuned.vehicle.imu.height_above_roll_axis_m = vehicle.imu.height_above_roll_axis_m;
     if (tunable.uncertainty.empty()) {
         tuned.iri_sd = std::hypot(tuned.iri_sd, untuned_iri_sd(vehicle, false));

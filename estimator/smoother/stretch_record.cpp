@@ -29,7 +29,7 @@ constexpr double bend_window_s = 4;
 
 // Windows in which the highest frequencies of an accelerometer are looked at: the quietest tenth
 // contains the least of the road.
-constexpr double quiet_window_s = 4;
+constexpr double quiet_window_s = 10;
 constexpr double quiet_share = 0.1;
 
 constexpr double slope_window_s = 0.4; // of the speed: brake response time
@@ -138,8 +138,8 @@ std::vector<double> lateral_of(const Stretch& stretch, double gain, bool yaw) {
 }
 
 /// Estimates the white noise of an accelerometer from its highest frequencies, in the quietest
-/// parts of a stretch: standard deviation of a sample. A smooth road is else read as rough as its
-/// sensor is noisy. 0 for a stretch shorter than a window.
+/// parts of a stretch: standard deviation of a sample. Otherwise a smooth road would read as rough
+/// as its sensor is noisy. 0 for a stretch shorter than a window.
 double acceleration_noise(const std::vector<float>& felt, double step_s) {
     const auto window = static_cast<std::size_t>(quiet_window_s / step_s);
     std::vector<double> noise;

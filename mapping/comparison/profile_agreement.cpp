@@ -21,6 +21,10 @@ constexpr std::array bands{ProfileBand{"IRI", 0, 0},
                            ProfileBand{"short", 0.32, 1.6}};
 constexpr int filter_order = 4;
 constexpr double min_shared_m = 20;
+constexpr double min_step_m = 1e-4;     // a finer one is a mistake of units
+constexpr double min_grid_m = 0.01;     // finer than any wave of the bands needs
+constexpr double max_elevation_m = 1e5; // beyond it, squares of slopes could lose the waves
+constexpr double min_variance = 1e-12;  // (mm/m)^2; less is rounding
 constexpr double band_lag_m = 0.5; // two bands of one profile are delayed differently by its filter
 
 /// Filtered profile at the points `first`, `first` + 1, ... of a grid that both profiles share.
@@ -133,8 +137,12 @@ LagScore score_of(const SharedRoad& road) {
         ab += road.a[i] * road.b[i];
     }
     const auto count = static_cast<double>(road.a.size());
-    const double variance_a = std::max(0.0, aa - a * a / count);
-    const double variance_b = std::max(0.0, bb - b * b / count);
+    const auto variance_of = [&](double sum, double squares) {
+        const double variance = squares - sum * sum / count;
+        return variance < min_variance * count ? 0 : variance;
+    };
+    const double variance_a = variance_of(a, aa);
+    const double variance_b = variance_of(b, bb);
     const double covariance = ab - a * b / count;
     if (!(variance_a > 0 && variance_b > 0)) {
         const double equal = variance_a == variance_b ? 1 : 0; // two planes agree
@@ -207,6 +215,22 @@ intervals_of(const SharedRoad& road, std::size_t points, std::int64_t way_id) {
     return intervals;
 }
 
+void expect_comparable(const TrackProfile& track) {
+    if (!(track.step_m >= min_step_m)) {
+        throw InputError{fmt::format(
+            "profile step is {:g} m, expected at least {:g}", track.step_m, min_step_m)};
+    }
+    const auto beyond = std::ranges::find_if_not(
+        track.elevation_m, [](double z) { return std::abs(z) <= max_elevation_m; });
+    if (beyond != track.elevation_m.end()) {
+        throw InputError{fmt::format("elevation {} of a profile is {:g} m, expected at most {:g} m "
+                                     "above or below 0",
+                                     beyond - track.elevation_m.begin() + 1,
+                                     *beyond,
+                                     max_elevation_m)};
+    }
+}
+
 std::int64_t points_in(double length_m, double step_m) {
     return std::max<std::int64_t>(1, std::llround(length_m / step_m));
 }
@@ -221,7 +245,9 @@ TrackAgreement compare_tracks(const TrackProfile& a,
                               const TrackProfile& b,
                               std::int64_t way_id,
                               const ProfileComparisonConfig& config) {
-    const double step_m = std::min(a.step_m, b.step_m);
+    expect_comparable(a);
+    expect_comparable(b);
+    const double step_m = std::max(std::min(a.step_m, b.step_m), min_grid_m);
     const double coarser_m = std::max(a.step_m, b.step_m);
     const auto min_points = static_cast<std::size_t>(points_in(min_shared_m, step_m));
     TrackAgreement agreement{};

@@ -11,9 +11,9 @@ namespace macadam {
 
 /// Elevations of one wheel track at even stations.
 struct TrackProfile {
-    std::span<const double> elevation_m;
-    double first_m; ///< station of the first elevation
-    double step_m;  ///< 0 < step_m <= 0.3
+    std::span<const double> elevation_m; ///< within 1e5 m of 0
+    double first_m;                      ///< station of the first elevation
+    double step_m;                       ///< 1e-4 <= step_m <= 0.3
 };
 
 /// Waveband in which two profiles are compared.
@@ -61,15 +61,18 @@ struct TrackAgreement {
 /// The profiles are filtered in each band: by the golden car (suspension_stroke_mm_per_m), or their
 /// slopes by a Butterworth band-pass of order 4 without delay. The first 11 m, in which the golden
 /// car settles, are left out, and of the other bands their longest wavelength at both ends (at most
-/// an eighth of the profile). The signals are then shifted along each other. The score of a shift
-/// is the covariance over the larger variance, which equals the correlation times the ratio of the
-/// smaller to the larger standard deviation. The largest score counts, between steps by a parabola.
-/// The lag of IRI is sought within `max_lag_m`, those of the bands within 0.5 m of it.
+/// an eighth of the profile). The signals are interpolated to points at the finer of both steps,
+/// but at least 0.01 m apart, and shifted along each other. The score of a shift is the covariance
+/// over the larger variance, which equals the correlation times the ratio of the smaller to the
+/// larger standard deviation. The largest score counts, between steps by a parabola. The lag of IRI
+/// is sought within `max_lag_m`, those of the bands within 0.5 m of it.
 ///
 /// A band is omitted if a profile has fewer than two points in its shortest wavelength.
 ///
 /// \param way_id  of the keys of the intervals; tells tracks apart.
-/// \throws InputError  if the profiles share less than 20 m, at every lag.
+/// \throws InputError  if the profiles share less than 20 m, at every lag, or a step or an
+/// elevation
+///                     is out of bounds.
 ///
 /// Source: S. M. Karamihas, "Development of cross correlation for objective comparison of
 /// profiles", UMTRI-2002-36; AASHTO R 56, "Certification of inertial profiling systems".

@@ -26,12 +26,14 @@ std::vector<SegmentRecord> cut_to(const ControlSection& section,
 double student_t_975(double degrees_of_freedom) {
     // The expansion about the normal quantile z (Abramowitz and Stegun, 26.7.5) has an error of 4 %
     // for 2 degrees of freedom, and below 0.1 % from 6 on; smaller degrees use tabulated values.
-    constexpr std::array<double, 4> tabled{4.3027, 3.1824, 2.7764, 2.5706}; // 2 to 5
-    if (degrees_of_freedom < 6) {
-        const auto i = static_cast<std::size_t>(std::clamp(degrees_of_freedom, 2.0, 5.0)) - 2;
-        return tabled[i];
+    constexpr std::array<double, 6> tabled{
+        12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469}; // 1 to 6
+    const double n = std::max(1.0, degrees_of_freedom);
+    if (n < 6) {
+        const auto whole = static_cast<std::size_t>(n);
+        const double part = n - static_cast<double>(whole);
+        return tabled[whole - 1] + part * (tabled[whole] - tabled[whole - 1]);
     }
-    const double n = degrees_of_freedom;
     const double z = normal_975;
     const double z2 = z * z;
     return z + z * (z2 + 1) / (4 * n) + z * (5 * z2 * z2 + 16 * z2 + 3) / (96 * n * n) +

@@ -52,8 +52,9 @@ inline constexpr std::size_t min_control_readings = 4;
 /// \returns  `std::nullopt` for fewer than min_control_readings, or if all are of one time.
 std::optional<Drift> drift_of(std::span<const ControlReading> readings);
 
-/// Returns the 97.5 % quantile of Student's t distribution: 4.303 for 2 degrees of freedom, 1.960
-/// in the limit. Accurate to 0.1 % from 2 on.
+/// Returns the 97.5 % quantile of Student's t distribution: 12.71 for 1 degree of freedom, which is
+/// the fewest, 4.303 for 2, 1.960 in the limit. Accurate to 0.1 % for whole degrees and from 6 on;
+/// in between it is interpolated linearly, which gives too much rather than too little.
 double student_t_975(double degrees_of_freedom);
 
 } // namespace macadam

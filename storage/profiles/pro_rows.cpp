@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -39,10 +40,20 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     }
 }
 
+bool has_letters(std::string_view text) {
+    return std::ranges::any_of(text, [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
+/// Tests for a point whose first number did not fit its field: Fortran writes "*****" then.
+bool has_overflowed(std::string_view line) {
+    return (line.starts_with('*') || line.starts_with('/')) && !has_letters(cells_of(line).front());
+}
+
 /// Wheel paths of the points as stated in the header.
 enum class WheelPath : std::uint8_t { unstated, left, right, both };
 
-/// Parses "both", "B", "LR", "L&R", "left", "L", "right", "R" in any case; profilers differ.
+/// Parses "both", "B", "LR", "L&R", "Left & Right", "LWP/RWP", "left", "L", "right", "R" in any
+/// case; profilers differ.
 WheelPath parse_wheel_path(std::string_view text) {
     std::string letters;
     for (const char c : text) {
@@ -50,12 +61,15 @@ WheelPath parse_wheel_path(std::string_view text) {
             letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
         }
     }
-    if (letters == "lr" || letters == "b" || letters == "both") {
+    const auto has = [&](std::string_view part) { return letters.find(part) != std::string::npos; };
+    const bool left = letters.starts_with('l') || has("left");
+    const bool right = letters.starts_with('r') || has("right");
+    // Between other letters "lwp" and "rwp" may be chance: "Outer WP" ends in the latter.
+    if (letters == "lr" || letters == "rl" || letters == "b" || letters == "both" ||
+        (left && (right || has("rwp"))) || (right && has("lwp"))) {
         return WheelPath::both;
     }
-    return letters.starts_with('l')   ? WheelPath::left
-           : letters.starts_with('r') ? WheelPath::right
-                                      : WheelPath::unstated;
+    return left ? WheelPath::left : right ? WheelPath::right : WheelPath::unstated;
 }
 
 std::vector<std::string> track_names(WheelPath path, std::size_t tracks) {
@@ -156,12 +170,14 @@ private:
     }
 
     /// Tests for a blank line, the end of a DOS text, and a comment. Before the first point every
-    /// line that does not begin with a number is a comment.
+    /// line that does not begin with a number is a comment. A point that has overflowed is none:
+    /// without it all later points would be a step too early.
     bool is_no_point(std::string_view line) const {
         const auto text = trimmed(line);
         return text.empty() || text == "\x1a" ||
-               comment_marks.find(text.front()) != std::string_view::npos ||
-               (tracks_ == 0 && !parse_number(cells_of(line).front()));
+               (!has_overflowed(text) &&
+                (comment_marks.find(text.front()) != std::string_view::npos ||
+                 (tracks_ == 0 && !parse_number(cells_of(line).front()))));
     }
 
     std::size_t tracks_in(const std::vector<std::string_view>& cells, std::string_view line) const {

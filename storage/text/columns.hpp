@@ -44,6 +44,11 @@ private:
     Value value_;
 };
 
+/// Returns a value if it is known.
+inline Cell known_if(bool is_known, const Cell& value) {
+    return is_known ? value : Cell{};
+}
+
 /// Type of a column: its values, their unit, and the formats that have the column.
 struct ColumnType {
     enum class Kind {

@@ -118,6 +118,10 @@ double prior_sd_of(const Field& field, const Vehicle& vehicle) {
     return is_friction && vehicle.half_car.friction_n ? 0 : field.parameter.prior_sd;
 }
 
+bool is_among(const std::vector<CarParameter>& parameters, std::string_view name) {
+    return std::ranges::find(parameters, name, &CarParameter::name) != parameters.end();
+}
+
 } // namespace
 
 FittedCar expected_car(const Vehicle& vehicle) {
@@ -148,11 +152,16 @@ std::vector<CarParameter> parameters_of(const Vehicle& vehicle, bool rolls) {
 
 FittedCar
 moved(FittedCar car, const std::vector<CarParameter>& parameters, const Eigen::VectorXd& by) {
+    auto& half_car = car.vehicle.half_car;
+    const double mass_kg = half_car.ms_kg;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         double& value = parameters[i].in(car);
         const double move = by[static_cast<Eigen::Index>(i)];
         value = parameters[i].logarithmic ? value * std::exp(move) : value + move;
     }
+    const double by_mass = half_car.ms_kg / mass_kg;
+    half_car.is_kgm2 *= is_among(parameters, "is_kgm2") ? 1 : by_mass;
+    half_car.antiroll_n_per_m *= is_among(parameters, "antiroll_n_per_m") ? 1 : by_mass;
     car.rebound_excess = std::clamp(car.rebound_excess, -max_rebound_excess, max_rebound_excess);
     auto& axles = *car.vehicle.axles;
     axles.cg_to_front_m = std::min(axles.cg_to_front_m, 0.95 * axles.wheelbase_m);

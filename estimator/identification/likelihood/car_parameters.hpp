@@ -54,7 +54,9 @@ FittedCar expected_car(const Vehicle& vehicle);
 ///               parameters of roll are held.
 std::vector<CarParameter> parameters_of(const Vehicle& vehicle, bool rolls);
 
-/// Returns the car with all parameters moved. Values stay within physical limits.
+/// Returns the car with all parameters moved. Values stay within physical limits. Roll inertia and
+/// anti-roll bar keep their ratio to the mass where they are held, since readings and roughness
+/// depend on that ratio.
 FittedCar
 moved(FittedCar car, const std::vector<CarParameter>& parameters, const Eigen::VectorXd& by);
 

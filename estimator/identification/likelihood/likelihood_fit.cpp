@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <span>
+#include <string_view>
 #include <utility>
 
 namespace macadam {
@@ -29,8 +31,8 @@ constexpr double max_step_sd = 1.5;     // of a parameter, in its prior's standa
 constexpr double max_shift_step_m = 0.4;
 constexpr double block_s = 5; // residuals of two blocks are independent
 constexpr std::size_t min_blocks = 10;
-constexpr int max_iterations = 16; // 8 are usual; smooth roads leave the stations open
-constexpr double settled = 0.1;    // last step, in posterior standard deviations
+constexpr int max_iterations = 16;   // 8 are usual; smooth roads leave the stations open
+constexpr double settled_step = 0.1; // last step of the car's parameters, in standard deviations
 constexpr double unexcited_above = 2.0 / 3;
 
 // Upper ends of the band in the first iterations: long waves match in spite of stations that are
@@ -129,16 +131,19 @@ public:
 
     Eigen::MatrixXd modelled(const Eigen::VectorXd& by) const { return window_(readings(by, 0)); }
 
-    /// Returns the derivatives of the modelled readings, one matrix per unknown. That by a knot is
-    /// that by a shift of the whole drive, times the knot's share: a car forgets within a fraction
-    /// of the distance between knots.
-    std::vector<Eigen::MatrixXd> slopes(const Eigen::VectorXd& by,
-                                        const Eigen::MatrixXd& here) const {
-        std::vector<Eigen::MatrixXd> slopes;
+    using TakeSlope = std::function<void(Eigen::Index unknown, const Eigen::MatrixXd& slope)>;
+
+    /// Gives the derivative of the modelled readings by each unknown, one at a time: who keeps them
+    /// whitened would else hold hundreds of megabytes twice. That by a knot is that by a shift of
+    /// the whole drive, times the knot's share: a car forgets within a fraction of the distance
+    /// between knots.
+    void
+    slopes(const Eigen::VectorXd& by, const Eigen::MatrixXd& here, const TakeSlope& take) const {
         for (std::size_t i = 0; i < parameters_.size(); ++i) {
             Eigen::VectorXd beside = by;
-            beside[static_cast<Eigen::Index>(i)] += difference;
-            slopes.emplace_back((modelled(beside) - here) / difference);
+            const auto unknown = static_cast<Eigen::Index>(i);
+            beside[unknown] += difference;
+            take(unknown, (modelled(beside) - here) / difference);
         }
         const Eigen::MatrixXd shifted =
             (window_(readings(by, shift_difference_m)) - here) / shift_difference_m;
@@ -148,9 +153,9 @@ public:
                 share[k] = share_of(
                     knots_, knot, drive_.station_m[window_.first() + static_cast<std::size_t>(k)]);
             }
-            slopes.emplace_back(share.asDiagonal() * shifted);
+            take(static_cast<Eigen::Index>(parameters_.size() + knot),
+                 share.asDiagonal() * shifted);
         }
-        return slopes;
     }
 
 private:
@@ -182,10 +187,9 @@ Linearised linearised(const Problem& problem, const Eigen::VectorXd& by, Frequen
     const Whitening whitening{local.residual, problem.step_s(), band};
     local.white = whitening(local.residual).reshaped();
     local.slopes.resize(local.white.size(), problem.size());
-    const auto slopes = problem.slopes(by, here);
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-        local.slopes.col(static_cast<Eigen::Index>(i)) = whitening(slopes[i]).reshaped();
-    }
+    problem.slopes(by, here, [&](Eigen::Index unknown, const Eigen::MatrixXd& slope) {
+        local.slopes.col(unknown) = whitening(slope).reshaped();
+    });
     return local;
 }
 
@@ -211,6 +215,7 @@ struct Peak {
     Eigen::VectorXd by;
     Eigen::MatrixXd covariance;
     Eigen::MatrixXd residual;
+    bool settled;
 };
 
 /// Returns the sum over blocks of time of the squared gradient of the log-likelihood.
@@ -252,6 +257,28 @@ Eigen::MatrixXd covariance_of(const Problem& problem, const Linearised& local) {
     return covariance;
 }
 
+/// \throws InputError  if a value is not finite.
+Eigen::VectorXd newton_step(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient) {
+    if (information.allFinite() && gradient.allFinite()) {
+        Eigen::VectorXd step = information.ldlt().solve(gradient);
+        if (step.allFinite()) {
+            return step;
+        }
+    }
+    throw InputError{"cannot be fitted: the modelled readings are not finite, expected a vehicle "
+                     "file and a profile that fit the drive"};
+}
+
+/// Tests whether a step moves no parameter of the car by a notable part of its standard deviation.
+/// The stations are left aside: smooth roads leave them open, without harm to the car.
+bool is_settled(const Problem& problem,
+                const Eigen::VectorXd& step,
+                const Eigen::MatrixXd& information) {
+    const auto cars = static_cast<Eigen::Index>(problem.parameters().size());
+    const Eigen::VectorXd sd = information.inverse().diagonal().head(cars).cwiseSqrt();
+    return (step.head(cars).cwiseAbs().array() < settled_step * sd.array()).all();
+}
+
 Peak peak_of(const Problem& problem, const LikelihoodFitConfig& config) {
     Eigen::VectorXd by = problem.start();
     const double last_hz = last_frequency_hz(problem, config);
@@ -266,12 +293,12 @@ Peak peak_of(const Problem& problem, const LikelihoodFitConfig& config) {
             local.slopes.transpose() * local.slopes + problem.prior();
         const Eigen::VectorXd gradient =
             local.slopes.transpose() * local.white - problem.prior() * by;
-        const Eigen::VectorXd step = limited(information.ldlt().solve(gradient), problem);
-        const double size = std::sqrt(step.dot(information * step));
-        if (is_last_band && (size < settled || iteration >= max_iterations)) {
-            return {by, covariance_of(problem, local), local.residual};
+        const auto step = newton_step(information, gradient);
+        const bool has_settled = is_last_band && is_settled(problem, step, information);
+        if (has_settled || iteration >= max_iterations) {
+            return {by, covariance_of(problem, local), local.residual, has_settled};
         }
-        by += step;
+        by += limited(step, problem);
     }
 }
 
@@ -287,12 +314,14 @@ parameters_in(const Problem& problem, const Peak& peak, std::vector<Eigen::Index
         const double sd = std::sqrt(peak.covariance(row, row));
         if (parameter.in_file) {
             rows.push_back(row);
-            out.push_back({.name = std::string{parameter.name},
-                           .start = parameter.in(start),
-                           .found = parameter.in(found),
-                           .prior_sd = parameter.prior_sd,
-                           .sd = sd,
-                           .sd_given_mass = sd});
+            out.push_back(
+                {.name = std::string{parameter.name},
+                 .start = parameter.in(start),
+                 .found = parameter.in(found),
+                 .prior_sd = parameter.prior_sd,
+                 .sd = sd,
+                 .sd_given_mass = sd,
+                 .drive_sd = std::sqrt(std::max(0.0, sd * sd - std::pow(parameter.model_sd, 2)))});
         }
     }
     return out;
@@ -363,7 +392,7 @@ void check(const ProfileDrive& drive, const LikelihoodFitConfig& config) {
 }
 
 bool is_unexcited(const FittedParameter& parameter) {
-    return parameter.sd > unexcited_above * parameter.prior_sd;
+    return parameter.drive_sd > unexcited_above * parameter.prior_sd;
 }
 
 /// Sets the uncertainty of a fitted vehicle. Mass and friction are left out: the roughness that a
@@ -374,9 +403,11 @@ void set_uncertainty(Vehicle& vehicle,
                      bool is_friction_stated) {
     for (const auto& parameter : parameters) {
         vehicle.uncertainty[parameter.name] = parameter.sd_given_mass;
-        if (parameter.name == "friction_n" && !is_friction_stated && is_unexcited(parameter)) {
-            vehicle.half_car.friction_n.reset();
-        }
+    }
+    const auto friction =
+        std::ranges::find(parameters, std::string_view{"friction_n"}, &FittedParameter::name);
+    if (!is_friction_stated && (friction == parameters.end() || is_unexcited(*friction))) {
+        vehicle.half_car.friction_n.reset();
     }
     vehicle.uncertainty.erase("ms_kg");
     vehicle.uncertainty.erase("friction_n");
@@ -407,7 +438,8 @@ LikelihoodFit fit_likelihood(const ProfileDrive& drive,
             .to_m = drive.station_m.back(),
             .duration_s = static_cast<double>(drive.station_m.size() - 1) * drive.step_s,
             .min_shift_m = least,
-            .max_shift_m = most};
+            .max_shift_m = most,
+            .settled = peak.settled};
 }
 
 std::vector<std::string> unexcited_parameters(const LikelihoodFit& fit) {

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +24,7 @@ struct FittedParameter {
     double prior_sd; ///< relative, as all below
     double sd;
     double sd_given_mass; ///< if the file's mass is right: readings depend only on ratios to it
+    double drive_sd;      ///< sd without the share of what the model simplifies
 };
 
 /// Spectra of one channel, in m/s2 or rad/s over sqrt(Hz): the measurement, and the models of the
@@ -44,6 +44,10 @@ struct LikelihoodFit {
     double from_m, to_m; ///< stations, before correction
     double duration_s;
     double min_shift_m, max_shift_m; ///< of the stations' correction
+
+    /// Whether the search ended because its last step would have moved no parameter of the car by
+    /// more than a tenth of its standard deviation. Otherwise the values are not the maximum.
+    bool settled;
 };
 
 /// Fits a car to its readings over a known road: the maximum of the posterior of its parameters,
@@ -57,7 +61,9 @@ struct LikelihoodFit {
 /// %) for what the model simplifies.
 ///
 /// \param vehicle  with axles
-/// \throws InputError  if the drive is shorter than 10 s beyond the run-in.
+/// \throws InputError  if the drive is shorter than 10 s beyond the run-in, or the modelled
+/// readings
+///                     are not finite.
 ///
 /// Source: docs/method/identification.md; H. White, "Maximum likelihood estimation of misspecified
 /// models", Econometrica 50 (1982), pp. 1-25.
@@ -65,8 +71,9 @@ LikelihoodFit fit_likelihood(const ProfileDrive& drive,
                              const Vehicle& vehicle,
                              const LikelihoodFitConfig& config);
 
-/// Returns the parameters that the drive told little about: their standard deviation is above two
-/// thirds of the prior's, so that their value is the file's.
+/// Returns the parameters that the drive told little about: their standard deviation, without the
+/// share of what the model simplifies, is above two thirds of the prior's, so that their value is
+/// the file's.
 std::vector<std::string> unexcited_parameters(const LikelihoodFit& fit);
 
 } // namespace macadam

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace macadam {
 namespace {
 
 constexpr double road_step_m = 0.025; // a wave of 1 m in 40 straight lines: error 0.2 %
 constexpr double finest_step_s = 0.0025;
+constexpr double spare_road_m = 10; // before and behind the axles, where the profile goes on
 
 constexpr double max_friction_per_step = 0.6; // friction * step / (slip * mu); 1 would oscillate
 
@@ -31,10 +34,12 @@ constexpr int roll = 8;
 constexpr int front_half = 10;
 constexpr int rear_half = 12;
 
-EvenRoad even_road(const RoadProfile& profile) {
-    EvenRoad road{.first_m = profile.station_m.front(), .step_m = road_step_m, .elevation_m = {}};
-    const auto count = static_cast<std::size_t>(
-        (profile.station_m.back() - profile.station_m.front()) / road_step_m);
+/// Returns the profile between two stations, or to its ends.
+EvenRoad even_road(const RoadProfile& profile, double from_m, double to_m) {
+    from_m = std::max(from_m, profile.station_m.front());
+    to_m = std::min(to_m, profile.station_m.back());
+    EvenRoad road{.first_m = from_m, .step_m = road_step_m, .elevation_m = {}};
+    const auto count = static_cast<std::size_t>((to_m - from_m) / road_step_m);
     std::vector<double> at_m(count + 1);
     for (std::size_t i = 0; i <= count; ++i) {
         at_m[i] = road.first_m + road_step_m * static_cast<double>(i);
@@ -230,10 +235,16 @@ std::optional<ProfileDrive> drive_on_profile(const Stretch& stretch,
     const double first_m =
         profile.station_m.front() + axles.wheelbase_m - axles.cg_to_front_m - at_m;
     const double last_m = profile.station_m.back() - axles.cg_to_front_m - at_m;
-    const auto from = std::ranges::lower_bound(stretch.travel_m, first_m);
-    const auto to = std::ranges::upper_bound(stretch.travel_m, last_m);
+    auto from = std::ranges::lower_bound(stretch.travel_m, first_m);
+    auto to = std::ranges::upper_bound(stretch.travel_m, last_m);
     if (to - from < 2 || stretch.vertical_mps2.empty()) {
         return std::nullopt;
+    }
+    const double whole_m = *(to - 1) - *from;
+    if (whole_m > max_drive_m) {
+        const double middle_m = std::midpoint(*from, *(to - 1));
+        from = std::lower_bound(from, to, middle_m - max_drive_m / 2);
+        to = std::upper_bound(from, to, middle_m + max_drive_m / 2);
     }
     EstimatorConfig config;
     config.sensors = channels_for(stretch, profile, vehicle);
@@ -243,8 +254,12 @@ std::optional<ProfileDrive> drive_on_profile(const Stretch& stretch,
     ProfileDrive drive{.step_s = stretch.step_s,
                        .station_m = std::move(record.travel_m),
                        .felt = std::move(record.felt),
-                       .road = even_road(profile)};
+                       .road = {},
+                       .left_out_m = std::max(0.0, whole_m - max_drive_m)};
     std::ranges::for_each(drive.station_m, [=](double& station) { station += at_m; });
+    const double around_m = axles.wheelbase_m + spare_road_m;
+    drive.road =
+        even_road(profile, drive.station_m.front() - around_m, drive.station_m.back() + around_m);
     return drive;
 }
 

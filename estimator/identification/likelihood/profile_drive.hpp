@@ -24,12 +24,19 @@ struct ProfileDrive {
     double step_s;
     std::vector<double> station_m; ///< of the centre of gravity, by the odometer
     std::array<std::vector<double>, channel_count> felt; ///< over the file's gain; empty: not used
-    EvenRoad road; ///< under both axles, with some metres to spare
+    EvenRoad road;     ///< under both axles and some metres beyond; level beyond its ends
+    double left_out_m; ///< travel on the profile beyond the longest that is used
 };
+
+/// Longest travel that is used, about the middle of the drive. The memory of a fit grows with its
+/// square: each of the 100 corrections of the stations has the derivatives of all readings. On a
+/// quarter of it, springs and dampers are already known to what the model's simplifications leave.
+inline constexpr double max_drive_m = 5000;
 
 /// Selects the part of a stretch whose wheels were on the profile, and the channels that determine
 /// a car: vertical acceleration, pitch rate and, if both tracks were measured, roll rate, or the
-/// lateral acceleration in its place where the sensor's height is known.
+/// lateral acceleration in its place where the sensor's height is known. Of a longer drive, the
+/// max_drive_m nearest its middle are selected.
 ///
 /// \param at_m  station of the profile at the trip's travel 0.
 /// \returns     `std::nullopt` if they share fewer than two samples, or without vertical

@@ -14,6 +14,7 @@ constexpr double to_hz = 5; // waves of 3 m at 15 m/s: no match on the wrong one
 constexpr int filter_order = 4;
 constexpr double settle_s = 3;
 constexpr double reach_m = 50;       // of the window around a knot
+constexpr double min_window_m = 25;  // shorter pieces, at the ends of a drive, match anywhere
 constexpr double search_m = 4;       // of the first match
 constexpr double max_change_m = 1.5; // from knot to knot: 3 % of the travel between them
 
@@ -37,11 +38,12 @@ public:
                std::vector<double> modelled)
         : station_m_{station_m}, measured_{std::move(measured)}, modelled_{std::move(modelled)} {}
 
+    /// Returns no match if the window holds too little of the drive.
     Match best(double knot_m, double about_m, double within_m) const {
         const auto from = index_of(knot_m - reach_m);
         const auto to = index_of(knot_m + reach_m);
         Match best;
-        if (to < from + 2) {
+        if (to < from + 2 || station_m_[to - 1] - station_m_[from] < min_window_m) {
             return best;
         }
         const auto middle = (from + to) / 2;

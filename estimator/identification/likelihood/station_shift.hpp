@@ -26,7 +26,8 @@ std::vector<double> shifts_at(const ShiftKnots& knots,
 
 /// Estimates the correction at the knots, to a few decimetres: between 0.7 and 5 Hz, the modelled
 /// vertical acceleration is correlated with the measured one over 100 m around each knot. The
-/// search begins at the best match within 4 m and follows it in both directions.
+/// search begins at the best match within 4 m and follows it in both directions. A knot with less
+/// than 25 m of the drive around it gets its neighbour's correction.
 ///
 /// \param measured, modelled  n values each, as many as stations; modelled without correction
 std::vector<double> correlated_shifts(const ShiftKnots& knots,

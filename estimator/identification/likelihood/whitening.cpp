@@ -36,6 +36,16 @@ Eigen::VectorXcd at_frequency(const std::vector<std::vector<Complex>>& transform
     return values;
 }
 
+/// Returns the divisor of a sum of squares over frequencies that makes the inverse of the quotient
+/// unbiased: the mean of an inverse Wishart matrix. It is count - channels - 1 for real values,
+/// count - channels for complex ones.
+///
+/// Source: T. W. Anderson, "An Introduction to Multivariate Statistical Analysis", 3rd ed. 2003,
+/// section 7.7.
+double divisor_of(std::size_t count, Eigen::Index channels) {
+    return std::max(1.0, static_cast<double>(count) - static_cast<double>(channels));
+}
+
 } // namespace
 
 Whitening::Whitening(const Eigen::MatrixXd& residual, double step_s, FrequencyBand band) {
@@ -54,12 +64,11 @@ Whitening::Whitening(const Eigen::MatrixXd& residual, double step_s, FrequencyBa
             const auto values = at_frequency(transforms, j);
             density += values * values.adjoint();
         }
-        density /= static_cast<double>(to - from + 1);
+        density /= divisor_of(to - from + 1, channels);
         density += ridge * density.trace() * Eigen::MatrixXcd::Identity(channels, channels);
         const Eigen::LLT<Eigen::MatrixXcd> root{density};
         inverse_root_.push_back(
             root.matrixL().solve(Eigen::MatrixXcd::Identity(channels, channels)));
-        log_determinant_ -= 2 * inverse_root_.back().diagonal().array().real().log().sum();
     }
 }
 

@@ -20,7 +20,7 @@ struct FrequencyBand {
 class Whitening {
 public:
     /// Estimates the spectral matrix from residuals: the periodogram, averaged over 0.5 Hz to
-    /// either side.
+    /// either side, and enlarged so that its inverse is unbiased.
     ///
     /// \param residual  a column per channel, at least two rows
     Whitening(const Eigen::MatrixXd& residual, double step_s, FrequencyBand band);
@@ -29,13 +29,9 @@ public:
     /// of squares of `residual` becomes about twice the number of frequencies times channels.
     Eigen::MatrixXd operator()(const Eigen::MatrixXd& signals) const;
 
-    /// Returns the sum over the frequencies of the logarithm of the determinant.
-    double log_determinant() const { return log_determinant_; }
-
 private:
     std::size_t first_; ///< index of the first frequency in the band
     std::vector<Eigen::MatrixXcd> inverse_root_;
-    double log_determinant_ = 0;
 };
 
 } // namespace macadam

@@ -215,6 +215,11 @@ DocumentSection method_section(const SourceComparison& comparison) {
     bullets.items.emplace_back(
         "An error that all roads share, such as that of one car, is in the bias and not in its "
         "interval.");
+    if (comparison.tracks.size() > 1) {
+        bullets.items.emplace_back(
+            "The tracks count as independent of each other. Left and right are alike, so that the "
+            "intervals over both are too narrow.");
+    }
     DocumentSection section{"How to read this", {std::move(bullets)}};
     if (comparison.is_own) {
         section.blocks.emplace_back(Paragraph{english()("data.own")});

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <string>
 #include <unistd.h>
@@ -42,6 +43,19 @@ stop_share = 0
 id = "one"
 [[car]]
 id = "two"
+)";
+
+const std::string slow_recipe = R"([trips]
+from = "2025-06-01"
+to = "2025-06-20"
+count = 2
+length_km = [1.4, 1.6]
+stop_share = 0
+[speed_kmh]
+primary = 36
+residential = 25
+[[car]]
+id = "slow"
 )";
 
 testing::Run ran(const std::vector<std::string>& words, int exit_status = 0) {
@@ -177,6 +191,46 @@ TEST_F(Compare, OfTwoCarsOfOneDatabaseTakesTheRoadsOfBoth) {
                 HasSubstr("--car-a and --car-b select two of its cars"));
 }
 
+/// Pairs by band of speed.
+std::map<std::string, std::size_t> pairs_by_speed(const json& comparison) {
+    std::map<std::string, std::size_t> pairs;
+    for (const auto& group : groups_by(comparison, "Speed, km/h")) {
+        pairs[group["name"]] = group["pairs"];
+    }
+    return pairs;
+}
+
+TEST_F(Compare, GroupsThePassesOfTheChosenCarAndTimeOnly) {
+    // A third car is slower than the two others, and drives in June; they do in March and October.
+    const auto simulated = fleet_ / "fleet";
+    const auto slow = (folder_ / "slow").string();
+    ran({"simulate",
+         "-o",
+         slow,
+         "--network",
+         (fleet_ / "town.osm").string(),
+         "--recipe",
+         written("slow.toml", slow_recipe),
+         "--seed",
+         "2"});
+    const auto network = (simulated / "network.osm.pbf").string();
+    const auto alone = (folder_ / "alone.gpkg").string(), all = (folder_ / "all.gpkg").string();
+    ran({"init", alone, "--network", network});
+    ran({"import", alone, slow + "/trips", "--method", "kf"});
+    ran({"init", all, "--network", network});
+    ran({"import", all, slow + "/trips", (simulated / "trips").string(), "--method", "kf"});
+
+    const auto expected = pairs_by_speed(compared({alone, truth_}));
+    EXPECT_NE(pairs_by_speed(compared({all, truth_})), expected);
+    EXPECT_EQ(pairs_by_speed(compared({all, truth_, "--car-a", "slow"})), expected);
+    EXPECT_EQ(pairs_by_speed(compared({truth_, all, "--car-b", "slow"})), expected);
+    const auto june = compared({all, truth_, "--since", "2025-06", "--until", "2025-06"});
+    EXPECT_EQ(pairs_by_speed(june), expected);
+    const auto cars = groups_by(june, "Car of A");
+    ASSERT_EQ(cars.size(), 1U);
+    EXPECT_EQ(cars[0]["pairs"], june["all"]["pairs"]);
+}
+
 TEST_F(Compare, OfTwoSurveysFindsTheirRatioOnTheRoadsOfADatabase) {
     const std::string head{"way_id,direction,from_m,to_m,mri\n"};
     std::string first{head}, second{head};
@@ -205,6 +259,53 @@ TEST_F(Compare, OfTwoProfilesFindsLagGainAndScore) {
     EXPECT_EQ(track["meets_accuracy"], false);
     EXPECT_EQ(comparison["shared"], nullptr);
     EXPECT_THAT(ran({"compare", a, store_}, 1).err, HasSubstr("a profile has no place on a road"));
+}
+
+TEST_F(Compare, RefusesProfilesWithGapsOrTooFewPoints) {
+    const auto whole = written("whole.csv", profile(0, 1));
+    auto text = profile(0, 1);
+    const auto from = text.find("50.000,"), to = text.find("50.700,");
+    const auto gap = written("gap.csv", text.erase(from, to - from));
+    EXPECT_THAT(ran({"compare", whole, gap}, 1).err,
+                HasSubstr("gap.csv: has no point between stations 49.950 and 50.700 m, expected "
+                          "one at least every 0.6 m"));
+    EXPECT_THAT(ran({"compare", written("coarse.txt", "0\n0\n0\n"), whole, "--step", "0.5"}, 1).err,
+                HasSubstr("coarse.txt: has a point every 0.5 m, expected at most 0.3 m"));
+}
+
+TEST_F(Compare, SaysThatIntervalsOverBothTracksAreTooNarrow) {
+    std::string text{"HEAD3\nCMET3\nmaker,mm,both,50,mm\n\n\n"};
+    for (int i = 0; i < 2000; ++i) {
+        text += fmt::format("{},{}\n", i % 7, i % 5);
+    }
+    const auto page = (folder_ / "page.html").string();
+    ran({"compare", written("a.pro", text), written("b.pro", text), "-o", page});
+    EXPECT_THAT(read_file(page), HasSubstr("The tracks count as independent"));
+    const auto one = profile(0, 1);
+    ran({"compare", written("a.csv", one), written("b.csv", one), "-o", page});
+    EXPECT_THAT(read_file(page), Not(HasSubstr("The tracks count as independent")));
+}
+
+TEST_F(Compare, RefusesOptionsWithoutEffectAndToReplaceTheRoads) {
+    const auto refusal = [](std::vector<std::string> words, int exit_status = 2) {
+        words.insert(words.begin(), "compare");
+        return ran(words, exit_status).err;
+    };
+    const auto a = written("a.csv", profile(0, 1)), b = written("b.csv", profile(0, 1));
+    EXPECT_THAT(refusal({a, b, "--way", "11"}), HasSubstr("--way selects roads or passes"));
+    EXPECT_THAT(refusal({a, b, "--since", "2025-06"}),
+                HasSubstr("--since selects roads or passes"));
+    EXPECT_THAT(refusal({a, b, "--unit", "in/mi"}), HasSubstr("--unit is that of a survey"));
+    EXPECT_THAT(refusal({store_, truth_, "--length", "10"}),
+                HasSubstr("--length requires two profiles"));
+    const auto other = (folder_ / "other.csv").string();
+    fs::copy(truth_, other);
+    EXPECT_THAT(refusal({truth_, other, "--roads", store_, "--until", "2025-06"}),
+                HasSubstr("--until selects passes of a road database"));
+    const auto roads = (folder_ / "roads.html").string();
+    fs::copy(store_, roads);
+    EXPECT_THAT(refusal({truth_, other, "--roads", roads, "-o", roads}, 1),
+                HasSubstr("roads.html: is also an input"));
 }
 
 TEST_F(Compare, WritesASelfContainedPage) {

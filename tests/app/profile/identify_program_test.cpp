@@ -148,6 +148,7 @@ TEST_F(Identify, TellsTheSameAsJson) {
     EXPECT_THAT(run.out, HasSubstr("\"parameter_correlation\":{\"mu_kg\":{\"mu_kg\":1.000,"));
     EXPECT_THAT(run.out, HasSubstr("\"relative_sd_given_mass\":"));
     EXPECT_THAT(run.out, HasSubstr("\"not_excited\":[\""));
+    EXPECT_THAT(run.out, HasSubstr("\"settled\":"));
 }
 
 TEST_F(Identify, FitsACarWithoutAxlesByItsSpectrumAndSaysSo) {

@@ -4,8 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace macadam::testing {
 namespace {
@@ -117,6 +120,34 @@ TEST(EventDetection, KeepsASmallerHoleFurtherOn) {
     add(profile.left_m, 400, hole);
     add(profile.left_m, 440, {-6, -16, -6});
     EXPECT_THAT(detect_events(profile), SizeIs(2));
+}
+
+TEST(EventDetection, FindsEveryHoleOfALongRoad) {
+    constexpr std::size_t parts = 50;
+    auto part = road();
+    add(part.left_m, 400, hole);
+    auto profile = part;
+    for (std::size_t i = 1; i < parts; ++i) {
+        // Turned round each time, so that the parts meet without a step.
+        for (const auto& [from, to] : {std::pair{&part.left_m, &profile.left_m},
+                                       std::pair{&part.right_m, &profile.right_m},
+                                       std::pair{&part.left_error_m, &profile.left_error_m},
+                                       std::pair{&part.right_error_m, &profile.right_error_m}}) {
+            std::ranges::reverse(*from);
+            to->insert(to->end(), from->begin(), from->end());
+        }
+    }
+    const auto events = detect_events(profile);
+    EXPECT_THAT(events, SizeIs(parts));
+    EXPECT_TRUE(std::ranges::is_sorted(events, {}, &RoadEvent::travel_m));
+}
+
+TEST(EventDetection, FindsNothingWithoutTheErrorOfTheEstimate) {
+    auto profile = road();
+    add(profile.left_m, 400, hole);
+    profile.left_error_m.clear();
+    profile.right_error_m.pop_back();
+    EXPECT_THAT(detect_events(profile), IsEmpty());
 }
 
 TEST(EventDetection, ALineAcrossBothTracksIsAJoint) {

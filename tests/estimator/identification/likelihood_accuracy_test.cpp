@@ -15,6 +15,9 @@ TEST(LikelihoodFit, HoldsTheTruthInItsIntervalsAndReadsOtherRoadsWithinThreePerc
     ASSERT_EQ(report.parameters.size(), 11U);
     for (const auto& [name, count] : report.parameters) {
         EXPECT_GE(count.inside, 4U) << name; // three or more of six outside: one in 500
+        if (name != "ms_kg") {
+            EXPECT_GE(count.inside_given_mass, 4U) << name;
+        }
     }
     // The smoother itself reads these roads 3 % off with the true car.
     expect_at_most("HRI of other roads, rms error", report.found.rms(), {0.03, 0.04});

@@ -31,6 +31,17 @@ TEST(NoiseFloor, IsTheStandardDeviationOfWhiteNoiseWhateverTheCarDoesSlowly) {
     }
 }
 
+/// A wheel that hops at 11 Hz, ten times the noise: of 50 Hz that is a road, not noise.
+TEST(NoiseBesideRoad, IsTheNoiseAloneAndNothingWhereARoadCoversIt) {
+    auto values = bouncing(0.09, 2, 4);
+    EXPECT_NEAR(noise_beside_road(values) / 0.09, 1, 0.08);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] += 0.9 * std::sin(2 * std::numbers::pi * 11 * static_cast<double>(i) / 50);
+    }
+    EXPECT_GT(noise_floor(values), 0.2);
+    EXPECT_LT(noise_beside_road(values), 0.09);
+}
+
 TEST(NoiseFloor, IsNotRaisedByBumps) {
     auto values = bouncing(0.05, 0, 3);
     for (std::size_t i = 50; i < values.size(); i += 100) {

@@ -124,7 +124,7 @@ TEST(TunedCar, WithOneAxleHasNoDynamicIndexToTune) {
     stated.uncertainty = {{"dynamic_index", 0.1}, {"kt_n_per_m", 0.05}};
     const auto stretch = driven_road(drive_of(1300)).stretch;
     const auto passage = exact_passage(stretch, stated).passage;
-    const auto tuned = tuned_car(passage, passage, stated, {});
+    const auto tuned = tuned_car(passage, stated, {});
     EXPECT_FALSE(tuned.vehicle.axles);
     EXPECT_NEAR(tuned.vehicle.half_car.kt_n_per_m / stated.half_car.kt_n_per_m, 1, 0.08);
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 using namespace macadam;
 using ::testing::HasSubstr;
@@ -149,4 +151,41 @@ TEST(ProfileAgreement, RefusesProfilesThatShareNoRoad) {
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("share less than 20 m of road"));
     }
+}
+
+TEST(ProfileAgreement, ComparesVeryFineProfilesEveryCentimetre) {
+    const Road road{10};
+    const auto fine = road.elevation_m(0, 0.002, 40000);
+    const auto agreement = compare_tracks({fine, 0, 0.002}, {fine, 0, 0.002}, 0, {});
+    ASSERT_EQ(agreement.bands.size(), 4U);
+    EXPECT_NEAR(agreement.bands.front().score, 1, 1e-9);
+    const double points = agreement.shared_m / 0.01;
+    EXPECT_NEAR(points, std::round(points), 1e-6);
+}
+
+TEST(ProfileAgreement, OfTwoPlanesIsOneWhateverTheirRounding) {
+    std::vector<double> flat, steep;
+    for (std::size_t i = 0; i < count; ++i) {
+        flat.push_back(300 + 0.01 * static_cast<double>(i) * step_m);
+        steep.push_back(0.07 * static_cast<double>(i) * step_m);
+    }
+    const auto agreement = compared(flat, steep);
+    EXPECT_EQ(agreement.bands.front().score, 1);
+    EXPECT_EQ(agreement.bands.front().gain, 1);
+}
+
+TEST(ProfileAgreement, RefusesStepsAndElevationsOutOfBounds) {
+    const auto refusal = [](const std::vector<double>& elevation_m, double of_step_m) {
+        try {
+            compare_tracks({elevation_m, 0, of_step_m}, {elevation_m, 0, of_step_m}, 0, {});
+        } catch (const InputError& error) {
+            return std::string{error.what()};
+        }
+        return std::string{};
+    };
+    auto road = Road{11}.elevation_m(0, step_m, count);
+    EXPECT_EQ(refusal(road, 5e-5), "profile step is 5e-05 m, expected at least 0.0001");
+    road[7] = -2e6;
+    EXPECT_EQ(refusal(road, step_m),
+              "elevation 8 of a profile is -2e+06 m, expected at most 100000 m above or below 0");
 }

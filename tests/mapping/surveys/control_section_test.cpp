@@ -40,12 +40,21 @@ TEST(ControlSection, CutsSegmentsToItself) {
 
 TEST(StudentT, HasTheTablesValues) {
     // Abramowitz and Stegun, table 26.10.
+    EXPECT_NEAR(student_t_975(1), 12.706, 0.001);
     EXPECT_NEAR(student_t_975(2), 4.303, 0.004);
+    EXPECT_NEAR(student_t_975(3), 3.182, 0.001);
+    EXPECT_NEAR(student_t_975(4), 2.776, 0.001);
     EXPECT_NEAR(student_t_975(5), 2.571, 0.003);
     EXPECT_NEAR(student_t_975(6), 2.447, 0.003);
     EXPECT_NEAR(student_t_975(10), 2.228, 0.002);
     EXPECT_NEAR(student_t_975(30), 2.042, 0.002);
     EXPECT_NEAR(student_t_975(1e6), 1.960, 0.001);
+}
+
+TEST(StudentT, IsInterpolatedBetweenFewDegreesOfFreedom) {
+    EXPECT_NEAR(student_t_975(1.5), (12.706 + 4.303) / 2, 0.001);
+    EXPECT_NEAR(student_t_975(5.9), 2.459, 0.003);
+    EXPECT_EQ(student_t_975(0.5), student_t_975(1));
 }
 
 TEST(Drift, IsTheSlopeOfTheRegressionLine) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace macadam;
 using namespace macadam::testing;
@@ -133,4 +134,29 @@ TEST(ProProfile, LeavesLinesOfCommentOut) {
                                           "3,4,\n* end of the bridge\n5,6,\n");
     EXPECT_THAT(profile.station_m, Pointwise(IsNear(), {0.0, 0.0762, 0.1524}));
     EXPECT_NEAR(profile.tracks[0].elevation_m[2], 5 * 2.54e-5, 1e-15);
+}
+
+TEST(ProProfile, ReadsBothPathsWhereTheirNamesAreSpeltOut) {
+    for (const char* const path :
+         {"Left & Right", "LEFT AND RIGHT", "LWP/RWP", "right/left", "RL"}) {
+        auto other = head;
+        other.replace(other.find("both"), 4, path);
+        const auto profile = read_text(other + "1,2,\n3,4,\n");
+        ASSERT_EQ(profile.tracks.size(), 2U) << path;
+        EXPECT_EQ(profile.tracks[0].name, "left") << path;
+    }
+    for (const auto& [path, name] : {std::pair{"LWP", "left"}, std::pair{"Right WP", "right"}}) {
+        auto one = head;
+        one.replace(one.find("both"), 4, path);
+        const auto profile = read_text(one + "1,\n2,\n");
+        ASSERT_EQ(profile.tracks.size(), 1U) << path;
+        EXPECT_EQ(profile.tracks[0].name, name) << path;
+    }
+}
+
+TEST(ProProfile, RefusesAPointThatHasOverflowed) {
+    EXPECT_THAT(refusal_of_text(head + "1,2,\n*****,1.2\n3,4,\n"),
+                EndsWith("a.pro:7: '*****,1.2', expected two elevations at its beginning"));
+    EXPECT_THAT(refusal_of_text(head + "*****,1.2E+01,\n3,4,\n"),
+                EndsWith("a.pro:6: '*****,1.2E+01,', expected two elevations at its beginning"));
 }

@@ -112,6 +112,7 @@ TEST(LikelihoodFit, FindsACarWithinItsStandardDeviations) {
     const auto drive = driven(empty_drive(rough_profile(500, 0, 1), file, 30), truth);
     const auto fit = fit_likelihood(drive, file, {});
     ASSERT_EQ(fit.parameters.size(), 10U);
+    EXPECT_TRUE(fit.settled);
     const auto parameters = parameters_of(file, true);
     for (const auto& one : fit.parameters) {
         const auto& parameter = *std::ranges::find(parameters, one.name, &CarParameter::name);
@@ -139,6 +140,69 @@ TEST(LikelihoodFit, NamesEveryParameterThatASmoothRoadDoesNotExcite) {
     EXPECT_EQ(unexcited_parameters(fit).size(), fit.parameters.size());
     EXPECT_FALSE(fit.vehicle.half_car.friction_n);
     EXPECT_NEAR(fit.vehicle.half_car.ks_n_per_m, file.half_car.ks_n_per_m, 6000);
+}
+
+/// A parameter that the drive determined well is not taken for one that it did not excite, even if
+/// an earlier fit has written its prior, which is as small as the model's error.
+TEST(LikelihoodFit, ComparesThePriorWithWhatTheDriveTells) {
+    LikelihoodFit fit{};
+    fit.parameters = {{.name = "ks_n_per_m",
+                       .start = 30000,
+                       .found = 30100,
+                       .prior_sd = 0.016,
+                       .sd = 0.0153,
+                       .sd_given_mass = 0.0153,
+                       .drive_sd = 0.003}};
+    EXPECT_TRUE(unexcited_parameters(fit).empty());
+    fit.parameters[0].drive_sd = 0.012;
+    EXPECT_EQ(unexcited_parameters(fit).size(), 1U);
+}
+
+TEST(LikelihoodFit, LeavesOutAFrictionThatNeitherTheFileNorTheDriveTells) {
+    auto file = two_axles();
+    file.uncertainty["friction_n"] = 0;
+    const auto drive = driven(empty_drive(rough_profile(300, 0, 1), file, 15), expected_car(file));
+    EXPECT_FALSE(fit_likelihood(drive, file, {}).vehicle.half_car.friction_n);
+}
+
+/// A car on springs that do not carry it topples over.
+TEST(LikelihoodFit, SaysThatTheModelledReadingsAreNotFinite) {
+    auto file = two_axles();
+    const auto drive = driven(empty_drive(rough_profile(500, 0, 1), file, 30), expected_car(file));
+    file.half_car.ks_n_per_m = 1;
+    file.half_car.cs_ns_per_m = 1;
+    file.half_car.is_kgm2 = 1;
+    file.half_car.friction_n = 0;
+    try {
+        fit_likelihood(drive, file, {});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("the modelled readings are not finite"));
+    }
+}
+
+TEST(MovedCar, KeepsTheRatioOfAHeldRollInertiaToTheMass) {
+    auto file = two_axles();
+    file.half_car.antiroll_n_per_m = 6000;
+    file.uncertainty["ms_kg"] = 0.1;
+    const auto parameters = parameters_of(file, false); // without roll
+    ASSERT_EQ(parameters[0].name, "ms_kg");
+    Eigen::VectorXd by = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+    by[0] = std::log(1.2);
+    const auto half_car = moved(expected_car(file), parameters, by).vehicle.half_car;
+    EXPECT_NEAR(half_car.ms_kg, 1.2 * file.half_car.ms_kg, 1e-9);
+    EXPECT_NEAR(half_car.is_kgm2, 1.2 * file.half_car.is_kgm2, 1e-9);
+    EXPECT_NEAR(half_car.antiroll_n_per_m, 7200, 1e-9);
+}
+
+TEST(DriveOnProfile, IsTheMiddleOfALongDrive) {
+    const RoadProfile flat{.station_m = {0, 7000}, .left_m = {0, 0}, .right_m = {0, 1}};
+    const auto drive = empty_drive(flat, two_axles(), 440); // stations 5 to 6605 m
+    EXPECT_NEAR(drive.station_m.front(), 3305 - 2500, 0.5);
+    EXPECT_NEAR(drive.station_m.back(), 3305 + 2500, 0.5);
+    EXPECT_NEAR(drive.left_out_m, 1600, 0.5);
+    EXPECT_EQ(drive.felt[0].size(), drive.station_m.size());
+    EXPECT_LT(drive.road.first_m, drive.station_m.front() - 10);
 }
 
 TEST(LikelihoodFit, NeedsTenSecondsBeyondItsRunIn) {
