@@ -31,6 +31,7 @@ constexpr double bend_window_s = 4;
 // contains the least of the road.
 constexpr double quiet_window_s = 10;
 constexpr double quiet_share = 0.1;
+constexpr std::size_t min_quiet_windows = 10;
 
 constexpr double slope_window_s = 0.4; // of the speed: brake response time
 
@@ -139,7 +140,7 @@ std::vector<double> lateral_of(const Stretch& stretch, double gain, bool yaw) {
 
 /// Estimates the white noise of an accelerometer from its highest frequencies, in the quietest
 /// parts of a stretch: standard deviation of a sample. Otherwise a smooth road would read as rough
-/// as its sensor is noisy. 0 for a stretch shorter than a window.
+/// as its sensor is noisy. 0 for a stretch of few windows.
 double acceleration_noise(const std::vector<float>& felt, double step_s) {
     const auto window = static_cast<std::size_t>(quiet_window_s / step_s);
     std::vector<double> noise;
@@ -149,7 +150,7 @@ double acceleration_noise(const std::vector<float>& felt, double step_s) {
                                  felt.begin() + static_cast<std::ptrdiff_t>(from + window)},
                                 1)));
     }
-    if (noise.empty()) {
+    if (noise.size() < min_quiet_windows) {
         return 0;
     }
     const auto quiet = noise.begin() + static_cast<std::ptrdiff_t>(

@@ -18,7 +18,7 @@ const Vehicle& car() {
 /// Smallest standard deviation that a sample of the vertical channel is given.
 double vertical_sd(double true_noise_mps2, double iri_mm_per_m) {
     DriveRecipe recipe{.road = {.iri_mm_per_m = iri_mm_per_m}, .car = linear_car_of(car())};
-    recipe.length_m = 1200;
+    recipe.length_m = 2800; // 12 windows of 10 s
     recipe.imu.noise_mps2 = true_noise_mps2;
     const auto record = passage_of(driven_road(recipe).stretch, car(), {});
     return std::sqrt(std::ranges::min(record.variance[0]));
