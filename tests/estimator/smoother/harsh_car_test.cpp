@@ -20,8 +20,8 @@ CarRecipe harsh(CarRecipe car) {
     return car;
 }
 
-constexpr Bound harsh_bias{.wanted = 0.04};
-constexpr Bound harsh_rmse{.wanted = 0.08};
+constexpr Bound harsh_bias{.wanted = 0.04, .reached = 0.07};
+constexpr Bound harsh_rmse{.wanted = 0.08, .reached = 0.09};
 constexpr Bound harsh_left_out{.wanted = 0.2};
 
 class HarshCar : public ::testing::TestWithParam<double> {};
