@@ -17,16 +17,7 @@ constexpr double relative_step = 0.03; // of a finite difference
 constexpr double usual_mass_kg = 1400;
 constexpr double friction_step_n = 20; // search step, for a car of usual_mass_kg
 constexpr double max_friction_n = 120; // above this a suspension is stuck
-
-// This and the next two are for a car of usual_mass_kg. In simulated fleets the maximum of the
-// likelihood lies this far from the true friction: a sensor's unstated low-pass looks like less of
-// it, uneven dampers like more (docs/decisions/42-friction-has-a-prior.md).
-constexpr double friction_model_sd_n = 12;
-
-// Friction that no file states: from none to 50 N, evenly.
-constexpr double usual_n = 25;
-constexpr double usual_sd_n = 15;
-
+constexpr double min_friction_sd_n = 5;
 constexpr double furthest = 1.5; // from the stated values, in prior standard deviations
 constexpr double trust = 0.25;   // weight of the likelihood, which ignores the model error
 constexpr int steps = 2;
@@ -162,8 +153,7 @@ Slope slope_at(const RoadEstimate& here,
     return slope;
 }
 
-/// Friction from the likelihood at even steps, with a parabola through the maximum, and from what
-/// is usual.
+/// Friction from the likelihood at even steps, with a parabola through the maximum.
 struct Friction {
     double force_n;
     double sd_n;
@@ -185,11 +175,9 @@ Friction friction_of(const DriveRecord& passage, Point point, const SmootherConf
     const double bend = 2 * likelihood(last - 1) - likelihood(last) - likelihood(last - 2);
     const double peak = bend > 0 ? std::clamp(rise / (2 * bend), -1.5, 1.5) : rise > 0 ? 1.0 : -1.0;
     const double found_n = (static_cast<double>(last - 1) + peak) * step_n;
-    const double found_sd_n =
-        std::hypot(friction_model_sd_n * size, bend > 0 ? step_n / std::sqrt(bend) : step_n);
-    const double trust_in_found = 1 / (1 + std::pow(found_sd_n / (usual_sd_n * size), 2));
-    return {.force_n = std::lerp(usual_n * size, std::max(0.0, found_n), trust_in_found),
-            .sd_n = found_sd_n * std::sqrt(trust_in_found),
+    return {.force_n = std::max(0.0, found_n),
+            .sd_n =
+                std::hypot(min_friction_sd_n * size, bend > 0 ? step_n / std::sqrt(bend) : step_n),
             .iri_per_n = (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n)};
 }
 
@@ -262,10 +250,6 @@ tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConf
     tuned.colour = point.colour;
     tuned.iri_sd = std::hypot(tuned.iri_sd, peak.iri_sd, untuned_iri_sd(vehicle, true));
     return tuned;
-}
-
-double usual_friction_n(const Vehicle& vehicle) {
-    return vehicle.half_car.friction_n.value_or(usual_n * vehicle.half_car.ms_kg / usual_mass_kg);
 }
 
 double untuned_iri_sd(const Vehicle& vehicle, bool is_car_tuned) {

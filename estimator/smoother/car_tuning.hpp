@@ -18,17 +18,13 @@ struct TunedCar {
 /// Its two axles meet the same road one after the other, and its channels respond to it in
 /// different ways; a wrong spring, tyre or dynamic index makes them contradict each other.
 /// The likelihood of the readings, computed from the smoother's innovations, therefore has a
-/// maximum near the true car. Dry friction is estimated unless it is stated, from the likelihood
-/// and from what is usual. Springs, tyres and dynamic index are moved within their stated
-/// uncertainty (Gauss-Newton on the likelihood and that prior). The uncertainty of all others, of
-/// mass and damping above all, goes into iri_sd.
+/// maximum near the true car. Dry friction is estimated unless it is stated; these three are moved
+/// within their stated uncertainty (Gauss-Newton on the likelihood and that prior). The uncertainty
+/// of all others, of mass and damping above all, goes into iri_sd.
 ///
 /// \param passage  some 1,000 to 5,000 samples; its `cars` are ignored
 TunedCar
 tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config);
-
-/// Returns the friction of each suspension that the vehicle states, or that is usual at its mass.
-double usual_friction_n(const Vehicle& vehicle);
 
 /// Returns the relative standard deviation of every IRI of a car that is due to uncertain
 /// parameters: all of them, or only those that tuned_car() does not move.

@@ -165,7 +165,9 @@ Piece piece_at(const DriveRecord& passage,
 TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
     auto passage = passage_of(stretch, vehicle, config);
     if (passage.travel_m.size() < min_tuning_samples || !is_felt(passage)) {
-        return {.vehicle = vehicle, .friction_n = usual_friction_n(vehicle), .iri_sd = untuned_sd};
+        return {.vehicle = vehicle,
+                .friction_n = vehicle.half_car.friction_n.value_or(0),
+                .iri_sd = untuned_sd};
     }
     const std::size_t count = std::min(passage.travel_m.size(), tuning_samples);
     const std::size_t from = (passage.travel_m.size() - count) / 2;

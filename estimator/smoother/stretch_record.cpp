@@ -1,6 +1,5 @@
 #include "estimator/smoother/stretch_record.hpp"
 
-#include "estimator/motion/noise_floor.hpp"
 #include "estimator/smoother/box_smoothing.hpp"
 #include "estimator/smoother/lowpass_inverse.hpp"
 #include "estimator/smoother/wheel_order.hpp"
@@ -26,12 +25,6 @@ constexpr double model_window_s = 4;
 
 constexpr double bend_part = 0.3; // of centripetal acceleration: sensor position and orientation
 constexpr double bend_window_s = 4;
-
-// Windows in which the highest frequencies of an accelerometer are looked at: the quietest tenth
-// contains the least of the road.
-constexpr double quiet_window_s = 10;
-constexpr double quiet_share = 0.1;
-constexpr std::size_t min_quiet_windows = 10;
 
 constexpr double slope_window_s = 0.4; // of the speed: brake response time
 
@@ -138,35 +131,11 @@ std::vector<double> lateral_of(const Stretch& stretch, double gain, bool yaw) {
     return lateral;
 }
 
-/// Estimates the white noise of an accelerometer from its highest frequencies, in the quietest
-/// parts of a stretch: standard deviation of a sample. Otherwise a smooth road would read as rough
-/// as its sensor is noisy. 0 for a stretch of few windows.
-double acceleration_noise(const std::vector<float>& felt, double step_s) {
-    const auto window = static_cast<std::size_t>(quiet_window_s / step_s);
-    std::vector<double> noise;
-    for (std::size_t from = 0; from + window <= felt.size(); from += window) {
-        noise.push_back(
-            noise_floor(doubles({felt.begin() + static_cast<std::ptrdiff_t>(from),
-                                 felt.begin() + static_cast<std::ptrdiff_t>(from + window)},
-                                1)));
-    }
-    if (noise.size() < min_quiet_windows) {
-        return 0;
-    }
-    const auto quiet = noise.begin() + static_cast<std::ptrdiff_t>(
-                                           quiet_share * static_cast<double>(noise.size() - 1));
-    std::ranges::nth_element(noise, quiet);
-    return *quiet;
-}
-
 /// Returns the variances of sensor noise and model error for every channel.
 std::array<std::vector<double>, channel_count>
 variances_of(const DriveRecord& passage, const Stretch& stretch, const ImuMount& imu, double gain) {
-    const auto acceleration = [&](const std::vector<float>& felt) {
-        return std::max(imu.noise_mps2, acceleration_noise(felt, stretch.step_s)) / gain;
-    };
-    const double noise[] = {acceleration(stretch.vertical_mps2),
-                            acceleration(stretch.lateral_mps2),
+    const double noise[] = {imu.noise_mps2 / gain,
+                            imu.noise_mps2 / gain,
                             std::max(imu.noise_radps, stretch.roll_noise_radps),
                             std::max(imu.noise_radps, stretch.pitch_noise_radps)};
     std::array<std::vector<double>, channel_count> variance;

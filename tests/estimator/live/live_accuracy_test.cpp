@@ -1,7 +1,6 @@
 // How much is lost by telling at once: live against offline, both against the true road.
 
 #include "estimator/roughness/roughness_mean.hpp"
-#include "estimator/smoother/car_tuning.hpp"
 #include "estimator/smoother/worlds.hpp"
 #include "live_drive.hpp"
 
@@ -38,8 +37,7 @@ Vehicle without_friction(Vehicle vehicle) {
     return vehicle;
 }
 
-/// Adds a drive of a car with the friction that it states, or with the usual one. \returns seconds
-/// that were driven over seconds that telling them took.
+/// Adds a drive. \returns seconds that were driven over seconds that telling them took.
 double add_drive(const World& world,
                  double speed_kmh,
                  const Vehicle& vehicle,
@@ -47,7 +45,6 @@ double add_drive(const World& world,
                  Set& set) {
     auto recipe = drive_in(world, speed_kmh);
     recipe.length_m = std::max(recipe.length_m, 1500.0);
-    recipe.car.friction_n = usual_friction_n(vehicle);
     const auto drive = driven_road(recipe);
     const auto trip = trip_of(drive.stretch);
 

@@ -62,7 +62,7 @@ TEST(LongStretch, InPiecesIsWhatItIsInOne) {
                     pieces.core_m,
                     pieces.core_samples,
                     100 * worst);
-        EXPECT_LT(worst, 1.5e-3);
+        EXPECT_LT(worst, 1e-3);
     }
 }
 
@@ -82,14 +82,14 @@ TEST(LongStretch, OfBrakingAndDrivingOffIsAsRoughAsItIs) {
 }
 
 TEST(TunedCar, FindsTheFrictionOfItsCar) {
-    for (const double friction_n : {10.0, 50.0}) {
+    for (const double friction_n : {20.0, 60.0}) {
         auto recipe = drive_of(1300);
         recipe.car.friction_n = friction_n;
         const auto tuned = car_in(driven_road(recipe).stretch, car(), smoother_config());
         std::printf(
             "friction %.0f N: %.1f +- %.1f N\n", friction_n, tuned.friction_n, tuned.friction_sd_n);
-        EXPECT_NEAR(tuned.friction_n, friction_n, 2 * tuned.friction_sd_n) << friction_n;
-        EXPECT_LT(tuned.friction_sd_n, 15 * car().half_car.ms_kg / 1400) << "of what is usual";
+        EXPECT_NEAR(tuned.friction_n, friction_n, 3 * tuned.friction_sd_n) << friction_n;
+        EXPECT_LT(tuned.friction_sd_n, 10);
     }
 }
 
@@ -100,8 +100,8 @@ TEST(TunedCar, LeavesAKnownCarAlone) {
     EXPECT_EQ(found.ks_n_per_m, car().half_car.ks_n_per_m);
     EXPECT_EQ(found.kt_n_per_m, car().half_car.kt_n_per_m);
     EXPECT_EQ(found.ms_kg, car().half_car.ms_kg);
-    EXPECT_LT(tuned.friction_n, 2 * tuned.friction_sd_n);
-    EXPECT_LT(tuned.iri_sd, 0.06);
+    EXPECT_LT(tuned.friction_n, 3 * tuned.friction_sd_n);
+    EXPECT_LT(tuned.iri_sd, 0.02);
 }
 
 /// A damper 20 % too soft in the file, which may be so: an unknown road explains it as well

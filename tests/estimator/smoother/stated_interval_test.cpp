@@ -38,7 +38,6 @@ Vehicle as_stated(Vehicle car, std::uint64_t seed) {
     state("cs_ns_per_m", car.half_car.cs_ns_per_m);
     state("kt_n_per_m", car.half_car.kt_n_per_m);
     state("is_kgm2", car.half_car.is_kgm2);
-    car.half_car.friction_n.reset();
     return car;
 }
 

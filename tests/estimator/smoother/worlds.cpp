@@ -47,10 +47,8 @@ double drive_length_m() {
 }
 
 DriveRecipe drive_in(const World& world, double speed_kmh) {
-    auto vehicle = two_axle_car(world.axles, world.imu_ahead_m);
-    vehicle.half_car.friction_n = 0; // it has none, and says so
     return {.road = world.road,
-            .car = linear_car_of(vehicle),
+            .car = linear_car_of(two_axle_car(world.axles, world.imu_ahead_m)),
             .length_m = drive_length_m(),
             .speed_kmh = speed_kmh,
             .seed = 11};
