@@ -45,8 +45,8 @@ struct LikelihoodFit {
     double duration_s;
     double min_shift_m, max_shift_m; ///< of the stations' correction
 
-    /// Whether the search ended because its last step would have moved no parameter of the car by
-    /// more than a tenth of its standard deviation. Otherwise the values are not the maximum.
+    /// The search ended because its last step would have moved no parameter of the car by more than
+    /// a tenth of its standard deviation. Otherwise the values are not the maximum.
     bool settled;
 };
 
