@@ -1,15 +1,18 @@
 #include "app/trace/trace_events.hpp"
 
+#include "app/cli/row_writer.hpp"
+
 #include "estimator/common/error.hpp"
 #include "estimator/events/event_detection.hpp"
 #include "storage/atomic/atomic_file.hpp"
+#include "storage/text/columns.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+#include <optional>
 
 namespace macadam {
 namespace {
@@ -49,80 +52,46 @@ EventRow row_of(const RoadEvent& event,
             .speed_mps = odometer.speed_mps(t_s)};
 }
 
-std::string csv_of(const std::vector<EventRow>& rows) {
-    std::string csv = "kind,severity,track,size_mm,size_sd_mm,length_m,travel_m,t_s,lat_deg,"
-                      "lon_deg,speed_mps,score\n";
-    for (const auto& [event, t_s, at, speed_mps] : rows) {
-        csv += fmt::format("{},{},{},{:.0f},{:.0f},{:.2f},{:.2f},{:.3f},{},{},{:.1f}\n",
-                           name_of(event.kind),
-                           name_of(severity_of(event.size_mm)),
-                           name_of(event.track),
-                           event.size_mm,
-                           event.sd_mm,
-                           event.length_m,
-                           event.travel_m,
-                           t_s,
-                           at ? fmt::format("{:.7f},{:.7f}", at->lat_deg, at->lon_deg) : ",",
-                           std::isfinite(speed_mps) ? fmt::format("{:.3f}", speed_mps) : "",
-                           event.score);
-    }
-    return csv;
+std::optional<double> latitude_of(const EventRow& row) {
+    return row.at ? std::optional{row.at->lat_deg} : std::nullopt;
 }
 
-JsonObject properties_of(const EventRow& row) {
-    const auto& event = row.event;
-    JsonObject object;
-    object.add("kind", std::string{name_of(event.kind)})
-        .add("severity", std::string{name_of(severity_of(event.size_mm))})
-        .add("track", std::string{name_of(event.track)})
-        .add("size_mm", JsonNumber{event.size_mm, 0})
-        .add("size_sd_mm", JsonNumber{event.sd_mm, 0})
-        .add("length_m", JsonNumber{event.length_m, 2})
-        .add("travel_m", JsonNumber{event.travel_m, 2})
-        .add("t_s", JsonNumber{row.t_s, 3});
-    return object;
+std::optional<double> longitude_of(const EventRow& row) {
+    return row.at ? std::optional{row.at->lon_deg} : std::nullopt;
 }
 
-void add_speed_and_score(JsonObject& object, const EventRow& row) {
-    object.add("speed_mps", json_number(row.speed_mps, 3))
-        .add("score", JsonNumber{row.event.score, 1});
-}
+using R = const EventRow&;
 
-std::string json_of(const std::vector<EventRow>& rows) {
-    std::vector<std::string> objects;
-    for (const auto& row : rows) {
-        auto object = properties_of(row);
-        object
-            .add("lat_deg", json_number(row.at ? std::optional{row.at->lat_deg} : std::nullopt, 7))
-            .add("lon_deg", json_number(row.at ? std::optional{row.at->lon_deg} : std::nullopt, 7));
-        add_speed_and_score(object, row);
-        objects.push_back(object.text());
-    }
-    return json_array(objects) + "\n";
-}
+const Columns<EventRow> columns{
+    {"kind", as::text, [](R r) { return Cell{name_of(r.event.kind)}; }},
+    {"severity", as::text, [](R r) { return Cell{name_of(severity_of(r.event.size_mm))}; }},
+    {"track", as::text, [](R r) { return Cell{name_of(r.event.track)}; }},
+    {"size_mm", as::real(0, "mm"), [](R r) { return Cell{r.event.size_mm}; }},
+    {"size_sd_mm", as::real(0, "mm"), [](R r) { return Cell{r.event.sd_mm}; }},
+    {"length_m", as::metres(2), [](R r) { return Cell{r.event.length_m}; }},
+    {"travel_m", as::metres(2), [](R r) { return Cell{r.event.travel_m}; }},
+    {"t_s", as::seconds(3), [](R r) { return Cell{r.t_s}; }},
+    {"lat_deg", as::degrees, [](R r) { return Cell{latitude_of(r)}; }},
+    {"lon_deg", as::degrees, [](R r) { return Cell{longitude_of(r)}; }},
+    {"speed_mps", as::real(3, "m/s"), [](R r) { return Cell{r.speed_mps}; }},
+    {"score", as::real(1), [](R r) { return Cell{r.event.score}; }},
+};
 
-std::string geojson_of(const std::vector<EventRow>& rows) {
-    std::vector<std::string> features;
-    for (const auto& row : rows) {
-        if (!row.at) {
-            continue;
-        }
-        auto properties = properties_of(row);
-        add_speed_and_score(properties, row);
-        JsonObject point;
-        point.add("type", std::string{"Point"})
-            .add("coordinates",
-                 JsonRaw{fmt::format("[{:.7f},{:.7f}]", row.at->lon_deg, row.at->lat_deg)});
-        JsonObject feature;
-        feature.add("type", std::string{"Feature"})
-            .add("geometry", JsonRaw{point.text()})
-            .add("properties", JsonRaw{properties.text()});
-        features.push_back(feature.text());
-    }
-    JsonObject collection;
-    collection.add("type", std::string{"FeatureCollection"})
-        .add("features", JsonRaw{json_array(features)});
-    return collection.text() + "\n";
+/// Formats an event that has a position as a Feature, whose geometry says it.
+std::string feature_of(const EventRow& row) {
+    auto properties = columns;
+    std::erase_if(properties, [](const auto& column) {
+        return column.name == "lat_deg" || column.name == "lon_deg";
+    });
+    JsonObject point;
+    point.add("type", std::string{"Point"})
+        .add("coordinates",
+             JsonRaw{fmt::format("[{:.7f},{:.7f}]", row.at->lon_deg, row.at->lat_deg)});
+    JsonObject feature;
+    feature.add("type", std::string{"Feature"})
+        .add("geometry", JsonRaw{point.text()})
+        .add("properties", JsonRaw{json_object(properties, row).text()});
+    return feature.text();
 }
 
 } // namespace
@@ -135,10 +104,13 @@ std::size_t write_events(const std::filesystem::path& file,
     for (const auto& event : events_of(trace.roughness)) {
         rows.push_back(row_of(event, trace.odometer, place, ahead_m));
     }
+    const auto format = file.extension().string().substr(1); // csv, json or geojson
+    auto written = rows;
+    if (format == "geojson") {
+        std::erase_if(written, [](const EventRow& row) { return !row.at; });
+    }
     AtomicFile out{file};
-    out.write(file.extension() == ".csv"    ? csv_of(rows)
-              : file.extension() == ".json" ? json_of(rows)
-                                            : geojson_of(rows));
+    out.write(rows_text(columns, written, format, feature_of));
     out.commit();
     return rows.size();
 }

@@ -133,10 +133,10 @@ public:
 
     using TakeSlope = std::function<void(Eigen::Index unknown, const Eigen::MatrixXd& slope)>;
 
-    /// Passes on the derivative of the modelled readings by each unknown, one at a time, so that only
-    /// the whitened ones are kept: all together take hundreds of megabytes. The derivative by a knot
-    /// is the one by a shift of the whole drive, times the share of the knot: a car forgets within a
-    /// fraction of the distance between knots.
+    /// Passes on the derivative of the modelled readings by each unknown, one at a time, so that
+    /// only the whitened ones are kept: all together take hundreds of megabytes. The derivative by
+    /// a knot is the one by a shift of the whole drive, times the share of the knot: a car forgets
+    /// within a fraction of the distance between knots.
     void
     slopes(const Eigen::VectorXd& by, const Eigen::MatrixXd& here, const TakeSlope& take) const {
         for (std::size_t i = 0; i < parameters_.size(); ++i) {
