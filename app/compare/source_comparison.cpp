@@ -45,9 +45,14 @@ bool has_places(const std::filesystem::path& file) {
     });
 }
 
-SourceName name_of(const SourceOption& source, const std::string& car) {
+/// Names a source by its file, with the folder if the other source is another file of that name.
+SourceName name_of(const SourceOption& source, const SourceOption& other, const std::string& car) {
     constexpr std::array kinds{"road database", "survey", "profile"};
-    return {source.file.filename().string(), kinds[static_cast<std::size_t>(source.kind)], car};
+    const bool is_clear =
+        source.file == other.file || source.file.filename() != other.file.filename();
+    return {(is_clear ? source.file.filename() : source.file).string(),
+            kinds[static_cast<std::size_t>(source.kind)],
+            car};
 }
 
 /// A source whose values belong to segments.
@@ -271,8 +276,8 @@ SourceComparison compare_segments(const CompareOptions& options, const Console& 
         }
     }
     auto pairs = paired(a.segments, b.segments);
-    SourceComparison comparison{.a = name_of(options.a, a.car),
-                                .b = name_of(options.b, b.car),
+    SourceComparison comparison{.a = name_of(options.a, options.b, a.car),
+                                .b = name_of(options.b, options.a, b.car),
                                 .pairs = std::move(pairs.pairs),
                                 .all = {},
                                 .shared = pairs.shared,
@@ -318,8 +323,8 @@ SourceComparison compare_sources(const CompareOptions& options, const Console& c
     if (a_is_profile && b_is_profile) {
         auto comparison =
             compare_profiles(options.a.file, options.b.file, options.step_m, options.profiles);
-        comparison.a = name_of(options.a, {});
-        comparison.b = name_of(options.b, {});
+        comparison.a = name_of(options.a, options.b, {});
+        comparison.b = name_of(options.b, options.a, {});
         return comparison;
     }
     if (a_is_profile || b_is_profile) {

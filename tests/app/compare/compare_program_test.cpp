@@ -138,6 +138,15 @@ protected:
 
 fs::path Compare::fleet_;
 
+TEST_F(Compare, NamesTwoFilesOfOneNameByTheirFolders) {
+    fs::create_directories(folder_ / "2026");
+    const auto before = written("road.csv", profile(0, 1));
+    const auto after = written("2026/road.csv", profile(0, 1));
+    const auto out = ran({"compare", before, after}).out;
+    EXPECT_THAT(out, HasSubstr("A  " + before + " (profile)"));
+    EXPECT_THAT(out, HasSubstr("B  " + after + " (profile)"));
+}
+
 TEST_F(Compare, OfADatabaseAndTheTruthGivesTheErrorsThatInfoGives) {
     const auto of_truth =
         json::parse(ran({"info", store_, "--json", "--truth", truth_}).out)["truth"]["all"];
