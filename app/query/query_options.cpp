@@ -2,7 +2,6 @@
 
 #include "app/database/segment_options.hpp"
 
-#include "estimator/common/error.hpp"
 #include "mapping/analysis/worst_sections.hpp"
 
 #include <fmt/format.h>

@@ -14,7 +14,6 @@
 #include <map>
 #include <ranges>
 #include <span>
-#include <string_view>
 #include <utility>
 
 namespace macadam {

@@ -26,7 +26,6 @@
 #include <numeric>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -116,7 +115,7 @@ written_network(const fs::path& network, const fs::path& folder, const Console& 
 }
 
 void write_truth(const RoadNetwork& roads,
-                 LaneStore& surfaces,
+                 LaneSurfaceCache& surfaces,
                  const fs::path& file,
                  std::size_t jobs,
                  const Console& console) {
@@ -159,7 +158,7 @@ double driven_km(const TripLog& trip) {
 /// \returns  km driven
 double write_trips(const Fleet& fleet,
                    const RoadNetwork& roads,
-                   LaneStore& surfaces,
+                   LaneSurfaceCache& surfaces,
                    const fs::path& folder,
                    std::size_t jobs,
                    const Console& console) {
@@ -195,7 +194,7 @@ simulated(const SimulateOptions& options, const fs::path& folder, const Console&
     const auto fleet = with_trip_name(
         options.network.string(), [&] { return make_fleet(options.recipe, roads, options.seed); });
     write_vehicles(fleet, folder / "vehicles");
-    LaneStore surfaces{
+    LaneSurfaceCache surfaces{
         [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
         max_lane_bytes};
     write_truth(roads, surfaces, folder / "truth.csv", options.jobs, console);

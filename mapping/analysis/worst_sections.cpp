@@ -1,11 +1,11 @@
 #include "mapping/analysis/worst_sections.hpp"
 
+#include "mapping/analysis/correlated_mean.hpp"
 #include "mapping/analysis/maximum_scoring_runs.hpp"
 #include "mapping/network/road_strokes.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace macadam {
@@ -203,34 +203,23 @@ std::vector<GeoPoint> line_through(const std::vector<Segment>& segments) {
     return line;
 }
 
-/// Returns the earlier or later of two times, by `better`; the known one if only one is known.
-template <typename Better>
-std::optional<std::int64_t>
-better_of(std::optional<std::int64_t> a, std::optional<std::int64_t> b, Better better) {
-    return a && b ? std::optional{better(*a, *b) ? *a : *b} : a ? a : b;
-}
-
 /// Summarises the measured segments of a section.
 WorstSection rated(std::vector<std::size_t> records, const Lookup& lookup, double common_share) {
-    WorstSection stretch{};
-    std::vector<RatedLength> lengths;
-    std::vector<std::int32_t> passes;
+    std::vector<MeasuredPiece> pieces;
     for (const auto i : records) {
-        const auto& state = *lookup.records[i].state;
-        lengths.push_back(rated_length(lookup.records[i]));
-        passes.push_back(state.passes);
-        stretch.worst_iri = std::max(stretch.worst_iri, lengths.back().iri);
-        stretch.vehicles = std::max(stretch.vehicles, state.vehicles);
-        stretch.first_seen_ms =
-            better_of(stretch.first_seen_ms, state.first_seen_ms, std::less<>{});
-        stretch.last_seen_ms =
-            better_of(stretch.last_seen_ms, state.last_seen_ms, std::greater<>{});
+        const auto& record = lookup.records[i];
+        pieces.push_back({record.segment.to_m - record.segment.from_m, 0, &*record.state});
     }
-    std::ranges::sort(passes);
-    stretch.mean = road_mean(lengths, common_share);
-    stretch.min_passes = passes.front();
-    stretch.median_passes = (passes[(passes.size() - 1) / 2] + passes[passes.size() / 2]) / 2.0;
+    const auto road = measured_road(pieces, {.common_share = common_share, .correlation_m = 0});
+    WorstSection stretch{};
     stretch.records = std::move(records);
+    stretch.mean = road.mean;
+    stretch.worst_iri = road.worst_iri;
+    stretch.min_passes = road.min_passes;
+    stretch.median_passes = road.median_passes;
+    stretch.vehicles = road.vehicles;
+    stretch.first_seen_ms = road.first_seen_ms;
+    stretch.last_seen_ms = road.last_seen_ms;
     return stretch;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <utility>
 
 namespace macadam {
 namespace {

@@ -1,5 +1,6 @@
 #include "mapping/fusion/fusion.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "mapping/fusion/roughness_time_series.hpp"
 
 #include <algorithm>
@@ -12,9 +13,7 @@ namespace macadam {
 namespace {
 
 constexpr double um_per_mm = 1000;
-constexpr double interval_90 = 1.645;  // two-sided, normal distribution
-constexpr double sd_over_mad = 1.4826; // normal distribution
-constexpr double claims = 6;           // pseudo-observations that scatter as claimed
+constexpr double claims = 6;         // pseudo-observations that scatter as claimed
 constexpr double survey_share = 0.5; // of a reference's variance: common to all its rows on a road
 
 using Eigen::Index;
@@ -201,7 +200,7 @@ double scatter_um(const VectorXd& values, const VectorXd& variances) {
     for (auto& value : weighed) {
         value.value_um = std::abs(value.value_um - middle_um);
     }
-    return sd_over_mad * weighted_median(std::move(weighed));
+    return normal_sd_per_mad * weighted_median(std::move(weighed));
 }
 
 /// Returns 1 / variance of each single reading at the weights of the reading and its car.
@@ -276,8 +275,8 @@ SegmentState gathered(std::span<const FusionInput> passes) {
 SegmentState with_level(SegmentState state, const RoughnessTrend& level, double sd_um) {
     state.iri_um = std::max(0, whole_um(level.um));
     state.sd_um = std::max(1, whole_um(sd_um));
-    state.low_um = std::max(0, whole_um(level.um - interval_90 * sd_um));
-    state.high_um = std::max(state.iri_um, whole_um(level.um + interval_90 * sd_um));
+    state.low_um = std::max(0, whole_um(level.um - normal_interval_90 * sd_um));
+    state.high_um = std::max(state.iri_um, whole_um(level.um + normal_interval_90 * sd_um));
     if (level.trend) {
         state.trend_um_per_year = whole_um(level.trend->um_per_year);
         state.trend_sd_um_per_year = whole_um(level.trend->sd_um_per_year);

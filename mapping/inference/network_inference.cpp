@@ -1,5 +1,6 @@
 #include "mapping/inference/network_inference.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "mapping/geometry/local_frame.hpp"
 #include "mapping/inference/inferred_network.hpp"
 #include "mapping/inference/junctions.hpp"
@@ -95,9 +96,7 @@ double median_sd_m(const std::vector<TraceLine>& lines) {
     for (const auto& line : lines) {
         sds.push_back(line.sd_m);
     }
-    const auto middle = sds.begin() + static_cast<std::ptrdiff_t>(sds.size() / 2);
-    std::nth_element(sds.begin(), middle, sds.end());
-    return sds.empty() ? 0 : *middle;
+    return median(std::move(sds));
 }
 
 /// Converts the drawing to ways on the globe, with nodes numbered from 1 in the order of the ways.

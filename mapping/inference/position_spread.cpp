@@ -1,9 +1,9 @@
 #include "mapping/inference/position_spread.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "mapping/inference/inferred_network.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace macadam {
@@ -37,9 +37,7 @@ std::vector<TraceLine> with_seen_sd(std::vector<TraceLine> lines, const TraceCon
     if (apart.empty()) {
         return lines;
     }
-    const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
-    std::nth_element(apart.begin(), middle, apart.end());
-    const double sd_m = *middle * sd_per_median / std::numbers::sqrt2;
+    const double sd_m = median(std::move(apart)) * sd_per_median / std::numbers::sqrt2;
     for (auto& line : lines) {
         line.sd_m = std::max(line.sd_m, sd_m);
     }

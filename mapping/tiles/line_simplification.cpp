@@ -1,7 +1,6 @@
 #include "mapping/tiles/line_simplification.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace macadam {

@@ -75,7 +75,7 @@ Publication add_publication(Database& database, const std::string& month) {
     auto left = database.prepare(left_out_segments);
     left.step();
     const auto count = [&](const char* sql) {
-        return std::int64_t{told_count(static_cast<std::int32_t>(database.number(sql)))};
+        return std::int64_t{published_count(static_cast<std::int32_t>(database.number(sql)))};
     };
     database
         .prepare("INSERT INTO publication VALUES"

@@ -64,6 +64,8 @@ TEST(Windowed, StaysBetweenTheLeastAndTheMostAtTheEnds) {
 TEST(Windowed, TakesOneNeighbourToEitherSideAtLeast) {
     const auto values = windowed(impulse(11, 5), 0);
     const auto theirs = three_boxes(1);
+    ASSERT_FALSE(theirs.empty());
+    ASSERT_EQ(values.size(), 11U);
     for (std::size_t i = 0; i < theirs.size(); ++i) {
         EXPECT_NEAR(values[i + 2], theirs[i], rounding);
     }

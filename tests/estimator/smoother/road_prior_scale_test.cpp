@@ -226,6 +226,7 @@ TEST(RoadLevel, StaysANumberWhereNothingIsFelt) {
         }
         level = adapted(std::move(level), road, grid);
     }
+    ASSERT_GE(level.prior.increments.size(), grid.cells);
     for (const auto& q : level.prior.increments) {
         ASSERT_TRUE(std::isfinite(q.mean) && q.mean > 0);
         ASSERT_LT(q.cross * q.cross, q.mean * q.half);

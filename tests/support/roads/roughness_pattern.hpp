@@ -11,7 +11,7 @@ namespace macadam::testing {
 /// Returns a road's roughness at every decimetre of stations [0, length_m), roughly as the golden
 /// car smooths it: lognormal with mean 1 and waves from 4 m on. The result depends on the seed
 /// alone.
-std::vector<double> texture(double length_m, std::uint64_t seed);
+std::vector<double> roughness_pattern(double length_m, std::uint64_t seed);
 
 /// Reading of the roughness by one drive.
 struct Reading {
@@ -25,6 +25,6 @@ struct Reading {
 };
 
 /// Reads the roughness; stations beyond its ends use its end values.
-RoughnessTrace read_texture(const std::vector<double>& texture, const Reading& reading);
+RoughnessTrace read_pattern(const std::vector<double>& pattern, const Reading& reading);
 
 } // namespace macadam::testing
