@@ -199,21 +199,21 @@ TEST(PublishedState, TellsMonthsAndAChangeOnlyOfManyCars) {
     state.vehicles = 6;
     state.first_seen_ms = january_ms + 3 * day_ms;
     state.change = RoadChange{february_ms + day_ms, -812};
-    auto published = published(state, passes, {});
-    EXPECT_EQ(published.iri_um, 2350);
-    EXPECT_EQ(published.sd_um, 250);
-    EXPECT_EQ(published.low_um, 2000);
-    EXPECT_EQ(published.high_um, 2700);
-    EXPECT_EQ(published.passes, 5);
-    EXPECT_EQ(published.first_seen_ms, january_ms);
-    EXPECT_EQ(published.change, std::nullopt);
+    auto coarse = published(state, passes, {});
+    EXPECT_EQ(coarse.iri_um, 2350);
+    EXPECT_EQ(coarse.sd_um, 250);
+    EXPECT_EQ(coarse.low_um, 2000);
+    EXPECT_EQ(coarse.high_um, 2700);
+    EXPECT_EQ(coarse.passes, 5);
+    EXPECT_EQ(coarse.first_seen_ms, january_ms);
+    EXPECT_EQ(coarse.change, std::nullopt);
     for (int car = 0; car < 5; ++car) {
         passes.push_back(reading(car, february_ms + 2 * day_ms));
     }
-    published = published(state, passes, {});
-    ASSERT_TRUE(published.change);
-    EXPECT_EQ(published.change->utc_ms, february_ms);
-    EXPECT_EQ(published.change->um, -810);
+    coarse = published(state, passes, {});
+    ASSERT_TRUE(coarse.change);
+    EXPECT_EQ(coarse.change->utc_ms, february_ms);
+    EXPECT_EQ(coarse.change->um, -810);
 }
 
 } // namespace

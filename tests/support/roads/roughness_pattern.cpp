@@ -1,4 +1,4 @@
-#include "pattern.hpp"
+#include "roughness_pattern.hpp"
 
 #include <algorithm>
 #include <cmath>
