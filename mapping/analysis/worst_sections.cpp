@@ -211,19 +211,19 @@ WorstSection rated(std::vector<std::size_t> records, const Lookup& lookup, doubl
         pieces.push_back({record.segment.to_m - record.segment.from_m, 0, &*record.state});
     }
     const auto road = measured_road(pieces, {.common_share = common_share, .correlation_m = 0});
-    WorstSection stretch{};
-    stretch.records = std::move(records);
-    stretch.mean = road.mean;
-    stretch.worst_iri = road.worst_iri;
-    stretch.min_passes = road.min_passes;
-    stretch.median_passes = road.median_passes;
-    stretch.vehicles = road.vehicles;
-    stretch.first_seen_ms = road.first_seen_ms;
-    stretch.last_seen_ms = road.last_seen_ms;
-    return stretch;
+    WorstSection section{};
+    section.records = std::move(records);
+    section.mean = road.mean;
+    section.worst_iri = road.worst_iri;
+    section.min_passes = road.min_passes;
+    section.median_passes = road.median_passes;
+    section.vehicles = road.vehicles;
+    section.first_seen_ms = road.first_seen_ms;
+    section.last_seen_ms = road.last_seen_ms;
+    return section;
 }
 
-WorstSection stretch_of(const RoadNetwork& roads,
+WorstSection section_of(const RoadNetwork& roads,
                         const Lookup& lookup,
                         std::span<const Piece> pieces,
                         double common_share) {
@@ -235,16 +235,16 @@ WorstSection stretch_of(const RoadNetwork& roads,
             records.push_back(piece.record);
         }
     }
-    auto stretch = rated(std::move(records), lookup, common_share);
+    auto section = rated(std::move(records), lookup, common_share);
     const auto segments = segments_along(roads, pieces);
-    const auto& first = lookup.records[stretch.records.front()];
-    stretch.name = first.name;
-    stretch.highway = first.highway;
-    stretch.parts = parts_of(segments);
-    stretch.line = line_through(segments);
-    stretch.length_m = length_m;
-    stretch.middle = halfway_along(stretch.line);
-    return stretch;
+    const auto& first = lookup.records[section.records.front()];
+    section.name = first.name;
+    section.highway = first.highway;
+    section.parts = parts_of(segments);
+    section.line = line_through(segments);
+    section.length_m = length_m;
+    section.middle = halfway_along(section.line);
+    return section;
 }
 
 } // namespace
@@ -258,22 +258,22 @@ std::vector<WorstSection> worst_sections(const RoadNetwork& roads,
                                          const WorstSectionConfig& config) {
     const auto lookup = lookup_of(measured);
     const auto wanted = edges_to_follow(roads, lookup, config);
-    std::vector<WorstSection> stretches;
+    std::vector<WorstSection> sections;
     for (const auto& chain : road_strokes(roads, wanted, config.sharpest_turn_deg)) {
         const auto pieces = pieces_along(roads, lookup, chain);
         for (const auto& run : poor_runs(pieces, lookup, config)) {
             const auto of_run = std::span{pieces}.subspan(run.first, run.last - run.first);
-            auto stretch = stretch_of(roads, lookup, of_run, config.common_share);
-            if (stretch.length_m >= config.min_length_m - a_centimetre_m) {
-                stretches.push_back(std::move(stretch));
+            auto section = section_of(roads, lookup, of_run, config.common_share);
+            if (section.length_m >= config.min_length_m - a_centimetre_m) {
+                sections.push_back(std::move(section));
             }
         }
     }
-    std::ranges::sort(stretches, [&](const WorstSection& a, const WorstSection& b) {
+    std::ranges::sort(sections, [&](const WorstSection& a, const WorstSection& b) {
         return std::pair{-a.mean.iri, lookup.key(a.records.front())} <
                std::pair{-b.mean.iri, lookup.key(b.records.front())};
     });
-    return stretches;
+    return sections;
 }
 
 } // namespace macadam
