@@ -10,7 +10,7 @@ struct ClipBox {
 };
 
 /// Part of a straight line, as fractions of its length from its start; from > to: none.
-struct LinePart {
+struct ClippedPart {
     double from = 0, to = 1;
 
     bool is_empty() const { return from > to; }
@@ -21,11 +21,11 @@ struct LinePart {
 /// Source: Liang and Barsky, "A new concept and method for line clipping", ACM Transactions on
 /// Graphics 3 (1984), pp. 1-22.
 template <typename Point>
-LinePart clipped_line(const Point& a, const Point& b, const ClipBox& box) {
-    LinePart part;
+ClippedPart clipped_line(const Point& a, const Point& b, const ClipBox& box) {
+    ClippedPart part;
     const auto clip = [&](double start, double step, double low, double high) {
         if (step == 0) {
-            part = start < low || start > high ? LinePart{1, 0} : part;
+            part = start < low || start > high ? ClippedPart{1, 0} : part;
             return;
         }
         const auto [enter, leave] = std::minmax({(low - start) / step, (high - start) / step});
