@@ -1,7 +1,6 @@
 #include "app/pipeline/pipeline.hpp"
 
 #include "app/pipeline/privacy_trim.hpp"
-#include "estimator/common/statistics.hpp"
 
 #include "estimator/common/error.hpp"
 #include "estimator/common/gravity.hpp"
@@ -34,7 +33,9 @@ double rate_hz(const TriaxialSamples& acc) {
     for (std::size_t i = 0; i < steps_s.size(); ++i) {
         steps_s[i] = acc.t_s[i + 1] - acc.t_s[i];
     }
-    return 1 / median(std::move(steps_s));
+    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+    std::ranges::nth_element(steps_s, middle);
+    return 1 / *middle;
 }
 
 enum class Axis : int { lateral = 1, vertical = 2 };

@@ -26,6 +26,7 @@
 #include <numeric>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -115,7 +116,7 @@ written_network(const fs::path& network, const fs::path& folder, const Console& 
 }
 
 void write_truth(const RoadNetwork& roads,
-                 LaneSurfaceCache& surfaces,
+                 LaneStore& surfaces,
                  const fs::path& file,
                  std::size_t jobs,
                  const Console& console) {
@@ -158,7 +159,7 @@ double driven_km(const TripLog& trip) {
 /// \returns  km driven
 double write_trips(const Fleet& fleet,
                    const RoadNetwork& roads,
-                   LaneSurfaceCache& surfaces,
+                   LaneStore& surfaces,
                    const fs::path& folder,
                    std::size_t jobs,
                    const Console& console) {
@@ -194,7 +195,7 @@ simulated(const SimulateOptions& options, const fs::path& folder, const Console&
     const auto fleet = with_trip_name(
         options.network.string(), [&] { return make_fleet(options.recipe, roads, options.seed); });
     write_vehicles(fleet, folder / "vehicles");
-    LaneSurfaceCache surfaces{
+    LaneStore surfaces{
         [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
         max_lane_bytes};
     write_truth(roads, surfaces, folder / "truth.csv", options.jobs, console);

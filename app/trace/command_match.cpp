@@ -6,6 +6,7 @@
 #include "app/pipeline/single_trip.hpp"
 #include "app/trace/match_output.hpp"
 
+#include "estimator/common/error.hpp"
 #include "estimator/motion/make_odometer.hpp"
 #include "estimator/motion/mounting.hpp"
 #include "mapping/matching/edge_traversals.hpp"

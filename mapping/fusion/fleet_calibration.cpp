@@ -1,6 +1,5 @@
 #include "mapping/fusion/fleet_calibration.hpp"
 
-#include "estimator/common/statistics.hpp"
 #include "mapping/fusion/fleet_fit.hpp"
 
 #include <algorithm>
@@ -69,7 +68,7 @@ double spread_of_cars(const FleetFit& fit, const std::vector<bool>& counts, doub
         return prior_sd;
     }
     const auto n = static_cast<double>(off.size());
-    const double seen = square(normal_sd_per_mad * median(off)) * n / (n - 1) - sampling / n;
+    const double seen = square(sd_over_mad_of_normal * median_of(off)) * n / (n - 1) - sampling / n;
     return std::sqrt((cars_of_prior * square(prior_sd) + n * std::max(0.0, seen)) /
                      (cars_of_prior + n));
 }
@@ -84,7 +83,7 @@ std::vector<double> anchor_weights(const std::vector<std::optional<double>>& kno
             of_cars.push_back(stated_sd[car]);
         }
     }
-    const double median_sd = median(std::move(of_cars));
+    const double median_sd = median_of(std::move(of_cars));
     std::vector<double> weights(known.size(), 1);
     for (std::size_t car = 0; car < stated_sd.size(); ++car) {
         if (!known[car] && stated_sd[car] > 0) {

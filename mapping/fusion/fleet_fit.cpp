@@ -1,7 +1,5 @@
 #include "mapping/fusion/fleet_fit.hpp"
 
-#include "estimator/common/statistics.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -93,7 +91,7 @@ void FleetFit::fit_levels() {
         level_um_[place] = std::max(1.0, sum / whole);
         levels.push_back(level_um_[place]);
     }
-    middle_um_ = std::max(1.0, median(std::move(levels)));
+    middle_um_ = std::max(1.0, median_of(std::move(levels)));
 }
 
 /// Rescales all levels, and with them the gains, to agree with the known cars. Alternating with the
@@ -235,7 +233,7 @@ void FleetFit::take_spread() {
         }
     }
     if (!off.empty()) {
-        const double whole = square(normal_sd_per_mad * median(std::move(off)));
+        const double whole = square(sd_over_mad_of_normal * median_of(std::move(off)));
         const double beside = square(prior_.rest_sd_um / middle_um_);
         rest_sd = std::sqrt(std::max(whole - beside, whole / 100));
     }
@@ -259,13 +257,22 @@ void FleetFit::take_spread() {
         }
     }
     if (used > cars_used) {
-        const double seen =
-            square(normal_sd_per_mad * median(std::move(errors))) * used / (used - cars_used) -
-            sampling / used;
+        const double seen = square(sd_over_mad_of_normal * median_of(std::move(errors))) * used /
+                                (used - cars_used) -
+                            sampling / used;
         trip_sd = std::sqrt(
             (trips_of_prior * square(prior_.trip_sd) + (used - cars_used) * std::max(0.0, seen)) /
             (trips_of_prior + used - cars_used));
     }
+}
+
+double median_of(std::vector<double> values) {
+    if (values.empty()) {
+        return 0;
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 } // namespace macadam
