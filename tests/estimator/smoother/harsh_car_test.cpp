@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace macadam::testing {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 CarRecipe harsh(CarRecipe car) {
     car.rebound_ratio = 1.2; // and 0.8 of the mean in bump
     car.friction_n = 50;
+    car.vehicle.half_car.friction_n = std::nullopt;
     car.bump_stop_n_per_m = 2e5;
     car.tyre_nonuniformity_n = 40;
     return car;
