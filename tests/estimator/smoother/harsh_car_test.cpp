@@ -21,7 +21,8 @@ CarRecipe harsh(CarRecipe car) {
     return car;
 }
 
-constexpr Bound harsh_bias{.wanted = 0.04};
+// At 50 km/h; its friction is as high as any, and the prior of what is usual takes it for less.
+constexpr Bound harsh_bias{.wanted = 0.04, .reached = 0.07};
 constexpr Bound harsh_rmse{.wanted = 0.08};
 constexpr Bound harsh_left_out{.wanted = 0.2};
 
