@@ -11,7 +11,6 @@ struct SmootherConfig {
     int rounds = 12;  ///< of adaptation of the road's level
     int settling = 5; ///< initial rounds that the draws exclude
     std::uint64_t seed = 1;
-    double colour = 0; ///< of the road: RoadPrior's
 };
 
 /// Passage with its vehicle.

@@ -18,6 +18,7 @@ constexpr double tail_damping = 0.6;
 constexpr double cross_damping = 0.5;
 constexpr double max_cross = 0.9;      // correlation of mean and half difference
 constexpr int rounds_before_cross = 2; // the two variances settle first
+constexpr int rounds_before_shape = 2; // the level settles first
 constexpr double tail_freedom = 1;     // degrees of freedom of the increments' distribution
 constexpr double tail_weight = 0.7;    // for a station and its two neighbours, each
 constexpr double min_tail = 1e-3;
@@ -118,7 +119,7 @@ ObservedModes felt_by(std::span<const DriveRecord> passages) {
             is_felt(Channel::lateral) || is_felt(Channel::roll_rate)};
 }
 
-RoadLevel even_level(const RoadGrid& grid, ObservedModes felt, double slope_m, double colour) {
+RoadLevel even_level(const RoadGrid& grid, ObservedModes felt, double slope_m) {
     const double mean = slope_m * grid.cell_m;
     const Increment even{mean, half_of_mean * mean, 0};
     RoadLevel level{.felt = felt,
@@ -126,7 +127,6 @@ RoadLevel even_level(const RoadGrid& grid, ObservedModes felt, double slope_m, d
                     .level = std::vector<Increment>(grid.cells, even),
                     .tail = std::vector<Pair>(grid.cells, Pair{1, 1})};
     level.prior.increments = level.level;
-    level.prior.colour = colour;
     return level;
 }
 
@@ -144,8 +144,17 @@ RoadLevel adapted(RoadLevel level, const SmoothedRoad& road, const RoadGrid& gri
     raise_tails(level.felt.mean ? mean_seen : half_seen, &Pair::mean, level.tail);
     raise_tails(level.felt.half ? half_seen : mean_seen, &Pair::half, level.tail);
     const bool cross = level.rounds >= rounds_before_cross;
+    double rescaled = 1; // variance of the mean's increments, by a change of the shape
+    if (level.felt.mean && level.rounds >= rounds_before_shape) {
+        level.shape = adapted(level.shape, level.prior, road, grid.cell_m);
+        auto process = autoregression_of(level.shape, grid.cell_m);
+        level.prior.change_weights = std::move(process.weights);
+        rescaled = process.increment_variance;
+    }
     for (std::size_t i = 0; i < n; ++i) {
         level.level[i] = level_after(level.level[i], moments, i, level.felt, cross);
+        level.level[i].mean *= rescaled;
+        level.level[i].cross *= std::sqrt(rescaled);
         level.prior.increments[i] = times(level.level[i], level.tail[i]);
     }
     ++level.rounds;

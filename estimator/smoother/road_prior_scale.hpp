@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/smoother/filter/road_smoother.hpp"
+#include "estimator/smoother/spectrum_shape.hpp"
 
 namespace macadam {
 
@@ -19,14 +20,14 @@ struct RoadLevel {
     RoadPrior prior; ///< input of the filter: level times factors
     std::vector<Increment> level;
     std::vector<Pair> tail; ///< factors of the variances, near 1
+    SpectrumShape shape;
     int rounds = 0;         ///< number of completed adaptations
 };
 
 /// Returns a uniform road as a starting point.
 ///
 /// \param slope_m  variance of the mean's increments per metre
-/// \param colour   RoadPrior's
-RoadLevel even_level(const RoadGrid& grid, ObservedModes felt, double slope_m, double colour = 0);
+RoadLevel even_level(const RoadGrid& grid, ObservedModes felt, double slope_m);
 
 /// Updates the level after smoothing: one round of a fixed point at which the increments agree with
 /// the level (D. J. C. MacKay, "Bayesian interpolation", Neural Computation 4 (1992), pp. 415-447,
