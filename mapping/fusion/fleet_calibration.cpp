@@ -98,11 +98,12 @@ std::vector<double> anchor_weights(const std::vector<std::optional<double>>& kno
 FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                  const std::vector<std::optional<double>>& known,
                                  const FleetPrior& prior,
-                                 const std::vector<double>& stated_sd) {
+                                 const std::vector<double>& stated_sd,
+                                 const std::vector<double>& scatter) {
     const auto shared = shared_readings(readings);
     const auto places = shared_places(shared, known.size());
     const auto weights = anchor_weights(known, stated_sd);
-    FleetFit fit{shared, known, prior, weights};
+    FleetFit fit{shared, known, prior, weights, scatter};
     for (int round = 0; round < max_rounds; ++round) {
         const double moved = fit.settle();
         const bool is_spread_round =
@@ -119,7 +120,9 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
         counts[car] = !known[car] && places[car] >= prior.min_shared;
     }
     FleetCalibration fleet{.cars = std::vector<std::optional<CarCalibration>>(known.size()),
+                           .is_known = std::vector<bool>(known.size()),
                            .shared = std::vector<std::size_t>(known.size(), 0),
+                           .scatter = fit.scatter_of_cars(),
                            .car_sd = spread_of_cars(fit, counts, prior.car_sd),
                            .trip_sd = fit.trip_sd,
                            .rest_sd = fit.rest_sd,
@@ -129,12 +132,14 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
         ++fleet.shared[reading.car];
     }
     for (std::size_t car = 0; car < known.size(); ++car) {
+        fleet.is_known[car] = known[car].has_value();
         if (counts[car]) {
             const auto& [gain, offset_um, error, variance] = fit.cars[car];
             fleet.cars[car] =
                 CarCalibration{.gain = gain,
                                .offset_um = offset_um,
-                               .relative_sd = std::sqrt(variance + square(prior.min_car_sd))};
+                               .relative_sd = std::sqrt(variance + square(prior.min_car_sd)),
+                               .scatter = scatter.empty() ? 1 : scatter[car]};
         }
     }
     double weight = 0;

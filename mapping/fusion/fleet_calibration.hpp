@@ -32,7 +32,9 @@ struct FleetPrior {
 
 struct FleetCalibration {
     std::vector<std::optional<CarCalibration>> cars; ///< `std::nullopt`: too few shared places
+    std::vector<bool> is_known;                      ///< sources taken as correct
     std::vector<std::size_t> shared;                 ///< readings of each car at shared places
+    std::vector<double> scatter; ///< of each car's passes, over that of all; 1 where unknown
     double car_sd;                                   ///< spread between cars, relative
     double trip_sd;                                  ///< spread between trips of a car, relative
     double rest_sd;     ///< of a pass, relative, in addition to FleetPrior::rest_sd_um
@@ -59,9 +61,11 @@ struct FleetCalibration {
 ///                   cars.
 /// \param stated_sd  for each car: relative sd that its readings state; only their ratios count.
 ///                   Empty: all are alike.
+/// \param scatter    for each car: factor on the sd of its passes. Empty: all are 1.
 FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                  const std::vector<std::optional<double>>& known,
                                  const FleetPrior& prior,
-                                 const std::vector<double>& stated_sd = {});
+                                 const std::vector<double>& stated_sd = {},
+                                 const std::vector<double>& scatter = {});
 
 } // namespace macadam

@@ -9,6 +9,7 @@ namespace {
 constexpr double dof = 4;        // of Student's t, as in TailModel
 constexpr double min_gain = 0.1; // of car and trip together: far below any real car
 constexpr double trips_of_prior = 5;
+constexpr std::size_t mixing_depth = 8;
 constexpr double trip_counts_from = 20; // readings needed for a meaningful trip mean
 
 double square(double x) {
@@ -20,10 +21,12 @@ double square(double x) {
 FleetFit::FleetFit(const std::vector<FleetReading>& readings,
                    const std::vector<std::optional<double>>& known,
                    const FleetPrior& prior,
-                   const std::vector<double>& anchor_weights)
+                   const std::vector<double>& anchor_weights,
+                   const std::vector<double>& scatter)
     : cars(known.size()), trip_sd{prior.trip_sd}, rest_sd{prior.rest_sd}, readings_{&readings},
-      known_{&known}, anchor_weights_{&anchor_weights}, prior_{prior}, trust_(readings.size(), 1),
-      leverage_(readings.size(), 0) {
+      known_{&known}, anchor_weights_{&anchor_weights},
+      scatter_{scatter.empty() ? std::vector<double>(known.size(), 1) : scatter}, prior_{prior}, trust_(readings.size(), 1),
+      leverage_(readings.size(), 0), mixing_{mixing_depth} {
     std::uint32_t trips = 0;
     for (std::size_t i = 0; i < readings.size(); ++i) {
         if (i == 0 || readings[i].place != readings[i - 1].place) {
@@ -41,8 +44,34 @@ FleetFit::FleetFit(const std::vector<FleetReading>& readings,
     fit_levels();
 }
 
+/// Returns gains and relative offsets of the cars, then the errors of the trips.
+Eigen::VectorXd FleetFit::errors() const {
+    Eigen::VectorXd errors(static_cast<Eigen::Index>(2 * cars.size() + trips_.size()));
+    Eigen::Index i = 0;
+    for (const auto& car : cars) {
+        errors[i++] = car.gain;
+        errors[i++] = car.offset_um / middle_um_;
+    }
+    for (const auto& trip : trips_) {
+        errors[i++] = trip.error;
+    }
+    return errors;
+}
+
+void FleetFit::set_errors(const Eigen::VectorXd& errors) {
+    Eigen::Index i = 0;
+    for (auto& car : cars) {
+        car.gain = errors[i++];
+        car.offset_um = errors[i++] * middle_um_;
+    }
+    for (auto& trip : trips_) {
+        trip.error = errors[i++];
+    }
+}
+
 double FleetFit::settle() {
-    std::vector<Car> before = cars;
+    const std::vector<Car> before = cars;
+    const auto errors_before = errors();
     fit_levels();
     hold_against_known();
     sum_trips();
@@ -55,6 +84,7 @@ double FleetFit::settle() {
                           std::abs(cars[car].gain - before[car].gain),
                           std::abs(cars[car].offset_um - before[car].offset_um) / middle_um_});
     }
+    set_errors(mixing_.next(errors_before, errors()));
     return moved;
 }
 
@@ -64,7 +94,8 @@ double FleetFit::variance_of(std::size_t reading) const {
     if (const auto& sd = (*known_)[car]) {
         return square(*sd);
     }
-    return square(rest_sd) + square(prior_.rest_sd_um / std::max(1.0, level_um_[place]));
+    return square(scatter_[car]) *
+           (square(rest_sd) + square(prior_.rest_sd_um / std::max(1.0, level_um_[place])));
 }
 
 /// Returns the expected ratio of reading to level, without the offset.
@@ -209,26 +240,45 @@ void FleetFit::centre_cars() {
     }
 }
 
+/// Returns the deviation of a reading from what is expected, relative to the level of its place.
+double FleetFit::residual(std::size_t reading) const {
+    const auto& [place, car, trip, read_um] = (*readings_)[reading];
+    return (read_um - cars[car].offset_um) / level_um_[place] - expected(reading);
+}
+
 void FleetFit::trust_readings() {
     for (std::size_t i = 0; i < readings_->size(); ++i) {
-        const auto& reading = (*readings_)[i];
-        const double off =
-            (reading.read_um - cars[reading.car].offset_um) / level_um_[reading.place] -
-            expected(i);
-        trust_[i] = (dof + 1) / (dof + square(off) / variance_of(i));
+        trust_[i] = (dof + 1) / (dof + square(residual(i)) / variance_of(i));
     }
 }
 
+std::vector<double> FleetFit::scatter_of_cars() const {
+    std::vector<std::vector<double>> off(cars.size());
+    for (std::size_t i = 0; i < readings_->size(); ++i) {
+        const auto car = (*readings_)[i].car;
+        if (!(*known_)[car] && leverage_[i] < 0.5) {
+            off[car].push_back(scatter_[car] * std::abs(residual(i)) /
+                               std::sqrt((1 - leverage_[i]) * variance_of(i)));
+        }
+    }
+    std::vector<double> scatter;
+    for (auto& of_car : off) {
+        scatter.push_back(of_car.size() < prior_.min_shared
+                              ? 1
+                              : sd_over_mad_of_normal * median_of(std::move(of_car)));
+    }
+    return scatter;
+}
+
 void FleetFit::take_spread() {
+    mixing_.restart();
     std::vector<double> off;
     for (std::size_t i = 0; i < readings_->size(); ++i) {
         const auto& reading = (*readings_)[i];
         // A reading with half of its place's weight pulls the level along, so its residual is not
         // its error.
         if (!(*known_)[reading.car] && leverage_[i] < 0.5) {
-            off.push_back(std::abs((reading.read_um - cars[reading.car].offset_um) /
-                                       level_um_[reading.place] -
-                                   expected(i)) /
+            off.push_back(std::abs(residual(i)) / scatter_[reading.car] /
                           std::sqrt(1 - leverage_[i]));
         }
     }

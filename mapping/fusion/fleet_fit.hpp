@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/fusion/anderson_mixing.hpp"
 #include "mapping/fusion/fleet_calibration.hpp"
 
 #include <cstddef>
@@ -28,17 +29,23 @@ public:
     /// \param readings  in the order of places, which are numbered from 0 without gaps.
     /// \param anchor_weights  weight of each car in the mean that is taken as correct; 1: the
     /// prior's
+    /// \param scatter  factor on the sd of each car's readings; empty: all are 1
     FleetFit(const std::vector<FleetReading>& readings,
              const std::vector<std::optional<double>>& known,
              const FleetPrior& prior,
-             const std::vector<double>& anchor_weights);
+             const std::vector<double>& anchor_weights,
+             const std::vector<double>& scatter = {});
 
-    /// Updates levels, then trips and cars, then weights, once each. \returns the relative change
-    /// of the cars.
+    /// Updates levels, then trips and cars, then weights, once each, and accelerates the updates.
+    /// \returns the relative change of the cars by the updates.
     double settle();
 
     /// Estimates the spread of trips and passes from the residuals.
     void take_spread();
+
+    /// Returns the scatter of each car's residuals over the sds used in the fit without `scatter`; 1
+    /// for known sources, and where nearly all readings determine their level.
+    std::vector<double> scatter_of_cars() const;
 
     std::size_t place_count() const { return first_of_place_.size() - 1; }
 
@@ -55,7 +62,10 @@ private:
         double readings = 0;
     };
 
+    Eigen::VectorXd errors() const;
+    void set_errors(const Eigen::VectorXd& errors);
     double variance_of(std::size_t reading) const;
+    double residual(std::size_t reading) const;
     double expected(std::size_t reading) const;
     void fit_levels();
     void hold_against_known();
@@ -67,6 +77,7 @@ private:
     const std::vector<FleetReading>* readings_;
     const std::vector<std::optional<double>>* known_;
     const std::vector<double>* anchor_weights_;
+    std::vector<double> scatter_; ///< of each car
     FleetPrior prior_;
     std::vector<std::size_t> first_of_place_; ///< index of the first reading, plus an end sentinel
     std::vector<double> level_um_;            ///< of each place
@@ -74,6 +85,7 @@ private:
     std::vector<double> leverage_;            ///< of each reading on its level, 0 to 1
     std::vector<Trip> trips_;
     double middle_um_ = 1;
+    AndersonMixing mixing_;
 };
 
 } // namespace macadam
