@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mapping/fusion/changing_fleet.hpp"
+#include "mapping/fusion/car_period.hpp"
 
 #include <span>
 #include <string>

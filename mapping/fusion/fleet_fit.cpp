@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -9,7 +11,13 @@ namespace {
 constexpr double dof = 4;        // of Student's t, as in TailModel
 constexpr double min_gain = 0.1; // of car and trip together: far below any real car
 constexpr double trips_of_prior = 5;
+constexpr double contradiction_sds = 3; // of Tukey's biweight
 constexpr std::size_t mixing_depth = 8;
+constexpr double cars_of_prior = 4;
+constexpr std::uint32_t places_of_block = 25; // 500 m
+constexpr double block_sd = 0.065;            // of what cars misread in a block, relative: see
+constexpr double blocks_of_prior = 4;         // docs/method/fusion.md
+constexpr double places_alike = 5;            // neighbours that misread alike: 100 m
 constexpr double trip_counts_from = 20; // readings needed for a meaningful trip mean
 
 double square(double x) {
@@ -25,8 +33,9 @@ FleetFit::FleetFit(const std::vector<FleetReading>& readings,
                    const std::vector<double>& scatter)
     : cars(known.size()), trip_sd{prior.trip_sd}, rest_sd{prior.rest_sd}, readings_{&readings},
       known_{&known}, anchor_weights_{&anchor_weights},
-      scatter_{scatter.empty() ? std::vector<double>(known.size(), 1) : scatter}, prior_{prior}, trust_(readings.size(), 1),
-      leverage_(readings.size(), 0), mixing_{mixing_depth} {
+      scatter_{scatter.empty() ? std::vector<double>(known.size(), 1) : scatter},
+      known_variance_(known.size(), 0), car_sd_{prior.car_sd}, prior_{prior},
+      trust_(readings.size(), 1), leverage_(readings.size(), 0), mixing_{mixing_depth} {
     std::uint32_t trips = 0;
     for (std::size_t i = 0; i < readings.size(); ++i) {
         if (i == 0 || readings[i].place != readings[i - 1].place) {
@@ -73,7 +82,7 @@ double FleetFit::settle() {
     const std::vector<Car> before = cars;
     const auto errors_before = errors();
     fit_levels();
-    hold_against_known();
+    fit_known();
     sum_trips();
     fit_cars();
     centre_cars();
@@ -125,39 +134,48 @@ void FleetFit::fit_levels() {
     middle_um_ = std::max(1.0, median_of(std::move(levels)));
 }
 
-/// Rescales all levels, and with them the gains, to agree with the known cars. Alternating with the
-/// other steps instead would take as many rounds as there are places without a known car.
-void FleetFit::hold_against_known() {
-    double whole = 0, sum = 0, square_sum = 0, min_variance = 0;
+/// Level of a reading's place from the other readings there.
+double FleetFit::level_of_others(std::size_t reading) const {
+    const auto& [place, car, trip, read_um] = (*readings_)[reading];
+    const double own_um = (read_um - cars[car].offset_um) / expected(reading);
+    return (level_um_[place] - leverage_[reading] * own_um) / (1 - leverage_[reading]);
+}
+
+/// Fits the ratio of each known source to the levels. What the cars misread on a road is alike along
+/// it, so the ratio is as sure as its blocks of places are many and agree, however many places they
+/// have.
+void FleetFit::fit_known() {
+    struct Ratio {
+        double read = 0, level = 0;
+    };
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Ratio> of_blocks; // by source and block
     for (std::size_t i = 0; i < readings_->size(); ++i) {
-        const auto& reading = (*readings_)[i];
-        const auto& sd = (*known_)[reading.car];
-        if (sd && leverage_[i] < 1) {
-            // The level from the other readings alone.
-            const double level =
-                (level_um_[reading.place] - leverage_[i] * reading.read_um) / (1 - leverage_[i]);
-            const double off = reading.read_um / std::max(1.0, level) - 1;
-            const double weight = trust_[i] / square(*sd);
-            whole += weight;
-            sum += weight * off;
-            square_sum += weight * weight * square(off);
-            min_variance = std::max(min_variance, square(*sd));
+        const auto& [place, car, trip, read_um] = (*readings_)[i];
+        if ((*known_)[car] && leverage_[i] < 1) {
+            auto& ratio = of_blocks[{car, place / places_of_block}];
+            ratio.read += trust_[i] * read_um;
+            ratio.level += trust_[i] * std::max(1.0, level_of_others(i));
         }
     }
-    if (whole <= 0) {
-        return;
-    }
-    const double off = sum / whole;
-    for (std::size_t car = 0; car < cars.size(); ++car) {
-        if (!(*known_)[car]) {
-            cars[car].gain /= 1 + off;
+    std::ranges::fill(known_variance_, 0);
+    for (auto first = of_blocks.begin(), past = first; first != of_blocks.end(); first = past) {
+        const auto source = first->first.first;
+        Ratio all;
+        for (; past != of_blocks.end() && past->first.first == source; ++past) {
+            all.read += past->second.read;
+            all.level += past->second.level;
         }
+        const double gain = all.read / all.level;
+        double squares = blocks_of_prior * square(block_sd), count = blocks_of_prior - 1;
+        double shares = 0;
+        for (auto block = first; block != past; ++block) {
+            squares += square(block->second.read / block->second.level / gain - 1);
+            count += 1;
+            shares += square(block->second.level / all.level);
+        }
+        cars[source].gain = gain;
+        known_variance_[source] = square(*(*known_)[source]) + squares / count * shares;
     }
-    for (auto& level_um : level_um_) {
-        level_um *= 1 + off;
-    }
-    // The relative error of a survey is common to all its places: its own sd does not average out.
-    known_sd = std::sqrt(min_variance + square_sum / square(whole));
 }
 
 void FleetFit::sum_trips() {
@@ -216,12 +234,69 @@ void FleetFit::fit_cars() {
     }
 }
 
-/// Without a known car, the mean of all cars is taken as correct, with outliers down-weighted.
+/// Tests whether the error of a car is known better than cars differ.
+bool FleetFit::is_certain(std::size_t car) const {
+    return !(*known_)[car] && cars[car].variance_at_middle < square(prior_.car_sd);
+}
+
+double FleetFit::spread_of_cars(const std::vector<bool>& counts, double about) const {
+    std::vector<double> off;
+    double sampling = 0;
+    for (std::size_t car = 0; car < counts.size(); ++car) {
+        if (counts[car]) {
+            off.push_back(std::abs(cars[car].error_at_middle - about));
+            sampling += cars[car].variance_at_middle;
+        }
+    }
+    if (off.size() < 2) {
+        return prior_.car_sd;
+    }
+    const auto n = static_cast<double>(off.size());
+    const double seen =
+        square(sd_over_mad_of_normal * median_of(std::move(off))) * n / (n - 1) - sampling / n;
+    return std::sqrt((cars_of_prior * square(prior_.car_sd) + n * std::max(0.0, seen)) /
+                     (cars_of_prior + n));
+}
+
+/// Variance of the mean error of the cars: their spread, and what is common to all.
+double FleetFit::mean_variance() const {
+    double weight = 0;
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        weight += is_certain(i) ? (*anchor_weights_)[i] : 0;
+    }
+    return square(car_sd_) / std::max(1.0, weight) + square(prior_.common_sd);
+}
+
+/// Returns the relative error of the levels by the known sources and the mean of the cars, each by
+/// its variance. A mean that contradicts the sources counts less, by 3 sds not at all.
+/// \param mean_error  of the cars, relative to the levels
+double FleetFit::known_and_cars(double mean_error) {
+    double weight = 0, error = 0;
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        if (known_variance_[i] > 0) {
+            weight += 1 / known_variance_[i];
+            error += (cars[i].gain - 1) / known_variance_[i];
+        }
+    }
+    const double of_mean = mean_variance();
+    const double apart = square(mean_error - error / weight) / (of_mean + 1 / weight);
+    const double trust = square(std::max(0.0, 1 - apart / square(contradiction_sds)));
+    weight += trust / of_mean;
+    error += trust * mean_error / of_mean;
+    anchor_sd = 1 / std::sqrt(weight);
+    return error / weight;
+}
+
+/// Moves gains and offsets so that the robust mean of the cars is correct; with known sources, so
+/// that the gains of these and that mean are, as far as each is certain.
 void FleetFit::centre_cars() {
     const double z = 1 / middle_um_;
     double whole = 0, gain = 0, offset_um = 0;
     for (std::size_t i = 0; i < cars.size(); ++i) {
         auto& car = cars[i];
+        if ((*known_)[i]) {
+            continue;
+        }
         car.error_at_middle = car.gain - 1 + car.offset_um * z;
         const double variance =
             square(prior_.car_sd) / (*anchor_weights_)[i] + car.variance_at_middle;
@@ -230,14 +305,43 @@ void FleetFit::centre_cars() {
         gain += weight * car.gain;
         offset_um += weight * car.offset_um;
     }
-    if (known_sd || whole <= 0) {
+    if (whole <= 0) {
         return;
     }
+    gain /= whole;
+    offset_um /= whole;
+    if (std::ranges::any_of(known_variance_, [](double variance) { return variance > 0; })) {
+        const double mean = gain - 1 + offset_um * z;
+        gain = 1 + known_and_cars(mean);
+        mean_error_ = (mean + 1) / gain - 1;
+        offset_um = 0;
+    }
     for (auto& car : cars) {
-        car.gain /= gain / whole;
-        car.offset_um -= offset_um / whole;
+        car.gain /= gain;
+        car.offset_um -= offset_um;
         car.error_at_middle = car.gain - 1 + car.offset_um * z;
     }
+}
+
+FleetFit::LocalError FleetFit::local_error() const {
+    std::vector<double> off;
+    double expected_variance = 0;
+    for (std::size_t i = 0; i < readings_->size(); ++i) {
+        const auto& [place, car, trip, read_um] = (*readings_)[i];
+        if ((*known_)[car] && leverage_[i] < 1) {
+            const double level_um = std::max(1.0, level_of_others(i));
+            off.push_back(std::abs(read_um / cars[car].gain / level_um - 1));
+            const double own_weight = trust_[i] / variance_of(i);
+            expected_variance +=
+                variance_of(i) + leverage_[i] / (1 - leverage_[i]) / own_weight;
+        }
+    }
+    if (off.empty()) {
+        return {};
+    }
+    const auto count = static_cast<double>(off.size());
+    const double seen = square(sd_over_mad_of_normal * median_of(std::move(off)));
+    return {std::max(0.0, seen - expected_variance / count), count / places_alike};
 }
 
 /// Returns the deviation of a reading from what is expected, relative to the level of its place.
@@ -282,6 +386,11 @@ void FleetFit::take_spread() {
                           std::sqrt(1 - leverage_[i]));
         }
     }
+    std::vector<bool> counts;
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        counts.push_back(is_certain(i));
+    }
+    car_sd_ = spread_of_cars(counts, mean_error_);
     if (!off.empty()) {
         const double whole = square(sd_over_mad_of_normal * median_of(std::move(off)));
         const double beside = square(prior_.rest_sd_um / middle_um_);

@@ -47,12 +47,23 @@ public:
     /// for known sources, and where nearly all readings determine their level.
     std::vector<double> scatter_of_cars() const;
 
+    /// Estimates the spread between those cars that count, robustly.
+    /// \param about  mean error of the cars
+    double spread_of_cars(const std::vector<bool>& counts, double about) const;
+
     std::size_t place_count() const { return first_of_place_.size() - 1; }
 
     std::vector<Car> cars;
+    /// Local error that the cars share, seen where a known source passed.
+    struct LocalError {
+        double variance = 0; ///< relative, of a place
+        double count = 0;    ///< of independent places
+    };
+    LocalError local_error() const;
+
     double trip_sd;
     double rest_sd;
-    std::optional<double> known_sd; ///< of the fleet against the known sources, relative
+    std::optional<double> anchor_sd; ///< of the levels, relative, if there are known sources
 
 private:
     struct Trip {
@@ -68,7 +79,11 @@ private:
     double residual(std::size_t reading) const;
     double expected(std::size_t reading) const;
     void fit_levels();
-    void hold_against_known();
+    void fit_known();
+    bool is_certain(std::size_t car) const;
+    double mean_variance() const;
+    double known_and_cars(double mean_error);
+    double level_of_others(std::size_t reading) const;
     void sum_trips();
     void fit_cars();
     void centre_cars();
@@ -77,7 +92,10 @@ private:
     const std::vector<FleetReading>* readings_;
     const std::vector<std::optional<double>>* known_;
     const std::vector<double>* anchor_weights_;
-    std::vector<double> scatter_; ///< of each car
+    std::vector<double> scatter_;        ///< of each car
+    std::vector<double> known_variance_; ///< of the gain of each known source; 0: not compared
+    double car_sd_;                      ///< spread of the cars
+    double mean_error_ = 0;              ///< of the cars, if there are known sources
     FleetPrior prior_;
     std::vector<std::size_t> first_of_place_; ///< index of the first reading, plus an end sentinel
     std::vector<double> level_um_;            ///< of each place

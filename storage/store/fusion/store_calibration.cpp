@@ -209,7 +209,12 @@ FusionConfig components_of(const FleetCalibration& found, double stated_variance
     config.rest_relative_sd = found.rest_sd;
     config.anchor_relative_sd = found.anchor_sd;
     if (stated_variance > 0) {
+        constexpr double places_of_prior = 1;
+        const double places = found.local_error_places;
         config.car_share = found.car_sd * found.car_sd / stated_variance;
+        config.common_share = (places_of_prior * config.common_share +
+                               places * found.local_error_variance / stated_variance) /
+                              (places_of_prior + places);
     }
     return config;
 }
