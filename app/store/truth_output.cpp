@@ -81,8 +81,8 @@ TruthComparison compared(const RoadStore& store, const std::filesystem::path& fi
 std::string text_of(const TruthComparison& comparison) {
     std::vector<Row> rows{{"all", comparison.all}};
     rows.insert(rows.end(), comparison.classes.begin(), comparison.classes.end());
-    for (const auto& bands : {rows_of(comparison.levels, "IRI ", ""),
-                              rows_of(comparison.speeds, "", " km/h")}) {
+    for (const auto& bands :
+         {rows_of(comparison.levels, "IRI ", ""), rows_of(comparison.speeds, "", " km/h")}) {
         rows.insert(rows.end(), bands.begin(), bands.end());
     }
     return table_text(columns, rows) +

@@ -28,8 +28,8 @@ struct FusionInput {
     std::int64_t vehicle; ///< any number unique to a car or survey
     std::optional<std::int64_t> utc_ms;
     std::optional<CarCalibration> calibration{}; ///< of the vehicle; `std::nullopt`: not calibrated
-    bool reference = false; ///< from a survey with better instruments: pass.sd_um is its entire
-                            ///< error, shared with no car
+    bool reference = false;   ///< from a survey with better instruments: pass.sd_um is its entire
+                              ///< error, shared with no car
     std::uint32_t period = 0; ///< of the vehicle, between its changes: each has a car error of its
                               ///< own
 };

@@ -18,7 +18,7 @@ constexpr std::size_t run_segments = 5; // 100 m at the usual segment length
 constexpr double same_place_m = 0.01;   // truth files have a resolution of millimetres
 
 // Lower limits of bands. Most segments of towns lie below 45 km/h, those of country roads above 65.
-constexpr double level_bands[] = {0, 1, 2, 4};     // mm/m
+constexpr double level_bands[] = {0, 1, 2, 4};    // mm/m
 constexpr double speed_bands[] = {0, 45, 65, 85}; // km/h
 
 /// A segment known in both.

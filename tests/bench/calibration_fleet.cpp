@@ -5,8 +5,8 @@
 //                                          million passes) unless given
 //
 // A town of N segments has N / 20 cars. Each drives ten trips of 100 consecutive segments on ten
-// days near its home, so that cars overlap with few others. Cars differ by 6 %, trips by 2 %, passes by
-// 7 %; one car in a hundred reads 12 % more after five trips.
+// days near its home, so that cars overlap with few others. Cars differ by 6 %, trips by 2 %,
+// passes by 7 %; one car in a hundred reads 12 % more after five trips.
 
 #include "driven_town.hpp"
 #include "estimator/common/error.hpp"

@@ -49,8 +49,8 @@ void set_calibration(FusionInput& input, const CarRecord& car) {
     if (!car.periods.empty()) {
         const auto period = period_at(car.periods, input.utc_ms);
         input.period = static_cast<std::uint32_t>(period);
-        input.calibration = period < car.periods.size() ? car.periods[period].calibration
-                                                        : std::nullopt;
+        input.calibration =
+            period < car.periods.size() ? car.periods[period].calibration : std::nullopt;
     }
 }
 

@@ -46,11 +46,10 @@ CarPeriod period_in(const Statement& row) {
         return static_cast<double>(row.integer(column)) / millionths;
     };
     if (!row.is_null(3)) {
-        period.calibration =
-            CarCalibration{.gain = share(3),
-                           .offset_um = static_cast<double>(row.integer(4)),
-                           .relative_sd = share(5),
-                           .scatter = std::clamp(share(6), 1.0, max_scatter)};
+        period.calibration = CarCalibration{.gain = share(3),
+                                            .offset_um = static_cast<double>(row.integer(4)),
+                                            .relative_sd = share(5),
+                                            .scatter = std::clamp(share(6), 1.0, max_scatter)};
     }
     period.shared = static_cast<std::size_t>(row.integer(7));
     if (!row.is_null(8)) {
@@ -72,8 +71,8 @@ void read_periods(Database& database, CarRecords& cars) {
 }
 
 void write_periods(Database& database, const CarRecords& cars) {
-    auto insert = database.prepare(
-        "INSERT INTO calibration_period VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    auto insert =
+        database.prepare("INSERT INTO calibration_period VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     const auto ppm = [](double value) { return whole(value, millionths); };
     for (const auto& [vehicle, car] : cars) {
         for (std::size_t i = 0; i < car.periods.size(); ++i) {

@@ -1,7 +1,7 @@
 #include "storage/store/fusion/store_calibration.hpp"
 
 #include "estimator/common/error.hpp"
-#include "mapping/fusion/changing_fleet.hpp"
+#include "mapping/fusion/fleet/changing_fleet.hpp"
 #include "storage/store/fusion/chunk_states.hpp"
 #include "storage/store/fusion/fusion_settings.hpp"
 #include "storage/store/privacy/car_order.hpp"
@@ -26,8 +26,8 @@ namespace {
 constexpr std::int64_t window_ms = 31'557'600'000;
 constexpr std::int64_t undated = -1;
 
-// Far more than needed for two parameters per car; they take 80 MB.
-constexpr std::int64_t max_readings = 2'000'000;
+// A thousand for each of 10,000 cars, to find changes; they take 1.5 GB.
+constexpr std::int64_t max_readings = 12'000'000;
 
 constexpr std::uint8_t unsure = validity::too_slow | validity::start_up | validity::lateral_alone;
 
@@ -221,10 +221,10 @@ FusionConfig components_of(const FleetCalibration& found, double stated_variance
 
 /// Number of surveys that passed places within a year of a car.
 std::size_t surveys_in(const std::vector<std::vector<CarPeriod>>& periods, std::size_t cars) {
-    return static_cast<std::size_t>(
-        std::count_if(periods.begin() + static_cast<std::ptrdiff_t>(cars),
-                      periods.end(),
-                      [](const auto& survey) { return survey.front().shared > 0; }));
+    return static_cast<std::size_t>(std::count_if(
+        periods.begin() + static_cast<std::ptrdiff_t>(cars), periods.end(), [](const auto& survey) {
+            return survey.front().shared > 0;
+        }));
 }
 
 CalibratedCar calibrated_car(const Car& car, const std::vector<CarPeriod>& periods) {

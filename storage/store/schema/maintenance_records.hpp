@@ -70,7 +70,7 @@ struct CalibratedCar {
 };
 
 /// Calibration of the cars of a database, with the components of their errors
-/// (mapping/fusion/fleet_calibration.hpp).
+/// (mapping/fusion/fleet/fleet_calibration.hpp).
 struct CalibrationReport {
     int generation;
     std::vector<CalibratedCar> cars; ///< in the order of RoadStore::cars(), without the unknown car

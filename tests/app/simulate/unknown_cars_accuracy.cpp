@@ -161,8 +161,7 @@ Score score_of(const char* name, const std::string& store, const std::string& tr
     const auto all =
         Json::parse(ran({"info", store, "--json", "--truth", truth}).out)["truth"]["all"];
     const double mean = all["mean_truth"];
-    const Score score{
-        all["bias_share"], all["rmse_100m"].get<double>() / mean, all["coverage_90"]};
+    const Score score{all["bias_share"], all["rmse_100m"].get<double>() / mean, all["coverage_90"]};
     std::printf("%-28s bias %+.1f %%, RMSE of 100 m %.1f %%, in 90 %%: %.0f %%\n",
                 name,
                 100 * score.bias,
@@ -176,8 +175,15 @@ TEST(UnknownCars, AreRightAfterTwoKilometresOfSurvey) {
     const auto at = [&](const char* name) { return (folder / name).string(); };
     write_file(at("recipe.toml"), recipe());
     const std::string map = MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf";
-    ran({"simulate", "-o", at("fleet"), "--network", map, "--recipe", at("recipe.toml"),
-         "--seed", "5"});
+    ran({"simulate",
+         "-o",
+         at("fleet"),
+         "--network",
+         map,
+         "--recipe",
+         at("recipe.toml"),
+         "--seed",
+         "5"});
     fs::create_directory(at("trips"));
     Uniform uniform{31};
     std::map<std::string, double> gains;
@@ -200,12 +206,18 @@ TEST(UnknownCars, AreRightAfterTwoKilometresOfSurvey) {
     ran({"calibrate", store});
     score_of("calibrated by each other", store, truth);
     write_survey(store, truth, at("survey.csv"));
-    ran({"import", store, "--reference", at("survey.csv"), "--date", "2025-06-01", "--accuracy",
+    ran({"import",
+         store,
+         "--reference",
+         at("survey.csv"),
+         "--date",
+         "2025-06-01",
+         "--accuracy",
          "2"});
     ran({"calibrate", store});
     const auto last = score_of("calibrated with the survey", store, truth);
-    // What the cars misread differs from road to road by 6.5 %, so that 2 km on a few roads know the
-    // level to about 2 %: two sds of it.
+    // What the cars misread differs from road to road by 6.5 %, so that 2 km on a few roads know
+    // the level to about 2 %: two sds of it.
     EXPECT_NEAR(last.bias, 0, 0.04);
     EXPECT_LE(last.rmse_100m, 0.09);
     EXPECT_GE(last.coverage, 0.85);

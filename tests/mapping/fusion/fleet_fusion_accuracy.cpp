@@ -1,6 +1,6 @@
 // Fleets with known truth: what the fused numbers and their intervals are worth.
 
-#include "mapping/fusion/changing_fleet.hpp"
+#include "mapping/fusion/fleet/changing_fleet.hpp"
 #include "mapping/fusion/fusion.hpp"
 
 #include <gtest/gtest.h>
@@ -211,8 +211,8 @@ TEST(FleetFusion, FindsAStepOfHalfAMillimetreWithinThreeMonths) {
     EXPECT_EQ(wrong, 0);
 }
 
-/// 8 cars of 20 trips, one every third day over half of the segments, of which car 0 reads 10 % more
-/// and car 1 scatters three times as much from their eleventh trip on. Errors as of Fleet.
+/// 8 cars of 20 trips, one every third day over half of the segments, of which car 0 reads 10 %
+/// more and car 1 scatters three times as much from their eleventh trip on. Errors as of Fleet.
 Passes driven_by_cars_that_change(std::size_t segments, unsigned seed) {
     constexpr int cars = 8, trips = 20;
     const Fleet fleet;
@@ -243,8 +243,7 @@ Passes driven_by_cars_that_change(std::size_t segments, unsigned seed) {
 }
 
 /// Calibrates the fleet of these passes. \param search  without rounds, no car changes.
-ChangingFleet
-calibration_of(const Passes& passes, std::size_t cars, const ChangeSearch& search) {
+ChangingFleet calibration_of(const Passes& passes, std::size_t cars, const ChangeSearch& search) {
     std::vector<FleetReading> readings;
     FleetTrips trips{std::vector<std::optional<std::int64_t>>(200),
                      std::vector<std::uint32_t>(200)};

@@ -89,8 +89,8 @@ TEST(CarChange, IsFoundAndKeptInTheDatabase) {
                 2.0 * 2 * day_ms); // a trip or two
     EXPECT_NEAR(found.periods[1].change->level, 0.2, 0.05);
     EXPECT_EQ(found.calibration, found.periods[1].calibration);
-    EXPECT_EQ(std::ranges::count_if(report.cars, [](const auto& car) { return car.periods.empty(); }),
-              3);
+    EXPECT_EQ(
+        std::ranges::count_if(report.cars, [](const auto& car) { return car.periods.empty(); }), 3);
 
     const auto kept = RoadStore::open(file, RoadStore::Access::read).calibrated_cars();
     const auto& read = changed_car(kept);

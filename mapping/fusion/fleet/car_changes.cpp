@@ -1,6 +1,6 @@
-#include "mapping/fusion/car_changes.hpp"
+#include "mapping/fusion/fleet/car_changes.hpp"
 
-#include "mapping/fusion/fleet_fit.hpp"
+#include "mapping/fusion/fleet/fleet_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,14 @@ namespace macadam {
 namespace {
 
 constexpr double ms_per_day = 86'400'000;
-constexpr double days_alike = 60;        // over which the comparison with others fades
-constexpr std::size_t min_cars = 3;      // at a place
-constexpr std::size_t block = 25;        // readings: 500 m
-constexpr std::size_t min_of_day = 10;   // readings
-constexpr double blocks_of_prior = 4;    // certainty of the prior variance of block means
-constexpr double block_share = 0.25;     // of a reading's variance that is left in a block's mean
-constexpr double scatter_day_sd = 0.15;  // of the logarithm of scatter, from day to day
-constexpr double mad_variance = 1.36;    // of its logarithm, normal distribution, times readings
+constexpr double days_alike = 60;       // over which the comparison with others fades
+constexpr std::size_t min_cars = 3;     // at a place
+constexpr std::size_t block = 25;       // readings: 500 m
+constexpr std::size_t min_of_day = 10;  // readings
+constexpr double blocks_of_prior = 4;   // certainty of the prior variance of block means
+constexpr double block_share = 0.25;    // of a reading's variance that is left in a block's mean
+constexpr double scatter_day_sd = 0.15; // of the logarithm of scatter, from day to day
+constexpr double mad_variance = 1.36;   // of its logarithm, normal distribution, times readings
 constexpr double min_share_of_largest = 0.7; // of three cars, one that changes moves two by half
 
 double square(double x) {
@@ -157,7 +157,8 @@ RoughDay rough_day(std::span<const Residual> residuals, const FleetTrips& trips)
     std::vector<double> off;
     const auto blocks = std::max<std::size_t>(1, residuals.size() / block);
     for (std::size_t i = 0; i < blocks; ++i) {
-        const auto first = i * residuals.size() / blocks, past = (i + 1) * residuals.size() / blocks;
+        const auto first = i * residuals.size() / blocks,
+                   past = (i + 1) * residuals.size() / blocks;
         double sum = 0;
         for (auto j = first; j < past; ++j) {
             rough.day.utc_ms = std::min(rough.day.utc_ms, *trips.utc_ms[residuals[j].trip]);
@@ -241,8 +242,7 @@ double largest_accepted(std::vector<double> p_values, std::size_t tests, double 
     std::ranges::sort(p_values);
     double accepted = -1;
     for (std::size_t i = 0; i < p_values.size(); ++i) {
-        if (p_values[i] * static_cast<double>(tests) <=
-            false_share * static_cast<double>(i + 1)) {
+        if (p_values[i] * static_cast<double>(tests) <= false_share * static_cast<double>(i + 1)) {
             accepted = p_values[i];
         }
     }
@@ -290,8 +290,7 @@ std::vector<std::vector<CarDay>> car_days(const std::vector<FleetReading>& readi
         while (past < readings.size() && readings[past].place == readings[first].place) {
             ++past;
         }
-        add_place(
-            std::span{readings}.subspan(first, past - first), trips, calibration, residuals);
+        add_place(std::span{readings}.subspan(first, past - first), trips, calibration, residuals);
     }
     std::vector<std::vector<CarDay>> days(residuals.size());
     for (std::size_t car = 0; car < residuals.size(); ++car) {
@@ -313,8 +312,8 @@ std::vector<FoundChange> find_car_changes(const std::vector<std::vector<CarDay>>
         FoundChange change{
             .car = static_cast<std::uint32_t>(car),
             .utc_ms = 0,
-            .level = shift_of(
-                days[car], &CarDay::level, std::log1p(search.min_level), min_readings),
+            .level =
+                shift_of(days[car], &CarDay::level, std::log1p(search.min_level), min_readings),
             .log_scatter = shift_of(
                 days[car], &CarDay::log_scatter, std::log(search.min_scatter), min_readings)};
         for (const auto& shift : {change.level, change.log_scatter}) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mapping/fusion/fleet_calibration.hpp"
-#include "mapping/fusion/level_shift.hpp"
+#include "mapping/fusion/fleet/fleet_calibration.hpp"
+#include "mapping/fusion/fleet/level_shift.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,8 @@ struct CarDay {
 
 /// Where the readings of a fleet come from.
 struct FleetTrips {
-    std::vector<std::optional<std::int64_t>> utc_ms; ///< start of each trip; `std::nullopt`: unknown
+    std::vector<std::optional<std::int64_t>>
+        utc_ms;                     ///< start of each trip; `std::nullopt`: unknown
     std::vector<std::uint32_t> car; ///< of each trip: its car, whatever period of it
 };
 
@@ -61,8 +62,8 @@ struct FoundChange {
 /// pp. 289-300): if no car changed, the probability of any false alarm is at most
 /// `search.false_share`, however many cars and trips there are.
 ///
-/// A car that changes also moves what others are compared with, by less than its own change; so only
-/// the largest changes are returned. Split these cars, calibrate, and search again for others.
+/// A car that changes also moves what others are compared with, by less than its own change; so
+/// only the largest changes are returned. Split these cars, calibrate, and search again for others.
 std::vector<FoundChange> find_car_changes(const std::vector<std::vector<CarDay>>& days,
                                           const ChangeSearch& search,
                                           std::size_t min_readings);

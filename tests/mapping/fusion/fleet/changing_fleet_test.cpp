@@ -1,4 +1,4 @@
-#include "mapping/fusion/changing_fleet.hpp"
+#include "mapping/fusion/fleet/changing_fleet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,9 @@ struct Fleet {
     double rest_sd = 0.07;
 
     /// Factors on what a car reads on a trip, and on its scatter.
-    std::function<double(std::uint32_t car, std::uint32_t trip)> level = [](auto, auto) { return 1; };
+    std::function<double(std::uint32_t car, std::uint32_t trip)> level = [](auto, auto) {
+        return 1;
+    };
     std::function<double(std::uint32_t car, std::uint32_t trip)> scatter = [](auto, auto) {
         return 1;
     };
@@ -113,8 +115,8 @@ TEST(ChangingFleet, FindsNoChangeWhereThereIsNoneAndCalibratesAsBefore) {
         const Fleet fleet{.places = 300, .places_of_trip = 100};
         const auto drives = drives_of(fleet, seed);
         const auto found = calibrated(fleet, drives);
-        with_change += std::ranges::any_of(
-            found.cars, [](const auto& periods) { return periods.size() > 1; });
+        with_change +=
+            std::ranges::any_of(found.cars, [](const auto& periods) { return periods.size() > 1; });
         if (seed == 1) {
             const auto expected = calibrate_fleet(
                 drives.readings, std::vector<std::optional<double>>(fleet.cars), {});
@@ -154,7 +156,9 @@ TEST(ChangingFleet, BlamesNoCarForRoadsThatChange) {
 
 TEST(ChangingFleet, FindsTwoChangesOfOneCar) {
     Fleet fleet{.trips_of_car = 30};
-    fleet.level = [](auto car, auto trip) { return car == 2 && trip >= 10 && trip < 20 ? 1.15 : 1; };
+    fleet.level = [](auto car, auto trip) {
+        return car == 2 && trip >= 10 && trip < 20 ? 1.15 : 1;
+    };
     const auto found = calibrated(fleet, drives_of(fleet, 7));
     ASSERT_EQ(found.cars[2].size(), 3U);
     EXPECT_GT(found.cars[2][1].change->level, 0.1);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mapping/fusion/car_changes.hpp"
+#include "mapping/fusion/fleet/car_changes.hpp"
 #include "mapping/fusion/car_period.hpp"
-#include "mapping/fusion/fleet_calibration.hpp"
+#include "mapping/fusion/fleet/fleet_calibration.hpp"
 
 #include <cstddef>
 #include <cstdint>

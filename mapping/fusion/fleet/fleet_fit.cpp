@@ -1,4 +1,4 @@
-#include "mapping/fusion/fleet_fit.hpp"
+#include "mapping/fusion/fleet/fleet_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr std::uint32_t places_of_block = 25; // 500 m
 constexpr double block_sd = 0.065;            // of what cars misread in a block, relative: see
 constexpr double blocks_of_prior = 4;         // docs/method/fusion.md
 constexpr double places_alike = 5;            // neighbours that misread alike: 100 m
-constexpr double trip_counts_from = 20; // readings needed for a meaningful trip mean
+constexpr double trip_counts_from = 20;       // readings needed for a meaningful trip mean
 
 double square(double x) {
     return x * x;
@@ -141,9 +141,9 @@ double FleetFit::level_of_others(std::size_t reading) const {
     return (level_um_[place] - leverage_[reading] * own_um) / (1 - leverage_[reading]);
 }
 
-/// Fits the ratio of each known source to the levels. What the cars misread on a road is alike along
-/// it, so the ratio is as sure as its blocks of places are many and agree, however many places they
-/// have.
+/// Fits the ratio of each known source to the levels. What the cars misread on a road is alike
+/// along it, so the ratio is as sure as its blocks of places are many and agree, however many
+/// places they have.
 void FleetFit::fit_known() {
     struct Ratio {
         double read = 0, level = 0;
@@ -332,8 +332,7 @@ FleetFit::LocalError FleetFit::local_error() const {
             const double level_um = std::max(1.0, level_of_others(i));
             off.push_back(std::abs(read_um / cars[car].gain / level_um - 1));
             const double own_weight = trust_[i] / variance_of(i);
-            expected_variance +=
-                variance_of(i) + leverage_[i] / (1 - leverage_[i]) / own_weight;
+            expected_variance += variance_of(i) + leverage_[i] / (1 - leverage_[i]) / own_weight;
         }
     }
     if (off.empty()) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mapping/fusion/anderson_mixing.hpp"
-#include "mapping/fusion/fleet_calibration.hpp"
+#include "mapping/fusion/fleet/anderson_mixing.hpp"
+#include "mapping/fusion/fleet/fleet_calibration.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -43,8 +43,8 @@ public:
     /// Estimates the spread of trips and passes from the residuals.
     void take_spread();
 
-    /// Returns the scatter of each car's residuals over the sds used in the fit without `scatter`; 1
-    /// for known sources, and where nearly all readings determine their level.
+    /// Returns the scatter of each car's residuals over the sds used in the fit without `scatter`;
+    /// 1 for known sources, and where nearly all readings determine their level.
     std::vector<double> scatter_of_cars() const;
 
     /// Estimates the spread between those cars that count, robustly.

@@ -1,4 +1,4 @@
-#include "mapping/fusion/anderson_mixing.hpp"
+#include "mapping/fusion/fleet/anderson_mixing.hpp"
 
 #include <Eigen/QR>
 

@@ -1,4 +1,4 @@
-#include "mapping/fusion/level_shift.hpp"
+#include "mapping/fusion/fleet/level_shift.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,8 @@ double incomplete_beta(double a, double b, double x) {
                                      : 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
-/// Sums of weights 1 / variance, and of weighted values and squares, of the first values of a series.
+/// Sums of weights 1 / variance, and of weighted values and squares, of the first values of a
+/// series.
 struct Sums {
     double weight = 0, value = 0, square_value = 0;
 
@@ -86,8 +87,8 @@ Contrast contrast_of(const std::vector<Sums>& sums, std::size_t first, std::size
     const auto& all = sums.back();
     const auto inside = sums[past] - sums[first];
     const auto outside = all - inside;
-    const double rest = all.square_value - inside.value * inside.mean() -
-                        outside.value * outside.mean();
+    const double rest =
+        all.square_value - inside.value * inside.mean() - outside.value * outside.mean();
     const auto free = static_cast<double>(sums.size() - 3);
     const double sd =
         std::sqrt(std::max(0.0, rest) / free * (1 / inside.weight + 1 / outside.weight));
@@ -134,8 +135,7 @@ double autocorrelation(std::span<const SeriesPoint> series, const Contrast& cont
     double before = 0, squares = 0, products = 0;
     for (std::size_t i = 0; i < series.size(); ++i) {
         const bool is_inside = contrast.first <= i && i < contrast.past;
-        const double mean =
-            series.front().value + (is_inside ? contrast.inside : contrast.outside);
+        const double mean = series.front().value + (is_inside ? contrast.inside : contrast.outside);
         const double off = (series[i].value - mean) / std::sqrt(series[i].variance);
         squares += square(off);
         products += off * before;

@@ -1,4 +1,4 @@
-#include "mapping/fusion/changing_fleet.hpp"
+#include "mapping/fusion/fleet/changing_fleet.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mapping/fusion/level_shift.hpp"
+#include "mapping/fusion/fleet/level_shift.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "mapping/fusion/fleet_calibration.hpp"
+#include "mapping/fusion/fleet/fleet_calibration.hpp"
 
-#include "mapping/fusion/fleet_fit.hpp"
+#include "mapping/fusion/fleet/fleet_fit.hpp"
 
 #include <algorithm>
 #include <cassert>
