@@ -38,10 +38,10 @@ public:
     /// Trip of a car, which differs from another by a seed of its own.
     std::vector<Pass> passes_of(int car, int trip) const {
         std::mt19937 of_car{static_cast<unsigned>(car)};
-        std::normal_distribution<double> normal;
-        const double gain = 1 + 0.06 * normal(of_car);
+        const double gain = 1 + 0.06 * std::normal_distribution<double>{}(of_car);
         const bool changes = car % 100 == 0 && trip >= trips_a_car / 2;
         std::mt19937 of_trip{static_cast<unsigned>(car * trips_a_car + trip) + 1'000'000};
+        std::normal_distribution<double> normal;
         const double reads = gain * (1 + 0.02 * normal(of_trip)) * (changes ? 1.12 : 1);
         const auto home = static_cast<std::size_t>(car) * segments_a_car;
         const auto first = std::min(home + of_trip() % near_home, keys_.size() - passes_a_trip);
