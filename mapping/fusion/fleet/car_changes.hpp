@@ -15,7 +15,7 @@ struct ChangeSearch {
     double false_share = 0.01; ///< expected share of false changes among those found, at most
     double min_level = 0.03;   ///< smaller changes of level are left: trips differ by as much
     double min_scatter = 1.5;  ///< smaller ratios of scatter, after over before, are left
-    int max_rounds = 4; ///< the rest is found by the next calibration
+    int max_rounds = 4;        ///< the rest is found by the next calibration
 };
 
 /// What a car read on one day, relative to the other cars at the same places and about the same

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mapping/fusion/fleet/car_changes.hpp"
 #include "mapping/fusion/car_period.hpp"
+#include "mapping/fusion/fleet/car_changes.hpp"
 #include "mapping/fusion/fleet/fleet_calibration.hpp"
 
 #include <cstddef>
