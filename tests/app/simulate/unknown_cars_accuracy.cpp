@@ -119,10 +119,11 @@ void write_amplified(const fs::path& from, const fs::path& to, double gain) {
 /// Writes a survey of at least 2 km: ways that several cars drove, one in three.
 void write_survey(const fs::path& store, const fs::path& truth, const fs::path& survey) {
     std::map<std::string, bool> driven;
-    RoadStore::open(store, RoadStore::Access::read)
-        .visit({.min_passes = 1}, [&](const SegmentRecord& record) {
-            driven[name_of(record.segment.key)] = record.state->vehicles >= 4;
-        });
+    SegmentFilter filter;
+    filter.min_passes = 1;
+    RoadStore::open(store, RoadStore::Access::read).visit(filter, [&](const SegmentRecord& record) {
+        driven[name_of(record.segment.key)] = record.state->vehicles >= 4;
+    });
     std::ifstream in{truth};
     std::ofstream out{survey};
     out << "way_id,direction,from_m,to_m,mri\n";

@@ -70,6 +70,12 @@ RoadStore town_store(const std::filesystem::path& file, int changing, bool rever
     return store;
 }
 
+SegmentFilter driven() {
+    SegmentFilter filter;
+    filter.min_passes = 1;
+    return filter;
+}
+
 const CalibratedCar& changed_car(const std::vector<CalibratedCar>& found) {
     const auto car = std::ranges::find_if(
         found, [](const CalibratedCar& each) { return !each.periods.empty(); });
@@ -108,14 +114,14 @@ TEST(CarChange, LeavesTheMapAsItWouldBeWithoutIt) {
     changed.calibrate(true);
     steady.calibrate(true);
     std::vector<double> levels;
-    steady.visit({.min_passes = 1}, [&](const SegmentRecord& record) {
+    steady.visit(driven(), [&](const SegmentRecord& record) {
         levels.push_back(record.state->iri_um);
         EXPECT_EQ(record.state->vehicles, 4); // one car in two periods is one car
     });
     ASSERT_GE(levels.size(), 120U);
     double ratio = 0;
     std::size_t i = 0;
-    changed.visit({.min_passes = 1}, [&](const SegmentRecord& record) {
+    changed.visit(driven(), [&](const SegmentRecord& record) {
         EXPECT_EQ(record.state->vehicles, 4);
         ratio += record.state->iri_um / levels.at(i++);
     });
