@@ -238,6 +238,9 @@ public:
     /// Lengths with each direction counted, in the order of (highway, class from smooth to rough).
     std::vector<RoadClassLength> road_class_lengths() const;
 
+    /// Mean speed of the cars' passes over each segment, km/h; segments without one are missing.
+    std::map<SegmentKey, double> mean_speeds_kmh() const;
+
     /// Days with dated trips, in order.
     std::vector<DailyUsage> day_uses() const;
 

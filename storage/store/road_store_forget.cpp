@@ -132,8 +132,6 @@ constexpr const char* erase_changes =
     " AND segment.strip = dirty.strip)";
 
 constexpr const char* erase_cars_without_trips =
-    "DELETE FROM calibration WHERE NOT EXISTS"
-    " (SELECT 1 FROM trip WHERE trip.vehicle = calibration.vehicle);"
     "DELETE FROM vehicle WHERE NOT EXISTS (SELECT 1 FROM trip WHERE trip.vehicle = vehicle.id)";
 
 /// Lowers the recorded trip rows, because later trips may reuse the rows of deleted ones and are
@@ -201,6 +199,7 @@ std::size_t erase(Database& database, const KeptTrips& trips, std::int64_t segme
         erase(database, row);
         mark_forgotten(database, trip.sha256);
     }
+    erase_calibrations_without_trips(database);
     database.run(erase_cars_without_trips);
     database.run(free_rows_of_trips);
     return passes;
@@ -314,12 +313,13 @@ std::vector<CalibratedCar> RoadStore::calibrated_cars() const {
     std::vector<CalibratedCar> cars;
     while (select.step()) {
         if (const auto found = records.find(select.integer(0)); found != records.end()) {
-            const auto& [calibration, trips, passes] = found->second;
+            const auto& [calibration, trips, passes, periods] = found->second;
             cars.push_back({found->first,
                             select.text(1),
                             static_cast<std::size_t>(trips),
                             static_cast<std::size_t>(passes),
-                            calibration});
+                            calibration,
+                            periods});
         }
     }
     const auto places = places_of_cars(this->cars());

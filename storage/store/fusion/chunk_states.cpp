@@ -43,6 +43,17 @@ void put_in_its_place(ChunkPass& pass, std::span<const PlacedTrace> traces) {
     }
 }
 
+/// Sets the calibration of the car's period to which a pass belongs.
+void set_calibration(FusionInput& input, const CarRecord& car) {
+    input.calibration = car.calibration;
+    if (!car.periods.empty()) {
+        const auto period = period_at(car.periods, input.utc_ms);
+        input.period = static_cast<std::uint32_t>(period);
+        input.calibration =
+            period < car.periods.size() ? car.periods[period].calibration : std::nullopt;
+    }
+}
+
 std::vector<FusedSegment> fused(std::vector<ChunkPass> passes,
                                 std::span<const PlacedTrace> traces,
                                 const FusionConfig& config) {
@@ -77,7 +88,7 @@ std::vector<ChunkPass> ChunkFusion::valid_passes(std::int64_t chunk, std::int64_
     }
     for (auto& pass : passes) {
         if (const auto car = cars_.find(pass.input.vehicle); car != cars_.end()) {
-            pass.input.calibration = car->second.calibration;
+            set_calibration(pass.input, car->second);
         }
     }
     return passes;

@@ -151,6 +151,20 @@ CREATE TABLE calibration (
     trips INTEGER NOT NULL,
     passes INTEGER NOT NULL
 );
+CREATE TABLE calibration_period (
+    vehicle INTEGER NOT NULL REFERENCES vehicle(id),
+    number INTEGER NOT NULL,
+    from_ms INTEGER,
+    gain_ppm INTEGER,
+    offset_um INTEGER,
+    sd_ppm INTEGER,
+    scatter_ppm INTEGER NOT NULL,
+    passes INTEGER NOT NULL,
+    change_ppm INTEGER,
+    change_sd_ppm INTEGER,
+    change_scatter_ppm INTEGER,
+    PRIMARY KEY (vehicle, number)
+) WITHOUT ROWID;
 CREATE TABLE valid_from (
     segment INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
     from_ms INTEGER NOT NULL

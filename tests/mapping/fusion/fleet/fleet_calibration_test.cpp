@@ -1,4 +1,4 @@
-#include "mapping/fusion/fleet_calibration.hpp"
+#include "mapping/fusion/fleet/fleet_calibration.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "mapping/fusion/fleet_calibration.hpp"
+#include "mapping/fusion/fleet/fleet_calibration.hpp"
 
-#include "mapping/fusion/fleet_fit.hpp"
+#include "mapping/fusion/fleet/fleet_fit.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -13,8 +13,6 @@ constexpr int max_rounds = 400;
 constexpr int first_spread_round = 8; // by then the fit is nearly converged
 constexpr int last_spread_round = 64;
 constexpr double settled = 1e-8; // relative; far below the stored resolution of 1e-6
-
-constexpr double cars_of_prior = 4;
 
 /// Selects readings at places passed by at least two cars; others carry no information about a car.
 /// Places are renumbered from 0 without gaps.
@@ -54,25 +52,6 @@ double square(double x) {
     return x * x;
 }
 
-/// Estimates the spread between cars that are not known, robustly.
-double spread_of_cars(const FleetFit& fit, const std::vector<bool>& counts, double prior_sd) {
-    std::vector<double> off;
-    double sampling = 0;
-    for (std::size_t car = 0; car < counts.size(); ++car) {
-        if (counts[car]) {
-            off.push_back(std::abs(fit.cars[car].error_at_middle));
-            sampling += fit.cars[car].variance_at_middle;
-        }
-    }
-    if (off.size() < 2) {
-        return prior_sd;
-    }
-    const auto n = static_cast<double>(off.size());
-    const double seen = square(sd_over_mad_of_normal * median_of(off)) * n / (n - 1) - sampling / n;
-    return std::sqrt((cars_of_prior * square(prior_sd) + n * std::max(0.0, seen)) /
-                     (cars_of_prior + n));
-}
-
 /// Returns the weight of each car in the mean that is taken as correct: inverse to the variance
 /// that its readings state, 1 for the median car.
 std::vector<double> anchor_weights(const std::vector<std::optional<double>>& known,
@@ -98,11 +77,12 @@ std::vector<double> anchor_weights(const std::vector<std::optional<double>>& kno
 FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                  const std::vector<std::optional<double>>& known,
                                  const FleetPrior& prior,
-                                 const std::vector<double>& stated_sd) {
+                                 const std::vector<double>& stated_sd,
+                                 const std::vector<double>& scatter) {
     const auto shared = shared_readings(readings);
     const auto places = shared_places(shared, known.size());
     const auto weights = anchor_weights(known, stated_sd);
-    FleetFit fit{shared, known, prior, weights};
+    FleetFit fit{shared, known, prior, weights, scatter};
     for (int round = 0; round < max_rounds; ++round) {
         const double moved = fit.settle();
         const bool is_spread_round =
@@ -119,29 +99,38 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
         counts[car] = !known[car] && places[car] >= prior.min_shared;
     }
     FleetCalibration fleet{.cars = std::vector<std::optional<CarCalibration>>(known.size()),
+                           .is_known = std::vector<bool>(known.size()),
                            .shared = std::vector<std::size_t>(known.size(), 0),
-                           .car_sd = spread_of_cars(fit, counts, prior.car_sd),
+                           .scatter = fit.scatter_of_cars(),
+                           .car_sd = fit.spread_of_cars(counts, 0),
                            .trip_sd = fit.trip_sd,
                            .rest_sd = fit.rest_sd,
                            .anchor_sd = 0,
+                           .local_error_variance = 0,
+                           .local_error_places = 0,
                            .places = fit.place_count()};
     for (const auto& reading : shared) {
         ++fleet.shared[reading.car];
     }
     for (std::size_t car = 0; car < known.size(); ++car) {
+        fleet.is_known[car] = known[car].has_value();
         if (counts[car]) {
             const auto& [gain, offset_um, error, variance] = fit.cars[car];
             fleet.cars[car] =
                 CarCalibration{.gain = gain,
                                .offset_um = offset_um,
-                               .relative_sd = std::sqrt(variance + square(prior.min_car_sd))};
+                               .relative_sd = std::sqrt(variance + square(prior.min_car_sd)),
+                               .scatter = scatter.empty() ? 1 : scatter[car]};
         }
     }
     double weight = 0;
     for (std::size_t car = 0; car < known.size(); ++car) {
         weight += counts[car] ? weights[car] : 0;
     }
-    fleet.anchor_sd = fit.known_sd.value_or(fleet.car_sd / std::sqrt(std::max(1.0, weight)));
+    fleet.anchor_sd = fit.anchor_sd.value_or(fleet.car_sd / std::sqrt(std::max(1.0, weight)));
+    const auto [variance, count] = fit.local_error();
+    fleet.local_error_variance = variance;
+    fleet.local_error_places = count;
     return fleet;
 }
 
