@@ -1,7 +1,9 @@
 #include "driven_chunks.hpp"
 
 #include "app/pipeline/pipeline.hpp"
+#include "estimator/events/event_detection.hpp"
 #include "estimator/iri/iri.hpp"
+#include "estimator/simulation/road_features.hpp"
 #include "estimator/simulation/road_surface.hpp"
 #include "estimator/simulation/simulated_car.hpp"
 #include "mapping/network/build_network.hpp"
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 namespace macadam::testing {
@@ -183,8 +186,27 @@ PipelineConfig config_of(bool smoother) {
     PipelineConfig config;
     config.estimator.method = smoother ? Method::smoother : Method::kf;
     config.estimator.tracks = false; // as `import` does
+    config.estimator.profile = true;
     config.stretch.samples_a_metre = smoother ? 2.6 : 0;
     return config;
+}
+
+std::vector<RoadEvent> events_in(const IriTrace& roughness) {
+    std::vector<RoadEvent> events;
+    for (const auto& run : roughness.runs) {
+        std::ranges::move(detect_events(run.profile), std::back_inserter(events));
+    }
+    return events;
+}
+
+std::vector<TrueHole> holes_of(const RoadRecipe& recipe, std::uint64_t seed) {
+    std::vector<TrueHole> holes;
+    for (const auto& hole : potholes_on(straight_road_m, recipe, seed)) {
+        const double path_m = hole.lateral_m > 0 ? wheel_path_m : -wheel_path_m;
+        holes.push_back({hole.from_m + hole.length_m / 2 - way_begins_m,
+                         1000 * hole.depth_m * hole.part_at(path_m)});
+    }
+    return holes;
 }
 
 ChunkDrive driven(const FleetCarRecipe& car,
@@ -206,7 +228,11 @@ ChunkDrive driven(const FleetCarRecipe& car,
     const double told_sd_m = scenario.phones_place_sd_m > 0 ? sd_m : 0;
     drive.place_error_m = slow_values(sd_m, scenario.place_length_m, random);
     const auto matched = matched_along(motion, trace.odometer, drive.place_error_m, told_sd_m);
-    drive.passes = extract_passes(trace.roughness, matched, roads, vehicle, config.pass);
+    const auto passes = driven_passes(trace.roughness, matched, roads, vehicle, config.pass);
+    for (const auto& pass : passes) {
+        drive.passes.push_back(pass.pass);
+    }
+    drive.events = place_events(events_in(trace.roughness), passes);
     drive.traces = extract_traces(trace.roughness, matched, roads, vehicle, config.pass);
     return drive;
 }
@@ -216,12 +242,14 @@ ChunkDrive driven(const FleetCarRecipe& car,
 DrivenChunks driven_chunks(const ChunkScenario& scenario) {
     std::mt19937_64 random{scenario.seed};
     const auto cars = parse_recipe("", "the sample recipe").cars;
-    const auto surface = make_surface({.iri_mm_per_m = scenario.iri_mm_per_m,
-                                       .patches_per_km = scenario.patches_per_km,
-                                       .potholes_per_km = scenario.potholes_per_km},
-                                      straight_road_m,
-                                      scenario.seed);
-    DrivenChunks chunks{.roads = straight_way(), .drives = {}, .true_mri = {}};
+    const RoadRecipe recipe{.iri_mm_per_m = scenario.iri_mm_per_m,
+                            .patches_per_km = scenario.patches_per_km,
+                            .potholes_per_km = scenario.potholes_per_km};
+    const auto surface = make_surface(recipe, straight_road_m, scenario.seed);
+    DrivenChunks chunks{.holes = holes_of(recipe, scenario.seed),
+                        .roads = straight_way(),
+                        .drives = {},
+                        .true_mri = {}};
     chunks.true_mri = true_mri(surface, chunks.roads);
     for (std::size_t i = 0; i < scenario.passes; ++i) {
         const bool phone = scenario.phones_place_sd_m > 0 && i % 2 == 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/events/pass_event.hpp"
 #include "mapping/passes/chunk_trace.hpp"
 #include "mapping/passes/pass.hpp"
 
@@ -28,13 +29,21 @@ inline constexpr double way_m = straight_road_m - 2 * way_begins_m;
 /// One trip over it. Five cars take turns at 35 to 95 km/h, each with a vehicle file 5 % wrong and
 /// an odometer 0.5 % wrong; they wander in their lane.
 struct ChunkDrive {
+    std::vector<PassEvent> events;
     std::vector<RoughnessTrace> traces;
     std::vector<Pass> passes;
     std::vector<double> place_error_m; ///< of the match, at each metre of the road
 };
 
+/// Hole in a wheel path of a car in the middle of its lane.
+struct TrueHole {
+    double at_m; ///< along the way
+    double depth_mm;
+};
+
 struct DrivenChunks {
-    RoadNetwork roads; ///< one way
+    std::vector<TrueHole> holes; ///< in no order
+    RoadNetwork roads;           ///< one way
     std::vector<ChunkDrive> drives;
     std::vector<double> true_mri; ///< of the segments, by index
 };
