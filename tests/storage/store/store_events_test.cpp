@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -254,6 +256,11 @@ TEST(StoreEvents, ThatNobodyKnowsAreNamed) {
 
 // ------------------------------------------------------------------------------------- exports
 
+std::string file_text(const std::filesystem::path& file) {
+    std::ifstream in{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{in}, {}};
+}
+
 TEST(EventExport, WritesPointsInEveryFormat) {
     const auto folder = test_folder();
     const auto store = store_of(folder / "a.gpkg", {0, 1, 2});
@@ -262,10 +269,10 @@ TEST(EventExport, WritesPointsInEveryFormat) {
         EXPECT_EQ(export_events(store, {}, file), 2U) << suffix;
         EXPECT_GT(std::filesystem::file_size(file), 0U) << suffix;
     }
-    EXPECT_THAT(read_file(folder / "events.csv"), HasSubstr("\npothole,moderate,unknown,30,"));
-    EXPECT_THAT(read_file(folder / "events.geojson"),
+    EXPECT_THAT(file_text(folder / "events.csv"), HasSubstr("\npothole,moderate,unknown,30,"));
+    EXPECT_THAT(file_text(folder / "events.geojson"),
                 HasSubstr(R"("geometry":{"type":"Point","coordinates":[)"));
-    EXPECT_THAT(read_file(folder / "events.kml"), HasSubstr("<name>pothole</name>"));
+    EXPECT_THAT(file_text(folder / "events.kml"), HasSubstr("<name>pothole</name>"));
 
     Database database{folder / "events.gpkg", Database::Access::read};
     EXPECT_EQ(database.number("SELECT count(*) FROM events WHERE passes = 3"), 2);
@@ -282,7 +289,7 @@ TEST(EventExport, OfNoEventsIsAnEmptyFile) {
     for (const auto suffix : event_export_suffixes()) {
         EXPECT_EQ(export_events(store, {}, folder / ("none" + std::string{suffix})), 0U) << suffix;
     }
-    EXPECT_THAT(read_file(folder / "none.geojson"), HasSubstr("\"features\":[\n]}"));
+    EXPECT_THAT(file_text(folder / "none.geojson"), HasSubstr("\"features\":[\n]}"));
 }
 
 } // namespace
