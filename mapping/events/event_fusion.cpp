@@ -14,9 +14,9 @@ namespace {
 constexpr double mm_per_m = 1000;
 constexpr std::int64_t ms_per_day = 86'400'000;
 
-// Part of a size's error that is common to all passes, of the 30 % that one pass has
-// (docs/method/events.md): a hole of 0.3 m is known by its area only, whoever drives over it.
-constexpr double common_size_part = 0.2;
+// Part of a size that one pass allows for its model (track_events.cpp). It is common to all passes:
+// a hole of 0.3 m is known by its area only, whoever drives over it.
+constexpr double common_size_part = 0.3;
 
 constexpr double centre_m = 0.1; // step of tried centres: linear where very many passes agree
 

@@ -25,7 +25,8 @@ DrivenPass pass(bool forward, std::uint32_t occurrence, double from_travel_m) {
                             .t_enter_s = 0,
                             .t_leave_s = 1,
                             .confidence = 1,
-                            .place_sd_m = 0.8});
+                            .place_sd_m = 0.8,
+                            .drive = {}});
     return driven;
 }
 
