@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/simulation/road_features.hpp"
 #include "mapping/events/pass_event.hpp"
 #include "mapping/passes/chunk_trace.hpp"
 #include "mapping/passes/pass.hpp"
@@ -30,15 +31,22 @@ inline constexpr double way_m = straight_road_m - 2 * way_begins_m;
 /// an odometer 0.5 % wrong; they wander in their lane.
 struct ChunkDrive {
     std::vector<PassEvent> events;
+    double half_track_m;
+    std::vector<double> aside_m; ///< of the car in its lane, at each metre of the road
     std::vector<RoughnessTrace> traces;
     std::vector<Pass> passes;
     std::vector<double> place_error_m; ///< of the match, at each metre of the road
 };
 
-/// Hole in a wheel path of a car in the middle of its lane.
 struct TrueHole {
     double at_m; ///< along the way
-    double depth_mm;
+    Pothole hole;
+
+    /// Depth in the wheel path of a car in the middle of its lane.
+    double depth_mm() const;
+
+    /// Depth that the wheels of a drive met.
+    double met_mm(const ChunkDrive& drive) const;
 };
 
 struct DrivenChunks {

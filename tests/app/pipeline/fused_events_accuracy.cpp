@@ -55,7 +55,9 @@ std::vector<FusedEvent> fused(std::span<const ChunkDrive> drives) {
 }
 
 struct Score {
-    int deep = 0, found = 0, reported = 0, real = 0;
+    int deep = 0, found = 0;        ///< by their depth in the wheel path of the middle of the lane
+    int met = 0, met_and_found = 0; ///< by the depth that two drives or more met
+    int reported = 0, real = 0;
     std::vector<double> off_m;
     double km = 0;
 };
@@ -66,14 +68,24 @@ void add_score(Score& score, const DrivenChunks& driven, const std::vector<Fused
                std::abs(static_cast<double>(event.at_mm) / 1000 - hole.at_m) <= near_m;
     };
     for (const auto& hole : driven.holes) {
-        if (hole.depth_mm > deep_mm && hole.at_m > border_m && hole.at_m < way_m - border_m) {
-            const auto event = std::ranges::find_if(
-                events, [&](const FusedEvent& each) { return is_near(each, hole); });
+        if (!(hole.at_m > border_m && hole.at_m < way_m - border_m)) {
+            continue;
+        }
+        const auto event = std::ranges::find_if(
+            events, [&](const FusedEvent& each) { return is_near(each, hole); });
+        const bool is_found = event != events.end();
+        const auto meetings = std::ranges::count_if(
+            driven.drives, [&](const ChunkDrive& drive) { return hole.met_mm(drive) > deep_mm; });
+        if (hole.depth_mm() > deep_mm) {
             ++score.deep;
-            if (event != events.end()) {
-                ++score.found;
-                score.off_m.push_back(static_cast<double>(event->at_mm) / 1000 - hole.at_m);
-            }
+            score.found += is_found ? 1 : 0;
+        }
+        if (meetings >= 2) {
+            ++score.met;
+            score.met_and_found += is_found ? 1 : 0;
+        }
+        if (is_found) {
+            score.off_m.push_back(static_cast<double>(event->at_mm) / 1000 - hole.at_m);
         }
     }
     for (const auto& event : events) {
@@ -99,7 +111,8 @@ double rms(const std::vector<double>& values) {
 }
 
 /// A smooth and a poor road, each driven by three cars with wrong files, errors of place of 1.5 m
-/// and lane keeping of 0.15 m, by the sensors that `import` uses.
+/// and lane keeping of 0.15 m, by the sensors that `import` uses. Wheels pass beside some holes,
+/// which are 0.6 m wide: recall counts those that two drives met.
 TEST(FusedEvents, FindPotholesDeeperThan25MmFromThreePasses) {
     Score score;
     for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
@@ -112,15 +125,21 @@ TEST(FusedEvents, FindPotholesDeeperThan25MmFromThreePasses) {
                                            .place_sd_m = 1.5});
         add_score(score, driven, fused(driven.drives));
     }
-    std::printf("recall %d of %d, precision %d of %d, place %.2f m rms\n",
-                score.found,
-                score.deep,
-                score.real,
-                score.reported,
-                rms(score.off_m));
+    std::printf(
+        "recall %d of %d that two drives met, %d of %d of the lane; precision %d of %d, place "
+        "%.2f m rms\n",
+        score.met_and_found,
+        score.met,
+        score.found,
+        score.deep,
+        score.real,
+        score.reported,
+        rms(score.off_m));
+    ASSERT_GE(score.met, 30);
     ASSERT_GE(score.deep, 30);
     ASSERT_GE(score.reported, 30);
-    EXPECT_GE(share(score.found, score.deep), 0.9);
+    EXPECT_GE(share(score.met_and_found, score.met), 0.9);
+    EXPECT_GE(share(score.found, score.deep), 0.8);
     EXPECT_GE(share(score.real, score.reported), 0.9);
     EXPECT_LE(rms(score.off_m), 2);
 }

@@ -32,7 +32,7 @@ protected:
 
     std::string at(const char* name) const { return (folder_ / name).string(); }
 
-    Run run(const char* command, std::vector<std::string> words) const {
+    macadam::testing::Run run(const char* command, std::vector<std::string> words) const {
         words.insert(words.begin(), {command, at("roads.gpkg")});
         return run_macadam(words);
     }
