@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace macadam {
 namespace {
 
@@ -25,6 +27,19 @@ std::int32_t number_in(const Statement& row, int column) {
     return static_cast<std::int32_t>(row.integer(column));
 }
 
+/// Returns a stored standard deviation, by which fusion divides.
+std::int32_t sd_in(const Database& database, const Statement& row, int column, const char* name) {
+    const auto value = row.integer(column);
+    if (value <= 0 || value > std::numeric_limits<std::int32_t>::max()) {
+        throw InputError{fmt::format("{}: {} of an event is {}, expected more than 0; the database "
+                                     "was modified by another program",
+                                     database.file().string(),
+                                     name,
+                                     value)};
+    }
+    return static_cast<std::int32_t>(value);
+}
+
 } // namespace
 
 const char* const event_columns = "event.kind, event.track, event.at_mm, event.place_sd_mm,"
@@ -40,9 +55,9 @@ PassEvent event_in(const Database& database,
             .kind = enumerator(database, row.integer(first), EventKind::rail, "kind"),
             .track = enumerator(database, row.integer(first + 1), WheelTrack::both, "track"),
             .at_mm = row.integer(first + 2),
-            .place_sd_mm = number_in(row, first + 3),
+            .place_sd_mm = sd_in(database, row, first + 3, "place_sd_mm"),
             .size_um = number_in(row, first + 4),
-            .sd_um = number_in(row, first + 5),
+            .sd_um = sd_in(database, row, first + 5, "sd_um"),
             .length_mm = number_in(row, first + 6)};
 }
 

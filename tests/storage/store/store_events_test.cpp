@@ -252,6 +252,12 @@ TEST(StoreEvents, ThatNobodyKnowsAreNamed) {
     EXPECT_THAT(refusal_of([&] { store.events({}); }),
                 HasSubstr("a.gpkg: kind of an event is 9, expected 0 to 3; the database was "
                           "modified by another program"));
+    {
+        Database database{file, Database::Access::write};
+        database.run("UPDATE event SET kind = 0, sd_um = 0");
+    }
+    EXPECT_THAT(refusal_of([&] { store.events({}); }),
+                HasSubstr("a.gpkg: sd_um of an event is 0, expected more than 0"));
 }
 
 // ------------------------------------------------------------------------------------- exports
