@@ -397,7 +397,8 @@ ImportTotals import_trips(RoadStore& store,
                     together.push_back({&outcome->record,
                                         outcome->trip.passes,
                                         outcome->trip.traces,
-                                        work.readmit});
+                                        work.readmit,
+                                        outcome->trip.events});
                 }
                 const auto is_new = store.add_trips(together);
                 for (std::size_t i = 0; i < outcomes.size(); ++i) { // a call may repeat a trip
@@ -432,8 +433,9 @@ ImportTotals reprocess_trips(RoadStore& store,
         .take =
             [&](std::span<TripOutcome* const> outcomes) {
                 for (auto* const outcome : outcomes) {
-                    const bool is_kept = store.stage_trip(
-                        outcome->record, outcome->trip.passes, outcome->trip.traces);
+                    const auto& trip = outcome->trip;
+                    const bool is_kept =
+                        store.stage_trip(outcome->record, trip.passes, trip.traces, trip.events);
                     outcome->result = is_kept ? Result::reprocessed : Result::unknown;
                 }
             }};

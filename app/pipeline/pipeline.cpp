@@ -4,6 +4,7 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/common/gravity.hpp"
+#include "estimator/events/event_detection.hpp"
 #include "estimator/motion/gnss_latency.hpp"
 #include "estimator/motion/make_odometer.hpp"
 #include "estimator/motion/mounting.hpp"
@@ -209,6 +210,24 @@ std::string no_pass_reason(const IriTrace& roughness, const MatchedTrace& matche
                                   : "no segment was driven completely enough: no pass";
 }
 
+/// Detects the events of all runs; `std::nullopt` without elevations.
+std::optional<std::vector<RoadEvent>> events_in(const IriTrace& roughness) {
+    std::optional<std::vector<RoadEvent>> events;
+    for (const auto& run : roughness.runs) {
+        if (!run.profile.centre_m.empty()) {
+            events = events.value_or(std::vector<RoadEvent>{});
+            std::ranges::move(detect_events(run.profile), std::back_inserter(*events));
+        }
+    }
+    return events;
+}
+
+std::vector<Pass> without_parts(std::span<const DrivenPass> driven) {
+    std::vector<Pass> passes;
+    std::ranges::transform(driven, std::back_inserter(passes), &DrivenPass::pass);
+    return passes;
+}
+
 void expect_sensors(const TripLog& trip, const std::optional<SensorSet>& sensors) {
     if (sensors && (sensors->roll || sensors->pitch || sensors->yaw) && trip.gyro.t_s.empty()) {
         throw InputError{
@@ -364,7 +383,10 @@ TripResult passes_of(TripLog trip,
                      const PipelineConfig& config) {
     std::vector<std::string> warnings;
     trip = with_latency(std::move(trip), warnings);
-    auto trace = trace_of(trip, vehicle, config);
+    auto with_profile = config;
+    with_profile.estimator.profile = true;
+    auto trace = trace_of(trip, vehicle, with_profile);
+    const auto events = events_in(trace.roughness);
     const auto kept = kept_of(trip, trace.odometer, config.trim);
     trace.use = without_vibration_outside(std::move(trace.use), trip, trace.odometer, kept);
     const double distance_m = recorded_m(trip, trace.odometer, kept, config.odometer.max_gap_s);
@@ -379,16 +401,17 @@ TripResult passes_of(TripLog trip,
 
     const auto kept_match = trimmed(matched, kept, roads);
     const auto begin_ms = begin_of(kept, trace.odometer);
-    auto passes = extract_passes(trace.roughness, kept_match, roads, vehicle, config.pass);
+    const auto driven = driven_passes(trace.roughness, kept_match, roads, vehicle, config.pass);
     auto traces = extract_traces(trace.roughness, kept_match, roads, vehicle, config.pass);
     if (!kept.is_whole) {
         warnings.push_back(trim_text(kept, trace.odometer.whole_m(), config.trim));
     }
-    if (passes.empty() && begin_ms) {
+    if (driven.empty() && begin_ms) {
         warnings.push_back(no_pass_reason(trace.roughness, matched));
     }
-    return {.passes = counting_from(begin_ms.value_or(0), std::move(passes)),
+    return {.passes = counting_from(begin_ms.value_or(0), without_parts(driven)),
             .traces = std::move(traces),
+            .events = events ? std::optional{place_events(*events, driven)} : std::nullopt,
             .rows = account(trip, trace.use),
             .begin_ms = begin_ms,
             .distance_m = distance_m,

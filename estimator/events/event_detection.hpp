@@ -13,6 +13,9 @@ struct EventConfig {
     double min_score = 6;    ///< standard deviations of road and estimate
     double min_hole_mm = 15; ///< of potholes and bumps
     double min_line_mm = 5;  ///< of joints that are steps
+
+    /// Of potholes and bumps in the mean of both tracks, which has half of a hole in one of them.
+    double min_mean_hole_mm = 10;
 };
 
 /// Detects potholes, bumps, joints and rails in the profile that the smoother estimated.

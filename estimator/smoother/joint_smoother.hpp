@@ -1,7 +1,7 @@
 #pragma once
 
-#include "estimator/smoother/noise_level.hpp"
-#include "estimator/smoother/road_prior_scale.hpp"
+#include "estimator/smoother/adaptation/noise_level.hpp"
+#include "estimator/smoother/adaptation/road_prior_scale.hpp"
 #include "estimator/vehicle/vehicle.hpp"
 
 namespace macadam {

@@ -1,7 +1,7 @@
 #include "estimator/smoother/wheel_order.hpp"
 
 #include "estimator/common/statistics.hpp"
-#include "estimator/smoother/road_prior_scale.hpp"
+#include "estimator/smoother/adaptation/road_prior_scale.hpp"
 
 #include <cmath>
 #include <complex>

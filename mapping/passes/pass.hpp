@@ -3,6 +3,7 @@
 #include "estimator/roughness/roughness_trace.hpp"
 #include "mapping/matching/map_match.hpp"
 #include "mapping/network/segment.hpp"
+#include "mapping/passes/segment_overlap.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -52,6 +53,12 @@ struct Headline {
 };
 std::optional<Headline> headline_of(const IriMean& mean);
 
+/// Pass with the intervals of its segment that the trip drove, in driving order.
+struct DrivenPass {
+    Pass pass;
+    std::vector<SegmentOverlap> parts;
+};
+
 /// Joins roughness and matched positions by travel: averages the trace over each segment that the
 /// trip drove. Ordered as driven.
 ///
@@ -61,6 +68,13 @@ std::optional<Headline> headline_of(const IriMean& mean);
 ///
 /// A pass is omitted if less of the segment than `min_cover` has an estimate, or if the match
 /// confidence is below `min_confidence`.
+std::vector<DrivenPass> driven_passes(const IriTrace& roughness,
+                                      const MatchedTrace& matched,
+                                      const RoadNetwork& roads,
+                                      const Vehicle& vehicle,
+                                      const PassConfig& config);
+
+/// The same without the intervals.
 std::vector<Pass> extract_passes(const IriTrace& roughness,
                                  const MatchedTrace& matched,
                                  const RoadNetwork& roads,

@@ -115,6 +115,8 @@ void mark_segments(Database& database, std::int64_t trip) {
 void erase(Database& database, std::int64_t trip) {
     for (const char* const sql : {"DELETE FROM pass WHERE trip = ?",
                                   "DELETE FROM trace WHERE trip = ?",
+                                  "DELETE FROM event WHERE trip = ?",
+                                  "DELETE FROM event_search WHERE trip = ?",
                                   "DELETE FROM row_reason WHERE trip = ?",
                                   "DELETE FROM published_pending WHERE trip = ?",
                                   "DELETE FROM trip WHERE id = ?"}) {

@@ -31,6 +31,8 @@ CREATE TEMP VIEW row_reason AS SELECT * FROM main.row_reason
     WHERE trip IN (SELECT id FROM main.trip WHERE reference_ppm IS NOT NULL);
 CREATE TEMP VIEW vehicle AS SELECT * FROM main.vehicle WHERE 0;
 CREATE TEMP VIEW trace AS SELECT * FROM main.trace WHERE 0;
+CREATE TEMP VIEW event AS SELECT * FROM main.event WHERE 0;
+CREATE TEMP VIEW event_search AS SELECT * FROM main.event_search WHERE 0;
 CREATE TEMP VIEW strip_state AS SELECT * FROM main.strip_state WHERE 0;
 CREATE TEMP VIEW segment_dirty AS SELECT * FROM main.segment_dirty WHERE 0;
 CREATE TEMP VIEW strip_dirty AS SELECT * FROM main.strip_dirty WHERE 0;

@@ -1,6 +1,6 @@
-#include "estimator/smoother/noise_level.hpp"
+#include "estimator/smoother/adaptation/noise_level.hpp"
 
-#include "estimator/smoother/box_smoothing.hpp"
+#include "estimator/smoother/adaptation/box_smoothing.hpp"
 
 #include <algorithm>
 #include <cmath>

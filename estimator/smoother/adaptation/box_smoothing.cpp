@@ -1,4 +1,4 @@
-#include "estimator/smoother/box_smoothing.hpp"
+#include "estimator/smoother/adaptation/box_smoothing.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "storage/store/segment_query.hpp"
+#include "storage/store/rows/segment_query.hpp"
 
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/text/case_folding.hpp"

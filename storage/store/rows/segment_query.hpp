@@ -2,7 +2,7 @@
 
 #include "storage/sqlite/row_callback.hpp"
 #include "storage/sqlite/statement_cache.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/schema/segment_filter.hpp"
 
 namespace macadam {
 

@@ -1,4 +1,4 @@
-#include "estimator/smoother/road_prior_scale.hpp"
+#include "estimator/smoother/adaptation/road_prior_scale.hpp"
 
 #include <gmock/gmock.h>
 

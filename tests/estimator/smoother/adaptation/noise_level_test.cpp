@@ -1,6 +1,6 @@
-#include "estimator/smoother/noise_level.hpp"
+#include "estimator/smoother/adaptation/noise_level.hpp"
 
-#include "driven_road.hpp"
+#include "estimator/smoother/driven_road.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "estimator/smoother/spectrum_shape.hpp"
+#include "estimator/smoother/adaptation/spectrum_shape.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
-#include "estimator/smoother/road_prior_scale.hpp"
+#include "estimator/smoother/adaptation/road_prior_scale.hpp"
 
-#include "estimator/smoother/box_smoothing.hpp"
+#include "estimator/smoother/adaptation/box_smoothing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "estimator/smoother/filter/road_smoother.hpp"
-#include "estimator/smoother/spectrum_shape.hpp"
+#include "estimator/smoother/adaptation/spectrum_shape.hpp"
 
 namespace macadam {
 
