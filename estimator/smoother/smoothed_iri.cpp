@@ -166,8 +166,8 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     auto passage = passage_of(stretch, vehicle, config);
     if (passage.travel_m.size() < min_tuning_samples || !is_felt(passage)) {
         return {.vehicle = vehicle,
-                .friction_n = vehicle.half_car.friction_n.value_or(
-                    usual_friction_n(vehicle.half_car).mean),
+                .friction_n =
+                    vehicle.half_car.friction_n.value_or(usual_friction_n(vehicle.half_car).mean),
                 .iri_sd = untuned_sd};
     }
     const std::size_t count = std::min(passage.travel_m.size(), tuning_samples);

@@ -125,7 +125,8 @@ RoadLevel even_level(const RoadGrid& grid, ObservedModes felt, double slope_m) {
     RoadLevel level{.felt = felt,
                     .prior = {},
                     .level = std::vector<Increment>(grid.cells, even),
-                    .tail = std::vector<Pair>(grid.cells, Pair{1, 1})};
+                    .tail = std::vector<Pair>(grid.cells, Pair{1, 1}),
+                    .shape = {}};
     level.prior.increments = level.level;
     return level;
 }

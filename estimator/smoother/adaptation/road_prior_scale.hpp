@@ -1,7 +1,7 @@
 #pragma once
 
-#include "estimator/smoother/filter/road_smoother.hpp"
 #include "estimator/smoother/adaptation/spectrum_shape.hpp"
+#include "estimator/smoother/filter/road_smoother.hpp"
 
 namespace macadam {
 
@@ -20,8 +20,8 @@ struct RoadLevel {
     RoadPrior prior; ///< input of the filter: level times factors
     std::vector<Increment> level;
     std::vector<Pair> tail; ///< factors of the variances, near 1
-    SpectrumShape shape;
-    int rounds = 0;         ///< number of completed adaptations
+    SpectrumShape shape{};
+    int rounds = 0; ///< number of completed adaptations
 };
 
 /// Returns a uniform road as a starting point.

@@ -34,13 +34,11 @@ constexpr double min_weight = 1e-6; // of an octave without a mode
 /// Returns the power at a frequency, interpolated between the middles of the octaves.
 double power_at(const SpectrumShape& shape, double cycles_per_station, double cell_m) {
     const double wave_m = cell_m / cycles_per_station;
-    const double octave = std::clamp(std::log2(wave_m / SpectrumShape::shortest_m) - 0.5,
-                                     0.0,
-                                     static_cast<double>(octaves - 1));
+    const double octave = std::clamp(
+        std::log2(wave_m / SpectrumShape::shortest_m) - 0.5, 0.0, static_cast<double>(octaves - 1));
     const auto below = std::min(static_cast<std::size_t>(octave), octaves - 2);
-    return std::exp(std::lerp(shape.log_level[below],
-                              shape.log_level[below + 1],
-                              octave - static_cast<double>(below)));
+    return std::exp(std::lerp(
+        shape.log_level[below], shape.log_level[below + 1], octave - static_cast<double>(below)));
 }
 
 /// Returns the power of an autoregression with increments of variance 1 in the middle of an octave.

@@ -1,21 +1,19 @@
 // Thirty cars of which nothing is known, and 2 km of reference survey: simulated, imported as the
 // average car, calibrated, and compared with the truth.
 
+#include "app/simulate/scored_world.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -24,21 +22,8 @@ namespace macadam::testing {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr int cars = 30;
-
-/// Uniform values that are the same with every standard library.
-class Uniform {
-public:
-    explicit Uniform(unsigned seed) : random_{seed} {}
-    double in(double low, double high) {
-        return low + (high - low) * static_cast<double>(random_()) / 4294967296.0;
-    }
-
-private:
-    std::mt19937 random_;
-};
 
 /// Cars that differ from the average car in mass by up to 25 %, damping 30 %, tyre 20 %, with
 /// friction to 50 N.
@@ -148,29 +133,6 @@ void write_survey(const fs::path& store, const fs::path& truth, const fs::path& 
     ASSERT_GE(surveyed_m, 2000);
 }
 
-Run ran(const std::vector<std::string>& words) {
-    auto run = run_macadam(words);
-    EXPECT_EQ(run.exit_status, 0) << run.err;
-    return run;
-}
-
-struct Score {
-    double bias, rmse_100m, coverage; ///< relative
-};
-
-Score score_of(const char* name, const std::string& store, const std::string& truth) {
-    const auto all =
-        Json::parse(ran({"info", store, "--json", "--truth", truth}).out)["truth"]["all"];
-    const double mean = all["mean_truth"];
-    const Score score{all["bias_share"], all["rmse_100m"].get<double>() / mean, all["coverage_90"]};
-    std::printf("%-28s bias %+.1f %%, RMSE of 100 m %.1f %%, in 90 %%: %.0f %%\n",
-                name,
-                100 * score.bias,
-                100 * score.rmse_100m,
-                100 * score.coverage);
-    return score;
-}
-
 TEST(UnknownCars, AreRightAfterTwoKilometresOfSurvey) {
     const auto folder = fresh_folder();
     const auto at = [&](const char* name) { return (folder / name).string(); };
@@ -203,9 +165,9 @@ TEST(UnknownCars, AreRightAfterTwoKilometresOfSurvey) {
     const auto store = at("roads.gpkg"), truth = at("fleet/truth.csv");
     ran({"init", store, "--network", at("fleet/network.osm.pbf")});
     ran({"import", store, at("trips"), "--vehicle", "generic"});
-    score_of("imported", store, truth);
+    print("imported", score_of(store, truth));
     ran({"calibrate", store});
-    score_of("calibrated by each other", store, truth);
+    print("calibrated by each other", score_of(store, truth));
     write_survey(store, truth, at("survey.csv"));
     ran({"import",
          store,
@@ -216,7 +178,8 @@ TEST(UnknownCars, AreRightAfterTwoKilometresOfSurvey) {
          "--accuracy",
          "2"});
     ran({"calibrate", store});
-    const auto last = score_of("calibrated with the survey", store, truth);
+    const auto last = score_of(store, truth).all;
+    print("calibrated with the survey", score_of(store, truth));
     // What the cars misread differs from road to road by 6.5 %, so that 2 km on a few roads know
     // the level to about 2 %: two sds of it.
     EXPECT_NEAR(last.bias, 0, 0.04);

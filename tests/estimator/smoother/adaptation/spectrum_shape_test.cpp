@@ -18,9 +18,9 @@ constexpr SpectrumShape bent{{-1.2, -0.9, -0.5, 0, 0.4, 1.2, 1.5}};
 double power(const Autoregression& process, double wave_m) {
     std::complex<double> sum = 1;
     for (std::size_t i = 0; i < process.weights.size(); ++i) {
-        sum -= process.weights[i] * std::polar(1.0,
-                                               -2 * std::numbers::pi * cell_m / wave_m *
-                                                   static_cast<double>(i + 1));
+        sum -=
+            process.weights[i] *
+            std::polar(1.0, -2 * std::numbers::pi * cell_m / wave_m * static_cast<double>(i + 1));
     }
     return process.increment_variance / std::norm(sum);
 }

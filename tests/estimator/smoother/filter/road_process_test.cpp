@@ -52,8 +52,10 @@ double spectrum_of(const RoadPrior& prior, double per_m) {
 
 /// The autoregression of the changes, of a road that forgets: one filter after the other.
 TEST(RoadProcess, HasTheSpectrumOfItsAutoregression) {
-    for (const std::vector<double>& weights :
-         {std::vector<double>{}, {0.4}, {0.5, -0.3, 0.1}, {0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.3}}) {
+    for (const std::vector<double>& weights : {std::vector<double>{},
+                                               {0.4},
+                                               {0.5, -0.3, 0.1},
+                                               {0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.3}}) {
         const auto prior = prior_of(weights, grid_of(4000));
         for (const double per_m : {0.005, 0.05, 0.4, 1.3, 2.0}) {
             const auto z = std::polar(1.0, -2 * std::numbers::pi * per_m * cell_m);
