@@ -38,9 +38,9 @@ std::optional<FusedEvent> published(FusedEvent event, const ReleaseRule& rule) {
     event.size_um = rounded(event.size_um, size_step_um);
     event.sd_um = rounded_up(event.sd_um, size_step_um);
     event.length_mm = rounded(event.length_mm, length_step_mm);
-    event.passes = told_count(event.passes);
-    event.passes_over = told_count(event.passes_over);
-    event.vehicles = told_count(event.vehicles);
+    event.passes = published_count(event.passes);
+    event.passes_over = published_count(event.passes_over);
+    event.vehicles = published_count(event.vehicles);
     event.first_seen_ms = month_of(event.first_seen_ms);
     event.last_seen_ms = month_of(event.last_seen_ms);
     return event;

@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// Coarsens an event for publication: dates to months, counts by told_count(), its place to metres,
+/// Coarsens an event for publication: dates to months, counts by published_count(), its place to metres,
 /// its size to 5 mm. `std::nullopt` if fewer cars report it than the rule asks for.
 ///
 /// \param event  with its cars, fused from passes that are published
