@@ -156,6 +156,9 @@ RoadLevel adapted(RoadLevel level, const SmoothedRoad& road, const RoadGrid& gri
         level.level[i] = level_after(level.level[i], moments, i, level.felt, cross);
         level.level[i].mean *= rescaled;
         level.level[i].cross *= std::sqrt(rescaled);
+        if (!level.felt.half) {
+            level.level[i].half *= rescaled;
+        }
         level.prior.increments[i] = times(level.level[i], level.tail[i]);
     }
     ++level.rounds;

@@ -175,7 +175,7 @@ constexpr std::array messages{
     Message{"event.severity", "Schwere"},
     Message{"event.size_mm", "Größe, mm"},
     Message{"event.chainage", "Station"},
-    Message{"event.position", "Lage"},
+    Message{"event.position", "Position"},
     Message{"event.last_seen", "Zuletzt"},
     Message{"event.pothole", "Schlagloch"},
     Message{"event.bump", "Erhebung"},

@@ -1,7 +1,5 @@
 #include "storage/store/fusion/fusion_settings.hpp"
 
-#include "storage/store/schema/schema_check.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,13 +28,6 @@ constexpr std::array settings{
 
 std::int64_t whole(double value, double unit) {
     return std::llround(value * unit);
-}
-
-/// A database of an earlier program lacks the table of periods until a calibration finds some.
-bool has_periods(Database& database) {
-    return database.number("SELECT count(*) FROM (SELECT name FROM main.sqlite_schema UNION ALL"
-                           " SELECT name FROM temp.sqlite_schema) WHERE name ="
-                           " 'calibration_period'") > 0;
 }
 
 CarPeriod period_in(const Statement& row) {
@@ -130,9 +121,7 @@ CarRecords read_calibrations(Database& database) {
             .relative_sd = static_cast<double>(select.integer(3)) / millionths};
         cars[select.integer(0)] = {calibration, select.integer(4), select.integer(5)};
     }
-    if (has_periods(database)) {
-        read_periods(database, cars);
-    }
+    read_periods(database, cars);
     return cars;
 }
 
@@ -147,25 +136,15 @@ void write_calibrations(Database& database, const CarRecords& cars) {
                    car.trips,
                    car.passes);
     }
-    const bool has_table = has_periods(database);
-    if (has_table) {
-        database.run("DELETE FROM calibration_period");
-    }
-    if (std::ranges::any_of(cars, [](const auto& car) { return !car.second.periods.empty(); })) {
-        if (!has_table) {
-            database.run(own_schema().at({"table", "calibration_period"}).sql);
-        }
-        write_periods(database, cars);
-    }
+    database.run("DELETE FROM calibration_period");
+    write_periods(database, cars);
 }
 
 void erase_calibrations_without_trips(Database& database) {
     constexpr const char* without_trips =
         " WHERE vehicle NOT IN (SELECT vehicle FROM trip WHERE vehicle IS NOT NULL)";
     database.run(std::string{"DELETE FROM calibration"} + without_trips);
-    if (has_periods(database)) {
-        database.run(std::string{"DELETE FROM calibration_period"} + without_trips);
-    }
+    database.run(std::string{"DELETE FROM calibration_period"} + without_trips);
 }
 
 ValidFrom::ValidFrom(Database& database)

@@ -37,10 +37,6 @@ bool is_known(const SchemaObject& object) {
     return is_table || is_own_index;
 }
 
-/// Table that was added without a new version of the database: it is created when it gets its first
-/// rows (storage/store/fusion/fusion_settings.hpp).
-constexpr std::string_view table_created_on_demand = "calibration_period";
-
 /// Object kind for messages; `type` may be any text.
 std::string kind_of(const std::string& type) {
     if (type == "index") {
@@ -97,7 +93,7 @@ void expect_no_foreign_object(Database& database, const Schema& found, const Sch
 
 void expect_whole_schema(Database& database, const Schema& found, const Schema& expected) {
     for (const auto& [key, object] : expected) {
-        if (!found.contains(key) && object.table != table_created_on_demand) {
+        if (!found.contains(key)) {
             throw InputError{fmt::format("{}: lacks the {} '{}'; the database was modified by "
                                          "another program",
                                          database.file().string(),

@@ -34,8 +34,7 @@ const Schema& own_schema();
 /// \throws InputError  naming the foreign object.
 void expect_no_foreign_object(Database& database, const Schema& found, const Schema& expected);
 
-/// Checks for missing objects. Tables that a program creates when it first needs them may be
-/// missing.
+/// Checks for missing objects.
 ///
 /// \throws InputError  naming the first of `expected` that is missing.
 void expect_whole_schema(Database& database, const Schema& found, const Schema& expected);

@@ -151,20 +151,5 @@ TEST(CarChange, GoesWithTheCarThatIsForgotten) {
     EXPECT_EQ(database.number("SELECT count(*) FROM calibration_period"), 0);
 }
 
-TEST(CarChange, IsFoundInADatabaseOfAnEarlierProgram) {
-    const auto file = test_folder() / "a.gpkg";
-    { town_store(file, 2); }
-    {
-        Database database{file, Database::Access::write};
-        database.run("DROP TABLE calibration_period");
-    }
-    auto store = RoadStore::open(file, RoadStore::Access::write);
-    EXPECT_THAT(store.calibrated_cars(), IsEmpty());
-    store.calibrate(true);
-    EXPECT_THAT(changed_car(store.calibrated_cars()).periods, SizeIs(2));
-    store.forget({.trips = {}, .vehicles = {"car-2"}});
-    EXPECT_THAT(store.calibrated_cars(), SizeIs(3));
-}
-
 } // namespace
 } // namespace macadam::testing
