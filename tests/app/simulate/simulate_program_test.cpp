@@ -82,6 +82,7 @@ protected:
 
 TEST_F(Simulate, TellsTheTruePotholesOfTheRecipe) {
     const std::string header = "way_id,direction,at_m,length_m,depth_mm,track\n";
+    write_file(folder_ / "recipe.toml", recipe + "[[road]]\npotholes_per_km = 0\n");
     ASSERT_EQ(simulate("plain").exit_status, 0);
     EXPECT_EQ(read_file(folder_ / "plain/truth-potholes.csv"), header);
 
