@@ -165,14 +165,14 @@ TEST(ImperfectCars, OfKnownKindsReadRoadsOfEveryRoughness) {
     const auto scores = score_of(store, at("fleet/truth.csv"));
     print("kinds known, cars imperfect", scores);
     ASSERT_EQ(scores.by_level.size(), 4U);
-    // The ratio of HRI to MRI of simulated roads is 0.04 below that of measured ones.
-    EXPECT_NEAR(scores.all.bias, -0.035, 0.03);
-    EXPECT_LE(scores.all.rmse_100m, 0.09);
+    EXPECT_NEAR(scores.all.bias, 0, 0.03);
+    EXPECT_LE(scores.all.rmse_100m, 0.07); // wanted: 0.05
     EXPECT_GE(scores.all.coverage, 0.85);
+    EXPECT_LE(scores.all.coverage, 0.95);
     for (const auto& [band, score] : scores.by_level) {
         ASSERT_GE(score.segments, 30) << band;
         EXPECT_LE(std::abs(score.bias), 0.2) << band; // wanted: 0.06
-        EXPECT_GE(score.coverage, 0.75) << band;      // wanted: 0.80
+        EXPECT_GE(score.coverage, 0.8) << band;
     }
 }
 
