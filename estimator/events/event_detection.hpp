@@ -14,7 +14,7 @@ struct EventConfig {
     double min_hole_mm = 15; ///< of potholes and bumps
     double min_line_mm = 5;  ///< of joints that are steps
 
-    /// Of potholes and bumps in the mean of both tracks, which has half of a hole in one of them.
+    /// The same in the mean of both tracks, where a hole in one track has half its depth.
     double min_mean_hole_mm = 10;
 };
 

@@ -56,9 +56,9 @@ struct EventRule {
     /// passes repeat at one place and kind hardly ever.
     std::int32_t min_passes = 2;
 
-    /// Of the passes over the place since the first report. A pass finds 92 % of the potholes
-    /// deeper than 25 mm; the rest of the allowance is for cars that drive beside the hole. After a
-    /// repair an event ends when twice as many passes found nothing.
+    /// Reporting passes over all passes at this position since the first report. A pass finds 92 %
+    /// of the potholes deeper than 25 mm; the rest of the allowance is for cars that drive beside
+    /// the hole. After a repair an event ends when twice as many passes found nothing.
     double min_share = 1.0 / 3;
 };
 

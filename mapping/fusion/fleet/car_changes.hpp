@@ -18,8 +18,8 @@ struct ChangeSearch {
     int max_rounds = 4;        ///< the rest is found by the next calibration
 };
 
-/// What a car read on one day, relative to the other cars at the same places and about the same
-/// time.
+/// Readings of a car on one day relative to those of the other cars at the same positions and about
+/// the same time.
 struct CarDay {
     std::int64_t utc_ms;     ///< start of its first trip
     SeriesPoint level;       ///< logarithm of the ratio
@@ -27,7 +27,7 @@ struct CarDay {
     std::size_t readings;
 };
 
-/// Where the readings of a fleet come from.
+/// Trips of a fleet, by the number that its readings carry.
 struct FleetTrips {
     std::vector<std::optional<std::int64_t>>
         utc_ms;                     ///< start of each trip; `std::nullopt`: unknown
