@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/atomic/atomic_file_set.hpp"
+#include "storage/exports/feature_table.hpp"
 #include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/text/json.hpp"
@@ -91,36 +92,8 @@ const Columns<EventRecord>& attributes() {
 
 // ---------------------------------------------------------------------------------- GeoPackage
 
-std::string_view sql_type(ColumnType::Kind kind) {
-    using Kind = ColumnType::Kind;
-    return kind == Kind::integer ? "INTEGER"
-           : kind == Kind::real  ? "DOUBLE"
-           : kind == Kind::day   ? "DATE"
-                                 : "TEXT";
-}
-
-std::string events_table() {
-    std::string sql = "CREATE TABLE events (fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,"
-                      " geom POINT";
-    for (const auto& column : attributes()) {
-        sql += fmt::format(", {} {}{}",
-                           column.name,
-                           sql_type(column.type.kind),
-                           column.type.required ? " NOT NULL" : "");
-    }
-    return sql + ")";
-}
-
-std::string insert_event() {
-    std::string sql = "INSERT INTO events VALUES (NULL, ?";
-    for (std::size_t i = 0; i < attributes().size(); ++i) {
-        sql += ", ?";
-    }
-    return sql + ")";
-}
-
 void write_rows(Database& database, const Events& events) {
-    auto insert = database.prepare(insert_event());
+    auto insert = database.prepare(feature_insert("events", attributes()));
     for (const auto& record : events) {
         insert.bind(Blob{geometry_of(record.at)});
         int position = 1;
@@ -150,7 +123,7 @@ void write_geopackage(const RoadStore& store,
         add_geometry_functions(database);
         Transaction all{database, Transaction::Kind::write};
         make_geopackage(database);
-        database.run(events_table());
+        database.run(feature_table("events", "POINT", attributes()));
         write_rows(database, events);
         GeoBox box;
         for (const auto& record : events) {
