@@ -269,8 +269,8 @@ void keep_largest(std::vector<FoundChange>& changes,
     }
 }
 
-/// Leaves a change of scatter that is not of the same days as that of the level to a later search.
-void drop_later_of_two(FoundChange& change) {
+/// Drops a change of scatter on other days than that of the level; a later search finds it.
+void leave_scatter_of_other_days(FoundChange& change) {
     constexpr std::size_t same_days = 2;
     if (change.level && change.log_scatter) {
         const auto& [a, b] = std::minmax(change.level->first, change.log_scatter->first);
@@ -329,7 +329,7 @@ std::vector<FoundChange> find_car_changes(const std::vector<std::vector<CarDay>>
     std::erase_if(changes,
                   [](const FoundChange& change) { return !change.level && !change.log_scatter; });
     for (auto& change : changes) {
-        drop_later_of_two(change);
+        leave_scatter_of_other_days(change);
         const auto& first = change.level ? change.level : change.log_scatter;
         change.utc_ms = days[change.car][first->first].utc_ms;
     }

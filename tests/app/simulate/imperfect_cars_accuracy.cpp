@@ -77,7 +77,7 @@ waviness = 1.8
 patches_per_km = 3
 )";
 
-/// What an owner knows of a kind of car.
+/// Returns the vehicle file that an owner of this kind of car would write.
 std::string vehicle_file(const Kind& kind) {
     return fmt::format("name = \"{}\"\n"
                        "gain = 1.0\n"
@@ -100,7 +100,9 @@ std::string vehicle_file(const Kind& kind) {
                        kind.wheelbase_m / 2);
 }
 
-/// A car of the kind, and how it really is. \param heavier, harder  signs of its errors
+/// Returns the recipe of a car of the kind with errors of its own.
+///
+/// \param heavier, harder  signs of the errors of mass and damping
 std::string car(const Kind& kind, int number, int heavier, int harder, Uniform& uniform) {
     const auto wrong_by = [&](int sign) { return 1 + sign * uniform.in(0.02, 0.1); };
     std::string text = fmt::format("[[car]]\nid = \"{}-{}\"\nlike = \"generic\"\nl_m = 0.77\n"

@@ -106,7 +106,7 @@ Set drives(double speed_kmh, const LiveConfig& config, Vehicle (*car)(Vehicle ve
 
 } // namespace
 
-// The number for both: within 10 % of the offline RMSE.
+// Wanted of both: an RMSE within 10 % of that offline.
 
 /// By all that its sensors say.
 TEST(LiveTrace, OfAKnownCarIsAsNearToTheTruthAsTheWholeTrip) {

@@ -45,7 +45,7 @@ std::vector<double> drawn_changes(const SpectrumShape& shape, std::size_t statio
     return changes;
 }
 
-/// What a smoother that determines these changes wholly finds under a prior.
+/// Returns the smoother's result for a road whose changes the data determine entirely.
 SmoothedRoad seen_under(const RoadPrior& prior, const std::vector<double>& changes) {
     SmoothedRoad road;
     road.perturbed_m.resize(changes.size());
@@ -59,8 +59,7 @@ SmoothedRoad seen_under(const RoadPrior& prior, const std::vector<double>& chang
     return road;
 }
 
-/// Rounds as the smoother has them, on a road that is known wholly (or not at all) from station to
-/// station.
+/// Runs the rounds of the smoother on a road that the data determine entirely, or not at all.
 SpectrumShape found(const std::vector<double>& changes, bool determined) {
     SpectrumShape shape;
     RoadPrior prior;
@@ -91,7 +90,7 @@ TEST(Autoregression, OfAnEvenSpectrumIsARandomWalk) {
     }
 }
 
-/// Twelve stations are 3 m: longer waves share what remains, to a fifth.
+/// Twelve stations span 3 m; waves longer than 6 m are only approximated.
 TEST(Autoregression, HasTheSpectrumThatIsAskedFor) {
     const auto process = autoregression_of(bent, cell_m);
     for (std::size_t octave = 0; octave < SpectrumShape::octaves; ++octave) {
