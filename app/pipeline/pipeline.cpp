@@ -215,7 +215,9 @@ std::optional<std::vector<RoadEvent>> events_in(const IriTrace& roughness) {
     std::optional<std::vector<RoadEvent>> events;
     for (const auto& run : roughness.runs) {
         if (!run.profile.centre_m.empty()) {
-            events = events.value_or(std::vector<RoadEvent>{});
+            if (!events) {
+                events.emplace();
+            }
             std::ranges::move(detect_events(run.profile), std::back_inserter(*events));
         }
     }

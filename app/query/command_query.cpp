@@ -151,7 +151,9 @@ void print_events(const RoadStore& store, const QueryOptions& options, const Con
         std::erase_if(events, [&](const auto& event) { return !is_near(event, *options.near); });
     }
     if (events.empty()) {
-        console.say("no pothole, bump, joint or rail was reported by two passes or more there");
+        console.say(
+            "no pothole, bump, joint or rail was reported by two passes or more there; trips "
+            "that were imported before version 4 are searched by 'macadam reprocess'");
     }
     if (!events.empty() || options.format != "table") {
         print_in(options.format,

@@ -1,5 +1,6 @@
 #include "app/store/car_change_output.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "storage/text/columns.hpp"
 #include "storage/text/utc.hpp"
 
@@ -10,8 +11,6 @@
 
 namespace macadam {
 namespace {
-
-constexpr double interval_90 = 1.645; // two-sided, normal distribution
 
 struct ChangeRow {
     std::string since; ///< day
@@ -36,9 +35,9 @@ const Columns<ChangeRow> columns{
     {"since", as::day, [](auto& r) { return r.since; }},
     {"level", as::real(4), [](auto& r) { return known_if(r.level_changed, r.change.level); }},
     {"level_low", as::real(4), [](auto& r) {
-         return known_if(r.level_changed, r.change.level - interval_90 * r.change.level_sd); }},
+         return known_if(r.level_changed, r.change.level - normal_interval_90 * r.change.level_sd); }},
     {"level_high", as::real(4), [](auto& r) {
-         return known_if(r.level_changed, r.change.level + interval_90 * r.change.level_sd); }},
+         return known_if(r.level_changed, r.change.level + normal_interval_90 * r.change.level_sd); }},
     {"scatter_ratio", as::real(3), [](auto& r) {
          return known_if(r.scatter_changed, r.change.scatter); }},
 };
@@ -48,7 +47,7 @@ std::string level_text(std::string_view car, const ChangeRow& row) {
     return fmt::format("{} reads {:.0f} % (±{:.0f}) {} since {}: tyres, load or mount?\n",
                        car,
                        100 * std::abs(row.change.level),
-                       std::ceil(100 * interval_90 * row.change.level_sd),
+                       std::ceil(100 * normal_interval_90 * row.change.level_sd),
                        row.change.level > 0 ? "higher" : "lower",
                        row.since);
 }

@@ -40,7 +40,8 @@ std::string text_of(const StoreUpgrade& done, const std::filesystem::path& file)
                                           "database"
                                         : "");
     return fmt::format("{}: upgraded from version {} to {}{}\n"
-                       "digest before and after: {}\n",
+                       "digest before and after: {}\n"
+                       "run 'macadam reprocess' to search the trips for potholes\n",
                        file.string(),
                        done.from_version,
                        done.to_version,

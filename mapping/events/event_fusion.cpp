@@ -256,8 +256,8 @@ const SearchedSegment* segment_at(std::span<const SearchedSegment> segments, dou
 
 FusedEvent fused(const Cluster& cluster, const SearchedSegment& segment, const Mean& place) {
     const auto size = size_of(cluster);
-    const double at_m =
-        std::abs(std::clamp(place.value, segment.from_station_m, segment.to_station_m));
+    const auto [low, high] = std::minmax({segment.from_station_m, segment.to_station_m});
+    const double at_m = std::abs(std::clamp(place.value, low, high));
     FusedEvent event{.segment = segment.key,
                      .kind = cluster.front()->event.kind,
                      .track = track_of(cluster),

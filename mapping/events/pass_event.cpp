@@ -10,6 +10,7 @@ namespace {
 
 constexpr double mm_per_m = 1000, um_per_mm = 1000;
 constexpr double max_size_mm = 10'000; // beyond any road
+constexpr double max_length_m = 1000;
 constexpr double min_place_sd_m = 0.1; // the grid of the profile is 0.25 m
 
 /// Interval of travel that a pass covers on its segment.
@@ -49,7 +50,7 @@ double station_m(const SegmentOverlap& overlap, double travel_m) {
 
 bool is_plausible(const RoadEvent& event) {
     return event.size_mm >= 0 && event.size_mm < max_size_mm && event.sd_mm > 0 &&
-           event.sd_mm < max_size_mm && std::isfinite(event.length_m);
+           event.sd_mm < max_size_mm && event.length_m >= 0 && event.length_m < max_length_m;
 }
 
 std::int32_t whole(double value) {

@@ -29,7 +29,8 @@ std::optional<std::int64_t> month_of(const std::optional<std::int64_t>& utc_ms) 
 } // namespace
 
 std::optional<FusedEvent> published(FusedEvent event, const ReleaseRule& rule) {
-    if (min_count(std::set(event.cars.begin(), event.cars.end()), rule) < rule.min_cars) {
+    const auto cars = min_count(std::set(event.cars.begin(), event.cars.end()), rule);
+    if (cars < rule.min_cars) {
         return std::nullopt;
     }
     event.cars.clear();
@@ -40,7 +41,7 @@ std::optional<FusedEvent> published(FusedEvent event, const ReleaseRule& rule) {
     event.length_mm = rounded(event.length_mm, length_step_mm);
     event.passes = published_count(event.passes);
     event.passes_over = published_count(event.passes_over);
-    event.vehicles = published_count(event.vehicles);
+    event.vehicles = published_count(cars);
     event.first_seen_ms = month_of(event.first_seen_ms);
     event.last_seen_ms = month_of(event.last_seen_ms);
     return event;

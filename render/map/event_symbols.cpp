@@ -61,10 +61,13 @@ void draw_events(DrawTarget& canvas,
                  const Palette& colours) {
     for (const auto severity : {Severity::low, Severity::moderate, Severity::high}) {
         for (const auto& event : events) {
+            if (event.severity != severity) {
+                continue;
+            }
             const auto at = to_pixel(frame, event.at);
             const bool is_on_map =
                 map.left <= at.x && at.x <= map.right && map.top <= at.y && at.y <= map.bottom;
-            if (event.severity == severity && is_on_map) {
+            if (is_on_map) {
                 draw_event(canvas, event, at, unit, colours);
             }
         }

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -54,6 +54,9 @@ std::set<SegmentKey> with_neighbours(const std::set<SegmentKey>& keys) {
 Places
 places_of(const RoadStore& store, const SegmentFilter& filter, const std::set<SegmentKey>& keys) {
     Places places;
+    if (keys.empty()) {
+        return places;
+    }
     store.visit(filter, [&](const SegmentRecord& record) {
         if (keys.contains(record.segment.key)) {
             places.emplace(record.segment.key, record);

@@ -169,8 +169,8 @@ constexpr std::array messages{
     Message{"event.remark",
             "Größe: Tiefe eines Schlaglochs, Höhe der anderen, ± ihre Standardabweichung. Wo die "
             "Fahrzeuge die Radspuren nicht unterscheiden, ist es das Mittel beider Spuren: Ein "
-            "Loch in einer Spur ist bis zu doppelt so tief. Lage: Breite, Länge. Überfahrten: "
-            "meldende von allen dort durchsuchten."},
+            "Loch in einer Spur ist bis zu doppelt so tief. Position: Breite, Länge. "
+            "Überfahrten: Anzahl derer, die das Ereignis melden, von allen dort durchsuchten."},
     Message{"event.kind", "Art"},
     Message{"event.severity", "Schwere"},
     Message{"event.size_mm", "Größe, mm"},

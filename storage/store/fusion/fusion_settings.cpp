@@ -1,5 +1,7 @@
 #include "storage/store/fusion/fusion_settings.hpp"
 
+#include "storage/store/rows/segment_row.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +34,7 @@ std::int64_t whole(double value, double unit) {
 
 CarPeriod period_in(const Statement& row) {
     constexpr double max_scatter = 100; // of a database that was modified by another program
-    CarPeriod period{.from_ms = row.known_integer(2), .change = {}, .calibration = {}};
+    CarPeriod period{.from_ms = known_utc_ms(row, 2), .change = {}, .calibration = {}};
     const auto share = [&](int column) {
         return static_cast<double>(row.integer(column)) / millionths;
     };

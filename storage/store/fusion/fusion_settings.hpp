@@ -31,8 +31,7 @@ using CarRecords = std::unordered_map<std::int64_t, CarRecord>; ///< by row of t
 
 CarRecords read_calibrations(Database& database);
 
-/// Replaces all calibrations. Creates the table of periods if a car has some and the database, made
-/// by an earlier program, lacks it.
+/// Replaces all calibrations and their periods.
 void write_calibrations(Database& database, const CarRecords& cars);
 
 /// Deletes the calibrations of cars that have no trips.

@@ -290,10 +290,8 @@ CalibrationReport find_calibration(Database& database,
 
 void build_shadow_calibration(Database& database, const CalibrationReport& calibration) {
     database.run("CREATE TEMP TABLE calibration AS SELECT * FROM main.calibration WHERE 0;"
-                 "CREATE TEMP TABLE calibration_period (vehicle INTEGER, number INTEGER,"
-                 " from_ms INTEGER, gain_ppm INTEGER, offset_um INTEGER, sd_ppm INTEGER,"
-                 " scatter_ppm INTEGER, passes INTEGER, change_ppm INTEGER,"
-                 " change_sd_ppm INTEGER, change_scatter_ppm INTEGER);"
+                 "CREATE TEMP TABLE calibration_period AS SELECT * FROM main.calibration_period"
+                 " WHERE 0;"
                  "CREATE TEMP TABLE fusion_setting (key TEXT PRIMARY KEY NOT NULL, value INTEGER)");
     write_rules(database, calibration);
 }

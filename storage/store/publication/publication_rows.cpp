@@ -38,9 +38,7 @@ CREATE TEMP VIEW segment_dirty AS SELECT * FROM main.segment_dirty WHERE 0;
 CREATE TEMP VIEW strip_dirty AS SELECT * FROM main.strip_dirty WHERE 0;
 CREATE TEMP VIEW state_change AS SELECT * FROM main.state_change WHERE 0;
 CREATE TEMP VIEW calibration AS SELECT * FROM main.calibration WHERE 0;
-CREATE TEMP VIEW calibration_period AS SELECT 0 AS vehicle, 0 AS number, 0 AS from_ms,
-    0 AS gain_ppm, 0 AS offset_um, 0 AS sd_ppm, 0 AS scatter_ppm, 0 AS passes, 0 AS change_ppm,
-    0 AS change_sd_ppm, 0 AS change_scatter_ppm WHERE 0; -- the table may be missing
+CREATE TEMP VIEW calibration_period AS SELECT * FROM main.calibration_period WHERE 0;
 CREATE TEMP VIEW audit AS SELECT * FROM main.audit WHERE 0;
 CREATE TEMP VIEW import_note AS SELECT * FROM main.import_note WHERE 0;
 CREATE TEMP VIEW forgotten AS SELECT * FROM main.forgotten WHERE 0;

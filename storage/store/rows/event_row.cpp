@@ -1,10 +1,9 @@
 #include "storage/store/rows/event_row.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/store/rows/segment_row.hpp"
 
 #include <fmt/format.h>
-
-#include <limits>
 
 namespace macadam {
 namespace {
@@ -23,21 +22,39 @@ Enum enumerator(const Database& database, std::int64_t number, Enum last, const 
     return static_cast<Enum>(number);
 }
 
-std::int32_t number_in(const Statement& row, int column) {
-    return static_cast<std::int32_t>(row.integer(column));
+// Of a stored number, in um, mm or passes: room for sums and rounding in 32 bits.
+constexpr std::int64_t max_number = 1'000'000'000;
+
+constexpr std::int64_t max_at_mm = 1'000'000'000'000; // along a way: more than around the globe
+
+/// Returns a stored number from `min` to `max`.
+std::int64_t number_in(const Database& database,
+                       const Statement& row,
+                       int column,
+                       const char* name,
+                       std::int64_t min,
+                       std::int64_t max) {
+    const auto value = row.integer(column);
+    if (value < min || value > max) {
+        throw InputError{fmt::format("{}: {} of an event is {}, expected {} to {}; the database "
+                                     "was modified by another program",
+                                     database.file().string(),
+                                     name,
+                                     value,
+                                     min,
+                                     max)};
+    }
+    return value;
+}
+
+std::int32_t
+number_in(const Database& database, const Statement& row, int column, const char* name) {
+    return static_cast<std::int32_t>(number_in(database, row, column, name, 0, max_number));
 }
 
 /// Returns a stored standard deviation, by which fusion divides.
 std::int32_t sd_in(const Database& database, const Statement& row, int column, const char* name) {
-    const auto value = row.integer(column);
-    if (value <= 0 || value > std::numeric_limits<std::int32_t>::max()) {
-        throw InputError{fmt::format("{}: {} of an event is {}, expected more than 0; the database "
-                                     "was modified by another program",
-                                     database.file().string(),
-                                     name,
-                                     value)};
-    }
-    return static_cast<std::int32_t>(value);
+    return static_cast<std::int32_t>(number_in(database, row, column, name, 1, max_number));
 }
 
 } // namespace
@@ -54,11 +71,11 @@ PassEvent event_in(const Database& database,
             .occurrence = occurrence,
             .kind = enumerator(database, row.integer(first), EventKind::rail, "kind"),
             .track = enumerator(database, row.integer(first + 1), WheelTrack::both, "track"),
-            .at_mm = row.integer(first + 2),
+            .at_mm = number_in(database, row, first + 2, "at_mm", 0, max_at_mm),
             .place_sd_mm = sd_in(database, row, first + 3, "place_sd_mm"),
-            .size_um = number_in(row, first + 4),
+            .size_um = number_in(database, row, first + 4, "size_um"),
             .sd_um = sd_in(database, row, first + 5, "sd_um"),
-            .length_mm = number_in(row, first + 6)};
+            .length_mm = number_in(database, row, first + 6, "length_mm")};
 }
 
 const char* const published_event_columns =
@@ -79,11 +96,11 @@ FusedEvent published_event_in(const Database& database,
             .size_um = event.size_um,
             .sd_um = event.sd_um,
             .length_mm = event.length_mm,
-            .passes = number_in(row, first + event_column_count),
-            .passes_over = number_in(row, first + event_column_count + 1),
-            .vehicles = number_in(row, first + event_column_count + 2),
-            .first_seen_ms = row.known_integer(first + event_column_count + 3),
-            .last_seen_ms = row.known_integer(first + event_column_count + 4)};
+            .passes = number_in(database, row, first + event_column_count, "passes"),
+            .passes_over = number_in(database, row, first + event_column_count + 1, "passes_over"),
+            .vehicles = number_in(database, row, first + event_column_count + 2, "vehicles"),
+            .first_seen_ms = known_utc_ms(row, first + event_column_count + 3),
+            .last_seen_ms = known_utc_ms(row, first + event_column_count + 4)};
 }
 
 void write_published_event(Statement& insert,

@@ -15,8 +15,8 @@ namespace macadam {
 extern const char* const event_columns;
 inline constexpr int event_column_count = 7;
 
-/// \throws InputError  for an unknown kind or track, or an sd of 0, because the database was
-/// modified.
+/// \throws InputError  for an unknown kind or track, or a number out of its range, because the
+/// database was modified.
 PassEvent event_in(const Database& database,
                    const Statement& row,
                    int first,

@@ -36,6 +36,7 @@ TEST(PublishedEvent, CountsCarsOfALostKeyOnce) {
     auto event = reported_by(8);
     EXPECT_FALSE(published(event, {.last_of_key = {4}}));
     EXPECT_TRUE(published(event, {.last_of_key = {5}}));
+    EXPECT_EQ(published(reported_by(15), {.last_of_key = {7}})->vehicles, 5);
 }
 
 TEST(PublishedEvent, IsCoarseInPlaceSizeTimeAndCounts) {

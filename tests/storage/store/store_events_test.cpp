@@ -257,7 +257,19 @@ TEST(StoreEvents, ThatNobodyKnowsAreNamed) {
         database.run("UPDATE event SET kind = 0, sd_um = 0");
     }
     EXPECT_THAT(refusal_of([&] { store.events({}); }),
-                HasSubstr("a.gpkg: sd_um of an event is 0, expected more than 0"));
+                HasSubstr("a.gpkg: sd_um of an event is 0, expected 1 to 1000000000"));
+    {
+        Database database{file, Database::Access::write};
+        database.run("UPDATE event SET sd_um = 1000, size_um = -30000");
+    }
+    EXPECT_THAT(refusal_of([&] { store.events({}); }),
+                HasSubstr("a.gpkg: size_um of an event is -30000, expected 0 to 1000000000"));
+    {
+        Database database{file, Database::Access::write};
+        database.run("UPDATE event SET size_um = 4294997296"); // 30,000 in 32 bits
+    }
+    EXPECT_THAT(refusal_of([&] { store.events({}); }),
+                HasSubstr("a.gpkg: size_um of an event is 4294997296, expected 0 to 1000000000"));
 }
 
 // ------------------------------------------------------------------------------------- exports
