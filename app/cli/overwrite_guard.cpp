@@ -1,22 +1,13 @@
 #include "app/cli/overwrite_guard.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/schema/store_marker.hpp"
 
 #include <fmt/format.h>
 
 namespace fs = std::filesystem;
 
 namespace macadam {
-
-bool is_store(const fs::path& file) {
-    try {
-        RoadStore::open(file, RoadStore::Access::read);
-        return true;
-    } catch (const InputError&) {
-        return false;
-    }
-}
 
 void refuse_to_replace(const fs::path& output, const std::vector<fs::path>& inputs) {
     std::error_code none;

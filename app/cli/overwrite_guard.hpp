@@ -5,9 +5,6 @@
 
 namespace macadam {
 
-/// Returns whether a file is a road database made by 'macadam init'.
-bool is_store(const std::filesystem::path& file);
-
 /// Protects files that cannot be restored.
 /// \throws InputError  if `output` is one of the command's inputs, or a road database.
 void refuse_to_replace(const std::filesystem::path& output,

@@ -66,7 +66,7 @@ std::optional<double> mean_speed_kmh(const std::vector<HistoricPass>& passes) {
 
 } // namespace
 
-SourceSegments segments_by_cars(const RoadStore& store, SegmentFilter filter) {
+SourceSegments segments_by_cars(const StoreReader& store, SegmentFilter filter) {
     filter.cars_alone = !store.surveys().empty();
     SourceSegments segments;
     store.visit(filter, [&](const SegmentRecord& record) {
@@ -83,7 +83,7 @@ SourceSegments segments_by_cars(const RoadStore& store, SegmentFilter filter) {
 }
 
 SourceSegments
-segments_by_car(const RoadStore& store, const SegmentFilter& filter, const std::string& car) {
+segments_by_car(const StoreReader& store, const SegmentFilter& filter, const std::string& car) {
     if (filter.period) {
         throw InputError{"--since and --until select passes of all cars; they cannot be combined "
                          "with --car-a and --car-b"};
@@ -99,13 +99,13 @@ segments_by_car(const RoadStore& store, const SegmentFilter& filter, const std::
     return segments;
 }
 
-std::string car_named(const RoadStore& store, const std::string& name) {
+std::string car_named(const StoreReader& store, const std::string& name) {
     if (store.settings().privacy == PrivacyProfile::crowd) {
         throw InputError{fmt::format("{}: is a crowd database, which tells no cars apart; leave "
                                      "--car-a and --car-b out",
                                      store.file().string())};
     }
-    const auto cars = store.cars();
+    const auto cars = store.usage().cars;
     const auto is_known = [&](const std::string& car) {
         return std::ranges::find(cars, car) != cars.end();
     };
@@ -130,7 +130,7 @@ int number_of_car(const std::vector<std::string>& cars, const std::string& car) 
     return static_cast<int>(std::ranges::find(cars, car) - cars.begin()) + 1;
 }
 
-std::optional<PassesOfCars> passes_of_cars(const RoadStore& store,
+std::optional<PassesOfCars> passes_of_cars(const StoreReader& store,
                                            const std::vector<AgreementPair>& pairs,
                                            const PassesOfInterest& of) {
     if (store.settings().privacy == PrivacyProfile::crowd) {

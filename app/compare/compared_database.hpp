@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mapping/comparison/method_agreement.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <map>
 #include <optional>
@@ -25,24 +25,24 @@ using SourceSegments = std::map<SegmentKey, SourceSegment>;
 /// database that is its latest publication.
 ///
 /// \param filter  conditions of the command line.
-SourceSegments segments_by_cars(const RoadStore& store, SegmentFilter filter);
+SourceSegments segments_by_cars(const StoreReader& store, SegmentFilter filter);
 
 /// Reads the IRI of all segments by one car: the mean of its passes, weighted by the inverse of
 /// their variances, as imported: neither aligned nor calibrated.
 ///
 /// \param car  its pseudonym (car_named).
 SourceSegments
-segments_by_car(const RoadStore& store, const SegmentFilter& filter, const std::string& car);
+segments_by_car(const StoreReader& store, const SegmentFilter& filter, const std::string& car);
 
 /// Returns the pseudonym of a car, given by vehicle_id or pseudonym.
 ///
 /// \throws InputError  for a crowd database, whose cars are never told apart, and for a car that
 ///                     the database does not know.
-std::string car_named(const RoadStore& store, const std::string& name);
+std::string car_named(const StoreReader& store, const std::string& name);
 
 /// Returns the number by which 'info' and reports call a car: pseudonyms stay in the database.
 ///
-/// \param cars  RoadStore::cars().
+/// \param cars  StoreUsage::cars.
 int number_of_car(const std::vector<std::string>& cars, const std::string& car);
 
 /// Passes of cars over compared segments, by car and speed.
@@ -60,7 +60,7 @@ struct PassesOfInterest {
 
 /// Reads the chosen passes over the segments of the pairs. `std::nullopt` for a crowd database:
 /// single cars and speeds are not published.
-std::optional<PassesOfCars> passes_of_cars(const RoadStore& store,
+std::optional<PassesOfCars> passes_of_cars(const StoreReader& store,
                                            const std::vector<AgreementPair>& pairs,
                                            const PassesOfInterest& of);
 

@@ -57,14 +57,14 @@ SourceName name_of(const SourceOption& source, const SourceOption& other, const 
 
 /// A source whose values belong to segments.
 struct SegmentSource {
-    std::optional<RoadStore> store; ///< of a database
-    std::string car;                ///< "car 1"; "" = all cars
-    std::string pseudonym;          ///< of that car
+    std::optional<StoreReader> store; ///< of a database
+    std::string car;                  ///< "car 1"; "" = all cars
+    std::string pseudonym;            ///< of that car
     SourceSegments segments;
 };
 
-RoadStore opened_for_comparison(const std::filesystem::path& file, const Console& console) {
-    auto store = opened_store(file, RoadStore::Access::read, console);
+StoreReader opened_for_comparison(const std::filesystem::path& file, const Console& console) {
+    auto store = opened_reader(file, console);
     warn_of_waiting(store, file, console);
     tell_publication(store, console);
     return store;
@@ -75,7 +75,8 @@ database_source(const SourceOption& source, const SegmentFilter& filter, const C
     SegmentSource opened{opened_for_comparison(source.file, console), {}, {}, {}};
     if (source.car) {
         opened.pseudonym = car_named(*opened.store, *source.car);
-        opened.car = fmt::format("car {}", number_of_car(opened.store->cars(), opened.pseudonym));
+        opened.car =
+            fmt::format("car {}", number_of_car(opened.store->usage().cars, opened.pseudonym));
         opened.segments = segments_by_car(*opened.store, filter, opened.pseudonym);
     } else {
         opened.segments = segments_by_cars(*opened.store, filter);
@@ -85,7 +86,7 @@ database_source(const SourceOption& source, const SegmentFilter& filter, const C
 
 /// Places a survey on the roads of a database.
 SegmentSource
-survey_source(const SourceOption& source, const CompareOptions& options, const RoadStore& roads) {
+survey_source(const SourceOption& source, const CompareOptions& options, const StoreReader& roads) {
     const auto survey = read_reference(source.file, options.mm_per_m_of_one);
     const auto placed =
         reference_passes(survey, placed_on(load_or_build_network(roads), survey), {});
@@ -109,7 +110,7 @@ survey_source(const SourceOption& source, const CompareOptions& options, const R
 }
 
 /// Keeps the segments of a survey that meet the filter, and gives them their road class.
-void keep_selected(SourceSegments& segments, SegmentFilter filter, const RoadStore& roads) {
+void keep_selected(SourceSegments& segments, SegmentFilter filter, const StoreReader& roads) {
     filter.with_state_only = false;
     filter.period.reset();
     std::set<SegmentKey> selected;
@@ -193,8 +194,8 @@ std::vector<GroupName> speed_names(const std::vector<std::optional<double>>& spe
 /// Compares each car of A with B.
 std::vector<AgreementGroup> agreement_by_car(const std::vector<AgreementPair>& pairs,
                                              const PassesOfCars& passes,
-                                             const RoadStore& store) {
-    const auto cars = store.cars();
+                                             const StoreReader& store) {
+    const auto cars = store.usage().cars;
     std::vector<AgreementPair> of_cars;
     std::vector<GroupName> names;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -264,7 +265,7 @@ SourceComparison compare_segments(const CompareOptions& options, const Console& 
     auto a = opened(options.a);
     auto b = opened(options.b);
     expect_comparable(a, b);
-    std::optional<RoadStore> given_roads;
+    std::optional<StoreReader> given_roads;
     if (!a.store && !b.store) {
         given_roads = opened_for_comparison(*options.roads, console);
     }

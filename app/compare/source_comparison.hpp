@@ -2,7 +2,7 @@
 
 #include "app/cli/console.hpp"
 #include "render/report/comparison/comparison_page.hpp"
-#include "storage/store/schema/segment_filter.hpp"
+#include "storage/store/records/segment_filter.hpp"
 
 #include <filesystem>
 #include <optional>

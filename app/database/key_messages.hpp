@@ -6,7 +6,7 @@
 namespace macadam {
 
 /// Warns if users other than its owner can read the key beside the database.
-void warn_of_open_key(const RoadStore& store, const Console& console);
+void warn_of_open_key(const StoreReader& store, const Console& console);
 
 /// Creates a missing key before cars get pseudonyms, and warns of its limits.
 void make_missing_key(RoadStore& store, const Console& console);

@@ -14,11 +14,13 @@ LockWaitPolicy wait_policy_for(const std::filesystem::path& store, const Console
             .stop = console.stop()};
 }
 
-RoadStore opened_store(const std::filesystem::path& file,
-                       RoadStore::Access access,
-                       const Console& console,
-                       Reader reader) {
-    return RoadStore::open(file, access, wait_policy_for(file, console), reader);
+RoadStore opened_store(const std::filesystem::path& file, const Console& console) {
+    return RoadStore::open(file, wait_policy_for(file, console));
+}
+
+StoreReader
+opened_reader(const std::filesystem::path& file, const Console& console, Audience audience) {
+    return StoreReader::open(file, wait_policy_for(file, console), audience);
 }
 
 } // namespace macadam

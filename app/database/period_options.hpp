@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/cli/arguments.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/records/segment_filter.hpp"
 
 #include <cstdint>
 #include <optional>

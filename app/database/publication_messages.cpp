@@ -24,7 +24,7 @@ std::string words_for(const Publication& publication) {
                        left_out);
 }
 
-void tell_publication(const RoadStore& store, const Console& console) {
+void tell_publication(const StoreReader& store, const Console& console) {
     if (!store.shows_published_alone()) {
         return;
     }
@@ -35,8 +35,8 @@ void tell_publication(const RoadStore& store, const Console& console) {
                                           store.file().string()));
 }
 
-RoadStore open_for_operator(const std::filesystem::path& file, const Console& console) {
-    auto store = opened_store(file, RoadStore::Access::read, console, Reader::operator_);
+StoreReader open_for_operator(const std::filesystem::path& file, const Console& console) {
+    auto store = opened_reader(file, console, Audience::operator_);
     if (store.settings().privacy == PrivacyProfile::crowd && !store.shows_published_alone()) {
         console.say("for the operator only: this shows more than is published; do not pass it "
                     "on");
@@ -45,7 +45,7 @@ RoadStore open_for_operator(const std::filesystem::path& file, const Console& co
     return store;
 }
 
-void expect_operator(const RoadStore& store, std::string_view what) {
+void expect_operator(const StoreReader& store, std::string_view what) {
     if (store.shows_published_alone()) {
         throw InputError{fmt::format("{}: {} in a crowd database are for their operator only, "
                                      "expected the key at {}",

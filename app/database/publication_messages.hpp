@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/cli/console.hpp"
-#include "storage/store/privacy/publication.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
+#include "storage/store/records/publication.hpp"
 
 #include <optional>
 #include <string>
@@ -14,16 +14,16 @@ namespace macadam {
 std::string words_for(const Publication& publication);
 
 /// Tells readers of a crowd database the latest publication, or that there is none.
-void tell_publication(const RoadStore& store, const Console& console);
+void tell_publication(const StoreReader& store, const Console& console);
 
 /// Opens a database for a command that shows its operator more than is published. Says so in that
 /// case, since the output must not be passed on.
-RoadStore open_for_operator(const std::filesystem::path& file, const Console& console);
+StoreReader open_for_operator(const std::filesystem::path& file, const Console& console);
 
 /// Restricts a request to the operator of a crowd database.
 /// \param what         subject of the message: "single passes"
 /// \throws InputError  if the database shows published values only.
-void expect_operator(const RoadStore& store, std::string_view what);
+void expect_operator(const StoreReader& store, std::string_view what);
 
 /// Formats a publication as a JSON object; "null" if there is none.
 std::string json_of(const std::optional<Publication>& publication);

@@ -72,7 +72,7 @@ std::optional<SegmentKey> parse_key(const Arguments& arguments) {
     }
 }
 
-void expect_known_class(const SegmentFilter& filter, const RoadStore& store) {
+void expect_known_class(const SegmentFilter& filter, const StoreReader& store) {
     const auto& classes = class_table(store.settings().class_table)->classes;
     if (!filter.class_name.empty() &&
         std::ranges::find(classes, filter.class_name, &IriClass::name) == classes.end()) {
@@ -83,7 +83,7 @@ void expect_known_class(const SegmentFilter& filter, const RoadStore& store) {
     }
 }
 
-void warn_of_waiting(const RoadStore& store,
+void warn_of_waiting(const StoreReader& store,
                      const std::filesystem::path& file,
                      const Console& console) {
     if (const auto waiting = store.waiting(); waiting > 0) {

@@ -2,7 +2,7 @@
 
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <filesystem>
 
@@ -45,10 +45,10 @@ std::optional<SegmentKey> parse_key(const Arguments& arguments);
 
 /// Checks the class name of a filter.
 /// \throws UsageError  if the database's class table has no such class.
-void expect_known_class(const SegmentFilter& filter, const RoadStore& store);
+void expect_known_class(const SegmentFilter& filter, const StoreReader& store);
 
 /// Warns if an import was interrupted before its passes were fused.
-void warn_of_waiting(const RoadStore& store,
+void warn_of_waiting(const StoreReader& store,
                      const std::filesystem::path& file,
                      const Console& console);
 

@@ -113,7 +113,9 @@ std::vector<std::filesystem::path> inputs_of(const ExportOptions& options) {
     return inputs;
 }
 
-void export_sections(const RoadStore& store, const ExportOptions& options, const Console& console) {
+void export_sections(const StoreReader& store,
+                     const ExportOptions& options,
+                     const Console& console) {
     AtomicFile file{options.output};
     const auto& classes = *class_table(store.settings().class_table);
     auto writer = section_writer(options.output.extension() == ".csv" ? "csv" : "geojson",
@@ -137,7 +139,7 @@ void run_export(const Arguments& arguments, const Console& console) {
             options.store, options.filter.box, options.output, *options.pictures, console);
         return;
     }
-    const auto store = opened_store(options.store, RoadStore::Access::read, console);
+    const auto store = opened_reader(options.store, console);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
     tell_publication(store, console);

@@ -76,7 +76,7 @@ std::pair<dev_t, ino_t> identity_of(const std::filesystem::path& file) {
 
 /// Reads the data of the whole database, which is closed again before processes are started.
 StoreInfo info_of(const std::filesystem::path& file, const Console& console) {
-    const auto store = opened_store(file, RoadStore::Access::read, console);
+    const auto store = opened_reader(file, console);
     warn_of_waiting(store, file, console);
     tell_publication(store, console);
     return store.info();

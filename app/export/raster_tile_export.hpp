@@ -3,7 +3,7 @@
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
 #include "app/export/raster_tiles.hpp"
-#include "storage/store/road_store.hpp"
+#include "estimator/common/geo.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -90,9 +90,9 @@ std::size_t count_of(const std::vector<Square>& squares) {
 class Drawer {
 public:
     Drawer(const std::filesystem::path& store, const PicturePlan& plan, LockWaitPolicy wait_policy)
-        : store_{RoadStore::open(store, RoadStore::Access::read, std::move(wait_policy))},
-          plan_{plan}, painter_{{plan.style, plan.tile_px, square_px / plan.tile_px}},
-          png_{plan.style}, empty_{png_.empty(plan.tile_px)} {}
+        : store_{StoreReader::open(store, std::move(wait_policy))}, plan_{plan},
+          painter_{{plan.style, plan.tile_px, square_px / plan.tile_px}}, png_{plan.style},
+          empty_{png_.empty(plan.tile_px)} {}
 
     template <typename Put>
     void draw(const Square& square, const Put& put) {
@@ -136,7 +136,7 @@ private:
                           plan_.style.min_passes);
     }
 
-    RoadStore store_;
+    StoreReader store_;
     const PicturePlan& plan_;
     TilePainter painter_;
     TilePng png_;

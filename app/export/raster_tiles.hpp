@@ -3,7 +3,7 @@
 #include "app/export/tile_pyramid.hpp"
 #include "estimator/common/progress.hpp"
 #include "render/scene/scene.hpp"
-#include "storage/sqlite/lock_wait.hpp"
+#include "storage/sqlite/lock_wait_policy.hpp"
 
 #include <filesystem>
 #include <memory>

@@ -51,7 +51,7 @@ TileLayer layer_of(const TilePlan& plan, const ClassTable& classes) {
     return layer;
 }
 
-TileSetNote note_of(const RoadStore& store, const GeoBox& box, const TilePlan& plan) {
+TileSetNote note_of(const StoreReader& store, const GeoBox& box, const TilePlan& plan) {
     return {.name = store.file().stem().string(),
             .description = "Roughness of roads (IRI, mm/m) with what it is known to",
             .attribution = store.settings().attribution,
@@ -112,7 +112,7 @@ void expect_no_tile_options(const Arguments& arguments) {
     }
 }
 
-void export_tiles(const RoadStore& store,
+void export_tiles(const StoreReader& store,
                   const SegmentFilter& filter,
                   const std::filesystem::path& file,
                   const TilePlan& plan,

@@ -3,7 +3,7 @@
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
 #include "app/export/tile_pyramid.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <filesystem>
 #include <string>
@@ -33,7 +33,7 @@ void expect_no_tile_options(const Arguments& arguments);
 
 /// Writes vector tiles of the measured segments into an archive or a folder
 /// (docs/reference/vector-tiles.md) and reports their number.
-void export_tiles(const RoadStore& store,
+void export_tiles(const StoreReader& store,
                   const SegmentFilter& filter,
                   const std::filesystem::path& file,
                   const TilePlan& plan,

@@ -225,7 +225,7 @@ TileLineRules tile_line_rules(const WorldScale& scale, double segment_length_m, 
             .margin_m = (per_line > 1 ? 2 : 1) * longest_m + reach_px * px_m};
 }
 
-std::vector<MapLine> tile_lines(const RoadStore& store,
+std::vector<MapLine> tile_lines(const StoreReader& store,
                                 const GeoBox& box,
                                 const TileLineRules& rules,
                                 const ClassTable& classes,

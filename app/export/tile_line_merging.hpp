@@ -3,7 +3,7 @@
 #include "mapping/style/iri_class.hpp"
 #include "render/projection/tile_pixel_grid.hpp"
 #include "render/scene/scene.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -29,7 +29,7 @@ TileLineRules tile_line_rules(const WorldScale& scale, double segment_length_m, 
 /// A line that shows a mean counts as measured if at least half of its segments are measured, and
 /// as certain if at least half of those are certain; it has few passes if more than half of those
 /// have few.
-std::vector<MapLine> tile_lines(const RoadStore& store,
+std::vector<MapLine> tile_lines(const StoreReader& store,
                                 const GeoBox& box,
                                 const TileLineRules& rules,
                                 const ClassTable& classes,

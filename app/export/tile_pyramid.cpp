@@ -368,7 +368,7 @@ void add(TileSource& source, const TileSegment& segment) {
     ++source.count;
 }
 
-void read_tile_source(const RoadStore& store,
+void read_tile_source(const StoreReader& store,
                       const SegmentFilter& filter,
                       TileSource& source,
                       const Progress& progress) {

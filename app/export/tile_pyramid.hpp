@@ -3,7 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "mapping/tiles/tile_features.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 #include "storage/tiles/tile_buckets.hpp"
 
 #include <cstddef>
@@ -38,7 +38,7 @@ void add(TileSource& source, const TileSegment& segment);
 
 /// Reads the segments with a state.
 /// \param source  must be new
-void read_tile_source(const RoadStore& store,
+void read_tile_source(const StoreReader& store,
                       const SegmentFilter& filter,
                       TileSource& source,
                       const Progress& progress);

@@ -109,7 +109,7 @@ void import_known(RoadStore& store, const ImportOptions& options, const Console&
     }
     if (known.control) {
         const auto sections = read_control_sections(*known.control, roads, known.mm_per_m_of_one);
-        store.put_control_sections(sections);
+        store.maintenance.put_control_sections(sections);
         console.say(fmt::format("{}: {} stored; 'macadam info' compares the cars with them",
                                 known.control->string(),
                                 counted(sections.size(), "control section")));
@@ -132,11 +132,11 @@ Progress until_it_takes_long(Progress fusing) {
 
 std::size_t fuse(RoadStore& store, const Console& console) {
     auto fusing = console.progress("fusing");
-    return store.refresh(console.stop().stop_requested() ? until_it_takes_long(std::move(fusing))
-                                                         : fusing);
+    return store.importer.refresh(
+        console.stop().stop_requested() ? until_it_takes_long(std::move(fusing)) : fusing);
 }
 
-void expect_all_fused(const RoadStore& store, const Console& console) {
+void expect_all_fused(const StoreReader& store, const Console& console) {
     if (console.stop().stop_requested() && store.waiting() > 0) {
         throw InputError{fmt::format("interrupted: all trips are in the database, but {} are "
                                      "not fused yet; run the same command again to continue",
@@ -153,7 +153,7 @@ void fuse_new(RoadStore& store, const Console& console) {
 void run_import(const Arguments& arguments, const Console& console) {
     const auto options = parse_import(arguments);
     VehicleChoice vehicles{arguments};
-    auto store = opened_store(options.store, RoadStore::Access::write, console);
+    auto store = opened_store(options.store, console);
     if (options.known.survey || options.known.control) {
         import_known(store, options, console);
     }
@@ -165,7 +165,7 @@ void run_import(const Arguments& arguments, const Console& console) {
     AskedTrips trips{
         options.paths, {.mapping = options.mapping, .max_files = options.max_members}, console};
     const auto name = name_of_import(options.paths);
-    if (const auto earlier = store.begin_import(name, trips.count().value_or(0))) {
+    if (const auto earlier = store.importer.begin_import(name, trips.count().value_or(0))) {
         console.say(spoken(*earlier));
     }
 
@@ -202,7 +202,7 @@ void run_import(const Arguments& arguments, const Console& console) {
     }
     trips.tell_rest(console);
     expect_all_fused(store, console);
-    store.end_import(name);
+    store.importer.end_import(name);
     if (totals.rejected > 0) {
         const auto asked = totals.looked_at();
         throw InputError{

@@ -34,7 +34,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     const auto& words = arguments.operands("PATH");
     VehicleChoice vehicles{arguments};
     const auto file = store_file(arguments);
-    auto store = opened_store(file, RoadStore::Access::write, console);
+    auto store = opened_store(file, console);
     AskedTrips trips{{words.begin(), words.end()},
                      {.mapping = mapping_of(arguments), .max_files = max_members_of(arguments)},
                      console};
@@ -54,7 +54,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     trips.tell_rest(console);
     const auto fusing = console.progress("fusing");
     const auto method = config.estimator.method == Method::kf ? "kf" : "smoother";
-    const auto done = store.commit_staged(fmt::format("method {}", method), fusing);
+    const auto done = store.maintenance.commit_staged(fmt::format("method {}", method), fusing);
     console.say(fmt::format("generation {}: {} reprocessed, {} unchanged{}",
                             done.generation,
                             counted(done.trips, "trip"),

@@ -132,8 +132,9 @@ import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& 
     if (!known.utc_ms) {
         outcome.warnings.emplace_back("no --date: the survey is undated");
     }
-    store.readmit(survey.sha256);
-    outcome.known = !store.add_trip(record_of(outcome), outcome.found.passes);
+    const auto record = record_of(outcome);
+    const NewTrip trip{&record, outcome.found.passes, {}, true};
+    outcome.known = !store.importer.add_trips({&trip, 1}).front();
     return outcome;
 }
 

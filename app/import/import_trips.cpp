@@ -400,7 +400,7 @@ ImportTotals import_trips(RoadStore& store,
                                         work.readmit,
                                         outcome->trip.events});
                 }
-                const auto is_new = store.add_trips(together);
+                const auto is_new = store.importer.add_trips(together);
                 for (std::size_t i = 0; i < outcomes.size(); ++i) { // a call may repeat a trip
                     outcomes[i]->result = is_new[i] ? Result::imported : Result::known;
                 }
@@ -434,8 +434,8 @@ ImportTotals reprocess_trips(RoadStore& store,
             [&](std::span<TripOutcome* const> outcomes) {
                 for (auto* const outcome : outcomes) {
                     const auto& trip = outcome->trip;
-                    const bool is_kept =
-                        store.stage_trip(outcome->record, trip.passes, trip.traces, trip.events);
+                    const bool is_kept = store.maintenance.stage_trip(
+                        {&outcome->record, trip.passes, trip.traces, false, trip.events});
                     outcome->result = is_kept ? Result::reprocessed : Result::unknown;
                 }
             }};

@@ -59,8 +59,8 @@ ImportTotals import_trips(RoadStore& store,
                           const Progress& progress,
                           const std::function<void(const TripOutcome&)>& tell);
 
-/// Reprocesses trips of the database in the same way and stages them in it (RoadStore::stage_trip).
-/// Trips that are not in the database are unknown.
+/// Reprocesses trips of the database in the same way and stages them in it
+/// (StoreMaintenance::stage_trip). Trips that are not in the database are unknown.
 ImportTotals reprocess_trips(RoadStore& store,
                              AskedTrips& trips,
                              VehicleChoice& vehicles,

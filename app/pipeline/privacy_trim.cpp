@@ -123,7 +123,7 @@ TrimRule trim_in(RoadStore& store, TrimRule asked) {
     if (store.settings().privacy != PrivacyProfile::crowd) {
         return asked;
     }
-    store.make_missing_key();
+    store.importer.make_missing_key();
     auto rule = crowd_trim(*store.key());
     rule.min_m = std::max(rule.min_m, asked.min_m);
     return rule;

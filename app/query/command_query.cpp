@@ -41,7 +41,7 @@ std::vector<SegmentRange> ranges_of(const std::vector<SegmentRecord>& records) {
     return ranges;
 }
 
-void expect_segment(const RoadStore& store, const QueryOptions& options) {
+void expect_segment(const StoreReader& store, const QueryOptions& options) {
     SegmentFilter filter;
     filter.key = options.filter.key;
     filter.with_state_only = false;
@@ -55,7 +55,7 @@ void expect_segment(const RoadStore& store, const QueryOptions& options) {
     }
 }
 
-std::vector<SegmentRecord> found_in(const RoadStore& store,
+std::vector<SegmentRecord> found_in(const StoreReader& store,
                                     const SegmentFilter& filter,
                                     const std::optional<NearOptions>& near) {
     if (near) {
@@ -75,7 +75,7 @@ void print_in(std::string_view format, std::string_view text) {
     }
 }
 
-void print_worst_sections(const RoadStore& store,
+void print_worst_sections(const StoreReader& store,
                           const std::vector<SegmentRecord>& records,
                           const QueryOptions& options,
                           const Console& console) {
@@ -100,7 +100,7 @@ void print_worst_sections(const RoadStore& store,
     }
 }
 
-void print_history(const RoadStore& store, const QueryOptions& options, const Console& console) {
+void print_history(const StoreReader& store, const QueryOptions& options, const Console& console) {
     auto filter = options.filter;
     filter.with_state_only = true;
     const auto found = [&](const Period& period) {
@@ -117,7 +117,7 @@ void print_history(const RoadStore& store, const QueryOptions& options, const Co
     }
 }
 
-void print_segments(const RoadStore& store, const QueryOptions& options, const Console& console) {
+void print_segments(const StoreReader& store, const QueryOptions& options, const Console& console) {
     const auto& classes = *class_table(store.settings().class_table);
     RowWriter<ClassedSegment> printer{
         options.format,
@@ -141,7 +141,7 @@ bool is_near(const EventRecord& record, const NearOptions& near) {
     return distance_m(record.at, near.at) <= near.radius_m;
 }
 
-void print_events(const RoadStore& store, const QueryOptions& options, const Console& console) {
+void print_events(const StoreReader& store, const QueryOptions& options, const Console& console) {
     auto filter = filter_of(options);
     if (options.near) {
         filter.ranges = ranges_of(segments_near(store, filter, *options.near));
@@ -163,7 +163,7 @@ void print_events(const RoadStore& store, const QueryOptions& options, const Con
     }
 }
 
-void print_sections(const RoadStore& store, const QueryOptions& options, const Console& console) {
+void print_sections(const StoreReader& store, const QueryOptions& options, const Console& console) {
     const auto& classes = *class_table(store.settings().class_table);
     auto writer = section_writer(options.format,
                                  [&](std::string_view text) { print_in(options.format, text); });

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "mapping/analysis/correlated_mean.hpp"
-#include "storage/store/road_store.hpp"
+#include "mapping/fusion/segment_record.hpp"
+#include "storage/store/records/segment_filter.hpp"
 
 #include <cstddef>
 #include <functional>

@@ -29,7 +29,7 @@ GeoBox intersection(const std::optional<GeoBox>& a, const GeoBox& b) {
 } // namespace
 
 std::vector<SegmentRecord>
-segments_near(const RoadStore& store, const SegmentFilter& filter, const NearOptions& near) {
+segments_near(const StoreReader& store, const SegmentFilter& filter, const NearOptions& near) {
     auto around = filter;
     around.box = intersection(filter.box, grown(including({}, near.at), near.radius_m));
     around.worst = 0; // applied below, within the radius

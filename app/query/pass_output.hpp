@@ -1,6 +1,6 @@
 #pragma once
 
-#include "storage/store/road_store.hpp"
+#include "storage/store/records/store_records.hpp"
 
 #include <string>
 #include <string_view>

@@ -2,7 +2,7 @@
 
 #include "app/cli/arguments.hpp"
 #include "app/query/section_options.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/records/segment_filter.hpp"
 
 #include <cstddef>
 #include <filesystem>

@@ -91,7 +91,7 @@ std::vector<SectionReference> references_of(const SectionOptions& options) {
     return references;
 }
 
-SegmentStates states_of(const RoadStore& store,
+SegmentStates states_of(const StoreReader& store,
                         const std::vector<RouteSegment>& pieces,
                         const SegmentFilter& filter) {
     SegmentFilter on_road;
@@ -128,7 +128,7 @@ std::vector<RouteMeasureRange> cut(double whole_m,
                             : std::vector<RouteMeasureRange>{{0, whole_m}};
 }
 
-std::vector<RoadSection> sections_of(const RoadStore& store,
+std::vector<RoadSection> sections_of(const StoreReader& store,
                                      const RoadNetwork& roads,
                                      const LinearRoute& road,
                                      const SectionOptions& options,
@@ -145,7 +145,7 @@ std::vector<RoadSection> sections_of(const RoadStore& store,
 
 } // namespace
 
-SectionTotal each_section(const RoadStore& store,
+SectionTotal each_section(const StoreReader& store,
                           const SectionOptions& options,
                           const SegmentFilter& filter,
                           const std::function<void(const NamedSection&)>& take) {

@@ -2,7 +2,7 @@
 
 #include "app/query/section_options.hpp"
 #include "mapping/analysis/road_section.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <functional>
 #include <string>
@@ -29,7 +29,7 @@ struct SectionTotal {
 ///
 /// \param filter       only its period and min_passes apply
 /// \throws InputError  for invalid files, and for roads that are not found.
-SectionTotal each_section(const RoadStore& store,
+SectionTotal each_section(const StoreReader& store,
                           const SectionOptions& options,
                           const SegmentFilter& filter,
                           const std::function<void(const NamedSection&)>& take);

@@ -29,7 +29,7 @@ std::optional<GeoBox> map_box(const Arguments& arguments) {
     return GeoBox{d[0], d[1], d[0] > d[2] ? d[2] + 360 : d[2], d[3]};
 }
 
-void visit_box(const RoadStore& store,
+void visit_box(const StoreReader& store,
                SegmentFilter filter,
                const GeoBox& box,
                const std::function<void(const SegmentRecord&)>& visitor) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/cli/arguments.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <functional>
 #include <optional>
@@ -14,9 +14,9 @@ namespace macadam {
 /// \throws UsageError  for a box that is empty or not on the globe.
 std::optional<GeoBox> map_box(const Arguments& arguments);
 
-/// Calls RoadStore::visit for a box whose east may lie beyond 180 degrees. Visits each segment
+/// Calls StoreReader::visit for a box whose east may lie beyond 180 degrees. Visits each segment
 /// once, with longitudes that fit the box.
-void visit_box(const RoadStore& store,
+void visit_box(const StoreReader& store,
                SegmentFilter filter,
                const GeoBox& box,
                const std::function<void(const SegmentRecord&)>& visitor);

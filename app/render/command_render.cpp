@@ -95,7 +95,7 @@ void expect_files_apart(const RenderOptions& options) {
 void run_render(const Arguments& arguments, const Console& console) {
     auto options = parse_render(arguments);
     expect_files_apart(options);
-    const auto store = opened_store(options.store, RoadStore::Access::read, console);
+    const auto store = opened_reader(options.store, console);
     warn_of_waiting(store, options.store, console);
     tell_publication(store, console);
     if (options.style.classes == nullptr) {

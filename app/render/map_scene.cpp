@@ -45,7 +45,8 @@ std::string subtitle_of(const StoreInfo& info) {
 }
 
 /// Returns the length of each class over all segments with enough passes.
-std::vector<double> class_km_of(const RoadStore& store, const ClassTable& classes, int min_passes) {
+std::vector<double>
+class_km_of(const StoreReader& store, const ClassTable& classes, int min_passes) {
     std::vector<double> km(classes.classes.size());
     store.visit({}, [&](const SegmentRecord& record) {
         if (record.state && !has_few_passes(record.state->passes, min_passes)) {
@@ -58,7 +59,7 @@ std::vector<double> class_km_of(const RoadStore& store, const ClassTable& classe
 }
 
 /// Returns all events of a database, in the box's longitudes where it crosses the antimeridian.
-std::vector<MapEvent> map_events(const RoadStore& store, const GeoBox& box) {
+std::vector<MapEvent> map_events(const StoreReader& store, const GeoBox& box) {
     std::vector<MapEvent> events;
     for (const auto& [event, at, name, highway] : store.events({})) {
         const double turn_deg = at.lon_deg + 360 <= box.east_deg ? 360 : 0;
@@ -73,7 +74,7 @@ const ClassTable& classes_of(const MapRequest& request) {
 }
 
 /// Builds a scene with its texts, but without lines.
-MapScene scene_around(const RoadStore& store, const MapRequest& request) {
+MapScene scene_around(const StoreReader& store, const MapRequest& request) {
     MapScene scene;
     scene.title = request.title;
     scene.projection = request.projection;
@@ -168,7 +169,7 @@ bool is_certain(IriUm iri_um, IriUm sd_um) {
 }
 
 std::vector<MapLine>
-map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, int min_passes) {
+map_lines(const StoreReader& store, const GeoBox& box, const ClassTable& classes, int min_passes) {
     SegmentFilter filter;
     filter.with_state_only = false;
     std::vector<MapLine> lines;
@@ -192,7 +193,7 @@ map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, 
     return lines;
 }
 
-MapPlan load_map(const RoadStore& store, const MapRequest& request) {
+MapPlan load_map(const StoreReader& store, const MapRequest& request) {
     const auto load = [&](const GeoBox& box) {
         return map_lines(store, box, classes_of(request), request.style.min_passes);
     };

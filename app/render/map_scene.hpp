@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/map/map_plan.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -25,8 +25,10 @@ bool is_certain(IriUm iri_um, IriUm sd_um);
 /// Returns the segments of a database that touch a box, in key order, with their classes. Segments
 /// without a pass are roads without a measurement; those with fewer than `min_passes` are marked.
 /// Segments known from references only are not marked.
-std::vector<MapLine>
-map_lines(const RoadStore& store, const GeoBox& box, const ClassTable& classes, int min_passes = 1);
+std::vector<MapLine> map_lines(const StoreReader& store,
+                               const GeoBox& box,
+                               const ClassTable& classes,
+                               int min_passes = 1);
 
 /// Request for a picture.
 struct MapRequest {
@@ -43,6 +45,6 @@ struct MapRequest {
 /// measurement, and the text around them.
 ///
 /// \throws InputError  if the database has no segment in the box.
-MapPlan load_map(const RoadStore& store, const MapRequest& request);
+MapPlan load_map(const StoreReader& store, const MapRequest& request);
 
 } // namespace macadam

@@ -150,7 +150,7 @@ void report_against_reference(const Arguments& arguments, const Console& console
         refuse_for_programs(arguments);
     }
     const auto file = store_file(arguments);
-    const auto store = opened_store(file, RoadStore::Access::read, console);
+    const auto store = opened_reader(file, console);
     warn_of_waiting(store, file, console);
     tell_publication(store, console);
     const auto report = reference_report(
@@ -173,7 +173,7 @@ void run_report(const Arguments& arguments, const Console& console) {
         return;
     }
     auto options = parse_report(arguments);
-    const auto store = opened_store(options.store, RoadStore::Access::read, console);
+    const auto store = opened_reader(options.store, console);
     refuse_to_replace(options.output, {options.store});
     warn_of_waiting(store, options.store, console);
     tell_publication(store, console);

@@ -26,7 +26,7 @@ std::vector<ControlReading> readings_of(const WatchedSection& watched) {
 }
 
 /// Returns the segments of the section, cut to it, with states from the cars' passes of a period.
-std::vector<SegmentRecord> records_of(const RoadStore& store,
+std::vector<SegmentRecord> records_of(const StoreReader& store,
                                       const ControlSection& section,
                                       const std::optional<Period>& period) {
     SegmentFilter filter;
@@ -49,7 +49,7 @@ RoadMean mean_of(const std::vector<SegmentRecord>& records) {
     return measured_road(pieces, {}).mean;
 }
 
-WatchedSection watched(const RoadStore& store, const ControlSection& section) {
+WatchedSection watched(const StoreReader& store, const ControlSection& section) {
     WatchedSection found{section, mean_of(records_of(store, section, {}))};
     if (found.cars.length_m <= 0) {
         return found;
@@ -184,7 +184,7 @@ const Columns<SurveyUse> survey_columns{
 
 } // namespace
 
-std::vector<WatchedSection> watched_sections(const RoadStore& store) {
+std::vector<WatchedSection> watched_sections(const StoreReader& store) {
     std::vector<WatchedSection> all;
     if (store.shows_published_alone()) {
         return all;

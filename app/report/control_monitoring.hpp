@@ -2,7 +2,7 @@
 
 #include "app/query/monthly_history.hpp"
 #include "mapping/surveys/control_section.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <optional>
 #include <string>
@@ -23,7 +23,7 @@ struct WatchedSection {
 /// Returns all control sections of a database, sorted by name. References do not count towards the
 /// cars' estimate. Empty if only published values of a crowd database are readable, since
 /// monitoring selects passes by day.
-std::vector<WatchedSection> watched_sections(const RoadStore& store);
+std::vector<WatchedSection> watched_sections(const StoreReader& store);
 
 /// Formats a table for people; "" if there are no sections.
 std::string text_of(const std::vector<WatchedSection>& sections);

@@ -49,7 +49,7 @@ std::vector<SegmentRange> ranges_of(const std::vector<ReferenceReading>& reading
     return ranges;
 }
 
-std::map<SegmentKey, SegmentState> cars_over(const RoadStore& store,
+std::map<SegmentKey, SegmentState> cars_over(const StoreReader& store,
                                              const std::vector<ReferenceReading>& readings) {
     SegmentFilter filter;
     filter.ranges = ranges_of(readings);
@@ -61,7 +61,7 @@ std::map<SegmentKey, SegmentState> cars_over(const RoadStore& store,
     return states;
 }
 
-std::vector<ReferencedSegment> compared_segments(const RoadStore& store,
+std::vector<ReferencedSegment> compared_segments(const StoreReader& store,
                                                  const std::vector<SurveyUse>& surveys) {
     const auto readings = store.reference_readings();
     const auto cars =
@@ -111,7 +111,7 @@ std::optional<DaysAfter> days_after_of(const std::vector<ReferencePair>& pairs) 
     return DaysAfter{.least = days.front(), .middle = days[days.size() / 2], .most = days.back()};
 }
 
-std::vector<ComparedControl> controls_of(const RoadStore& store) {
+std::vector<ComparedControl> controls_of(const StoreReader& store) {
     std::vector<ComparedControl> controls;
     for (const auto& watched : watched_sections(store)) {
         controls.push_back({.name = watched.section.name,
@@ -143,7 +143,7 @@ void add_spans(ReferenceReport& report,
 } // namespace
 
 ReferenceReport
-reference_report(const RoadStore& store, const std::string& title, const Localisation& wording) {
+reference_report(const StoreReader& store, const std::string& title, const Localisation& wording) {
     const auto surveys = store.surveys();
     ReferenceReport report;
     report.wording = wording;

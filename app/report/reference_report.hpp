@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/report/reference_page.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <string>
 
@@ -12,6 +12,6 @@ namespace macadam {
 /// \param wording      for pages; JSON, CSV and the tables are in English and mm/m
 /// \throws InputError  if the database has neither.
 ReferenceReport
-reference_report(const RoadStore& store, const std::string& title, const Localisation& wording);
+reference_report(const StoreReader& store, const std::string& title, const Localisation& wording);
 
 } // namespace macadam

@@ -31,7 +31,7 @@ struct Survey {
     std::map<std::string, double> network_m; ///< by highway tag
 };
 
-Survey survey_of(const RoadStore& store) {
+Survey survey_of(const StoreReader& store) {
     Survey survey;
     SegmentFilter filter;
     filter.with_state_only = false;
@@ -67,20 +67,19 @@ ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int6
 
 // --------------------------------------------------------------------------------------- values
 
-/// Returns the numbers of cars from 1 on, as in RoadStore::cars(); "" for trips that name none.
-std::map<std::string, std::string> numbers_of_cars(const RoadStore& store) {
+/// Returns the numbers of cars from 1 on, as in StoreUsage::cars; "" for trips that name none.
+std::map<std::string, std::string> numbers_of_cars(const StoreUsage& usage) {
     std::map<std::string, std::string> numbers;
-    for (const auto& car : store.cars()) {
+    for (const auto& car : usage.cars) {
         numbers[car] = car == unknown_car ? "" : std::to_string(numbers.size() + 1);
     }
     return numbers;
 }
 
-std::vector<ReportVehicle> vehicles_of(const RoadStore& store) {
-    const auto uses = store.vehicle_uses();
-    auto numbers = numbers_of_cars(store);
+std::vector<ReportVehicle> vehicles_of(const StoreUsage& usage) {
+    auto numbers = numbers_of_cars(usage);
     std::vector<ReportVehicle> vehicles;
-    for (const auto& use : uses) {
+    for (const auto& use : usage.vehicles) {
         vehicles.push_back({.name = numbers[use.vehicle],
                             .model = use.vehicle_model == own_file_model ? "" : use.vehicle_model,
                             .method = use.method,
@@ -96,7 +95,7 @@ std::vector<ReportVehicle> vehicles_of(const RoadStore& store) {
     return vehicles;
 }
 
-std::vector<ReportSection> sections_of(const RoadStore& store, const SectionOptions& options) {
+std::vector<ReportSection> sections_of(const StoreReader& store, const SectionOptions& options) {
     std::vector<ReportSection> sections;
     each_section(store, options, {}, [&](const NamedSection& named) {
         sections.push_back({.name = named.name,
@@ -127,7 +126,7 @@ std::optional<ReportPublication> publication_of(const StoreInfo& info) {
 
 // --------------------------------------------------------------------------------------- change
 
-std::vector<SegmentRecord> states_in(const RoadStore& store, const Period& period) {
+std::vector<SegmentRecord> states_in(const StoreReader& store, const Period& period) {
     SegmentFilter filter;
     filter.period = period;
     std::vector<SegmentRecord> records;
@@ -172,7 +171,7 @@ void colour_change(MapScene& scene,
     }
 }
 
-std::vector<ReportChangedStretch> drawn(const RoadStore& store,
+std::vector<ReportChangedStretch> drawn(const StoreReader& store,
                                         const std::vector<ChangedStretch>& stretches,
                                         const ChangeSince& change,
                                         std::span<const SegmentRecord> since,
@@ -204,7 +203,7 @@ struct Compared {
 };
 
 std::optional<Compared>
-compared(const RoadStore& store, const RoadNetwork& roads, const ReportConfig& config) {
+compared(const StoreReader& store, const RoadNetwork& roads, const ReportConfig& config) {
     if (!config.since_ms) {
         return std::nullopt;
     }
@@ -214,7 +213,7 @@ compared(const RoadStore& store, const RoadNetwork& roads, const ReportConfig& c
     return Compared{std::move(since), std::move(change)};
 }
 
-ReportChange change_of(const RoadStore& store,
+ReportChange change_of(const StoreReader& store,
                        const Compared& compared,
                        const ReportConfig& config,
                        ReportPictures& pictures) {
@@ -253,7 +252,7 @@ std::optional<ReportFewPasses> few_passes_of(const MapScene& map, const ReportCo
 }
 
 /// Takes the largest events of the database into the report.
-void put_events(const RoadStore& store, Report& report) {
+void put_events(const StoreReader& store, Report& report) {
     constexpr std::size_t max_events = 100;
     auto records = store.events({});
     std::ranges::stable_sort(
@@ -278,7 +277,7 @@ void put_events(const RoadStore& store, Report& report) {
 
 } // namespace
 
-Report report_of(const RoadStore& store, const ReportConfig& config, const Progress& progress) {
+Report report_of(const StoreReader& store, const ReportConfig& config, const Progress& progress) {
     const auto& classes = *config.style.classes;
     const auto info = store.info();
     const auto survey = survey_of(store);
@@ -312,12 +311,13 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     if (config.sections) {
         report.sections = sections_of(store, *config.sections);
     }
-    report.vehicles = vehicles_of(store);
+    const auto usage = store.usage();
+    report.vehicles = vehicles_of(usage);
     report.quality = data_quality(survey.measured);
     report.publication = publication_of(info);
     report.is_own = info.settings.privacy == PrivacyProfile::own;
     report.lateral_passes = info.lateral_passes;
-    report.row_reasons = store.row_reasons();
+    report.row_reasons = usage.row_reasons;
 
     put_events(store, report);
 

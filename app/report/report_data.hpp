@@ -4,7 +4,7 @@
 #include "app/report/report_maps.hpp"
 #include "estimator/common/progress.hpp"
 #include "render/report/report.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -25,6 +25,7 @@ struct ReportConfig {
 /// Collects the data of a database report, with its pictures.
 /// \param progress     counts the pictures drawn
 /// \throws InputError  on a stop request.
-Report report_of(const RoadStore& store, const ReportConfig& config, const Progress& progress = {});
+Report
+report_of(const StoreReader& store, const ReportConfig& config, const Progress& progress = {});
 
 } // namespace macadam

@@ -106,7 +106,7 @@ double ReportPictures::map_width_m(const MapScene& scene) const {
     return MapPlan{scene, style_, {width_px, map_height_px(scene.box, width_px)}}.ground_width_m();
 }
 
-MapScene whole_scene(const RoadStore& store, const MapStyle& style) {
+MapScene whole_scene(const StoreReader& store, const MapStyle& style) {
     const auto plan = load_map(
         store, {.style = unadorned(style), .width_px = max_width_px, .height_px = max_height_px});
     auto scene = plan.scene();
@@ -117,7 +117,7 @@ MapScene whole_scene(const RoadStore& store, const MapStyle& style) {
 }
 
 MapScene
-quiet_scene(const RoadStore& store, const WorstSection& stretch, const ClassTable& classes) {
+quiet_scene(const StoreReader& store, const WorstSection& stretch, const ClassTable& classes) {
     MapScene scene;
     scene.scale_bar = false; // too small to read on a phone; the page states the length
     scene.box = box_around(stretch);
@@ -132,7 +132,7 @@ quiet_scene(const RoadStore& store, const WorstSection& stretch, const ClassTabl
     return scene;
 }
 
-MapScene stretch_scene(const RoadStore& store,
+MapScene stretch_scene(const StoreReader& store,
                        const WorstSection& stretch,
                        const std::vector<SegmentRecord>& measured,
                        const ClassTable& classes) {

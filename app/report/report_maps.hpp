@@ -4,7 +4,7 @@
 #include "mapping/analysis/worst_sections.hpp"
 #include "render/report/document/document.hpp"
 #include "render/scene/scene.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -48,15 +48,15 @@ private:
 };
 
 /// Builds a scene of all roads, without the text that the page has itself.
-MapScene whole_scene(const RoadStore& store, const MapStyle& style);
+MapScene whole_scene(const StoreReader& store, const MapStyle& style);
 
 /// Builds a scene around a section, with all roads muted.
 MapScene
-quiet_scene(const RoadStore& store, const WorstSection& stretch, const ClassTable& classes);
+quiet_scene(const StoreReader& store, const WorstSection& stretch, const ClassTable& classes);
 
 /// Builds a scene of one section in the colours of its segments, however few passes they have, with
 /// all other roads muted.
-MapScene stretch_scene(const RoadStore& store,
+MapScene stretch_scene(const StoreReader& store,
                        const WorstSection& stretch,
                        const std::vector<SegmentRecord>& measured,
                        const ClassTable& classes);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "storage/store/schema/maintenance_records.hpp"
+#include "storage/store/records/maintenance_records.hpp"
 
 #include <string>
 

@@ -14,18 +14,23 @@
 namespace macadam {
 namespace {
 
+CalibrationReport calibrated(const std::filesystem::path& file, bool keep, const Console& console) {
+    if (!keep) {
+        const auto store = opened_reader(file, console, Audience::operator_);
+        warn_of_waiting(store, file, console);
+        return store.estimate_calibration(console.progress("calibrating"));
+    }
+    auto store = opened_store(file, console);
+    warn_of_waiting(store, file, console);
+    return store.maintenance.calibrate(console.progress("calibrating"));
+}
+
 void run_calibrate(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     const bool keep = !arguments.flag("--dry-run");
-    expect_operator(opened_store(file, RoadStore::Access::read, console, Reader::operator_),
+    expect_operator(opened_reader(file, console, Audience::operator_),
                     "calibrations of single cars");
-    auto store = opened_store(file,
-                              keep ? RoadStore::Access::write : RoadStore::Access::read,
-                              console,
-                              Reader::operator_);
-    warn_of_waiting(store, file, console);
-    const auto progress = console.progress("calibrating");
-    const auto report = store.calibrate(keep, progress);
+    const auto report = calibrated(file, keep, console);
     if (arguments.flag("--json")) {
         print(json_of(report));
     } else {

@@ -29,9 +29,9 @@ void run_forget(const Arguments& arguments, const Console& console) {
     if (request.trips.empty() && request.vehicles.empty()) {
         throw UsageError{"expected --trip or --vehicle: what to delete"};
     }
-    auto store = opened_store(file, RoadStore::Access::write, console);
+    auto store = opened_store(file, console);
     const auto progress = console.progress("deleting");
-    const auto forgotten = store.forget(request, progress);
+    const auto forgotten = store.maintenance.forget(request, progress);
     if (arguments.flag("--json")) {
         print(json_of(forgotten));
     } else {

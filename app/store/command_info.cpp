@@ -142,7 +142,7 @@ std::string text_of(const StoreInfo& info, bool operates) {
     return text;
 }
 
-void print_info(const RoadStore& store, const Arguments& arguments) {
+void print_info(const StoreReader& store, const Arguments& arguments) {
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
         return;

@@ -1,5 +1,4 @@
 #include "app/cli/commands.hpp"
-#include "app/cli/overwrite_guard.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/import/trip_inputs.hpp"
 #include "app/store/network_update_output.hpp"
@@ -12,6 +11,7 @@
 #include "storage/networks/network_file.hpp"
 #include "storage/networks/network_reader.hpp"
 #include "storage/store/road_store.hpp"
+#include "storage/store/schema/store_marker.hpp"
 #include "storage/text/text.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "storage/trips/trip_search.hpp"
@@ -178,7 +178,7 @@ void expect_to_go_on(const Progress& progress, const std::filesystem::path& stor
 }
 
 void update_store(const InitOptions& options, const Console& console) {
-    auto store = opened_store(options.store, RoadStore::Access::write, console);
+    auto store = opened_store(options.store, console);
     const auto warn = [&](const std::string& words) { console.say(words); };
     const auto before = load_or_build_network(store, warn);
     const auto after = build_network(
@@ -188,11 +188,12 @@ void update_store(const InitOptions& options, const Console& console) {
     const auto comparing = console.progress("comparing roads");
     const auto change = change_between(before, after, {}, comparing);
     expect_to_go_on(comparing, options.store);
-    const auto update = store.update_network(before,
-                                             after,
-                                             change,
-                                             source_of(*options.update, options.attribution),
-                                             console.progress("moving passes"));
+    const auto update =
+        store.maintenance.update_network(before,
+                                         after,
+                                         change,
+                                         source_of(*options.update, options.attribution),
+                                         console.progress("moving passes"));
     cache_network(store, after);
     if (options.json) {
         print(json_of(update));

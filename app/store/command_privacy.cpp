@@ -28,9 +28,9 @@ void expect_crowd(const std::string& profile, const std::filesystem::path& file)
 void run_privacy(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     expect_crowd(arguments.operand("PROFILE"), file);
-    auto store = opened_store(file, RoadStore::Access::write, console);
+    auto store = opened_store(file, console);
     const auto progress = console.progress("trimming");
-    const auto made = store.make_crowd(progress);
+    const auto made = store.maintenance.make_crowd(progress);
     print_words(fmt::format("now a crowd database: {} trimmed, {} deleted\n",
                             counted(made.trips, "trip"),
                             counted(made.passes, "pass")));

@@ -20,9 +20,10 @@ std::int64_t now_utc_ms() {
 
 void run_publish(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
-    auto store = opened_store(file, RoadStore::Access::write, console);
+    auto store = opened_store(file, console);
     const auto progress = console.progress("publishing");
-    const auto done = store.publish(load_or_build_network(store), now_utc_ms(), progress);
+    const auto done =
+        store.maintenance.publish(load_or_build_network(store), now_utc_ms(), progress);
     if (arguments.flag("--json")) {
         print(json_of(std::optional{done.publication}) + "\n");
     } else {

@@ -36,7 +36,7 @@ std::string json_of(const std::vector<ValidSince>& all) {
 }
 
 /// Returns all segments that the options name, driven or not.
-std::vector<SegmentKey> segments_named(const RoadStore& store, const Arguments& arguments) {
+std::vector<SegmentKey> segments_named(const StoreReader& store, const Arguments& arguments) {
     SegmentFilter filter;
     filter.with_state_only = false;
     filter.key = parse_key(arguments);
@@ -68,16 +68,16 @@ void run_valid_from(const Arguments& arguments, const Console& console) {
         throw UsageError{"--from and --any-day cannot be combined"};
     }
     if (!from_ms && !readmit) {
-        const auto store = opened_store(file, RoadStore::Access::read, console);
+        const auto store = opened_reader(file, console);
         const auto all = store.valid_since();
         print(arguments.flag("--json") ? json_of(all) : text_of(all));
         return;
     }
-    auto store = opened_store(file, RoadStore::Access::write, console);
+    auto store = opened_store(file, console);
     const auto segments = segments_named(store, arguments);
     const auto progress = console.progress("fusing");
-    const auto found =
-        store.set_valid_from(segments, from_ms, arguments.value("--reason").value_or(""), progress);
+    const auto found = store.maintenance.set_valid_from(
+        segments, from_ms, arguments.value("--reason").value_or(""), progress);
     console.say(from_ms ? fmt::format("{}: only passes from {} on count",
                                       counted(found, "segment"),
                                       utc_text(*from_ms))

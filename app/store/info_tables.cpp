@@ -36,12 +36,12 @@ std::map<std::string, double> network_km_of(const RoadNetwork& roads) {
     return km;
 }
 
-std::vector<RoadClassInfo> road_classes_of(const RoadStore& store) {
+std::vector<RoadClassInfo> road_classes_of(const StoreReader& store, const StoreUsage& usage) {
     std::map<std::string, RoadClassInfo> by_highway;
     for (const auto& [highway, km] : network_km_of(load_or_build_network(store))) {
         by_highway[highway] = {.highway = highway, .network_km = km, .km = 0, .classes = {}};
     }
-    for (const auto& [highway, class_name, km] : store.road_class_lengths()) {
+    for (const auto& [highway, class_name, km] : usage.road_classes) {
         auto& info = by_highway[highway];
         info.highway = highway;
         info.km += km;
@@ -55,10 +55,10 @@ std::vector<RoadClassInfo> road_classes_of(const RoadStore& store) {
     return infos;
 }
 
-std::vector<CarInfo> cars_of(const RoadStore& store) {
+std::vector<CarInfo> cars_of(const StoreUsage& usage) {
     std::map<std::string, CarInfo> by_name;
     std::size_t passes = 0;
-    for (const auto& use : store.vehicle_uses()) {
+    for (const auto& use : usage.vehicles) {
         auto& car = by_name[use.vehicle];
         car.vehicle = use.vehicle;
         car.trips += use.trips;
@@ -67,10 +67,10 @@ std::vector<CarInfo> cars_of(const RoadStore& store) {
         passes += use.passes;
     }
     std::size_t number = 0;
-    for (const auto& car : store.cars()) {
+    for (const auto& car : usage.cars) {
         by_name[car].number = car == unknown_car ? 0 : ++number;
     }
-    for (const auto& car : store.calibrated_cars()) {
+    for (const auto& car : usage.calibrated_cars) {
         by_name[car.vehicle].calibration = car.calibration;
         by_name[car.vehicle].periods = car.periods;
     }
@@ -182,8 +182,9 @@ std::string month_lines(std::span<const DailyUsage> months) {
 
 } // namespace
 
-InfoTables info_tables(const RoadStore& store) {
-    return {road_classes_of(store), cars_of(store), store.day_uses()};
+InfoTables info_tables(const StoreReader& store) {
+    const auto usage = store.usage();
+    return {road_classes_of(store, usage), cars_of(usage), usage.days};
 }
 
 std::map<std::string, DailyUsage> months_of(const std::vector<DailyUsage>& days) {

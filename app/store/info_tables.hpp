@@ -1,6 +1,6 @@
 #pragma once
 
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 #include "storage/text/json.hpp"
 
 #include <map>
@@ -36,7 +36,7 @@ struct InfoTables {
     std::vector<CarInfo> cars;               ///< most passes first
     std::vector<DailyUsage> days;
 };
-InfoTables info_tables(const RoadStore& store);
+InfoTables info_tables(const StoreReader& store);
 
 /// Sums the days by month, such as "2026-03".
 std::map<std::string, DailyUsage> months_of(const std::vector<DailyUsage>& days);

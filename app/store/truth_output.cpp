@@ -64,7 +64,7 @@ rows_of(const std::vector<Band>& bands, std::string_view quantity, std::string_v
 
 } // namespace
 
-TruthComparison compared(const RoadStore& store, const std::filesystem::path& file) {
+TruthComparison compared(const StoreReader& store, const std::filesystem::path& file) {
     const auto truth = read_truth(file);
     std::vector<SegmentRecord> states;
     store.visit({}, [&](const SegmentRecord& record) { states.push_back(record); });

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mapping/surveys/truth_comparison.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <filesystem>
 #include <string>
@@ -11,7 +11,7 @@ namespace macadam {
 /// Compares the states of a database with a truth file.
 ///
 /// \throws InputError  if the file is no truth, or not of this database's segments.
-TruthComparison compared(const RoadStore& store, const std::filesystem::path& truth);
+TruthComparison compared(const StoreReader& store, const std::filesystem::path& truth);
 
 /// Formats a small table by class of road.
 std::string text_of(const TruthComparison& comparison);

@@ -15,7 +15,7 @@
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/networks/network_file.hpp"
 #include "storage/networks/network_reader.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/schema/store_marker.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
 #include "storage/trips/trip_reader.hpp"
 
@@ -64,7 +64,7 @@ MatchOptions parse_match(const Arguments& arguments) {
 RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
     const auto warn = [&](const std::string& words) { console.say(words); };
     if (options.network.extension() == ".gpkg" && is_store(options.network)) {
-        const auto store = opened_store(options.network, RoadStore::Access::read, console);
+        const auto store = opened_reader(options.network, console);
         auto roads = load_or_build_network(store, warn);
         store.expect_in_place();
         return roads;

@@ -113,7 +113,7 @@ void date_by_content(Database& database, const Events& events) {
         .run(utc_day(last_ms) + "T00:00:00.000Z");
 }
 
-void write_geopackage(const RoadStore& store,
+void write_geopackage(const StoreReader& store,
                       const Events& events,
                       const std::filesystem::path& file) {
     AtomicFileSet files{file};
@@ -224,7 +224,7 @@ std::span<const std::string_view> event_export_suffixes() {
     return suffixes;
 }
 
-std::size_t export_events(const RoadStore& store,
+std::size_t export_events(const StoreReader& store,
                           const SegmentFilter& filter,
                           const std::filesystem::path& file) {
     const auto suffix = file.extension().string();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 #include "storage/text/columns.hpp"
 
 #include <cstddef>
@@ -20,12 +20,12 @@ std::string geojson_feature(const GeoPoint& at, const JsonObject& properties);
 /// Formats an event as a GeoJSON Feature on one line.
 std::string geojson_feature(const EventRecord& record);
 
-/// Writes the events of a filter to a file as points, in the order of RoadStore::events(). The
+/// Writes the events of a filter to a file as points, in the order of StoreReader::events(). The
 /// suffix selects the format: .geojson, .geojsonl, .csv, .gpkg (layer `events`), .kml. The file
 /// appears complete or not at all. \returns the number of events written.
 ///
 /// \throws InputError  for an unknown suffix, or if the file cannot be written.
-std::size_t export_events(const RoadStore& store,
+std::size_t export_events(const StoreReader& store,
                           const SegmentFilter& filter,
                           const std::filesystem::path& file);
 

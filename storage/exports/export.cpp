@@ -2,7 +2,6 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/exports/segment_export.hpp"
-#include "storage/sqlite/sqlite.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
@@ -82,7 +81,7 @@ std::span<const std::string_view> export_suffixes() {
     return suffixes;
 }
 
-std::size_t export_segments(const RoadStore& store,
+std::size_t export_segments(const StoreReader& store,
                             const SegmentFilter& filter,
                             const std::filesystem::path& file,
                             const Progress& progress) {

@@ -2,7 +2,7 @@
 
 #include "estimator/common/progress.hpp"
 #include "mapping/style/iri_class.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 #include "storage/text/columns.hpp"
 
 #include <cstddef>
@@ -51,7 +51,7 @@ std::string geojson_geometry(const std::vector<GeoPoint>& line);
 ///
 /// \throws InputError  for an unknown suffix, for more segments than the format can hold, or if the
 ///                     file cannot be written.
-std::size_t export_segments(const RoadStore& store,
+std::size_t export_segments(const StoreReader& store,
                             const SegmentFilter& filter,
                             const std::filesystem::path& file,
                             const Progress& progress = {});

@@ -12,7 +12,7 @@ namespace macadam {
 // Writers behind export_segments, one per format.
 
 struct SegmentExport {
-    const RoadStore& store;
+    const StoreReader& store;
     const SegmentFilter& filter;
     const std::filesystem::path& file; ///< as named by the user
     const Progress& progress;

@@ -128,7 +128,7 @@ std::filesystem::path network_file_of(const std::filesystem::path& store) {
     return name;
 }
 
-RoadNetwork load_or_build_network(const RoadStore& store,
+RoadNetwork load_or_build_network(const StoreReader& store,
                                   const std::function<void(const std::string&)>& warn) {
     const auto file = network_file_of(store.file());
     try {
@@ -148,7 +148,7 @@ RoadNetwork load_or_build_network(const RoadStore& store,
     return roads;
 }
 
-bool cache_network(const RoadStore& store, const RoadNetwork& roads) {
+bool cache_network(const StoreReader& store, const RoadNetwork& roads) {
     constexpr std::size_t digits = 64;
     const auto source = store.network_hash();
     if (source.size() != digits) { // the database was modified

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mapping/network/road_network.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -41,11 +41,11 @@ std::filesystem::path network_file_of(const std::filesystem::path& store);
 /// otherwise builds it from the database, and writes the file if the folder is writable.
 ///
 /// \param warn  called if the existing file cannot be used.
-RoadNetwork load_or_build_network(const RoadStore& store,
+RoadNetwork load_or_build_network(const StoreReader& store,
                                   const std::function<void(const std::string&)>& warn = {});
 
 /// Writes the network of a database beside it. \returns false if that fails; the database works
 /// without it, slightly slower.
-bool cache_network(const RoadStore& store, const RoadNetwork& roads);
+bool cache_network(const StoreReader& store, const RoadNetwork& roads);
 
 } // namespace macadam

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "storage/sqlite/lock_wait_policy.hpp"
+
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 
 namespace macadam {
@@ -27,16 +27,6 @@ struct LockHolder {
 /// Source: proc_locks(5); positions of SQLite's locks: https://sqlite.org/fileformat2.html, 1.6,
 /// and https://sqlite.org/walformat.html, 2.3.
 std::optional<LockHolder> holder_of_lock(const std::filesystem::path& file);
-
-/// Rules for waiting while another program writes a file.
-struct LockWaitPolicy {
-    std::function<void(const std::string& words)> tell{}; ///< called once, in a long wait
-    std::stop_token stop{};                               ///< ends the wait
-    std::chrono::milliseconds tell_after{1'000};
-    /// Limit for an idle holder: a process of ours that uses no CPU time, or another program that
-    /// commits nothing.
-    std::chrono::milliseconds idle_limit{600'000};
-};
 
 /// Waits for a lock for as long as its holder makes progress.
 class LockWait {

@@ -67,7 +67,7 @@ void make(const std::filesystem::path& file, int side) {
     const auto roads = testing::made_up_town(side);
     const auto keys = keys_of(roads);
     RoadStore::create(file, roads, {});
-    auto store = RoadStore::open(file, RoadStore::Access::write);
+    auto store = RoadStore::open(file);
     const Fleet fleet{keys};
     const auto trips = static_cast<int>(keys.size() / segments_a_car) * trips_a_car;
     for (int first = 0; first < trips; first += trips_at_once) {
@@ -81,7 +81,7 @@ void make(const std::filesystem::path& file, int side) {
         for (std::size_t i = 0; i < records.size(); ++i) {
             batch.push_back({&records[i], passes[i], {}});
         }
-        store.add_trips(batch);
+        store.importer.add_trips(batch);
     }
     fmt::print("{} cars, {} passes, {} segments\n",
                trips / trips_a_car,

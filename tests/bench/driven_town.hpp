@@ -90,4 +90,12 @@ inline TripRecord trip_number(int number) {
     return trip;
 }
 
+inline void add_trip(RoadStore& store,
+                     const TripRecord& trip,
+                     std::span<const Pass> passes,
+                     std::span<const RoughnessTrace> traces = {}) {
+    const NewTrip one{&trip, passes, traces};
+    store.importer.add_trips({&one, 1});
+}
+
 } // namespace macadam::bench

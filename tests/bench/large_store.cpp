@@ -80,9 +80,9 @@ void drive_everywhere(RoadStore& store, std::span<const SegmentKey> keys) {
     for (std::size_t first = 0, trip = 0; first < keys.size(); first += keys_at_once, ++trip) {
         const auto some = keys.subspan(first, std::min(keys_at_once, keys.size() - first));
         const auto number = static_cast<int>(trip);
-        store.add_trip(trip_number(number), passes_of_trip(some, number));
+        add_trip(store, trip_number(number), passes_of_trip(some, number));
     }
-    store.refresh();
+    store.importer.refresh();
 }
 
 /// Places all over the town.
@@ -116,7 +116,7 @@ void ask(std::string_view what, const RoadNetwork& roads, Question question, Ans
 }
 
 void ask_all(const fs::path& file, const RoadNetwork& roads) {
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto store = StoreReader::open(file);
     const auto all_of = [&](const SegmentFilter& filter) {
         std::size_t count = 0;
         store.visit(filter, [&](const SegmentRecord&) { ++count; });
@@ -152,20 +152,20 @@ void read_beside_a_writer(const fs::path& file,
                           std::span<const SegmentKey> keys) {
     std::atomic<int> trips = 0;
     std::jthread writer{[&](const std::stop_token& stop) {
-        auto store = RoadStore::open(file, RoadStore::Access::write);
+        auto store = RoadStore::open(file);
         for (int number = 100'000; !stop.stop_requested(); ++number, ++trips) {
             const auto first = static_cast<std::size_t>(number) * 7919 * passes_a_trip %
                                (keys.size() - passes_a_trip);
             const auto driven = keys.subspan(first, passes_a_trip);
-            store.add_trip(trip_number(number), passes_of_trip(driven, number));
-            store.refresh();
+            add_trip(store, trip_number(number), passes_of_trip(driven, number));
+            store.importer.refresh();
         }
     }};
     std::vector<double> ms;
     for (int i = 0; i < questions; ++i) {
         const auto filter = around(place(roads, i), 0.0034, 0.0068);
         const double begin_s = wall_s();
-        RoadStore::open(file, RoadStore::Access::read).visit(filter, [](const SegmentRecord&) {});
+        StoreReader::open(file).visit(filter, [](const SegmentRecord&) {});
         ms.push_back(1e3 * (wall_s() - begin_s));
     }
     writer.request_stop();
@@ -235,7 +235,7 @@ void measure(int side, std::int64_t triggered_rows, const fs::path& file) {
     const auto bare_bytes = static_cast<double>(fs::file_size(file));
 
     const double driven_s = cost_s([&] {
-        auto store = RoadStore::open(file, RoadStore::Access::write);
+        auto store = RoadStore::open(file);
         drive_everywhere(store, keys);
     });
     row("a pass over each, with state",
@@ -245,10 +245,10 @@ void measure(int side, std::int64_t triggered_rows, const fs::path& file) {
     ask_all(file, roads);
 
     const auto batch = batch_of(keys, 50'000, trips_in_batch);
-    auto store = RoadStore::open(file, RoadStore::Access::write);
+    auto store = RoadStore::open(file);
     constexpr double passes = static_cast<double>(passes_a_trip) * trips_in_batch;
-    const double added_s = cost_s([&] { store.add_trips(batch.trips); });
-    const double fused_s = cost_s([&] { store.refresh(); });
+    const double added_s = cost_s([&] { store.importer.add_trips(batch.trips); });
+    const double fused_s = cost_s([&] { store.importer.refresh(); });
     row("1,000 trips of 500 passes: their rows", fmt::format("{:.0f} passes/s", passes / added_s));
     row("1,000 trips of 500 passes: with state",
         fmt::format("{:.0f} passes/s", passes / (added_s + fused_s)));

@@ -24,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using bench::add_trip;
 using bench::keys_of;
 using bench::trip_number;
 
@@ -75,13 +76,13 @@ const fs::path& driven_town(int side) {
     const auto file = scratch("town-" + std::to_string(side) + ".gpkg");
     const auto roads = testing::made_up_town(side);
     auto store = RoadStore::create(file, roads, {});
-    store.add_trip(trip_number(0), passes_over(keys_of(roads)));
-    store.refresh();
+    add_trip(store, trip_number(0), passes_over(keys_of(roads)));
+    store.importer.refresh();
     return made.emplace(side, file).first->second;
 }
 
 /// About 1,000 segments in the middle of the town, whatever its size.
-GeoBox middle_of(const RoadStore& store) {
+GeoBox middle_of(const StoreReader& store) {
     const auto box = store.info().box;
     const double lat = (box.south_deg + box.north_deg) / 2;
     const double lon = (box.west_deg + box.east_deg) / 2;
@@ -94,8 +95,7 @@ GeoBox middle_of(const RoadStore& store) {
 }
 
 void ask_by_place(benchmark::State& state) {
-    const auto store =
-        RoadStore::open(driven_town(static_cast<int>(state.range(0))), RoadStore::Access::read);
+    const auto store = StoreReader::open(driven_town(static_cast<int>(state.range(0))));
     SegmentFilter filter;
     filter.box = middle_of(store);
     std::size_t seen = 0;
@@ -140,15 +140,15 @@ void add_and_fuse_trips(benchmark::State& state) {
     const auto side = static_cast<int>(state.range(0));
     const auto file = scratch("growing-" + std::to_string(side) + ".gpkg");
     fs::copy_file(driven_town(side), file, fs::copy_options::overwrite_existing);
-    auto store = RoadStore::open(file, RoadStore::Access::write);
+    auto store = RoadStore::open(file);
     const auto keys = keys_of(testing::made_up_town(side));
     static int number = 0;
     for (auto _ : state) {
         state.PauseTiming();
         const auto drive = town_drive(keys, number, with_traces);
         state.ResumeTiming();
-        store.add_trip(trip_number(++number), drive.passes, drive.traces);
-        store.refresh();
+        add_trip(store, trip_number(++number), drive.passes, drive.traces);
+        store.importer.refresh();
     }
     state.counters["passes/s"] = benchmark::Counter(static_cast<double>(passes_a_trip) *
                                                         static_cast<double>(state.iterations()),
@@ -171,7 +171,7 @@ const fs::path& waiting_town(int trips) {
     auto store = RoadStore::create(file, roads, {});
     for (int number = 0; number < trips; ++number) {
         const auto drive = town_drive(keys, number, with_traces);
-        store.add_trip(trip_number(number), drive.passes, drive.traces);
+        add_trip(store, trip_number(number), drive.passes, drive.traces);
     }
     return made.emplace(trips, file).first->second;
 }
@@ -184,9 +184,9 @@ void fuse_trips(benchmark::State& state) {
     for (auto _ : state) {
         state.PauseTiming();
         fs::copy_file(waiting_town<with_traces>(trips), file, fs::copy_options::overwrite_existing);
-        auto store = RoadStore::open(file, RoadStore::Access::write);
+        auto store = RoadStore::open(file);
         state.ResumeTiming();
-        store.refresh();
+        store.importer.refresh();
     }
     state.counters["passes/s"] =
         benchmark::Counter(static_cast<double>(passes_a_trip) * static_cast<double>(trips) *
@@ -234,11 +234,11 @@ void add_batch(benchmark::State& state) {
     for (auto _ : state) {
         state.PauseTiming();
         fs::copy_file(driven_town(side), file, fs::copy_options::overwrite_existing);
-        auto store = RoadStore::open(file, RoadStore::Access::write);
+        auto store = RoadStore::open(file);
         state.ResumeTiming();
-        store.add_trips(batch.trips);
+        store.importer.add_trips(batch.trips);
         if (with_state) {
-            store.refresh();
+            store.importer.refresh();
         }
     }
     count_passes(state, static_cast<double>(passes_a_trip) * trips_in_batch);
@@ -341,25 +341,25 @@ void read_beside_a_writer(benchmark::State& state) {
     fs::copy_file(town, file, fs::copy_options::overwrite_existing);
     const auto keys = keys_of(testing::made_up_town(50));
     SegmentFilter filter;
-    filter.box = middle_of(RoadStore::open(file, RoadStore::Access::read));
+    filter.box = middle_of(StoreReader::open(file));
     std::atomic<int> trips = 0;
     std::jthread writer;
     if (state.range(0) == 1) {
         writer = std::jthread{[&](const std::stop_token& stop) {
-            auto store = RoadStore::open(file, RoadStore::Access::write);
+            auto store = RoadStore::open(file);
             while (!stop.stop_requested()) {
                 const auto first = static_cast<std::size_t>(trips) * 500 % (keys.size() - 500);
                 const std::vector<SegmentKey> driven{keys.begin() + static_cast<long>(first),
                                                      keys.begin() + static_cast<long>(first + 500)};
-                store.add_trip(trip_number(20'000 + ++trips), passes_over(driven));
-                store.refresh();
+                add_trip(store, trip_number(20'000 + ++trips), passes_over(driven));
+                store.importer.refresh();
             }
         }};
     }
     std::vector<double> times_ms;
     for (auto _ : state) {
         const double begin_s = bench::wall_s();
-        const auto store = RoadStore::open(file, RoadStore::Access::read);
+        const auto store = StoreReader::open(file);
         store.visit(filter, [](const SegmentRecord&) {});
         times_ms.push_back(1e3 * (bench::wall_s() - begin_s));
     }

@@ -42,8 +42,8 @@ void make_store(const fs::path& file, int side) {
         RoadStore::create(file, roads, {.network_source = "town", .attribution = "made up"});
     // Five alike, of any class.
     const auto um_of = [](std::int64_t number) { return 800 + number / 5 * 7919 % 2700; };
-    store.add_trip(bench::trip_number(0), bench::passes_over(bench::keys_of(roads), um_of));
-    store.refresh();
+    bench::add_trip(store, bench::trip_number(0), bench::passes_over(bench::keys_of(roads), um_of));
+    store.importer.refresh();
 }
 
 /// Tiles all over the town, none at its edge.
@@ -71,11 +71,10 @@ struct Setting {
 class OurTiles {
 public:
     OurTiles(const fs::path& file, const Setting& setting)
-        : store_{RoadStore::open(file, RoadStore::Access::read)},
-          painter_{{{}, setting.tile_px, 1}}, png_{MapStyle{}}, setting_{setting},
-          rules_{tile_line_rules({setting.zoom, setting.tile_px},
-                                 store_.settings().segment_length_m,
-                                 painter_.reach_px(setting.zoom))} {}
+        : store_{StoreReader::open(file)}, painter_{{{}, setting.tile_px, 1}}, png_{MapStyle{}},
+          setting_{setting}, rules_{tile_line_rules({setting.zoom, setting.tile_px},
+                                                    store_.settings().segment_length_m,
+                                                    painter_.reach_px(setting.zoom))} {}
 
     std::vector<MapLine> lines(const TileId& tile) const {
         return tile_lines(store_, tile_box(tile), rules_, *class_table("fhwa"));
@@ -100,7 +99,7 @@ private:
     LineWidths tile_widths_of() const {
         return tile_widths(zoom_of_256_px({setting_.zoom, setting_.tile_px}));
     }
-    RoadStore store_;
+    StoreReader store_;
     TilePainter painter_;
     TilePng png_;
     Setting setting_;
@@ -111,7 +110,7 @@ void measure_tiles(const fs::path& file, const Setting& setting) {
     OurTiles ours{file, setting};
     bench::MapnikTiles theirs{
         file.string(), "roughness", setting.tile_px, ours.core_px(), ours.casing_px()};
-    const auto town = RoadStore::open(file, RoadStore::Access::read).info().box;
+    const auto town = StoreReader::open(file).info().box;
     const auto tiles = tiles_in(town, setting.zoom);
     std::size_t segments = 0;
     for (const auto& tile : tiles) {
@@ -162,7 +161,7 @@ void measure_tiles(const fs::path& file, const Setting& setting) {
 }
 
 /// From the store to gzip, one tile after the other.
-void measure_vector_tiles(const RoadStore& store, const StoreInfo& info, int zoom) {
+void measure_vector_tiles(const StoreReader& store, const StoreInfo& info, int zoom) {
     const auto tiles = tiles_in(info.box, zoom);
     constexpr double margin = double{tile_buffer} / tile_extent;
     std::vector<double> query_ms, encode_ms, gzip_ms;
@@ -211,7 +210,7 @@ void measure_vector_tiles(const RoadStore& store, const StoreInfo& info, int zoo
 
 /// A map of 4096 x 4096 px, from the store to the PNG.
 void measure_map(const fs::path& file) {
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto store = StoreReader::open(file);
     const auto town = store.info().box;
     // A third of the town's sides has about a ninth of its segments.
     const GeoBox box{std::lerp(town.west_deg, town.east_deg, 0.33),
@@ -245,7 +244,7 @@ void run(std::string_view what, const fs::path& file, int side) {
     } else if (what == "pictures") {
         measure_pictures(file);
     } else if (what == "vectors") {
-        const auto store = RoadStore::open(file, RoadStore::Access::read);
+        const auto store = StoreReader::open(file);
         const auto info = store.info();
         for (const int zoom : {16, 15, 14}) {
             measure_vector_tiles(store, info, zoom);

@@ -36,12 +36,12 @@ RoadStore new_driven_town() {
     const auto roads = testing::made_up_town(side);
     auto store = RoadStore::create(scratch() / "town.gpkg", roads, {});
     const auto um_of = [](std::int64_t number) { return 1000 + (number * 7919) % 4000; };
-    store.add_trip(bench::trip_number(0), bench::passes_over(bench::keys_of(roads), um_of));
-    store.refresh();
+    bench::add_trip(store, bench::trip_number(0), bench::passes_over(bench::keys_of(roads), um_of));
+    store.importer.refresh();
     return store;
 }
 
-const RoadStore& driven_town() {
+const StoreReader& driven_town() {
     static const auto store = new_driven_town();
     return store;
 }

@@ -36,7 +36,7 @@ void add_survey(RoadStore& store) {
     survey.vehicle_model = "";
     survey.method = "reference";
     survey.reference = ReferenceNote{.relative_sd_ppm = 30'000, .row_mm = 20'000};
-    store.add_trip(survey, testing::passes_of(1000));
+    testing::add_trip(store, survey, testing::passes_of(1000));
 }
 
 /// Three roads, four cars, every segment of one road driven and surveyed, one of them mended, a
@@ -53,9 +53,9 @@ void fill(RoadStore& store) {
                                .utc_ms = {}};
     add_survey(store);
     testing::import_trips(store, 4);
-    store.put_control_sections({&known, 1});
+    store.maintenance.put_control_sections({&known, 1});
     const SegmentKey mended{1, true, 4};
-    store.set_valid_from({&mended, 1}, mended_ms, "mended");
+    store.maintenance.set_valid_from({&mended, 1}, mended_ms, "mended");
 }
 
 std::string good_store() {
@@ -78,7 +78,7 @@ constexpr std::int64_t november_2026_ms = 1'793'491'200'000;
 
 /// Everything that commands read of a store.
 Answer read_store(const fs::path& file) {
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto store = StoreReader::open(file);
     const auto& classes = *class_table(store.settings().class_table);
     auto answer = may_refuse([&] { store.info(); });
     const auto read = [&](const auto& what) { answer = both(answer, may_refuse(what)); };
@@ -130,14 +130,11 @@ Answer read_store(const fs::path& file) {
     read([&] { store.laid(); });
     read([&] { store.contains_trip(testing::trip_record(1).sha256); });
     read([&] { store.has_forgotten(testing::trip_record(1).sha256); });
-    read([&] { store.vehicle_uses(); });
-    read([&] { store.day_uses(); });
+    read([&] { store.usage(); });
     read([&] { store.seen(); });
-    read([&] { store.road_class_lengths(); });
-    read([&] { store.row_reasons(); });
+    read([&] { store.mean_speeds_kmh(); });
     read([&] { store.audit(); });
     read([&] { store.valid_since(); });
-    read([&] { store.calibrated_cars(); });
     read([&] { store.surveys(); });
     read([&] { store.reference_readings(); });
     read([&] { store.control_sections(); });

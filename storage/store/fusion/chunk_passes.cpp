@@ -52,9 +52,7 @@ std::vector<ChunkPasses::Place> ChunkPasses::places_of(std::int64_t chunk,
                                                        std::int64_t segments_per_chunk) {
     std::vector<Place> places;
     for (select_places_.bind(chunk, segments_per_chunk); select_places_.step();) {
-        const SegmentKey key{select_places_.integer(1),
-                             select_places_.text(2) == "forward",
-                             static_cast<std::uint32_t>(select_places_.integer(3))};
+        const auto key = key_in(select_places_, 1);
         places.push_back({select_places_.integer(0),
                           key,
                           station_m(key.forward, select_places_.real(key.forward ? 4 : 5)),

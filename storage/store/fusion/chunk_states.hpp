@@ -5,8 +5,8 @@
 #include "storage/store/fusion/chunk_passes.hpp"
 #include "storage/store/fusion/chunk_trace_rows.hpp"
 #include "storage/store/fusion/fusion_settings.hpp"
-#include "storage/store/schema/segment_filter.hpp"
-#include "storage/store/schema/store_records.hpp"
+#include "storage/store/records/segment_filter.hpp"
+#include "storage/store/records/store_records.hpp"
 
 #include <cstdint>
 #include <optional>

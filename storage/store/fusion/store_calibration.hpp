@@ -2,7 +2,7 @@
 
 #include "estimator/common/progress.hpp"
 #include "storage/sqlite/sqlite.hpp"
-#include "storage/store/schema/maintenance_records.hpp"
+#include "storage/store/records/maintenance_records.hpp"
 
 #include <cstdint>
 

@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// Pseudonyms of the cars of a database, in the order of RoadStore::cars(). Pseudonyms depend on
+/// Pseudonyms of the cars of a database, in the order of StoreUsage::cars. Pseudonyms depend on
 /// the key, the order does not.
 std::vector<std::string> read_cars(Database& database);
 

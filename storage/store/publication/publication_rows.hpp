@@ -1,7 +1,7 @@
 #pragma once
 
 #include "storage/sqlite/sqlite.hpp"
-#include "storage/store/privacy/publication.hpp"
+#include "storage/store/records/publication.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -62,10 +62,7 @@ EndPasses end_passes_of(Database& database, const NetworkBlocks& blocks, const T
         std::vector<BlockPassage> passages;
         for (select.bind(trip); select.step();) {
             rows.push_back({select.integer(0), static_cast<std::uint32_t>(select.integer(1))});
-            passages.push_back({select.integer(2),
-                                blocks.block_of({select.integer(3),
-                                                 select.text(4) == "forward",
-                                                 static_cast<std::uint32_t>(select.integer(5))})});
+            passages.push_back({select.integer(2), blocks.block_of(key_in(select, 3))});
         }
         select.reset();
         const auto at_end = in_end_blocks(passages);

@@ -16,7 +16,7 @@ namespace macadam {
 /// Tables into which passes and traces are written.
 enum class Destination {
     kept,  ///< permanent tables
-    staged ///< temporary tables of the connection (storage/store/road_store_reprocess.cpp)
+    staged ///< temporary tables of the connection (storage/store/maintenance/reprocess.cpp)
 };
 
 /// Writes passes, traces and events of trips and, in permanent tables, marks their segments and

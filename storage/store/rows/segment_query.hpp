@@ -2,11 +2,11 @@
 
 #include "storage/sqlite/row_callback.hpp"
 #include "storage/sqlite/statement_cache.hpp"
-#include "storage/store/schema/segment_filter.hpp"
+#include "storage/store/records/segment_filter.hpp"
 
 namespace macadam {
 
-/// Visits the rows of all segments that match a filter, in the order of RoadStore::visit, by an
+/// Visits the rows of all segments that match a filter, in the order of StoreReader::visit, by an
 /// index where there is one. The result may contain more segments: conditions without an index are
 /// left to the caller.
 ///

@@ -226,6 +226,12 @@ Pass pass_in(const Statement& row, int first, const SegmentKey& segment) {
             .drive = known_drive_in(row, first + 12)};
 }
 
+SegmentKey key_in(const Statement& row, int first) {
+    return {row.integer(first),
+            row.blob(first + 1) == "forward",
+            static_cast<std::uint32_t>(row.integer(first + 2))};
+}
+
 std::optional<std::int64_t> known_utc_ms(const Statement& row, int column) {
     return known_time_in(row, column);
 }

@@ -6,7 +6,7 @@
 #include "storage/sqlite/bulk_insert.hpp"
 #include "storage/sqlite/row_callback.hpp"
 #include "storage/sqlite/sqlite.hpp"
-#include "storage/store/schema/store_records.hpp"
+#include "storage/store/records/store_records.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -44,6 +44,9 @@ extern const char* const pass_columns;
 inline constexpr int digest_column_count = 12; ///< number of leading columns in the digest; the
                                                ///< last column, the drive, only refers to the trace
 Pass pass_in(const Statement& row, int first, const SegmentKey& segment);
+
+/// Key of a segment from columns way_id, direction and seq, the first of which is `first`.
+SegmentKey key_in(const Statement& row, int first);
 
 /// Time in milliseconds since 1970; `std::nullopt` for NULL and for implausible times, outside of
 /// the years 1 to 9999.

@@ -6,6 +6,7 @@
 #include "storage/store/schema/network_rows.hpp"
 #include "storage/store/schema/schema_check.hpp"
 #include "storage/store/schema/schema_sql.hpp"
+#include "storage/store/schema/store_marker.hpp"
 #include "storage/store/schema/store_versions.hpp"
 #include "storage/text/text.hpp"
 
@@ -18,8 +19,6 @@
 
 namespace macadam {
 namespace {
-
-constexpr const char* format_name = "macadam-store";
 
 // ---------------------------------------------------------------------------------------- meta
 
@@ -54,7 +53,7 @@ void write_meta(Database& database,
                 const StoreSettings& settings,
                 const std::string& network_hash,
                 const WrittenSegments& written) {
-    put(database, "format", format_name);
+    put(database, "format", store_format);
     put(database, "version", fmt::format("{}", store_version));
     put(database, "segment_length_m", fmt::format("{}", roads.segment_length_m));
     put(database, "class_table", settings.class_table);
@@ -126,7 +125,7 @@ int expect_store(Database& database, const Schema& found) {
     const auto table = found.find({"table", "meta"});
     const bool is_ours =
         table != found.end() && table->second == own_schema().at({"table", "meta"});
-    if (!is_ours || meta(database, "format") != format_name) {
+    if (!is_ours || meta(database, "format") != store_format) {
         refuse("is a GeoPackage, but not a Macadam database", "");
     }
     const auto text = meta(database, "version");

@@ -3,8 +3,8 @@
 #include "estimator/common/progress.hpp"
 #include "mapping/network/road_network.hpp"
 #include "storage/sqlite/sqlite.hpp"
+#include "storage/store/records/store_records.hpp"
 #include "storage/store/schema/schema_check.hpp"
-#include "storage/store/schema/store_records.hpp"
 
 #include <cstdint>
 #include <string>

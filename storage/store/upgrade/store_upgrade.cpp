@@ -6,10 +6,10 @@
 #include "storage/sqlite/sqlite_header_check.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/rows/audit.hpp"
+#include "storage/store/rows/store_digest.hpp"
 #include "storage/store/schema/schema_check.hpp"
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/store/schema/store_versions.hpp"
-#include "storage/store/upgrade/store_digest.hpp"
 #include "storage/store/upgrade/upgrade_steps.hpp"
 
 #include <fmt/format.h>

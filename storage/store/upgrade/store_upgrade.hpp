@@ -1,7 +1,7 @@
 #pragma once
 
 #include "estimator/common/progress.hpp"
-#include "storage/sqlite/lock_wait.hpp"
+#include "storage/sqlite/lock_wait_policy.hpp"
 
 #include <cstddef>
 #include <filesystem>

@@ -7,6 +7,7 @@
 #include "render/tiles/tile_png.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "support/files/files.hpp"
+#include "support/roads/store_world.hpp"
 #include "support/roads/town.hpp"
 
 #include <gmock/gmock.h>
@@ -67,8 +68,8 @@ fs::path town_store() {
     trip.trip_id = "everywhere";
     trip.sha256 = std::string(64, '0');
     trip.vehicle_id = "car";
-    store.add_trip(trip, passes);
-    store.refresh();
+    add_trip(store, trip, passes);
+    store.importer.refresh();
     return file;
 }
 
@@ -76,7 +77,7 @@ PicturePlan plan_of(const fs::path& store, int min_zoom, int max_zoom) {
     PicturePlan plan;
     plan.min_zoom = min_zoom;
     plan.max_zoom = max_zoom;
-    plan.box = RoadStore::open(store, RoadStore::Access::read).info().box;
+    plan.box = StoreReader::open(store).info().box;
     plan.style.classes = class_table("fhwa");
     return plan;
 }
@@ -92,7 +93,7 @@ Tiles drawn(const fs::path& store, const PicturePlan& plan) {
 }
 
 /// A tile by itself, of the lines that the rules bring for it.
-std::string alone(const RoadStore& store, const PicturePlan& plan, const TileId& tile) {
+std::string alone(const StoreReader& store, const PicturePlan& plan, const TileId& tile) {
     TilePainter painter{{plan.style, plan.tile_px, 1}};
     TilePng png{plan.style};
     const auto rules = tile_line_rules(
@@ -120,7 +121,7 @@ TEST(PictureTiles, AreThoseThatAreDrawnEachForItselfFromTheStore) {
     plan_512.tile_px = 512;
     const auto tiles = drawn(file, plan);
     const auto tiles_512 = drawn(file, plan_512);
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto store = StoreReader::open(file);
     ASSERT_FALSE(tiles.empty());
     for (const auto& [tile, png] : tiles) {
         EXPECT_TRUE(png == alone(store, plan, tile))

@@ -71,7 +71,7 @@ std::vector<std::string> import_words(const fs::path& store,
 }
 
 std::string digest_of(const fs::path& store) {
-    return RoadStore::open(store, RoadStore::Access::read).digest();
+    return StoreReader::open(store).digest();
 }
 
 World world(int trips) {

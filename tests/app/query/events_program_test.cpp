@@ -25,9 +25,9 @@ protected:
         folder_ = fresh_folder();
         auto store = new_store(folder_ / "roads.gpkg");
         for (const int number : {0, 1, 2}) {
-            store.add_trip(trip_record(number), passes_of(number), {}, std::vector{pothole_});
+            add_trip(store, trip_record(number), passes_of(number), {}, std::vector{pothole_});
         }
-        store.refresh();
+        store.importer.refresh();
     }
 
     std::string at(const char* name) const { return (folder_ / name).string(); }

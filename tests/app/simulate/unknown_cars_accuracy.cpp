@@ -2,7 +2,7 @@
 // average car, calibrated, and compared with the truth.
 
 #include "app/simulate/scored_world.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
@@ -106,7 +106,7 @@ void write_survey(const fs::path& store, const fs::path& truth, const fs::path& 
     std::map<std::string, bool> driven;
     SegmentFilter filter;
     filter.min_passes = 1;
-    RoadStore::open(store, RoadStore::Access::read).visit(filter, [&](const SegmentRecord& record) {
+    StoreReader::open(store).visit(filter, [&](const SegmentRecord& record) {
         driven[name_of(record.segment.key)] = record.state->vehicles >= 4;
     });
     std::ifstream in{truth};

@@ -5,7 +5,7 @@
 #include "storage/networks/network_file.hpp"
 #include "storage/networks/osm_writer.hpp"
 #include "storage/sqlite/sqlite.hpp"
-#include "storage/store/road_store.hpp"
+#include "storage/store/reader/store_reader.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/edited_network.hpp"
 #include "support/roads/store_world.hpp"
@@ -144,7 +144,7 @@ void start_anew(const World& made) {
 }
 
 std::string digest_of(const fs::path& store) {
-    return RoadStore::open(store, RoadStore::Access::read).digest();
+    return StoreReader::open(store).digest();
 }
 
 /// A command with what it makes of the store when nothing is in its way.

@@ -30,7 +30,7 @@ using ::testing::SizeIs;
 
 /// A store whose road steps over the meridian of 180 degrees, as on Taveuni. (No map is read with
 /// such a road; the line is put into the store afterwards.)
-RoadStore store_of_taveuni(const fs::path& file) {
+StoreReader store_of_taveuni(const fs::path& file) {
     RoadStore::create(file, build_network(road_art("A---B", 5, {"AB"}).ways, 40), settings());
     {
         const std::vector<GeoPoint> line{{-16.8, 179.9999}, {-16.8, -179.9999}};
@@ -38,7 +38,7 @@ RoadStore store_of_taveuni(const fs::path& file) {
         add_geometry_functions(database);
         database.prepare("UPDATE segment SET geom = ?").run(Blob{geometry_of(line)});
     }
-    return RoadStore::open(file, RoadStore::Access::read);
+    return StoreReader::open(file);
 }
 
 json geometry_by_gdal(const std::string& suffix) {

@@ -203,7 +203,7 @@ TEST(GeoPackage, PassesTheValidatorOfGdal) {
     const auto folder = test_folder();
     auto store = new_store(folder / "fresh.gpkg");
     std::filesystem::copy_file(folder / "fresh.gpkg", folder / "driven.gpkg");
-    auto driven = RoadStore::open(folder / "driven.gpkg", RoadStore::Access::write);
+    auto driven = RoadStore::open(folder / "driven.gpkg");
     import_trips(driven, 6);
     export_segments(driven, {}, folder / "export.gpkg");
     for (const auto* name : {"fresh.gpkg", "driven.gpkg", "export.gpkg"}) {

@@ -40,7 +40,7 @@ FailedImport import_with(const FaultPlan& plan, const fs::path& file) {
     FaultyDisk disk;
     disk.plan(plan);
     failed.refusal = refusal_of([&] {
-        auto store = RoadStore::open(file, RoadStore::Access::write);
+        auto store = RoadStore::open(file);
         import_into(
             store, trips_for(plan.fault), [&](int trip) { failed.acknowledged.push_back(trip); });
         failed.ended_before = !disk.has_failed();
@@ -89,13 +89,13 @@ Sweep sweep(Fault fault, std::size_t step) {
         const FaultyDisk sound;
         EXPECT_EQ(testing::damage_of(file), "ok");
         {
-            const auto store = RoadStore::open(file, RoadStore::Access::read);
+            const auto store = StoreReader::open(file);
             for (const int trip : failed.acknowledged) {
                 EXPECT_TRUE(store.contains_trip(testing::trip_record(trip).sha256)) << trip;
             }
         }
         import_into(file, trips);
-        EXPECT_EQ(RoadStore::open(file, RoadStore::Access::read).digest(), whole);
+        EXPECT_EQ(StoreReader::open(file).digest(), whole);
         fs::remove(file);
     }
     std::cout << "accesses that failed: " << done.met << ", imports refused: " << done.refused

@@ -39,7 +39,7 @@ Recording recorded_import(const fs::path& file) {
     Recording recording;
     FaultyDisk disk;
     {
-        auto store = RoadStore::open(file, RoadStore::Access::write);
+        auto store = RoadStore::open(file);
         import_into(store, trips, [&](int) {
             recording.acknowledged.push_back(disk.log().operations.size());
         });
@@ -75,14 +75,14 @@ TEST(PowerLoss, LosesNoTripThatWasAcknowledgedAndSpoilsNoStore) {
         const FaultyDisk sound;
         ASSERT_EQ(damage_of(left), "ok");
         {
-            const auto store = RoadStore::open(left, RoadStore::Access::read);
+            const auto store = StoreReader::open(left);
             for (int trip = 0; trip < trips; ++trip) {
                 const auto at = recording.acknowledged[static_cast<std::size_t>(trip)];
                 ASSERT_TRUE(at > when || store.contains_trip(testing::trip_record(trip).sha256));
             }
         }
         import_into(left, trips);
-        ASSERT_EQ(RoadStore::open(left, RoadStore::Access::read).digest(), whole);
+        ASSERT_EQ(StoreReader::open(left).digest(), whole);
     }
 }
 

@@ -8,22 +8,22 @@
 namespace macadam::testing {
 
 void import_into(RoadStore& store, int trips, const std::function<void(int)>& acknowledged) {
-    store.begin_import("all", static_cast<std::size_t>(trips));
+    store.importer.begin_import("all", static_cast<std::size_t>(trips));
     for (int number = 0; number < trips; ++number) {
-        store.add_trip(trip_record(number), passes_of(number));
+        add_trip(store, trip_record(number), passes_of(number));
         if (acknowledged) {
             acknowledged(number);
         }
         if (number % 4 == 3) { // some trips are fused while others are still to come
-            store.refresh();
+            store.importer.refresh();
         }
     }
-    store.refresh();
-    store.end_import("all");
+    store.importer.refresh();
+    store.importer.end_import("all");
 }
 
 void import_into(const std::filesystem::path& file, int trips) {
-    auto store = RoadStore::open(file, RoadStore::Access::write);
+    auto store = RoadStore::open(file);
     import_into(store, trips);
 }
 
@@ -32,7 +32,7 @@ std::string undisturbed_digest(const std::filesystem::path& empty, int trips) {
     file += ".whole";
     std::filesystem::copy_file(empty, file, std::filesystem::copy_options::overwrite_existing);
     import_into(file, trips);
-    return RoadStore::open(file, RoadStore::Access::read).digest();
+    return StoreReader::open(file).digest();
 }
 
 std::string damage_of(const std::filesystem::path& store) {

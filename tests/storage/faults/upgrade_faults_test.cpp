@@ -36,10 +36,10 @@ void expect_upgraded(const fs::path& file) {
     if (done.from_version == 2) {
         EXPECT_EQ(done.digest, testing::digest_of_version_2);
     }
-    auto store = RoadStore::open(file, RoadStore::Access::read);
+    auto store = StoreReader::open(file);
     EXPECT_EQ(store.digest(), testing::digest_of_version_2);
     EXPECT_TRUE(store.is_operator());
-    EXPECT_EQ(store.cars().front(), store.key()->pseudonym("van-7"));
+    EXPECT_EQ(store.usage().cars.front(), store.key()->pseudonym("van-7"));
 }
 
 void start_anew(const fs::path& folder) {

@@ -5,7 +5,7 @@
 #include "faulty_disk.hpp"
 #include "mapping/conflation/network_conflation.hpp"
 #include "mapping/network/build_network.hpp"
-#include "storage/store/fleet_passes.hpp"
+#include "support/roads/fleet_passes.hpp"
 #include "storage/store/road_store.hpp"
 #include "store_import.hpp"
 #include "support/files/files.hpp"
@@ -22,12 +22,14 @@ namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::add_trip;
 using testing::Fault;
 using testing::FaultPlan;
 using testing::FaultyDisk;
 using testing::Loss;
 using testing::passes_of_fleet;
 using testing::refusal_of;
+using testing::stage_trip;
 using testing::test_folder;
 using testing::tries;
 using testing::trip_record;
@@ -44,28 +46,28 @@ void PrintTo(const UpkeepCase& maintenance, std::ostream* out) {
 
 void forget(RoadStore& store) {
     if (store.contains_trip(trip_record(4).sha256)) {
-        store.forget({.trips = {"trip-4"}, .vehicles = {}});
+        store.maintenance.forget({.trips = {"trip-4"}, .vehicles = {}});
     }
 }
 
 void reprocess(RoadStore& store) {
     for (const int trip : {2, 5}) {
-        store.stage_trip(trip_record(trip), passes_of_fleet(trip + 1), {});
+        stage_trip(store, trip_record(trip), passes_of_fleet(trip + 1), {});
     }
-    store.commit_staged("anew");
+    store.maintenance.commit_staged("anew");
 }
 
 void set_valid_from(RoadStore& store) {
     const std::vector<SegmentKey> segments{{1, true, 3}, {1, false, 4}};
-    store.set_valid_from(segments, trip_record(5).t0_utc_ms, "resurfaced");
+    store.maintenance.set_valid_from(segments, trip_record(5).t0_utc_ms, "resurfaced");
 }
 
 void import_reference(RoadStore& store) {
     auto survey = trip_record(50);
     survey.vehicle_id = "";
     survey.reference = ReferenceNote{.relative_sd_ppm = 20'000, .row_mm = 20'000};
-    store.add_trip(survey, passes_of_fleet(1));
-    store.refresh();
+    add_trip(store, survey, passes_of_fleet(1));
+    store.importer.refresh();
 }
 
 void update_network(RoadStore& store) {
@@ -75,13 +77,13 @@ void update_network(RoadStore& store) {
         testing::renumber(network, 1, 100);
         testing::erase(network, 3);
         const auto after = build_network(testing::ways_of(network));
-        store.update_network(
+        store.maintenance.update_network(
             before, after, change_between(before, after), {"newer.osm.pbf", "© somebody"});
     }
 }
 
 std::vector<UpkeepCase> maintenances() {
-    return {{"calibrate", [](RoadStore& store) { store.calibrate(true); }},
+    return {{"calibrate", [](RoadStore& store) { store.maintenance.calibrate(); }},
             {"forget", forget},
             {"reprocess", reprocess},
             {"valid_from", set_valid_from},
@@ -101,14 +103,14 @@ World world_of(const fs::path& folder, const UpkeepCase& maintenance) {
     made.before = testing::fleet_store(made.base, 9).digest();
     const auto whole = folder / "whole.gpkg";
     fs::copy_file(made.base, whole);
-    auto store = RoadStore::open(whole, RoadStore::Access::write);
+    auto store = RoadStore::open(whole);
     maintenance.work(store);
     made.after = store.digest();
     return made;
 }
 
 std::string digest_of(const fs::path& file) {
-    return RoadStore::open(file, RoadStore::Access::read).digest();
+    return StoreReader::open(file).digest();
 }
 
 /// \returns whether it is as it is to be.
@@ -123,7 +125,7 @@ bool is_before_or_after(const fs::path& file, const World& world, const UpkeepCa
 
 void expect_completed(const fs::path& file, const World& world, const UpkeepCase& maintenance) {
     {
-        auto store = RoadStore::open(file, RoadStore::Access::write);
+        auto store = RoadStore::open(file);
         maintenance.work(store);
     }
     EXPECT_EQ(digest_of(file), world.after);
@@ -142,7 +144,7 @@ Failed work_with(const FaultPlan& plan, const UpkeepCase& maintenance, const fs:
     FaultyDisk disk;
     disk.plan(plan);
     failed.refusal = refusal_of([&] {
-        auto store = RoadStore::open(file, RoadStore::Access::write);
+        auto store = RoadStore::open(file);
         maintenance.work(store);
         failed.ended_before = !disk.has_failed();
     });
@@ -227,7 +229,7 @@ TEST_P(UpkeepPowerLoss, LeavesTheStoreAsItWasOrAsItIsToBe) {
     {
         FaultyDisk disk;
         {
-            auto store = RoadStore::open(file, RoadStore::Access::write);
+            auto store = RoadStore::open(file);
             GetParam().work(store);
             acknowledged = disk.log().operations.size();
         }

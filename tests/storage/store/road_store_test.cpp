@@ -14,6 +14,7 @@
 namespace macadam {
 namespace {
 
+using testing::add_trip;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -28,13 +29,13 @@ using ::testing::SizeIs;
 using testing::test_folder;
 using testing::trip_record;
 
-std::vector<SegmentRecord> records_of(const RoadStore& store, const SegmentFilter& filter = {}) {
+std::vector<SegmentRecord> records_of(const StoreReader& store, const SegmentFilter& filter = {}) {
     std::vector<SegmentRecord> records;
     store.visit(filter, [&](const SegmentRecord& record) { records.push_back(record); });
     return records;
 }
 
-std::vector<std::string> keys_of(const RoadStore& store, const SegmentFilter& filter) {
+std::vector<std::string> keys_of(const StoreReader& store, const SegmentFilter& filter) {
     std::vector<std::string> keys;
     for (const auto& record : records_of(store, filter)) {
         keys.push_back(name_of(record.segment.key));
@@ -48,21 +49,21 @@ SegmentFilter all_segments() {
 
 TEST(RoadStore, AddsUpWhyRowsEnteredNoEstimate) {
     auto store = new_store(test_folder() / "a.gpkg");
-    EXPECT_TRUE(store.row_reasons().empty());
+    EXPECT_TRUE(store.usage().row_reasons.empty());
     for (int i = 0; i < 2; ++i) {
         auto trip = trip_record(i);
         trip.row_reasons = {{"too_slow", 10U + i}, {i == 0 ? "no_speed" : "merged", 1}};
-        store.add_trip(trip, passes_of(i));
+        add_trip(store, trip, passes_of(i));
     }
     const std::map<std::string, std::size_t> sums{{"merged", 1}, {"no_speed", 1}, {"too_slow", 21}};
-    EXPECT_EQ(store.row_reasons(), sums);
+    EXPECT_EQ(store.usage().row_reasons, sums);
 }
 
 TEST(RoadStore, CountsPassesThatRestOnLateralVibrationAlone) {
     auto store = new_store(test_folder() / "a.gpkg");
     auto passes = passes_of(0);
     passes.front().validity = validity::indicative | validity::lateral_alone;
-    store.add_trip(trip_record(0), passes);
+    add_trip(store, trip_record(0), passes);
     EXPECT_EQ(store.info().lateral_passes, 1U);
 }
 
@@ -70,7 +71,7 @@ TEST(RoadStore, GivesBackTheNetworkThatItWasMadeWith) {
     const auto file = test_folder() / "a.gpkg";
     new_store(file);
     const auto made = testing::small_country();
-    const auto kept = RoadStore::open(file, RoadStore::Access::read).roads();
+    const auto kept = StoreReader::open(file).roads();
     ASSERT_EQ(way_count(kept), way_count(made));
     for (std::uint32_t i = 0; i < way_count(made); ++i) {
         const auto one = copy_of(way_at(kept, i));
@@ -117,7 +118,7 @@ TEST(RoadStore, KeepsPassesAndStatesToTheLastDigit) {
     const auto records = records_of(store);
     ASSERT_THAT(records, SizeIs(20));
     std::map<std::string, std::int64_t> cars;
-    for (const auto& car : store.cars()) {
+    for (const auto& car : store.usage().cars) {
         cars.emplace(car, cars.size());
     }
     for (const auto& record : records) {
@@ -163,12 +164,12 @@ TEST(RoadStore, GivesOneDigestForEveryOrderOfImport) {
         std::shuffle(order.begin(), order.end(), random);
         auto store = new_store(folder / ("shuffled" + std::to_string(round) + ".gpkg"));
         for (const int number : order) {
-            store.add_trip(trip_record(number), passes_of(number));
+            add_trip(store, trip_record(number), passes_of(number));
             if (number % 5 == 0) {
-                store.refresh();
+                store.importer.refresh();
             }
         }
-        store.refresh();
+        store.importer.refresh();
         EXPECT_EQ(store.digest(), straight.digest());
     }
 }
@@ -186,8 +187,8 @@ TEST(RoadStore, DigestsTheTextThatTheDocumentationDescribes) {
                           .size_um = 31'000,
                           .sd_um = 9'500,
                           .length_mm = 1'500};
-    store.add_trip(trip_record(3), std::vector{pass}, {}, std::vector{event});
-    store.refresh();
+    add_trip(store, trip_record(3), std::vector{pass}, {}, std::vector{event});
+    store.importer.refresh();
     const auto optional = [](const auto& value) { return value ? std::to_string(*value) : "-"; };
     const auto state = *records_of(store)[0].state;
     std::string text = "pass 1+0000 " + trip_record(3).sha256 + " 0 " +
@@ -210,8 +211,8 @@ TEST(RoadStore, TakesEachTripOnce) {
     const auto before = store.digest();
     EXPECT_TRUE(store.contains_trip(trip_record(1).sha256));
     EXPECT_FALSE(store.contains_trip(trip_record(3).sha256));
-    EXPECT_FALSE(store.add_trip(trip_record(1), passes_of(2)));
-    EXPECT_EQ(store.refresh(), 0U);
+    EXPECT_FALSE(add_trip(store, trip_record(1), passes_of(2)));
+    EXPECT_EQ(store.importer.refresh(), 0U);
     EXPECT_EQ(store.digest(), before);
     EXPECT_EQ(store.info().trips, 3U);
 }
@@ -221,29 +222,29 @@ TEST(RoadStore, LetsTwoWritersWriteInTurn) {
     auto alone = new_store(folder / "alone.gpkg");
     import_trips(alone, 6);
     auto one = new_store(folder / "shared.gpkg");
-    auto other = RoadStore::open(folder / "shared.gpkg", RoadStore::Access::write);
+    auto other = RoadStore::open(folder / "shared.gpkg");
     for (int number = 0; number < 6; ++number) {
-        (number % 2 == 0 ? one : other).add_trip(trip_record(number), passes_of(number));
+        add_trip(number % 2 == 0 ? one : other, trip_record(number), passes_of(number));
     }
-    EXPECT_FALSE(other.add_trip(trip_record(0), passes_of(0)));
-    one.refresh();
+    EXPECT_FALSE(add_trip(other, trip_record(0), passes_of(0)));
+    one.importer.refresh();
     EXPECT_EQ(other.digest(), alone.digest());
 }
 
 TEST(RoadStore, CountsWhatWaitsToBeFused) {
     auto store = new_store(test_folder() / "a.gpkg");
-    store.add_trip(trip_record(0), passes_of(0));
+    add_trip(store, trip_record(0), passes_of(0));
     EXPECT_EQ(store.info().waiting, 20U);
-    EXPECT_EQ(store.refresh(), 20U);
+    EXPECT_EQ(store.importer.refresh(), 20U);
     EXPECT_EQ(store.info().waiting, 0U);
 }
 
 TEST(RoadStore, FusesNoMoreThanIsWanted) {
     auto store = new_store(test_folder() / "a.gpkg");
-    store.add_trip(trip_record(0), passes_of(0));
+    add_trip(store, trip_record(0), passes_of(0));
     std::stop_source source;
     source.request_stop();
-    EXPECT_EQ(store.refresh({.report = {}, .stop = source.get_token()}), 0U);
+    EXPECT_EQ(store.importer.refresh({.report = {}, .stop = source.get_token()}), 0U);
     EXPECT_EQ(store.info().waiting, 20U);
 }
 
@@ -252,10 +253,10 @@ TEST(RoadStore, KnowsCarsOnlyByPseudonyms) {
     auto store = new_store(file);
     auto secret = trip_record(0);
     secret.vehicle_id = "WVWZZZ1JZXW000001";
-    store.add_trip(secret, passes_of(0));
+    add_trip(store, secret, passes_of(0));
     auto nobody = trip_record(1);
     nobody.vehicle_id = "";
-    store.add_trip(nobody, passes_of(1));
+    add_trip(store, nobody, passes_of(1));
     EXPECT_THAT(store.info().vehicles, ElementsAre(MatchesRegex("v-[0-9a-f]{32}"), "unknown"));
     std::ifstream in{file, std::ios::binary};
     const std::string bytes{std::istreambuf_iterator<char>{in}, {}};
@@ -287,7 +288,7 @@ TEST(RoadStore, AddsUpWhatItHolds) {
 
 TEST(RoadStore, SaysWhatTheTripsOfEachCarGave) {
     auto store = new_store(test_folder() / "a.gpkg");
-    EXPECT_THAT(store.vehicle_uses(), IsEmpty());
+    EXPECT_THAT(store.usage().vehicles, IsEmpty());
     for (int number = 0; number < 4; ++number) { // trips 0 and 3 are of one car, 3 is undated
         auto trip = trip_record(number);
         trip.distance_mm = 1'500'000;
@@ -295,11 +296,11 @@ TEST(RoadStore, SaysWhatTheTripsOfEachCarGave) {
         trip.rows_read = 1000;
         trip.rows_used = 900;
         trip.method = number == 1 ? "other" : "kf";
-        store.add_trip(trip, passes_of(number));
+        add_trip(store, trip, passes_of(number));
     }
-    const auto uses = store.vehicle_uses();
+    const auto uses = store.usage().vehicles;
     ASSERT_THAT(uses, SizeIs(3));
-    const auto cars = store.cars();
+    const auto cars = store.usage().cars;
     EXPECT_TRUE(std::ranges::is_sorted(
         uses, {}, [&](const VehicleUse& use) { return std::ranges::find(cars, use.vehicle); }));
     const auto twice = std::ranges::find(uses, 2U, &VehicleUse::trips);
@@ -412,7 +413,7 @@ TEST(RoadStore, LeavesNothingBehindWhereItCannotBeMade) {
 TEST(RoadStore, RefusesWhatIsNoStore) {
     const auto folder = test_folder();
     const auto open = [](const std::filesystem::path& file) {
-        return refusal_of([&] { RoadStore::open(file, RoadStore::Access::read); });
+        return refusal_of([&] { StoreReader::open(file); });
     };
     EXPECT_THAT(open(folder / "none.gpkg"),
                 HasSubstr("none.gpkg: no such file, expected a database made by 'macadam init'"));
@@ -430,7 +431,7 @@ TEST(RoadStore, RefusesPassesOverRoadsItDoesNotHave) {
     const auto before = store.digest();
     auto passes = passes_of(0);
     passes.back().segment = {2, false, 0}; // against the oneway
-    EXPECT_THAT(refusal_of([&] { store.add_trip(trip_record(0), passes); }),
+    EXPECT_THAT(refusal_of([&] { add_trip(store, trip_record(0), passes); }),
                 HasSubstr("a.gpkg: has no segment '2-0000', expected passes over its own network"));
     EXPECT_EQ(store.digest(), before);
     EXPECT_FALSE(store.contains_trip(trip_record(0).sha256));

@@ -82,11 +82,28 @@ std::vector<Pass> passes_of(int number) {
     return passes;
 }
 
+bool add_trip(RoadStore& store,
+              const TripRecord& trip,
+              std::span<const Pass> passes,
+              std::span<const RoughnessTrace> traces,
+              const std::optional<std::span<const PassEvent>>& events) {
+    const NewTrip one{&trip, passes, traces, false, events};
+    return store.importer.add_trips({&one, 1}).front();
+}
+
+bool stage_trip(RoadStore& store,
+                const TripRecord& trip,
+                std::span<const Pass> passes,
+                std::span<const RoughnessTrace> traces,
+                const std::optional<std::span<const PassEvent>>& events) {
+    return store.maintenance.stage_trip({&trip, passes, traces, false, events});
+}
+
 void import_trips(RoadStore& store, int count) {
     for (int number = 0; number < count; ++number) {
-        store.add_trip(trip_record(number), passes_of(number));
+        add_trip(store, trip_record(number), passes_of(number));
     }
-    store.refresh();
+    store.importer.refresh();
 }
 
 } // namespace macadam::testing

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,20 @@ TripRecord trip_record(int number);
 /// Returns the passes of that trip over every segment of way 1 in both directions. The values
 /// depend on `number` alone.
 std::vector<Pass> passes_of(int number);
+
+/// Adds one trip. \returns whether it is new.
+bool add_trip(RoadStore& store,
+              const TripRecord& trip,
+              std::span<const Pass> passes,
+              std::span<const RoughnessTrace> traces = {},
+              const std::optional<std::span<const PassEvent>>& events = {});
+
+/// Stages new results of one trip. \returns false if the store has no such trip.
+bool stage_trip(RoadStore& store,
+                const TripRecord& trip,
+                std::span<const Pass> passes,
+                std::span<const RoughnessTrace> traces,
+                const std::optional<std::span<const PassEvent>>& events = {});
 
 /// Imports trips 0 to `count` - 1 and fuses them.
 void import_trips(RoadStore& store, int count);

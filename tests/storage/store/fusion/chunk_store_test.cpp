@@ -18,6 +18,7 @@
 namespace macadam {
 namespace {
 
+using testing::add_trip;
 using ::testing::HasSubstr;
 using testing::refusal_of;
 using ::testing::SizeIs;
@@ -97,7 +98,7 @@ void add(RoadStore& store, int number) {
     for (const bool forward : {true, false}) {
         const auto trip = driven(number, lags_m.at(static_cast<std::size_t>(number)), forward);
         auto record = trip_record(2 * number + (forward ? 1 : 0));
-        store.add_trip(record, trip.passes, trip.traces);
+        add_trip(store, record, trip.passes, trip.traces);
     }
 }
 
@@ -106,7 +107,7 @@ RoadStore store_of(const std::filesystem::path& file, const std::vector<int>& or
     for (const int number : order) {
         add(store, number);
     }
-    store.refresh();
+    store.importer.refresh();
     return store;
 }
 
@@ -122,10 +123,10 @@ TEST(ChunkStore, ComesToTheSameInAnyOrderAndInAnyBatches) {
         for (const int number : order) {
             add(store, number);
             if ((number + static_cast<int>(round)) % 2 == 0) {
-                store.refresh();
+                store.importer.refresh();
             }
         }
-        store.refresh();
+        store.importer.refresh();
         EXPECT_EQ(store.digest(), digest);
     }
 }
@@ -136,12 +137,12 @@ TEST(ChunkStore, ComesToTheSameAlsoWhereATripHasATraceButNoPass) {
         add(store, 0);
         add(store, 1);
         if (each) {
-            store.refresh();
+            store.importer.refresh();
         }
         auto trip = driven(2, lags_m[2], true);
         trip.passes.resize(3); // all in the first chunk
-        store.add_trip(trip_record(5), trip.passes, trip.traces);
-        store.refresh();
+        add_trip(store, trip_record(5), trip.passes, trip.traces);
+        store.importer.refresh();
         return store.digest();
     };
     const auto folder = test_folder();
@@ -202,7 +203,7 @@ TEST(ChunkStore, KeepsAPassAsItsTripReadIt) {
 TEST(ChunkStore, FusesPassesWhereTheyLie) {
     // All pairs of trips read the same road 5 m and more apart. Laid on each other they differ
     // less.
-    const auto scatter = [](const RoadStore& store) {
+    const auto scatter = [](const StoreReader& store) {
         double sum = 0;
         store.visit({}, [&](const SegmentRecord& record) {
             sum += record.state->sd_um / double(record.state->iri_um);
@@ -214,12 +215,12 @@ TEST(ChunkStore, FusesPassesWhereTheyLie) {
     auto apart = new_store(folder / "apart.gpkg");
     for (int number = 0; number < 6; ++number) {
         for (const bool forward : {true, false}) {
-            apart.add_trip(
-                trip_record(2 * number + (forward ? 1 : 0)),
-                driven(number, lags_m.at(static_cast<std::size_t>(number)), forward).passes);
+            add_trip(apart,
+                     trip_record(2 * number + (forward ? 1 : 0)),
+                     driven(number, lags_m.at(static_cast<std::size_t>(number)), forward).passes);
         }
     }
-    apart.refresh();
+    apart.importer.refresh();
     EXPECT_LT(scatter(aligned), scatter(apart));
 }
 
@@ -237,9 +238,9 @@ TEST(ChunkStore, CountsTheSegmentsThatHadNewPasses) {
     auto store = store_of(test_folder() / "a.gpkg", {0});
     auto trip = driven(1, lags_m[1], true);
     trip.passes.resize(3);
-    store.add_trip(trip_record(3), trip.passes, trip.traces);
+    add_trip(store, trip_record(3), trip.passes, trip.traces);
     EXPECT_EQ(store.waiting(), 3U);
-    EXPECT_EQ(store.refresh(), 3U);
+    EXPECT_EQ(store.importer.refresh(), 3U);
     EXPECT_EQ(store.waiting(), 0U);
 }
 
@@ -247,7 +248,7 @@ TEST(ChunkStore, RefusesTracesOfOtherRoadsAndTakesNothingOfTheTrip) {
     auto store = new_store(test_folder() / "a.gpkg");
     auto trip = driven(0, 0, true);
     trip.traces[0].chunk.way_id = 99;
-    EXPECT_THAT(refusal_of([&] { store.add_trip(trip_record(1), trip.passes, trip.traces); }),
+    EXPECT_THAT(refusal_of([&] { add_trip(store, trip_record(1), trip.passes, trip.traces); }),
                 HasSubstr("a.gpkg: has no strip 0 of way '99' forward, expected traces over its "
                           "own network"));
     EXPECT_FALSE(store.contains_trip(trip_record(1).sha256));
@@ -266,9 +267,10 @@ TEST(ChunkStore, SaysThatATraceWasChanged) {
         auto again = driven(1, 0, true);
         again.traces.resize(1);
         again.traces[0].drive = 7;
-        store.add_trip(trip_record(9), again.passes, again.traces);
+        add_trip(store, trip_record(9), again.passes, again.traces);
         Database{file, Database::Access::write}.run(std::string{"UPDATE trace SET "} + change);
-        EXPECT_THAT(refusal_of([&] { store.refresh(); }), HasSubstr("the database was modified"))
+        EXPECT_THAT(refusal_of([&] { store.importer.refresh(); }),
+                    HasSubstr("the database was modified"))
             << change;
     }
 }

@@ -241,7 +241,7 @@ void add_to(RoadStore& store, const std::vector<CrowdTrip>& trips) {
     for (std::size_t i = 0; i < trips.size(); ++i) {
         together.push_back({&records[i], trips[i].kept, {}});
     }
-    store.add_trips(together);
+    store.importer.add_trips(together);
 }
 
 } // namespace macadam::testing

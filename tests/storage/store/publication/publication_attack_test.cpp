@@ -40,7 +40,7 @@ struct Snapshot {
 
 Snapshot snapshot_of(const std::filesystem::path& file) {
     Snapshot snapshot;
-    const auto store = RoadStore::open(file, RoadStore::Access::read);
+    const auto store = StoreReader::open(file);
     store.visit({}, [&](const SegmentRecord& record) {
         snapshot.states[record.segment.key] = *record.state;
     });
@@ -89,9 +89,9 @@ const World& world() {
             if (month == forgotten_after) {
                 ForgetRequest request;
                 request.vehicles = {"car " + std::to_string(forgotten_car)};
-                store.forget(request);
+                store.maintenance.forget(request);
             }
-            store.publish(it.town.roads(), testing::begin_of_month_ms(month + 1));
+            store.maintenance.publish(it.town.roads(), testing::begin_of_month_ms(month + 1));
             it.published.push_back(snapshot_of(file));
         }
         return it;

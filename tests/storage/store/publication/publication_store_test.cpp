@@ -12,6 +12,7 @@
 namespace macadam {
 namespace {
 
+using testing::add_trip;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::refusal_of;
@@ -74,32 +75,33 @@ struct Crowd {
                               .size_um = 31'000,
                               .sd_um = 9'000});
         }
-        store.add_trip(record, passes, {}, events);
+        add_trip(store, record, passes, {}, events);
     }
     void drive_all(int cars, std::int64_t utc_ms, IriUm iri_um = 2000) {
         for (int car = 0; car < cars; ++car) {
             drive(car, utc_ms, iri_um);
         }
-        store.refresh();
+        store.importer.refresh();
     }
-    Published publish(std::int64_t now_ms) { return store.publish(three_roads(), now_ms); }
+    Published publish(std::int64_t now_ms) {
+        return store.maintenance.publish(three_roads(), now_ms);
+    }
 
     std::vector<SegmentRecord> seen(const std::optional<Period>& period = {},
-                                    Reader reader = Reader::anyone) const {
+                                    Audience audience = Audience::anyone) const {
         SegmentFilter filter;
         filter.period = period;
         std::vector<SegmentRecord> records;
-        RoadStore::open(file, RoadStore::Access::read, {}, reader)
-            .visit(filter, [&](const SegmentRecord& record) {
-                if (record.state) {
-                    records.push_back(record);
-                }
-            });
+        StoreReader::open(file, {}, audience).visit(filter, [&](const SegmentRecord& record) {
+            if (record.state) {
+                records.push_back(record);
+            }
+        });
         return records;
     }
 
-    std::vector<EventRecord> events(Reader reader = Reader::anyone) const {
-        return RoadStore::open(file, RoadStore::Access::read, {}, reader).events({});
+    std::vector<EventRecord> events(Audience audience = Audience::anyone) const {
+        return StoreReader::open(file, {}, audience).events({});
     }
 
 private:
@@ -111,8 +113,8 @@ TEST(Publication, TellsOfEventsThatFiveCarsReport) {
     for (int car = 0; car < 8; ++car) {
         crowd.drive(car, january_ms, 2000, car < 4);
     }
-    crowd.store.refresh();
-    EXPECT_EQ(crowd.events(Reader::operator_).size(), 2U);
+    crowd.store.importer.refresh();
+    EXPECT_EQ(crowd.events(Audience::operator_).size(), 2U);
     EXPECT_THAT(crowd.events(), IsEmpty());
     crowd.publish(february_ms);
     EXPECT_THAT(crowd.events(), IsEmpty());
@@ -120,7 +122,7 @@ TEST(Publication, TellsOfEventsThatFiveCarsReport) {
     for (int car = 4; car < 10; ++car) {
         crowd.drive(car, february_ms + 5 * day_ms, 2000, true);
     }
-    crowd.store.refresh();
+    crowd.store.importer.refresh();
     EXPECT_THAT(crowd.events(), IsEmpty()); // until the next publication
     crowd.publish(march_ms);
     const auto events = crowd.events();
@@ -141,12 +143,12 @@ TEST(Publication, HasNoEventsByMonth) {
     for (int car = 0; car < 6; ++car) {
         crowd.drive(car, january_ms, 2000, true);
     }
-    crowd.store.refresh();
+    crowd.store.importer.refresh();
     crowd.publish(february_ms);
     EXPECT_EQ(crowd.events().size(), 1U);
     SegmentFilter filter;
     filter.period = Period{january_ms, february_ms};
-    const auto store = RoadStore::open(crowd.file, RoadStore::Access::read);
+    const auto store = StoreReader::open(crowd.file);
     EXPECT_THAT(refusal_of([&] { store.events(filter); }),
                 HasSubstr("expected no --since and --until"));
 }
@@ -166,22 +168,22 @@ TEST(Publication, ComesBeforeAnythingLeavesACrowd) {
 TEST(Publication, ShowsTheOperatorMore) {
     Crowd crowd;
     crowd.drive_all(2, january_ms);
-    EXPECT_EQ(crowd.seen({}, Reader::operator_).size(), 30U);
+    EXPECT_EQ(crowd.seen({}, Audience::operator_).size(), 30U);
     std::filesystem::remove(key_file_of(crowd.file));
-    EXPECT_THAT(crowd.seen({}, Reader::operator_), IsEmpty());
+    EXPECT_THAT(crowd.seen({}, Audience::operator_), IsEmpty());
 }
 
 TEST(Publication, HidesAllThatTellsOfCars) {
     Crowd crowd;
     crowd.drive_all(6, january_ms);
     crowd.publish(february_ms);
-    const auto store = RoadStore::open(crowd.file, RoadStore::Access::read);
+    const auto store = StoreReader::open(crowd.file);
     EXPECT_THAT(store.history({2, true, 3}), IsEmpty());
     EXPECT_THAT(store.changes({2, true, 3}), IsEmpty());
-    EXPECT_THAT(store.vehicle_uses(), IsEmpty());
-    EXPECT_THAT(store.day_uses(), IsEmpty());
+    EXPECT_THAT(store.usage().vehicles, IsEmpty());
+    EXPECT_THAT(store.usage().days, IsEmpty());
     EXPECT_THAT(store.audit(), IsEmpty());
-    EXPECT_THAT(store.calibrated_cars(), IsEmpty());
+    EXPECT_THAT(store.usage().calibrated_cars, IsEmpty());
     const auto info = store.info();
     EXPECT_THAT(info.vehicles, IsEmpty());
     EXPECT_EQ(info.trips, 5U); // at least
@@ -248,12 +250,12 @@ TEST(Publication, KeepsItsFiguresWhenACarIsForgottenUntilOthersDrove) {
     Crowd crowd;
     crowd.drive_all(6, january_ms);
     crowd.drive(7, january_ms, 9000);
-    crowd.store.refresh();
+    crowd.store.importer.refresh();
     crowd.publish(february_ms);
     const auto before = crowd.seen().front().state;
     ForgetRequest request;
     request.vehicles = {"car 7"};
-    crowd.store.forget(request);
+    crowd.store.maintenance.forget(request);
     crowd.publish(march_ms);
     EXPECT_EQ(crowd.seen().front().state, before);
     crowd.drive_all(6, march_ms, 2000);
@@ -272,12 +274,12 @@ TEST(BecomingACrowd, TakesTheEndsOfTripsOut) {
     Crowd crowd{PrivacyProfile::own};
     crowd.drive_all(6, january_ms);
     ASSERT_EQ(crowd.store.info().passes, 180U);
-    const auto made = crowd.store.make_crowd();
+    const auto made = crowd.store.maintenance.make_crowd();
     EXPECT_EQ(made.trips, 6U);
     EXPECT_EQ(made.passes, 180U); // 600 m: all is within 300 m of an end
     EXPECT_EQ(crowd.store.info().passes, 0U);
     EXPECT_EQ(crowd.store.settings().privacy, PrivacyProfile::crowd);
-    EXPECT_THAT(crowd.seen({}, Reader::operator_), IsEmpty());
+    EXPECT_THAT(crowd.seen({}, Audience::operator_), IsEmpty());
     Database database{crowd.file, Database::Access::read};
     EXPECT_EQ(database.number("SELECT count(*) FROM trip WHERE t0_utc_ms IS NOT NULL"), 0);
     EXPECT_EQ(database.number("SELECT sum(distance_mm + matched_mm) FROM trip"), 0);
@@ -286,16 +288,16 @@ TEST(BecomingACrowd, TakesTheEndsOfTripsOut) {
 
 TEST(BecomingACrowd, IsForGood) {
     Crowd crowd;
-    EXPECT_THAT(refusal_of([&] { crowd.store.make_crowd(); }),
+    EXPECT_THAT(refusal_of([&] { crowd.store.maintenance.make_crowd(); }),
                 HasSubstr("is already a crowd "
                           "database"));
 }
 
 TEST(BecomingACrowd, KeepsOutWhatAnImportOfBeforeBrings) {
     Crowd crowd{PrivacyProfile::own};
-    auto importer = RoadStore::open(crowd.file, RoadStore::Access::write);
-    crowd.store.make_crowd();
-    EXPECT_THAT(refusal_of([&] { importer.add_trip(testing::trip_record(1), {}); }),
+    auto importer = RoadStore::open(crowd.file);
+    crowd.store.maintenance.make_crowd();
+    EXPECT_THAT(refusal_of([&] { add_trip(importer, testing::trip_record(1), {}); }),
                 HasSubstr("became a crowd database in the meantime"));
 }
 

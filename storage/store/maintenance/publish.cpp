@@ -1,0 +1,56 @@
+#include "estimator/common/error.hpp"
+#include "mapping/privacy/release_batches.hpp"
+#include "storage/store/connection/store_connection.hpp"
+#include "storage/store/maintenance/store_maintenance.hpp"
+#include "storage/store/publication/publication_rows.hpp"
+#include "storage/store/publication/publication_work.hpp"
+#include "storage/store/rows/audit.hpp"
+#include "storage/text/utc.hpp"
+
+#include <fmt/format.h>
+
+namespace macadam {
+namespace {
+
+constexpr std::size_t month_letters = 7; // 2026-11
+
+} // namespace
+
+Published StoreMaintenance::publish(const RoadNetwork& roads,
+                                    std::int64_t now_utc_ms,
+                                    const Progress& progress) {
+    auto& database = store_->database;
+    const auto refuse = [&](std::string_view why) {
+        throw InputError{fmt::format("{}: {}", database.file().string(), why)};
+    };
+    if (store_->settings.privacy != PrivacyProfile::crowd) {
+        refuse("is a database of the operator's own cars (privacy: own), expected a crowd "
+               "database; its content can be exported without publishing");
+    }
+    if (!store_->key) {
+        refuse(fmt::format("its key is not at {}, expected the operator's: who holds the key "
+                           "publishes",
+                           key_file_of(database.file()).string()));
+    }
+    Transaction all{database, Transaction::Kind::write};
+    store_->expect_same_network();
+    const auto month = utc_text(now_utc_ms).substr(0, month_letters);
+    if (const auto latest = macadam::latest_publication(database);
+        latest && latest->month >= month) {
+        refuse(fmt::format("was already published in {}, and can be published once a month; the "
+                           "next publication is possible from {} on",
+                           latest->month,
+                           utc_text(next_month_ms(now_utc_ms)).substr(0, month_letters)));
+    }
+    Published done;
+    done.changed =
+        publish_pending(database,
+                        {&roads, &*store_->key, &store_->classes(), store_->segments_per_chunk()},
+                        progress);
+    done.publication = add_publication(database, month);
+    add_audit(database, "publish", fmt::format("publication {}", done.publication.number));
+    all.commit();
+    return done;
+}
+
+} // namespace macadam
