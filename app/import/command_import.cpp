@@ -7,7 +7,7 @@
 #include "app/import/import_references.hpp"
 #include "app/import/import_trips.hpp"
 #include "app/import/trip_inputs.hpp"
-#include "app/import/trip_outcome_output.hpp"
+#include "app/import/trip_report_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
 
@@ -169,16 +169,18 @@ void run_import(const Arguments& arguments, const Console& console) {
         console.say(spoken(*earlier));
     }
 
-    const auto tell = [&](const TripOutcome& outcome) { print_outcome(outcome, options.json); };
+    const auto tell = [&](const TripReport& trip) { print_report(trip, options.json); };
     const auto importing = console.progress("importing");
-    const auto totals = import_trips(
-        store,
-        trips,
-        vehicles,
-        options.pipeline,
-        {options.jobs, options.readmit, [&](const std::string& words) { console.say(words); }},
-        importing,
-        tell);
+    const auto totals =
+        import_trips(store,
+                     trips,
+                     vehicles,
+                     {.pipeline = options.pipeline,
+                      .jobs = options.jobs,
+                      .readmit = options.readmit,
+                      .warn = [&](const std::string& words) { console.say(words); }},
+                     importing,
+                     tell);
     const auto fused = fuse(store, console);
 
     console.say(fmt::format("{} imported, {} already imported, {} rejected; {}, {} fused",

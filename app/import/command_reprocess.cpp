@@ -3,7 +3,7 @@
 #include "app/database/segment_options.hpp"
 #include "app/import/import_trips.hpp"
 #include "app/import/trip_inputs.hpp"
-#include "app/import/trip_outcome_output.hpp"
+#include "app/import/trip_report_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
 
@@ -39,10 +39,11 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
                      {.mapping = mapping_of(arguments), .max_files = max_members_of(arguments)},
                      console};
     const bool json = arguments.flag("--json");
-    const auto tell = [&](const TripOutcome& outcome) { print_outcome(outcome, json); };
+    const auto tell = [&](const TripReport& trip) { print_report(trip, json); };
 
     const auto working = console.progress("reprocessing");
-    const auto totals = reprocess_trips(store, trips, vehicles, config, jobs, working, tell);
+    const ImportWork work{.pipeline = config, .jobs = jobs, .reprocess = true};
+    const auto totals = import_trips(store, trips, vehicles, work, working, tell);
     working(1, 1); // clears the progress bar
     if (totals.interrupted) {
         throw InputError{"interrupted: the database is unchanged"};

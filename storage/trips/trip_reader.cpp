@@ -5,7 +5,7 @@
 #include "storage/files/decompress.hpp"
 #include "storage/trips/foreign/foreign_trip.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
-#include "storage/trips/foreign/phone_export.hpp"
+#include "storage/trips/foreign/trip_files.hpp"
 #include "storage/trips/log/trip_assembly.hpp"
 #include "storage/trips/log/trip_rows.hpp"
 #include "storage/trips/rawlog/rawlog_reader.hpp"
@@ -61,33 +61,52 @@ private:
 
 } // namespace
 
-std::string content_sha256(const TripSource& source) {
-    if (is_foreign(source)) {
-        return foreign_sha256(source);
+OpenTrip::OpenTrip(TripSource source) : source_{std::move(source)} {
+    if (is_foreign(source_)) {
+        source_ = with_contents(std::move(source_));
+    } else {
+        bytes_.emplace(open(source_));
     }
-    constexpr std::size_t block = 1 << 20;
-    const auto bytes = open(source);
-    std::vector<char> buffer(block);
-    Sha256 sha256;
-    while (const auto count = bytes->read(buffer)) {
-        sha256.add({buffer.data(), count});
-    }
-    return sha256.hex();
 }
 
-TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress) {
-    if (is_foreign(source)) {
-        return read_foreign_trip(source, needs, progress);
+std::optional<std::string> OpenTrip::sha256_ahead() {
+    constexpr std::size_t max_bytes_ahead = std::size_t{32} << 20; // an hour at 100 Hz
+    return !bytes_ || bytes_->read_ahead(max_bytes_ahead) ? std::optional{sha256()} : std::nullopt;
+}
+
+TripLog OpenTrip::read(const TripNeeds& needs, const Progress& progress) {
+    auto trip = parsed(needs, progress);
+    trip.sha256 = sha256();
+    return trip;
+}
+
+std::string OpenTrip::sha256() {
+    if (bytes_) {
+        return bytes_->sha256();
     }
-    if (source.name().ends_with(rawlog_suffix)) {
-        return read_rawlog({open(source), source.name(), bytes_of_source(source)}, needs, progress);
+    if (foreign_sha256_.empty()) {
+        foreign_sha256_ = foreign_sha256(source_);
     }
-    if (is_gpx_name(source.name())) {
-        return read_gpx({open(source), source.name(), bytes_of_source(source)}, needs, progress);
+    return foreign_sha256_;
+}
+
+TripBytes OpenTrip::bytes() {
+    return {bytes_->stream(), source_.name(), bytes_of_source(source_)};
+}
+
+TripLog OpenTrip::parsed(const TripNeeds& needs, const Progress& progress) {
+    if (!bytes_) {
+        return read_foreign_trip(source_, needs, progress);
     }
-    TripRows rows{open(source), source, needs};
+    if (source_.name().ends_with(rawlog_suffix)) {
+        return read_rawlog(bytes(), needs, progress);
+    }
+    if (is_gpx_name(source_.name())) {
+        return read_gpx(bytes(), needs, progress);
+    }
+    TripRows rows{bytes_->stream(), source_, needs};
     TripStreams streams{needs, rows.header()};
-    ProgressThrottle pace{source, progress};
+    ProgressThrottle pace{source_, progress};
     while (const auto row = rows.next()) {
         pace.step(rows);
         streams.add(*row);
@@ -97,8 +116,11 @@ TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progre
     }
     auto trip = streams.take();
     trip.meta = rows.meta();
-    trip.sha256 = rows.sha256();
     return trip;
+}
+
+TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress) {
+    return OpenTrip{source}.read(needs, progress);
 }
 
 } // namespace macadam

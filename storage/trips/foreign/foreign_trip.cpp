@@ -252,7 +252,6 @@ read_foreign_trip(const TripSource& source, const TripNeeds& needs, const Progre
     }
     auto trip = collector.take();
     trip.meta.trip_id = trip_id_of(source);
-    trip.sha256 = foreign_sha256(source);
     return trip;
 }
 

@@ -33,7 +33,6 @@ struct Content {
     std::vector<std::ptrdiff_t> objects;
     std::map<std::string, std::size_t> classes; ///< number of objects per class
     std::optional<TripMeta> head;
-    std::string sha256;
 };
 
 /// Parses the lines "# key: value" of a comment like a log header.
@@ -66,7 +65,7 @@ void tell(const Progress& progress,
     }
 }
 
-Content read_objects(RawlogSource source, const Progress& progress) {
+Content read_objects(TripBytes source, const Progress& progress) {
     auto* const decode = plugin_function<RawlogDecode>("macadam_rawlog.so", rawlog_decode_name);
     RawlogObjects objects{std::move(source.bytes), source.name};
     Content content;
@@ -83,7 +82,7 @@ Content read_objects(RawlogSource source, const Progress& progress) {
         }
     };
     while (const auto object = objects.next()) {
-        tell(progress, objects, content.objects.size() + 1, source.whole_bytes);
+        tell(progress, objects, content.objects.size() + 1, source.size_on_disk);
         ++content.classes[object->name];
         if (object->kind == RawlogClass::other) {
             content.objects.push_back(-1);
@@ -97,7 +96,6 @@ Content read_objects(RawlogSource source, const Progress& progress) {
                 "{}: MRPT cannot read this {}: {}", objects.where(), object->name, error.what())};
         }
     }
-    content.sha256 = objects.sha256();
     return content;
 }
 
@@ -302,7 +300,7 @@ void expect_columns(const Columns& columns,
 
 } // namespace
 
-TripLog read_rawlog(RawlogSource source, const TripNeeds& needs, const Progress& progress) {
+TripLog read_rawlog(TripBytes source, const TripNeeds& needs, const Progress& progress) {
     const auto name = source.name;
     auto content = read_objects(std::move(source), progress);
     const auto& observations = content.observations;
@@ -327,7 +325,6 @@ TripLog read_rawlog(RawlogSource source, const TripNeeds& needs, const Progress&
     auto trip = streams.take();
     trip.meta = meta;
     trip.meta.other.erase(rawlog_accuracy_key);
-    trip.sha256 = content.sha256;
     return trip;
 }
 

@@ -2,12 +2,9 @@
 
 #include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
-#include "storage/files/byte_stream.hpp"
+#include "storage/trips/source/trip_contents.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
-#include <cstddef>
-#include <memory>
-#include <string>
 #include <string_view>
 
 namespace macadam {
@@ -21,13 +18,6 @@ inline constexpr std::string_view rawlog_head_mark = "# macadam-trip 1";
 /// accuracy itself. Rawlogs from other programs have neither the key nor an accuracy.
 inline constexpr const char* rawlog_accuracy_key = "hacc_per_hdop_m";
 
-/// Input of read_rawlog().
-struct RawlogSource {
-    std::unique_ptr<ByteStream> bytes; ///< decompressed
-    std::string name;                  ///< for messages
-    std::size_t whole_bytes;           ///< size on disk, for progress; 0: unknown
-};
-
 /// Reads a rawlog of MRPT: CObservationIMU, CObservationGPS (NMEA GGA and RMC) and
 /// CObservationOdometry become samples, a CObservationComment that begins with "# macadam-trip 1"
 /// is the header of the trip. Every object is a row; objects of other classes, and of all but the
@@ -36,6 +26,6 @@ struct RawlogSource {
 ///
 /// \throws InputError  "file: object N at byte B: ..." if it is not a rawlog, is truncated or
 ///                     damaged, or lacks the sensors of a required column.
-TripLog read_rawlog(RawlogSource source, const TripNeeds& needs, const Progress& progress = {});
+TripLog read_rawlog(TripBytes source, const TripNeeds& needs, const Progress& progress = {});
 
 } // namespace macadam

@@ -9,7 +9,14 @@
 
 namespace macadam {
 
-/// Decompressed files of one trip from an archive, in memory.
+/// Content of a trip in one file, as its parsers take it.
+struct TripBytes {
+    std::unique_ptr<ByteStream> bytes; ///< decompressed
+    std::string name;                  ///< for messages
+    std::size_t size_on_disk;          ///< for progress, bytes; 0: unknown
+};
+
+/// Decompressed files of one trip, in memory: from an archive, or of a foreign trip.
 struct TripContents {
     struct File {
         std::string name; ///< within the trip's folder; "" for a single log

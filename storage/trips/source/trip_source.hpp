@@ -35,8 +35,8 @@ struct TripSource {
     std::vector<std::string> files{};             ///< of a foreign trip, relative to its folder
     std::shared_ptr<const TripMapping> mapping{}; ///< its tables[i] applies to files[i]
 
-    /// Contents from an archive; null for a trip on disk. A trip that could not be extracted is a
-    /// source as well: reading it throws the reason.
+    /// Contents in memory, as from an archive; null for a trip on disk. A trip that could not be
+    /// extracted is a source as well: reading it throws the reason.
     std::shared_ptr<const TripContents> contents{};
 
     std::string name() const; ///< for messages

@@ -353,9 +353,9 @@ TEST(TripReader, RefusesABomb) {
 
 TEST(TripReader, HashesTheContentItself) {
     const auto file = written(test_folder(), "a.trip.csv.gz", gzipped(small));
-    EXPECT_EQ(content_sha256({file, ""}), read_trip({file, ""}, everything).sha256);
+    EXPECT_EQ(OpenTrip{{file, ""}}.sha256(), read_trip({file, ""}, everything).sha256);
     // FIPS 180-2, appendix B.1
-    EXPECT_EQ(content_sha256({written(test_folder(), "abc", "abc"), ""}),
+    EXPECT_EQ(OpenTrip{{written(test_folder(), "abc", "abc"), ""}}.sha256(),
               "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 

@@ -312,8 +312,8 @@ TEST(Rawlog, ReadsWhatMrptWroteIn2008) {
 TEST(Rawlog, HashesTheDecompressedContent) {
     const auto folder = test_folder();
     const auto plain = written(folder, "plain.rawlog", unpacked(rtk_file));
-    EXPECT_EQ(read_trip({plain, ""}, everything).sha256, content_sha256({rtk_file, ""}));
-    EXPECT_EQ(content_sha256({plain, ""}), content_sha256({rtk_file, ""}));
+    EXPECT_EQ(read_trip({plain, ""}, everything).sha256, OpenTrip{{rtk_file, ""}}.sha256());
+    EXPECT_EQ(OpenTrip{{plain, ""}}.sha256(), OpenTrip{{rtk_file, ""}}.sha256());
 }
 
 TEST(Rawlog, TakesEachFieldForWhatMrptMeans) {
