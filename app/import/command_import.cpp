@@ -40,7 +40,6 @@ struct ImportOptions {
     KnownRoughness known;
 };
 
-constexpr std::int64_t max_jobs = 256;
 constexpr double max_trim_m = 100000;
 
 PipelineConfig config_of(const Arguments& arguments) {
@@ -55,10 +54,7 @@ PipelineConfig config_of(const Arguments& arguments) {
 }
 
 ImportOptions parse_import(const Arguments& arguments) {
-    const auto jobs = arguments.integer("--jobs").value_or(1);
-    if (jobs < 1 || jobs > max_jobs) {
-        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, max_jobs)};
-    }
+    const auto jobs = jobs_of(arguments);
     const auto& paths = arguments.operands("PATH");
     auto known = parse_known_roughness(arguments);
     if (paths.empty() && !known.survey && !known.control) {
@@ -66,7 +62,7 @@ ImportOptions parse_import(const Arguments& arguments) {
     }
     return {.store = store_file(arguments),
             .paths = {paths.begin(), paths.end()},
-            .jobs = static_cast<std::size_t>(jobs),
+            .jobs = jobs,
             .json = arguments.flag("--json"),
             .readmit = arguments.flag("--take-back"),
             .pipeline = config_of(arguments),
@@ -230,7 +226,7 @@ constexpr std::array options{
     mapping_option,
     Option{
         "--trim", "METRES", "Remove the first and last N metres of each trip, for privacy.", "0"},
-    Option{"--jobs", "N", "Number of trips processed in parallel.", "1"},
+    jobs_option,
     method_option,
     channels_option,
     no_filters_option,

@@ -17,18 +17,8 @@
 namespace macadam {
 namespace {
 
-constexpr std::int64_t max_jobs = 256;
-
-std::size_t parse_jobs(const Arguments& arguments) {
-    const auto jobs = arguments.integer("--jobs").value_or(1);
-    if (jobs < 1 || jobs > max_jobs) {
-        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, max_jobs)};
-    }
-    return static_cast<std::size_t>(jobs);
-}
-
 void run_reprocess(const Arguments& arguments, const Console& console) {
-    const auto jobs = parse_jobs(arguments);
+    const auto jobs = jobs_of(arguments);
     auto config = pipeline_config_of(arguments);
     config.estimator.tracks = false; // as in an import
     const auto& words = arguments.operands("PATH");
@@ -76,7 +66,7 @@ constexpr std::array options{
     vehicle_option,
     vehicles_option,
     mapping_option,
-    Option{"--jobs", "N", "Number of trips processed in parallel.", "1"},
+    jobs_option,
     max_members_option,
     method_option,
     channels_option,

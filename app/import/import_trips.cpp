@@ -125,30 +125,31 @@ struct ReadTrip {
 ReadTrip read_once(const Intake& intake, const TripSource& source) {
     ReadTrip read;
     std::optional<OpenTrip> trip;
-    std::optional<std::string> ahead;
-    const auto refused = [&](auto step) {
-        read.refusal = refusal_in(source.name(), step);
-        return !read.refusal.empty();
-    };
-    if (refused([&] { ahead = trip.emplace(source).sha256_ahead(); })) {
+    std::optional<std::string> sha256;
+    const auto name = source.name();
+    read.refusal = refusal_in(name, [&] { sha256 = trip.emplace(source).sha256_ahead(); });
+    if (!read.refusal.empty()) {
         return read;
     }
-    if (ahead) {
-        read.sha256 = *ahead;
+    const bool is_short = sha256.has_value();
+    if (is_short) {
+        read.sha256 = *sha256;
         read.skip = skip_of(intake, read.sha256);
     }
-    if (read.skip ||
-        (refused([&] { read.log = trip->read(needs_of_import(), {.stop = intake.stop}); }) &&
-         intake.stop.stop_requested())) {
+    if (read.skip) {
         return read;
     }
-    if (!ahead) {
-        const auto unparsed = std::move(read.refusal);
-        if (refused([&] { read.sha256 = trip->sha256(); })) {
-            return read;
-        }
-        read.refusal = unparsed;
+    const Progress progress{.report = {}, .stop = intake.stop};
+    read.refusal = refusal_in(name, [&] { read.log = trip->read(needs_of_import(), progress); });
+    const bool is_stopped = !read.refusal.empty() && intake.stop.stop_requested();
+    if (is_short || is_stopped) {
+        return read;
+    }
+    const auto unreadable = refusal_in(name, [&] { read.sha256 = trip->sha256(); });
+    if (unreadable.empty()) {
         read.skip = skip_of(intake, read.sha256);
+    } else {
+        read.refusal = unreadable;
     }
     return read;
 }

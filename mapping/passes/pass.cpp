@@ -185,14 +185,12 @@ std::optional<Headline> headline_of(const IriMean& mean) {
         true};
 }
 
-std::vector<Pass> extract_passes(const IriTrace& roughness,
-                                 const MatchedTrace& matched,
-                                 const RoadNetwork& roads,
+std::vector<Pass> extract_passes(std::span<const SegmentOverlap> parts,
+                                 const IriTrace& roughness,
                                  const Vehicle& vehicle,
                                  const PassConfig& config) {
     std::vector<Pass> passes;
     std::map<SegmentKey, std::uint32_t> occurrences;
-    const auto parts = driven_parts(matched, roads, config.min_confidence);
     for (const auto& passage : passages_of(parts)) {
         if (auto pass = pass_of(passage, roughness, vehicle, config)) {
             pass->occurrence = occurrences[pass->segment]++;

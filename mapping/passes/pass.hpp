@@ -1,11 +1,11 @@
 #pragma once
 
 #include "estimator/roughness/roughness_trace.hpp"
-#include "mapping/matching/map_match.hpp"
 #include "mapping/network/segment.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace macadam {
@@ -32,6 +32,8 @@ struct Pass {
     std::optional<std::uint32_t> drive{}; ///< number of the RoughnessTrace it belongs to
 };
 
+struct SegmentOverlap; // mapping/passes/segment_overlap.hpp
+
 struct PassConfig {
     double min_cover = 0.5;      ///< of the segment's length, with a valid estimate
     double min_confidence = 0.2; ///< of the match, which errs on the low side
@@ -52,8 +54,8 @@ struct Headline {
 };
 std::optional<Headline> headline_of(const IriMean& mean);
 
-/// Joins roughness and matched positions by travel: averages the trace over each segment that the
-/// trip drove. Ordered as driven.
+/// Joins roughness and matched positions by travel: averages the roughness over each segment that
+/// the trip drove. Ordered as driven.
 ///
 /// Both inputs refer to the centre of gravity, so no shift is applied. Several intervals of one
 /// pass are combined, weighted by the length they cover. A gap shorter than the segment does not
@@ -61,9 +63,8 @@ std::optional<Headline> headline_of(const IriMean& mean);
 ///
 /// A pass is omitted if less of the segment than `min_cover` has an estimate, or if the match
 /// confidence is below `min_confidence`.
-std::vector<Pass> extract_passes(const IriTrace& roughness,
-                                 const MatchedTrace& matched,
-                                 const RoadNetwork& roads,
+std::vector<Pass> extract_passes(std::span<const SegmentOverlap> parts,
+                                 const IriTrace& roughness,
                                  const Vehicle& vehicle,
                                  const PassConfig& config);
 

@@ -1,7 +1,5 @@
 #include "mapping/transfer/transferred_trace.hpp"
 
-#include "mapping/passes/trace_cells.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -31,12 +31,10 @@ std::size_t HashedBytes::read(std::span<char> into) {
     if (ahead_.empty()) {
         return fetch(into);
     }
-    const auto& block = ahead_.front();
-    const auto count = block.copy(into.data(), into.size(), at_);
+    const auto count = ahead_.copy(into.data(), into.size(), at_);
     at_ += count;
-    if (at_ == block.size()) {
-        ahead_.pop_front();
-        at_ = 0;
+    if (at_ == ahead_.size()) {
+        ahead_ = {};
     }
     return count;
 }
@@ -57,17 +55,10 @@ std::size_t HashedBytes::fetch(std::span<char> into) {
 }
 
 bool HashedBytes::read_ahead(std::size_t max_bytes) {
-    for (std::size_t size = 0; !ended_ && size < max_bytes;) {
-        std::string block(block_bytes, '\0');
-        std::size_t count = 0;
-        while (count < block.size() && !ended_) {
-            count += fetch(std::span{block}.subspan(count));
-        }
-        block.resize(count);
-        size += count;
-        if (count > 0) {
-            ahead_.push_back(std::move(block));
-        }
+    while (!ended_ && ahead_.size() < max_bytes) {
+        const auto size = ahead_.size();
+        ahead_.resize(size + block_bytes);
+        ahead_.resize(size + fetch(std::span{ahead_}.subspan(size)));
     }
     return ended_;
 }

@@ -4,7 +4,6 @@
 #include "storage/files/sha256.hpp"
 
 #include <cstddef>
-#include <deque>
 #include <exception>
 #include <memory>
 #include <span>
@@ -40,8 +39,8 @@ private:
 
     std::unique_ptr<ByteStream> from_;
     Sha256 hash_;
-    std::deque<std::string> ahead_; ///< blocks read ahead, none empty
-    std::size_t at_ = 0;            ///< next byte of the first of them
+    std::string ahead_;
+    std::size_t at_ = 0; ///< next byte of them
     bool ended_ = false;
     std::exception_ptr failure_; ///< ended the bytes early
     std::string sha256_;         ///< once it was asked for

@@ -28,8 +28,6 @@ public:
     /// "file:line" of the last line returned; of the first line before any was returned.
     std::string where() const;
 
-    std::uint64_t consumed() const { return bytes_->consumed(); }
-
 private:
     void fill();
     std::string_view taken(std::size_t size, std::size_t skip);

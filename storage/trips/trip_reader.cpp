@@ -26,7 +26,7 @@ std::unique_ptr<ByteStream> open(const TripSource& source) {
 }
 
 /// Size of the file, or of the contents in memory.
-std::size_t bytes_of_source(const TripSource& source) {
+std::size_t size_of(const TripSource& source) {
     if (source.contents) {
         return source.contents->files.front().bytes.size();
     }
@@ -35,28 +35,28 @@ std::size_t bytes_of_source(const TripSource& source) {
     return unknown_size ? 0 : static_cast<std::size_t>(size);
 }
 
-/// Reports progress at intervals, and stops on request.
-class ProgressThrottle {
+/// Bytes that report progress as they are read, and stop on request.
+class WatchedBytes final : public ByteStream {
 public:
-    ProgressThrottle(const TripSource& source, const Progress& progress)
-        : name_{source.name()}, progress_{progress}, whole_{bytes_of_source(source)} {}
+    WatchedBytes(std::unique_ptr<ByteStream> from, const TripSource& source, Progress progress)
+        : from_{std::move(from)}, name_{source.name()}, size_{size_of(source)}, progress_{std::move(
+                                                                                    progress)} {}
 
-    void step(const TripRows& rows) {
-        constexpr std::size_t rows_between = 1 << 16;
-        if (++rows_ % rows_between != 0) {
-            return;
-        }
-        progress_(static_cast<std::size_t>(rows.consumed()), whole_);
+    std::size_t read(std::span<char> into) override {
+        progress_(static_cast<std::size_t>(consumed()), size_);
         if (progress_.stop.stop_requested()) {
             throw InputError{fmt::format("{}: reading was stopped", name_)};
         }
+        return from_->read(into);
     }
 
+    std::uint64_t consumed() const override { return from_->consumed(); }
+
 private:
+    std::unique_ptr<ByteStream> from_;
     std::string name_;
-    const Progress& progress_;
-    std::size_t whole_;
-    std::size_t rows_ = 0;
+    std::size_t size_;
+    Progress progress_;
 };
 
 } // namespace
@@ -90,25 +90,21 @@ std::string OpenTrip::sha256() {
     return foreign_sha256_;
 }
 
-TripBytes OpenTrip::bytes() {
-    return {bytes_->stream(), source_.name(), bytes_of_source(source_)};
-}
-
 TripLog OpenTrip::parsed(const TripNeeds& needs, const Progress& progress) {
     if (!bytes_) {
-        return read_foreign_trip(source_, needs, progress);
+        return read_foreign_trip(source_, needs, progress.stop);
     }
-    if (source_.name().ends_with(rawlog_suffix)) {
-        return read_rawlog(bytes(), needs, progress);
+    const auto name = source_.name();
+    auto bytes = std::make_unique<WatchedBytes>(bytes_->stream(), source_, progress);
+    if (name.ends_with(rawlog_suffix)) {
+        return read_rawlog(std::move(bytes), name, needs);
     }
-    if (is_gpx_name(source_.name())) {
-        return read_gpx(bytes(), needs, progress);
+    if (is_gpx_name(name)) {
+        return read_gpx(std::move(bytes), name, needs);
     }
-    TripRows rows{bytes_->stream(), source_, needs};
+    TripRows rows{std::move(bytes), source_, needs};
     TripStreams streams{needs, rows.header()};
-    ProgressThrottle pace{source_, progress};
     while (const auto row = rows.next()) {
-        pace.step(rows);
         streams.add(*row);
     }
     if (!rows.closed()) {

@@ -3,7 +3,6 @@
 #include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
 #include "storage/files/hashed_bytes.hpp"
-#include "storage/trips/source/trip_contents.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
 #include <optional>
@@ -33,7 +32,6 @@ public:
 
 private:
     TripLog parsed(const TripNeeds& needs, const Progress& progress);
-    TripBytes bytes();
 
     TripSource source_;
     std::optional<HashedBytes> bytes_; ///< `std::nullopt`: a foreign trip, of several files

@@ -4,6 +4,7 @@
 #include "targets.hpp"
 
 #include "app/pipeline/pipeline.hpp"
+#include "estimator/motion/trip_motion.hpp"
 #include "mapping/inference/network_inference.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
@@ -307,7 +308,7 @@ Answer trip_trace(std::string_view input) {
     return may_refuse([&] {
         const auto trip = read_trip(source, needs_of_import());
         const auto& car = *built_in_vehicle("generic");
-        const auto trace = trace_of(trip, car, {});
+        const auto trace = trace_of(trip, motion_of(trip), car, {});
         expect_accounted(trip, trace.use);
         const auto roads = build_network(trace_network(std::span{&trip, 1}, TraceConfig{}));
         for (const auto& config : configs_of_import(input.size() < short_log)) {

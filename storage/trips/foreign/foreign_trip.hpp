@@ -1,9 +1,9 @@
 #pragma once
 
-#include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
+#include <stop_token>
 #include <string>
 
 namespace macadam {
@@ -20,7 +20,8 @@ std::string foreign_sha256(const TripSource& source);
 ///
 /// \throws InputError  "file:line: ..." if a file does not match its mapping, or a required channel
 ///                     is missing.
-TripLog
-read_foreign_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress);
+TripLog read_foreign_trip(const TripSource& source,
+                          const TripNeeds& needs,
+                          const std::stop_token& stop = {});
 
 } // namespace macadam

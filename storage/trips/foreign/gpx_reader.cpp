@@ -228,17 +228,13 @@ std::string words_of(const Content& content) {
     return words.empty() ? "nothing" : fmt::format("{} only", fmt::join(words, ", "));
 }
 
-std::vector<Segment> parsed(TripBytes source, const Progress& progress) {
-    GpxParser parser{source.name};
+std::vector<Segment> parsed(ByteStream& bytes, const std::string& name) {
+    GpxParser parser{name};
     std::vector<char> buffer(block);
     for (bool is_last = false; !is_last;) {
-        const auto count = source.bytes->read(buffer);
+        const auto count = bytes.read(buffer);
         is_last = count == 0;
         parser.add({buffer.data(), count}, is_last);
-        progress(static_cast<std::size_t>(source.bytes->consumed()), source.size_on_disk);
-        if (progress.stop.stop_requested()) {
-            throw InputError{fmt::format("{}: reading was stopped", source.name)};
-        }
     }
     const auto where = parser.where();
     auto content = parser.take();
@@ -311,19 +307,14 @@ constexpr std::array<std::string_view, 6> given_columns{
     "t_s", "lat_deg", "lon_deg", "gnss_speed_mps", "course_deg", "hacc_m"};
 
 void expect_positions_to_do(const TripNeeds& needs, const std::string& name) {
-    std::vector<std::string> missing;
-    for (const auto& group : needs.columns) {
-        if (std::ranges::none_of(group, [](const auto& column) {
-                return std::ranges::find(given_columns, column) != given_columns.end();
-            })) {
-            missing.push_back(fmt::format("{}", fmt::join(group, " or ")));
-        }
-    }
+    const auto missing = missing_columns(needs, [](const std::string& column) {
+        return std::ranges::find(given_columns, column) != given_columns.end();
+    });
     if (!missing.empty()) {
         throw InputError{fmt::format("{}: is a GPX track, which has positions only, expected "
                                      "also {}",
                                      name,
-                                     fmt::join(missing, " and "))};
+                                     missing)};
     }
 }
 
@@ -338,10 +329,10 @@ bool is_gpx_name(std::string_view name) {
     return name.ends_with(".gpx") || name.ends_with(".gpx.gz") || name.ends_with(".gpx.zst");
 }
 
-TripLog read_gpx(TripBytes source, const TripNeeds& needs, const Progress& progress) {
-    expect_positions_to_do(needs, source.name);
-    const auto name = source.name;
-    auto segments = parsed(std::move(source), progress);
+TripLog
+read_gpx(std::unique_ptr<ByteStream> bytes, const std::string& name, const TripNeeds& needs) {
+    expect_positions_to_do(needs, name);
+    auto segments = parsed(*bytes, name);
     TripMeta meta;
     meta.trip_id = without_suffixes(name);
     double zero_s = 0;

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
-#include "storage/trips/source/trip_contents.hpp"
+#include "storage/files/byte_stream.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
+#include <memory>
+#include <string>
 #include <string_view>
 
 namespace macadam {
@@ -26,8 +27,12 @@ inline constexpr const char* times_key = "times";
 /// Entities that the file declares are refused, and lengths of names and texts and the depth are
 /// bounded.
 ///
+/// \param bytes  decompressed
+/// \param name  for messages
+///
 /// \throws InputError  "file:line: ..." if it is not GPX, is truncated, or holds no track point; or
 ///                     if a column is required that a GPX file does not have.
-TripLog read_gpx(TripBytes source, const TripNeeds& needs, const Progress& progress = {});
+TripLog
+read_gpx(std::unique_ptr<ByteStream> bytes, const std::string& name, const TripNeeds& needs);
 
 } // namespace macadam

@@ -22,10 +22,6 @@ constexpr double earth_m = 4e7; // once around
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
-}
-
 bool is_reason(std::uint8_t gift) {
     return gift >= code(RowReason::wrong_cell_count);
 }

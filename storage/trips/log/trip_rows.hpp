@@ -35,8 +35,6 @@ public:
     std::string_view line() const { return line_; }
     std::string where() const { return lines_.where(); } ///< "file:line" of the last row
 
-    std::uint64_t consumed() const { return lines_.consumed(); }
-
 private:
     void expect_end();
 

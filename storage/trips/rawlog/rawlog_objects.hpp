@@ -36,8 +36,6 @@ public:
     /// "file: object 12 at byte 3456" of the last object; objects count from 1, bytes from 0.
     std::string where() const;
 
-    std::uint64_t consumed() const { return bytes_->consumed(); }
-
 private:
     std::string_view rest() const { return {block_.data() + first_, last_ - first_}; }
     void fill();

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
-#include "storage/trips/source/trip_contents.hpp"
+#include "storage/files/byte_stream.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
+#include <memory>
+#include <string>
 #include <string_view>
 
 namespace macadam {
@@ -24,8 +25,12 @@ inline constexpr const char* rawlog_accuracy_key = "hacc_per_hdop_m";
 /// most frequent sensor of a kind, count as `unused_channel`. docs/reference/other-loggers.md
 /// describes the conversion of each field.
 ///
+/// \param bytes  decompressed
+/// \param name  for messages
+///
 /// \throws InputError  "file: object N at byte B: ..." if it is not a rawlog, is truncated or
 ///                     damaged, or lacks the sensors of a required column.
-TripLog read_rawlog(TripBytes source, const TripNeeds& needs, const Progress& progress = {});
+TripLog
+read_rawlog(std::unique_ptr<ByteStream> bytes, const std::string& name, const TripNeeds& needs);
 
 } // namespace macadam

@@ -9,13 +9,6 @@
 
 namespace macadam {
 
-/// Content of a trip in one file, as its parsers take it.
-struct TripBytes {
-    std::unique_ptr<ByteStream> bytes; ///< decompressed
-    std::string name;                  ///< for messages
-    std::size_t size_on_disk;          ///< for progress, bytes; 0: unknown
-};
-
 /// Decompressed files of one trip, in memory: from an archive, or of a foreign trip.
 struct TripContents {
     struct File {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ TripNeeds needs_of_match();
 TripNeeds needs_of_match_with_heading(); ///< including yaw rates, and gravity to level them
 TripNeeds needs_of_trace();
 TripNeeds needs_of_import();
+
+/// Names the required columns that a log lacks, as in "t_s and acc_z_mps2 or acc_y_mps2"; "" if it
+/// has all.
+std::string missing_columns(const TripNeeds& needs,
+                            const std::function<bool(const std::string& column)>& has);
 
 /// Origin of a trip: a file, a member of an archive, a folder or archive with the export of a
 /// phone, or a foreign file with its mapping.

@@ -17,10 +17,6 @@ using ::testing::HasSubstr;
 
 namespace {
 
-constexpr int code(RowReason reason) {
-    return static_cast<int>(reason);
-}
-
 /// A log of the given header and rows, with the right end.
 std::string log_of(const std::string& header, const std::vector<std::string>& rows) {
     std::string text = "# macadam-trip 1\n" + header + "\n";
@@ -357,6 +353,44 @@ TEST(TripReader, HashesTheContentItself) {
     // FIPS 180-2, appendix B.1
     EXPECT_EQ(OpenTrip{{written(test_folder(), "abc", "abc"), ""}}.sha256(),
               "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(OpenTrip, IsRecognisedBeforeItIsParsed) {
+    const auto file = written(test_folder(), "a.trip.csv.gz", gzipped(small));
+    OpenTrip trip{{file, ""}};
+    const auto ahead = trip.sha256_ahead();
+    ASSERT_TRUE(ahead);
+    std::filesystem::remove(file); // it is open, and is not opened again
+    EXPECT_EQ(trip.read(everything).rows.size(), 3U);
+    EXPECT_EQ(trip.sha256(), *ahead);
+}
+
+TEST(OpenTrip, ThatIsLongIsHashedWhileItIsParsed) {
+    auto text = std::string{"# macadam-trip 1\nt_s\n"};
+    for (int i = 0; i < 34; ++i) {
+        text += '#' + std::string(1'000'000, ' ') + '\n';
+    }
+    const auto file = written(test_folder(), "a.trip.csv", text + "1\n# end rows: 1\n");
+    OpenTrip trip{{file, ""}};
+    EXPECT_FALSE(trip.sha256_ahead());
+    const auto log = trip.read(everything);
+    EXPECT_EQ(log.rows.size(), 1U);
+    EXPECT_EQ(log.sha256, OpenTrip{TripSource{file, ""}}.sha256());
+}
+
+TEST(OpenTrip, HasAHashEvenIfItIsNoLog) {
+    const auto file = written(test_folder(), "a.trip.csv.gz", gzipped("abc"));
+    OpenTrip trip{{file, ""}};
+    EXPECT_THAT(refusal_of([&] { trip.read(everything); }), HasSubstr("not a Macadam log"));
+    EXPECT_EQ(trip.sha256(), (OpenTrip{{written(test_folder(), "abc", "abc"), ""}}.sha256()));
+}
+
+TEST(OpenTrip, HasNoHashIfItCannotBeReadToItsEnd) {
+    const auto gz = gzipped("no log\n" + std::string(100'000, 'x'));
+    const auto file = written(test_folder(), "a.trip.csv.gz", gz.substr(0, gz.size() - 4));
+    OpenTrip trip{{file, ""}};
+    EXPECT_THAT(refusal_of([&] { trip.read(everything); }), ::testing::Not(""));
+    EXPECT_THAT(refusal_of([&] { trip.sha256(); }), HasSubstr("gzip data is truncated"));
 }
 
 TEST(TripReader, AccountsForEveryRowOfTwoRealTrips) {

@@ -62,7 +62,7 @@ private:
 };
 
 TripLog read_bytes(std::string_view bytes, const TripNeeds& needs = everything) {
-    return read_rawlog({std::make_unique<Memory>(bytes), "a.rawlog", bytes.size()}, needs);
+    return read_rawlog(std::make_unique<Memory>(bytes), "a.rawlog", needs);
 }
 
 std::string content_of(const std::filesystem::path& file) {
