@@ -80,12 +80,6 @@ SampleUse used_by_either(SampleUse first, const SampleUse& second) {
     return first;
 }
 
-std::vector<double> times_of(const std::vector<GnssFix>& fixes) {
-    std::vector<double> t_s(fixes.size());
-    std::ranges::transform(fixes, t_s.begin(), &GnssFix::t_s);
-    return t_s;
-}
-
 /// Shifts a match from the antenna to the centre of gravity, which reaches a position `ahead_m` of
 /// travel later.
 MatchedTrace behind_antenna(MatchedTrace matched, double ahead_m) {

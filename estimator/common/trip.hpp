@@ -134,6 +134,8 @@ struct RowCount {
     friend bool operator==(const RowCount&, const RowCount&) = default;
 };
 
+std::vector<double> times_of(const std::vector<GnssFix>& fixes);
+
 /// Counts used and rejected rows. A row is used if at least one of its samples was; otherwise it is
 /// rejected once, with the first reason in the order acc, gyro, speed, fix.
 RowCount account(const TripLog& trip, const RowAudit& use);

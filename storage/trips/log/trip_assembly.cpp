@@ -85,13 +85,6 @@ void keep(const std::vector<std::uint8_t>& members, TriaxialSamples& samples) {
     keep(members, samples.z);
 }
 
-std::vector<double> times_of(const std::vector<GnssFix>& fixes) {
-    std::vector<double> t_s(fixes.size());
-    std::transform(
-        fixes.begin(), fixes.end(), t_s.begin(), [](const GnssFix& fix) { return fix.t_s; });
-    return t_s;
-}
-
 /// Clears the flag of rows whose sample the sensor's stream dropped.
 void readmit(const std::vector<std::uint8_t>& members,
              std::uint8_t flag,
