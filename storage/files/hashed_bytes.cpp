@@ -1,12 +1,13 @@
 #include "storage/files/hashed_bytes.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 namespace macadam {
 namespace {
 
-constexpr std::size_t block_bytes = 1 << 20;
+constexpr std::size_t block_bytes = 64 << 10; // malloc keeps it for the next file
 
 } // namespace
 
@@ -31,10 +32,12 @@ std::size_t HashedBytes::read(std::span<char> into) {
     if (ahead_.empty()) {
         return fetch(into);
     }
-    const auto count = ahead_.copy(into.data(), into.size(), at_);
+    const auto& block = ahead_.front();
+    const auto count = block.copy(into.data(), into.size(), at_);
     at_ += count;
-    if (at_ == ahead_.size()) {
-        ahead_ = {};
+    if (at_ == block.size()) {
+        ahead_.pop_front();
+        at_ = 0;
     }
     return count;
 }
@@ -55,17 +58,24 @@ std::size_t HashedBytes::fetch(std::span<char> into) {
 }
 
 bool HashedBytes::read_ahead(std::size_t max_bytes) {
-    while (!ended_ && ahead_.size() < max_bytes) {
-        const auto size = ahead_.size();
-        ahead_.resize(size + block_bytes);
-        ahead_.resize(size + fetch(std::span{ahead_}.subspan(size)));
+    for (std::size_t size = 0; !ended_ && size < max_bytes;) {
+        std::string block(std::min(block_bytes, max_bytes - size), '\0');
+        std::size_t count = 0;
+        while (count < block.size() && !ended_) {
+            count += fetch(std::span{block}.subspan(count));
+        }
+        block.resize(count);
+        size += count;
+        if (count > 0) {
+            ahead_.push_back(std::move(block));
+        }
     }
     return ended_;
 }
 
 std::string HashedBytes::sha256() {
     if (sha256_.empty()) {
-        std::vector<char> rest(ended_ ? 0 : block_bytes);
+        std::vector<char> rest(block_bytes);
         while (!ended_) {
             fetch(rest);
         }

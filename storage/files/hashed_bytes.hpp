@@ -4,6 +4,7 @@
 #include "storage/files/sha256.hpp"
 
 #include <cstddef>
+#include <deque>
 #include <exception>
 #include <memory>
 #include <span>
@@ -39,8 +40,8 @@ private:
 
     std::unique_ptr<ByteStream> from_;
     Sha256 hash_;
-    std::string ahead_;
-    std::size_t at_ = 0; ///< next byte of them
+    std::deque<std::string> ahead_; ///< blocks, none empty; each is freed once it was handed out
+    std::size_t at_ = 0;            ///< next byte of the first of them
     bool ended_ = false;
     std::exception_ptr failure_; ///< ended the bytes early
     std::string sha256_;         ///< once it was asked for
