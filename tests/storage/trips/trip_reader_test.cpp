@@ -28,6 +28,10 @@ std::string log_of(const std::string& header, const std::vector<std::string>& ro
 
 const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
 
+std::string hash_of(const TripSource& source) {
+    return OpenTrip{source}.sha256();
+}
+
 TripLog read_text(std::string_view text, const TripNeeds& needs = everything) {
     return read_trip({written(test_folder(), "a.trip.csv", text), ""}, needs);
 }
@@ -349,9 +353,9 @@ TEST(TripReader, RefusesABomb) {
 
 TEST(TripReader, HashesTheContentItself) {
     const auto file = written(test_folder(), "a.trip.csv.gz", gzipped(small));
-    EXPECT_EQ(OpenTrip{{file, ""}}.sha256(), read_trip({file, ""}, everything).sha256);
+    EXPECT_EQ(hash_of({file, ""}), read_trip({file, ""}, everything).sha256);
     // FIPS 180-2, appendix B.1
-    EXPECT_EQ(OpenTrip{{written(test_folder(), "abc", "abc"), ""}}.sha256(),
+    EXPECT_EQ(hash_of({written(test_folder(), "abc", "abc"), ""}),
               "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
@@ -375,14 +379,14 @@ TEST(OpenTrip, ThatIsLongIsHashedWhileItIsParsed) {
     EXPECT_FALSE(trip.sha256_ahead());
     const auto log = trip.read(everything);
     EXPECT_EQ(log.rows.size(), 1U);
-    EXPECT_EQ(log.sha256, OpenTrip{TripSource{file, ""}}.sha256());
+    EXPECT_EQ(log.sha256, hash_of({file, ""}));
 }
 
 TEST(OpenTrip, HasAHashEvenIfItIsNoLog) {
     const auto file = written(test_folder(), "a.trip.csv.gz", gzipped("abc"));
     OpenTrip trip{{file, ""}};
     EXPECT_THAT(refusal_of([&] { trip.read(everything); }), HasSubstr("not a Macadam log"));
-    EXPECT_EQ(trip.sha256(), (OpenTrip{{written(test_folder(), "abc", "abc"), ""}}.sha256()));
+    EXPECT_EQ(trip.sha256(), hash_of({written(test_folder(), "abc", "abc"), ""}));
 }
 
 TEST(OpenTrip, HasNoHashIfItCannotBeReadToItsEnd) {

@@ -61,6 +61,10 @@ private:
     std::uint64_t consumed_ = 0;
 };
 
+std::string hash_of(const TripSource& source) {
+    return OpenTrip{source}.sha256();
+}
+
 TripLog read_bytes(std::string_view bytes, const TripNeeds& needs = everything) {
     return read_rawlog(std::make_unique<Memory>(bytes), "a.rawlog", needs);
 }
@@ -312,8 +316,8 @@ TEST(Rawlog, ReadsWhatMrptWroteIn2008) {
 TEST(Rawlog, HashesTheDecompressedContent) {
     const auto folder = test_folder();
     const auto plain = written(folder, "plain.rawlog", unpacked(rtk_file));
-    EXPECT_EQ(read_trip({plain, ""}, everything).sha256, OpenTrip{{rtk_file, ""}}.sha256());
-    EXPECT_EQ(OpenTrip{{plain, ""}}.sha256(), OpenTrip{{rtk_file, ""}}.sha256());
+    EXPECT_EQ(read_trip({plain, ""}, everything).sha256, hash_of({rtk_file, ""}));
+    EXPECT_EQ(hash_of({plain, ""}), hash_of({rtk_file, ""}));
 }
 
 TEST(Rawlog, TakesEachFieldForWhatMrptMeans) {
