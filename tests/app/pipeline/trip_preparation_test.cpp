@@ -56,8 +56,11 @@ TEST(TripPreparation, FindsTheMotionForTheLatencyThatItEstimates) {
     EXPECT_EQ(found.motion.odometer.scale(), motion_of(found.trip).odometer.scale());
 }
 
-TEST(TripPreparation, SaysThatALatencyCannotBeKnownAtAConstantSpeed) {
-    const auto found = prepared(unstated(even_drive()));
+TEST(TripPreparation, SaysThatALatencyCannotBeKnownFromPositionsAlone) {
+    auto trip = unstated(even_drive());
+    trip.speed = {};
+    trip.gyro = {};
+    const auto found = prepared(std::move(trip));
     EXPECT_EQ(found.trip.meta.gnss_latency_s, 0);
     EXPECT_THAT(found.warnings, ElementsAre(HasSubstr("GNSS delay unknown")));
     EXPECT_EQ(found.motion.odometer.whole_m(), motion_of(found.trip).odometer.whole_m());
