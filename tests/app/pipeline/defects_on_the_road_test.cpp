@@ -2,6 +2,7 @@
 // tests/storage/trips/foreign/defects_test.cpp for the rest.
 
 #include "app/pipeline/pipeline.hpp"
+#include "app/pipeline/trip_preparation.hpp"
 #include "estimator/motion/trip_motion.hpp"
 
 #include "estimator/common/error.hpp"
@@ -108,8 +109,7 @@ TEST(Defect08Latency, OfTheReceiverIsFound) {
     for (int i = 3; i < 300; ++i) {
         trip.fixes.push_back(fix(i, 15.0 * i, static_cast<float>(speed(i - 1.1))));
     }
-    std::vector<std::string> warnings;
-    EXPECT_NEAR(with_latency(trip, warnings).meta.gnss_latency_s, 1.1, 0.1);
+    EXPECT_NEAR(prepared(trip).trip.meta.gnss_latency_s, 1.1, 0.1);
 }
 
 /// Half a second of positions 60 m off, as beside a high wall, while the wheels turn steadily.
