@@ -23,8 +23,8 @@ enum ExitStatus { done = 0, failed = 1, misused = 2 };
 
 /// Writes help and similar texts to standard output.
 int tell(const std::string& words) {
-    const bool told = std::fputs(words.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
-    return told ? done : failed;
+    const bool written = std::fputs(words.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
+    return written ? done : failed;
 }
 
 /// Runs a command and converts exceptions to a message and an exit status; the only place to do so.

@@ -70,7 +70,7 @@ void interrupted(int signal) {
 
 void end_of_wait(int /*signal*/) {
     remove_unfinished();
-    [[maybe_unused]] const auto told =
+    [[maybe_unused]] const auto written =
         ::write(STDERR_FILENO, wish.last_words.data(), wish.last_words.size());
     ::_exit(1);
 }

@@ -19,7 +19,8 @@ std::string last_words;
 
 [[maybe_unused]] void crashed(int /*signal*/) {
     remove_unfinished();
-    [[maybe_unused]] const auto told = ::write(STDERR_FILENO, last_words.data(), last_words.size());
+    [[maybe_unused]] const auto written =
+        ::write(STDERR_FILENO, last_words.data(), last_words.size());
     ::_exit(1);
 }
 

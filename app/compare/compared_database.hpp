@@ -1,6 +1,5 @@
 #pragma once
 
-#include "app/cli/console.hpp"
 #include "mapping/comparison/method_agreement.hpp"
 #include "storage/store/road_store.hpp"
 

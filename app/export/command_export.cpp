@@ -10,6 +10,7 @@
 #include "app/render/style_options.hpp"
 
 #include "storage/atomic/atomic_file.hpp"
+#include "storage/exports/event_export.hpp"
 #include "storage/exports/export.hpp"
 #include "storage/tiles/tile_archive.hpp"
 
@@ -31,7 +32,22 @@ struct ExportOptions {
     std::optional<SectionOptions> sections;
     std::optional<TilePlan> tiles;
     std::optional<PicturePlan> pictures;
+    bool events;
 };
+
+/// Rejects what has no points.
+void expect_events_alone(const ExportOptions& options) {
+    const auto suffixes = event_export_suffixes();
+    const auto suffix = options.output.extension().string();
+    if (std::ranges::find(suffixes, suffix) == suffixes.end() || is_tile_folder(options.output)) {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in {} with --events",
+                                     options.output.string(),
+                                     fmt::join(suffixes, ", "))};
+    }
+    if (options.sections || !options.filter.with_state_only) {
+        throw UsageError{"--events cannot be combined with --sections or --all"};
+    }
+}
 
 /// Rejects other filters and formats: sections are reported completely and as text.
 void expect_sections_alone(const ExportOptions& options) {
@@ -67,7 +83,11 @@ ExportOptions parse_export(const Arguments& arguments) {
                           .filter = parse_filter(arguments),
                           .sections = parse_sections(arguments, false),
                           .tiles = {},
-                          .pictures = {}};
+                          .pictures = {},
+                          .events = arguments.flag("--events")};
+    if (options.events) {
+        expect_events_alone(options);
+    }
     if (options.sections) {
         expect_sections_alone(options);
     }
@@ -125,6 +145,11 @@ void run_export(const Arguments& arguments, const Console& console) {
         export_sections(store, options, console);
         return;
     }
+    if (options.events) {
+        const auto written = export_events(store, options.filter, options.output);
+        console.say(fmt::format("{}: {}", options.output.string(), counted(written, "event")));
+        return;
+    }
     if (options.tiles) {
         export_tiles(store, options.filter, options.output, *options.tiles, console);
         return;
@@ -161,7 +186,11 @@ constexpr std::array options{
     homogeneous_option,
     exclude_option,
     exclude_radius_option,
-    all_option};
+    all_option,
+    Option{"--events",
+           "",
+           "Potholes, bumps, joints and rails as points instead of segments: .geojson, .geojsonl, "
+           ".csv, .gpkg, .kml."}};
 
 } // namespace
 
@@ -180,6 +209,7 @@ const Command export_command{
         "  macadam export roads.gpkg -o roads.geojson\n"
         "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02\n"
         "  macadam export roads.gpkg -o sections.csv --sections routes.csv\n"
+        "  macadam export roads.gpkg -o potholes.gpkg --events\n"
         "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2\n"
         "  macadam export roads.gpkg -o pictures.mbtiles --tiles picture --tile-size 512\n"
         "  macadam export roads.gpkg -o tiles/                   z/x/y.pbf and metadata.json",

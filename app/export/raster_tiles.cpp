@@ -249,30 +249,30 @@ public:
     /// Reads available output and passes on complete messages.
     void listen(const TakeTile& take) {
         constexpr std::size_t at_once = 1 << 16;
-        const auto before = told_.size();
-        told_.resize(before + at_once);
-        const auto got = ::read(pipe_, told_.data() + before, at_once);
-        told_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+        const auto before = received_.size();
+        received_.resize(before + at_once);
+        const auto got = ::read(pipe_, received_.data() + before, at_once);
+        received_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
         active_at_ = Clock::now();
         if (got == 0) {
             expect_good_end();
             return;
         }
         std::size_t begin = 0;
-        for (Head head{}; told_.size() - begin >= sizeof head;) {
-            std::memcpy(&head, told_.data() + begin, sizeof head);
+        for (Head head{}; received_.size() - begin >= sizeof head;) {
+            std::memcpy(&head, received_.data() + begin, sizeof head);
             const auto end = begin + sizeof head + head.bytes;
-            if (end > told_.size()) {
+            if (end > received_.size()) {
                 break;
             }
-            const std::string_view bytes{told_.data() + begin + sizeof head, head.bytes};
+            const std::string_view bytes{received_.data() + begin + sizeof head, head.bytes};
             if (head.kind == Head::Kind::failure) {
                 throw InputError{std::string{bytes}};
             }
             take(head.tile, bytes);
             begin = end;
         }
-        told_.erase(told_.begin(), told_.begin() + static_cast<std::ptrdiff_t>(begin));
+        received_.erase(received_.begin(), received_.begin() + static_cast<std::ptrdiff_t>(begin));
     }
 
     /// Checks that the process is working.
@@ -321,7 +321,7 @@ private:
     pid_t process_ = -1;
     int pipe_ = -1;
     bool done_ = false;
-    std::vector<char> told_;
+    std::vector<char> received_;
     std::int64_t cpu_time_ = 0;
     Clock::time_point active_at_ = Clock::now();
 };

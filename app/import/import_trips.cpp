@@ -25,6 +25,7 @@ struct ProcessedTrip {
     TripRecord record; ///< valid, as are passes and traces, if the report says so
     std::vector<Pass> passes;
     std::vector<RoughnessTrace> traces;
+    std::optional<std::vector<PassEvent>> events;
 };
 
 /// What all workers share.
@@ -185,6 +186,7 @@ void add_passes(ProcessedTrip& trip, const Intake& intake, const TripSource& sou
                             intake.work.pipeline.estimator.method);
     trip.passes = std::move(result.passes);
     trip.traces = std::move(result.traces);
+    trip.events = std::move(result.events);
 }
 
 /// Processes one trip from file to passes. Its errors become part of the report; those of the
@@ -234,7 +236,7 @@ void put(const Intake& intake, std::vector<ProcessedTrip>& trips) {
     const std::scoped_lock lock{intake.store_in_use};
     if (intake.work.reprocess) {
         for (auto* const trip : made) {
-            if (!intake.store.stage_trip(trip->record, trip->passes, trip->traces)) {
+            if (!intake.store.stage_trip(trip->record, trip->passes, trip->traces, trip->events)) {
                 trip->report.result = Result::unknown;
             }
         }
@@ -242,7 +244,8 @@ void put(const Intake& intake, std::vector<ProcessedTrip>& trips) {
     }
     std::vector<NewTrip> together;
     for (const auto* const trip : made) {
-        together.push_back({&trip->record, trip->passes, trip->traces, intake.work.readmit});
+        together.push_back(
+            {&trip->record, trip->passes, trip->traces, intake.work.readmit, trip->events});
     }
     const auto is_new = intake.store.add_trips(together);
     for (std::size_t i = 0; i < made.size(); ++i) {

@@ -4,6 +4,7 @@
 #include "app/pipeline/trip_preparation.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/events/event_detection.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/smoother/smoothed_iri.hpp"
 #include "mapping/passes/trip_cutting.hpp"
@@ -179,9 +180,11 @@ std::optional<std::int64_t> begin_of(const KeptParts& kept, const Odometer& odom
                : std::optional{std::llround(1000 * odometer.t_s(kept.parts.front().from_m))};
 }
 
-std::vector<Pass> counting_from(std::int64_t begin_ms, std::vector<Pass> passes) {
-    for (auto& pass : passes) {
-        pass.t_ms -= begin_ms;
+std::vector<Pass> counting_from(std::int64_t begin_ms, std::span<const DrivenPass> driven) {
+    std::vector<Pass> passes;
+    for (const auto& [pass, parts] : driven) {
+        passes.push_back(pass);
+        passes.back().t_ms -= begin_ms;
     }
     return passes;
 }
@@ -193,6 +196,20 @@ std::string_view no_pass_reason(const IriTrace& roughness, const MatchedTrace& m
     }
     return roughness.runs.empty() ? "no part of the trip was driven steadily enough: no pass"
                                   : "no segment was driven completely enough: no pass";
+}
+
+/// Detects the events of all runs; `std::nullopt` without elevations.
+std::optional<std::vector<RoadEvent>> events_in(const IriTrace& roughness) {
+    std::optional<std::vector<RoadEvent>> events;
+    for (const auto& run : roughness.runs) {
+        if (!run.profile.centre_m.empty()) {
+            if (!events) {
+                events.emplace();
+            }
+            std::ranges::move(detect_events(run.profile), std::back_inserter(*events));
+        }
+    }
+    return events;
 }
 
 } // namespace
@@ -251,23 +268,25 @@ TripResult passes_of(TripLog log,
                      const RoadNetwork& roads,
                      const PipelineConfig& config) {
     auto [trip, motion, warnings] = prepared(std::move(log), config.odometer);
-    auto trace = trace_of(trip, std::move(motion), vehicle, config);
+    auto with_profile = config;
+    with_profile.estimator.profile = true;
+    auto trace = trace_of(trip, std::move(motion), vehicle, with_profile);
     std::ranges::move(trace.warnings, std::back_inserter(warnings));
+    const auto events = events_in(trace.roughness);
     const auto kept = kept_of(trip, trace.odometer, config.trim);
     const double distance_m = recorded_m(trip, trace.odometer, kept, config.odometer.max_gap_s);
     const auto within = [&](SampleUse use, const std::vector<double>& t_s, double latency_s = 0) {
         return trimmed_use(std::move(use), t_s, latency_s, trace.odometer, kept);
     };
-    RowAudit use{.acc = within(std::move(trace.use.acc), trip.acc.t_s),
-                 .gyro = within(std::move(trace.use.gyro), trip.gyro.t_s),
-                 .speed =
-                     within(std::move(trace.use.speed), trip.speed.t_s, trip.meta.speed_latency_s),
-                 .fixes = {}};
+    auto use = std::move(trace.use);
+    use.acc = within(std::move(use.acc), trip.acc.t_s);
+    use.gyro = within(std::move(use.gyro), trip.gyro.t_s);
+    use.speed = within(std::move(use.speed), trip.speed.t_s, trip.meta.speed_latency_s);
     trip.acc = {};
     trip.gyro.x = trip.gyro.y = trip.gyro.z = {};
 
     auto match = map_match(trip, trace.odometer, roads, config.match, trace.heading);
-    use.fixes = within(used_by_either(std::move(trace.use.fixes), match.fixes),
+    use.fixes = within(used_by_either(std::move(use.fixes), match.fixes),
                        times_of(trip.fixes),
                        trip.meta.gnss_latency_s);
     const auto matched =
@@ -281,8 +300,9 @@ TripResult passes_of(TripLog log,
     if (cut.passes.empty() && begin_ms) {
         warnings.emplace_back(no_pass_reason(trace.roughness, matched));
     }
-    return {.passes = counting_from(begin_ms.value_or(0), std::move(cut.passes)),
+    return {.passes = counting_from(begin_ms.value_or(0), cut.passes),
             .traces = std::move(cut.traces),
+            .events = events ? std::optional{place_events(*events, cut.passes)} : std::nullopt,
             .rows = account(trip, use),
             .begin_ms = begin_ms,
             .distance_m = distance_m,

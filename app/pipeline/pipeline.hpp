@@ -3,6 +3,7 @@
 #include "estimator/motion/heading.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
+#include "mapping/events/pass_event.hpp"
 #include "mapping/matching/map_match.hpp"
 #include "mapping/passes/chunk_trace.hpp"
 #include "mapping/passes/pass.hpp"
@@ -51,6 +52,9 @@ TripTrace trace_of(const TripLog& trip,
 struct TripResult {
     std::vector<Pass> passes;             ///< times relative to begin_ms
     std::vector<RoughnessTrace> traces{}; ///< source of the passes, metre by metre
+
+    /// Events on the passes; `std::nullopt`: the method gives no elevations to search.
+    std::optional<std::vector<PassEvent>> events{};
     RowCount rows;
     std::optional<std::int64_t> begin_ms{0}; ///< start of the reported part, since the trip's t0;
                                              ///< `std::nullopt`: too short to report anything

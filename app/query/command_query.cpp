@@ -12,6 +12,7 @@
 #include "app/query/worst_sections_output.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/exports/event_export.hpp"
 #include "storage/exports/export.hpp"
 #include "storage/networks/network_file.hpp"
 
@@ -28,6 +29,16 @@ SegmentFilter filter_of(const QueryOptions& options) {
     auto filter = options.filter;
     filter.with_state_only = filter.with_state_only && !filter.key;
     return filter;
+}
+
+/// Returns one range for each segment.
+std::vector<SegmentRange> ranges_of(const std::vector<SegmentRecord>& records) {
+    std::vector<SegmentRange> ranges;
+    for (const auto& record : records) {
+        const auto& [way_id, forward, index] = record.segment.key;
+        ranges.push_back({way_id, forward, index, index + 1});
+    }
+    return ranges;
 }
 
 void expect_segment(const RoadStore& store, const QueryOptions& options) {
@@ -126,6 +137,32 @@ void print_segments(const RoadStore& store, const QueryOptions& options, const C
     }
 }
 
+bool is_near(const EventRecord& record, const NearOptions& near) {
+    return distance_m(record.at, near.at) <= near.radius_m;
+}
+
+void print_events(const RoadStore& store, const QueryOptions& options, const Console& console) {
+    auto filter = filter_of(options);
+    if (options.near) {
+        filter.ranges = ranges_of(segments_near(store, filter, *options.near));
+    }
+    auto events = store.events(filter);
+    if (options.near) {
+        std::erase_if(events, [&](const auto& event) { return !is_near(event, *options.near); });
+    }
+    if (events.empty()) {
+        console.say(
+            "no pothole, bump, joint or rail was reported by two passes or more there; trips "
+            "that were imported before version 4 are searched by 'macadam reprocess'");
+    }
+    if (!events.empty() || options.format != "table") {
+        print_in(options.format,
+                 rows_text(event_fields(), events, options.format, [](const EventRecord& event) {
+                     return geojson_feature(event);
+                 }));
+    }
+}
+
 void print_sections(const RoadStore& store, const QueryOptions& options, const Console& console) {
     const auto& classes = *class_table(store.settings().class_table);
     auto writer = section_writer(options.format,
@@ -148,6 +185,8 @@ void run_query(const Arguments& arguments, const Console& console) {
 
     if (options.sections) {
         print_sections(store, options, console);
+    } else if (options.events) {
+        print_events(store, options, console);
     } else if (options.passes) {
         expect_operator(store, "single passes");
         print_in(options.format, passes_text(store.history(*options.filter.key), options.format));
@@ -206,6 +245,7 @@ constexpr std::array options{
     Option{"--history", "", "Monthly values of everything that is selected."},
     Option{"--passes", "", "With --segment: list every pass over it."},
     Option{"--changes", "", "With --segment: when and why its value changed."},
+    Option{"--events", "", "Potholes, bumps, joints and rails instead of segments."},
     Option{"--format", "NAME", "table, json, csv or geojson.", "table"},
     Option{"--json", "", "The same as --format json."}};
 
@@ -230,7 +270,8 @@ const Command query_command{
         "  macadam query roads.gpkg --name haupt --history         is it getting worse?\n"
         "  macadam query roads.gpkg --route 47.6863,17.6799 47.6901,17.7012\n"
         "  macadam query roads.gpkg --sections routes.csv --section-length 0.1mi --format csv\n"
-        "  macadam query roads.gpkg --segment 123456+0007 --passes",
+        "  macadam query roads.gpkg --segment 123456+0007 --passes\n"
+        "  macadam query roads.gpkg --events --name haupt --format csv",
     .operands = operands,
     .options = options,
     .run = run_query};

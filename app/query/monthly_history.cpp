@@ -4,8 +4,6 @@
 #include "app/query/mean_cells.hpp"
 #include "storage/text/utc.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

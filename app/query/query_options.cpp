@@ -2,7 +2,6 @@
 
 #include "app/database/segment_options.hpp"
 
-#include "estimator/common/error.hpp"
 #include "mapping/analysis/worst_sections.hpp"
 
 #include <fmt/format.h>
@@ -71,7 +70,7 @@ bool asks_for_segments(const QueryOptions& options) {
 /// Rejects other filters: sections are reported completely.
 void expect_sections_alone(const QueryOptions& options) {
     if (asks_for_segments(options) || !options.filter.with_state_only || options.history ||
-        options.passes || options.changes) {
+        options.passes || options.changes || options.events) {
         throw UsageError{"--route, --along and --sections can be combined with --since, "
                          "--until and --min-passes only, not with options that select segments"};
     }
@@ -83,7 +82,12 @@ void expect_sense(const QueryOptions& options) {
         expect_sections_alone(options);
         return;
     }
-    if (!asks_for_segments(options)) {
+    if (options.events && (options.passes || options.history || options.changes ||
+                           options.worst.count > 0 || !options.filter.with_state_only)) {
+        throw UsageError{"--events cannot be combined with --passes, --history, --changes, "
+                         "--worst or --all"};
+    }
+    if (!asks_for_segments(options) && !options.events) {
         throw UsageError{"expected a selection: --near, --bbox, --way, --segment, --name, "
                          "--highway, --class, --worst, --route, --along or --sections"};
     }
@@ -132,6 +136,7 @@ QueryOptions parse_query(const Arguments& arguments) {
                          .history = arguments.flag("--history"),
                          .passes = arguments.flag("--passes"),
                          .changes = arguments.flag("--changes"),
+                         .events = arguments.flag("--events"),
                          .worst = parse_worst(arguments)};
     if (arguments.flag("--json")) {
         options.format = "json";

@@ -36,6 +36,7 @@ struct QueryOptions {
     bool history; ///< by month
     bool passes;  ///< passes of one segment
     bool changes; ///< changes of one segment's value
+    bool events;  ///< potholes and others instead of segments
     WorstOptions worst;
 };
 

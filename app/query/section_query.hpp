@@ -1,6 +1,5 @@
 #pragma once
 
-#include "app/cli/console.hpp"
 #include "app/query/section_options.hpp"
 #include "mapping/analysis/road_section.hpp"
 #include "storage/store/road_store.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "app/cli/arguments.hpp"
-#include "app/cli/console.hpp"
 #include "mapping/style/base_map.hpp"
 
 #include <filesystem>

@@ -29,6 +29,7 @@ struct RenderOptions {
     std::string title;
     MapStyle style;
     std::optional<BaseMapChoice> base;
+    bool events;
 };
 
 std::vector<std::string_view> ramp_names() {
@@ -72,7 +73,8 @@ RenderOptions parse_render(const Arguments& arguments) {
             .box = map_box(arguments),
             .title = arguments.value("--title").value_or("Road roughness"),
             .style = style_of(arguments),
-            .base = parse_base_map(arguments)};
+            .base = parse_base_map(arguments),
+            .events = arguments.flag("--events")};
 }
 
 /// Checks that no input is overwritten and that the base map is not the road database.
@@ -115,7 +117,8 @@ void run_render(const Arguments& arguments, const Console& console) {
                           .projection = projection_of(options.output),
                           .base = base.map,
                           .width_px = options.output.width_px,
-                          .height_px = options.output.height_px});
+                          .height_px = options.output.height_px,
+                          .events = options.events});
     const auto progress = console.progress("drawing");
     const auto last_seen_ms = store.seen().last_ms;
     const auto words =
@@ -156,6 +159,7 @@ constexpr std::array options{
     base_option,
     base_opacity_option,
     grey_below_option,
+    Option{"--events", "", "Also potholes, bumps, joints and rails, as symbols."},
     Option{"--no-labels", "", "Omit road names."},
     Option{"--left-hand", "", "Traffic keeps left: draw each direction on the left side."}};
 

@@ -57,6 +57,17 @@ std::vector<double> class_km_of(const RoadStore& store, const ClassTable& classe
     return km;
 }
 
+/// Returns all events of a database, in the box's longitudes where it crosses the antimeridian.
+std::vector<MapEvent> map_events(const RoadStore& store, const GeoBox& box) {
+    std::vector<MapEvent> events;
+    for (const auto& [event, at, name, highway] : store.events({})) {
+        const double turn_deg = at.lon_deg + 360 <= box.east_deg ? 360 : 0;
+        events.push_back(
+            {{at.lat_deg, at.lon_deg + turn_deg}, event.kind, severity_of(event.size_um / 1000.0)});
+    }
+    return events;
+}
+
 const ClassTable& classes_of(const MapRequest& request) {
     return *request.style.classes;
 }
@@ -185,8 +196,11 @@ MapPlan load_map(const RoadStore& store, const MapRequest& request) {
     const auto load = [&](const GeoBox& box) {
         return map_lines(store, box, classes_of(request), request.style.min_passes);
     };
-    MapPlan plan{
-        scene_around(store, request), request.style, {request.width_px, request.height_px}};
+    auto scene = scene_around(store, request);
+    if (request.events) {
+        scene.events = map_events(store, scene.box);
+    }
+    MapPlan plan{std::move(scene), request.style, {request.width_px, request.height_px}};
     const auto ground = plan.ground();
     plan.set_lines(load(ground));
     if (!holds(ground, plan.ground())) {

@@ -1,5 +1,6 @@
 #include "app/render/picture_output.hpp"
 
+#include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 #include "render/canvas/png.hpp"
 #include "render/projection/projection.hpp"
@@ -38,12 +39,6 @@ constexpr std::array papers{Paper{"A0", 841, 1189},
                             Paper{"legal", 215.9, 355.6},
                             Paper{"tabloid", 279.4, 431.8}};
 
-std::string in_lower_case(std::string text) {
-    std::ranges::transform(
-        text, text.begin(), [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return text;
-}
-
 std::pair<int, int> size_of(const std::string& text) {
     int width = 0;
     int height = 0;
@@ -63,9 +58,8 @@ std::pair<int, int> size_of(const std::string& text) {
 }
 
 std::pair<int, int> paper_size(const std::string& name, bool landscape) {
-    const auto* const paper = std::ranges::find_if(papers, [&](const Paper& each) {
-        return in_lower_case(std::string{each.name}) == in_lower_case(name);
-    });
+    const auto* const paper = std::ranges::find_if(
+        papers, [&](const Paper& each) { return in_lower_case(each.name) == in_lower_case(name); });
     if (paper == papers.end()) {
         throw UsageError{
             fmt::format("--paper is '{}', expected A0 to A5, letter, legal or tabloid", name)};

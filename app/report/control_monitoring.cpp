@@ -1,19 +1,15 @@
 #include "app/report/control_monitoring.hpp"
 
 #include "app/cli/text_table.hpp"
+#include "estimator/common/statistics.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <string_view>
 
 namespace macadam {
 namespace {
-
-constexpr double z_of_90_percent = 1.645;
 
 /// Returns the middle of a month such as "2026-03", in years.
 double years_of(const std::string& month) {
@@ -117,9 +113,10 @@ std::string cars_words(const WatchedSection& watched) {
 }
 
 std::string bias_words(const WatchedSection& watched) {
-    return has_pass(watched)
-               ? fmt::format("{:>+7.2f} ± {:<5.2f} ", watched.off, z_of_90_percent * watched.off_sd)
-               : "";
+    return has_pass(watched) ? fmt::format("{:>+7.2f} ± {:<5.2f} ",
+                                           watched.off,
+                                           normal_interval_90 * watched.off_sd)
+                             : "";
 }
 
 std::string metres_words(const WatchedSection& watched) {
@@ -134,8 +131,10 @@ std::string drift_words(const WatchedSection& watched) {
                                  : "";
     }
     const auto& [per_year, sd, significant] = *watched.drift;
-    return fmt::format(
-        "{:+.2f} ± {:.2f} a year{}", per_year, z_of_90_percent * sd, significant ? ": DRIFTS" : "");
+    return fmt::format("{:+.2f} ± {:.2f} a year{}",
+                       per_year,
+                       normal_interval_90 * sd,
+                       significant ? ": DRIFTS" : "");
 }
 
 // clang-format off
@@ -153,8 +152,8 @@ const Columns<WatchedSection> control_columns{
     {"iri", as::iri(3), [](auto& r) { return of_cars(r, r.cars.iri); }},
     {"iri_sd", as::iri(3), [](auto& r) { return of_cars(r, r.cars.sd); }},
     {"difference", as::iri(3), [](auto& r) { return of_cars(r, r.off); }},
-    {"difference_low", as::iri(3), [](auto& r) { return difference_of(r, -z_of_90_percent); }},
-    {"difference_high", as::iri(3), [](auto& r) { return difference_of(r, z_of_90_percent); }},
+    {"difference_low", as::iri(3), [](auto& r) { return difference_of(r, -normal_interval_90); }},
+    {"difference_high", as::iri(3), [](auto& r) { return difference_of(r, normal_interval_90); }},
     {"drift", as::raw, [](auto& r) { return json_of(r.drift); }},
     {"", as::text, cars_words, {"cars", " {:>6}"}},
     {"", as::text, bias_words, {"bias (90 %)", " {:>16}"}},

@@ -3,7 +3,6 @@
 #include "app/query/monthly_history.hpp"
 #include "mapping/surveys/control_section.hpp"
 #include "storage/store/road_store.hpp"
-#include "storage/text/json.hpp"
 
 #include <optional>
 #include <string>

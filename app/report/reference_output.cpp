@@ -2,6 +2,7 @@
 
 #include "app/cli/terminal_escape.hpp"
 #include "app/cli/text_table.hpp"
+#include "estimator/common/statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +14,6 @@
 
 namespace macadam {
 namespace {
-
-constexpr double z_of_90_percent = 1.645;
 
 /// Formats a period: "2026-01-03 to 2026-05-11"; "" = not dated.
 std::string span_of(const ComparedDays& days) {
@@ -147,8 +146,8 @@ const Columns<ComparedControl> control_columns{
     {"known_iri", as::iri(3), [](auto& r) { return r.known; }},
     {"iri", as::iri(3), [](auto& r) { return of_cars(r, r.cars.iri); }},
     {"difference", as::iri(3), [](auto& r) { return of_cars(r, r.off); }},
-    {"difference_low", as::iri(3), [](auto& r) { return difference_of(r, -z_of_90_percent); }},
-    {"difference_high", as::iri(3), [](auto& r) { return difference_of(r, z_of_90_percent); }},
+    {"difference_low", as::iri(3), [](auto& r) { return difference_of(r, -normal_interval_90); }},
+    {"difference_high", as::iri(3), [](auto& r) { return difference_of(r, normal_interval_90); }},
     {"months", as::integer, [](auto& r) { return r.months; }},
     {"drift_per_year", as::iri(4), [](auto& r) { return of_drift(r, &Drift::per_year); }},
     {"drift_sd_per_year", as::iri(4), [](auto& r) { return of_drift(r, &Drift::sd_per_year); }},
@@ -210,11 +209,11 @@ std::string controls_text(const ReferenceReport& report) {
         text += fmt::format(", cars {:.2f}, bias {:+.2f} ± {:.2f}",
                             control.cars.iri,
                             control.off,
-                            z_of_90_percent * control.off_sd);
+                            normal_interval_90 * control.off_sd);
         if (control.drift) {
             text += fmt::format(", {:+.2f} ± {:.2f} a year{}",
                                 control.drift->per_year,
-                                z_of_90_percent * control.drift->sd_per_year,
+                                normal_interval_90 * control.drift->sd_per_year,
                                 control.drift->significant ? ": DRIFTS" : "");
         }
     }

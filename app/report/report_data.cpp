@@ -14,7 +14,6 @@
 #include <map>
 #include <ranges>
 #include <span>
-#include <string_view>
 #include <utility>
 
 namespace macadam {
@@ -253,6 +252,30 @@ std::optional<ReportFewPasses> few_passes_of(const MapScene& map, const ReportCo
     return ReportFewPasses{config.style.min_passes, grey(on_paper ? print : light), grey(dark)};
 }
 
+/// Takes the largest events of the database into the report.
+void put_events(const RoadStore& store, Report& report) {
+    constexpr std::size_t max_events = 100;
+    auto records = store.events({});
+    std::ranges::stable_sort(
+        records, std::ranges::greater{}, [](const auto& record) { return record.event.size_um; });
+    report.events_found = records.size();
+    records.resize(std::min(records.size(), max_events));
+    for (const auto& [event, at, name, highway] : records) {
+        report.events.push_back(
+            {.kind = event.kind,
+             .size_mm = event.size_um / 1000.0,
+             .sd_mm = event.sd_um / 1000.0,
+             .name = name,
+             .highway = highway,
+             .way_id = event.segment.way_id,
+             .at_m = static_cast<double>(event.at_mm) / 1000,
+             .at = at,
+             .passes = event.passes,
+             .passes_over = event.passes_over,
+             .last_seen = event.last_seen_ms ? utc_day(*event.last_seen_ms) : std::string{}});
+    }
+}
+
 } // namespace
 
 Report report_of(const RoadStore& store, const ReportConfig& config, const Progress& progress) {
@@ -295,6 +318,8 @@ Report report_of(const RoadStore& store, const ReportConfig& config, const Progr
     report.is_own = info.settings.privacy == PrivacyProfile::own;
     report.lateral_passes = info.lateral_passes;
     report.row_reasons = store.row_reasons();
+
+    put_events(store, report);
 
     const auto change = compared(store, roads, config);
     stretches.resize(std::min(stretches.size(), config.worst));

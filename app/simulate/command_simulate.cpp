@@ -115,27 +115,40 @@ written_network(const fs::path& network, const fs::path& folder, const Console& 
     return build_network(read_network(file));
 }
 
-void write_truth(const RoadNetwork& roads,
+/// Writes a header and the rows of all lanes.
+void write_lanes(const fs::path& file,
+                 std::string_view header,
+                 const std::vector<std::string>& lanes) {
+    AtomicFile out{file};
+    out.write(std::string{header} + "\n");
+    for (const auto& rows : lanes) {
+        out.write(rows);
+    }
+    out.commit();
+}
+
+void write_truth(const Fleet& fleet,
+                 const RoadNetwork& roads,
                  LaneStore& surfaces,
-                 const fs::path& file,
+                 const fs::path& folder,
                  std::size_t jobs,
                  const Console& console) {
     const auto lanes = drivable_lanes(roads);
     std::vector<std::string> rows(lanes.size());
+    std::vector<std::string> potholes(lanes.size());
     parallel_for(
         lanes.size(),
         jobs,
         [&](std::size_t i) {
-            rows[i] = truth_rows(lane_truth(roads, lanes[i], *surfaces(lanes[i])));
+            const auto surface = surfaces(lanes[i]);
+            rows[i] = truth_rows(lane_truth(roads, lanes[i], *surface));
+            potholes[i] = pothole_truth_rows(
+                lane_potholes(fleet.recipe, roads, lanes[i], *surface, fleet.seed));
         },
         console.progress("generating surfaces"));
     stop_if_wanted(console);
-    AtomicFile out{file};
-    out.write(std::string{truth_header} + "\n");
-    for (const auto& lane : rows) {
-        out.write(lane);
-    }
-    out.commit();
+    write_lanes(folder / "truth.csv", truth_header, rows);
+    write_lanes(folder / "truth-potholes.csv", pothole_truth_header, potholes);
 }
 
 void write_vehicles(const Fleet& fleet, const fs::path& folder) {
@@ -198,7 +211,7 @@ simulated(const SimulateOptions& options, const fs::path& folder, const Console&
     LaneStore surfaces{
         [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
         max_lane_bytes};
-    write_truth(roads, surfaces, folder / "truth.csv", options.jobs, console);
+    write_truth(fleet, roads, surfaces, folder, options.jobs, console);
     const double km = write_trips(fleet, roads, surfaces, folder / "trips", options.jobs, console);
     return {fleet.recipe.driving.trips, fleet.cars.size(), way_count(roads), km};
 }
@@ -243,7 +256,8 @@ const Command simulate_command{
              "axles, dampers, friction\n"
              "and tyres over it and writes what their sensors would log: DIR/trips/, "
              "DIR/vehicles/,\n"
-             "DIR/network.osm.pbf, and DIR/truth.csv with the true IRI of every segment.\n"
+             "DIR/network.osm.pbf, DIR/truth.csv with the true IRI of every segment, and\n"
+             "DIR/truth-potholes.csv with the potholes that the recipe asked for.\n"
              "The same network, recipe and seed give the same bytes on every machine.",
     .example = "  macadam simulate -o fleet --network town.osm.pbf\n"
                "  macadam simulate --show-recipe > mine.toml            a recipe to start "

@@ -2,6 +2,7 @@
 
 #include "app/cli/console.hpp"
 #include "app/cli/text_table.hpp"
+#include "app/store/car_change_output.hpp"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,8 @@ const Columns<CalibratedCar> car_columns{
     {"", as::text, offset_words, {"offset", " {:>9}"}},
     {"relative_sd", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::relative_sd); }},
     {"", as::text, sd_words, {"sd", " {:>9}"}},
+    {"scatter", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::scatter); }},
+    {"changes", as::raw, [](auto& r) { return changes_json(r.periods); }},
 };
 
 const Columns<CalibrationReport> report_columns{
@@ -54,7 +57,10 @@ const Columns<CalibrationReport> report_columns{
 } // namespace
 
 std::string text_of(const CalibrationReport& report) {
-    const auto text = table_text(car_columns, report.cars);
+    auto text = table_text(car_columns, report.cars);
+    for (const auto& car : report.cars) {
+        text += changes_text(car.vehicle, car.periods);
+    }
     if (report.places == 0) { // the error components are not known
         return text;
     }

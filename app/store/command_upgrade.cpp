@@ -30,17 +30,22 @@ std::string text_of(const StoreUpgrade& done, const std::filesystem::path& file)
         return fmt::format(
             "{}: is already of version {}, nothing to do\n", file.string(), done.to_version);
     }
-    return fmt::format("{}: upgraded from version {} to {}; {} pseudonymised with the key "
-                       "{}{}\n"
-                       "digest before and after: {}\n",
+    const auto cars =
+        done.cars == 0 && !done.made_key
+            ? std::string{}
+            : fmt::format("; {} pseudonymised with the key {}{}",
+                          counted(done.cars, "car"),
+                          key_file_of(file).string(),
+                          done.made_key ? ", which is new: keep a copy of it apart from the "
+                                          "database"
+                                        : "");
+    return fmt::format("{}: upgraded from version {} to {}{}\n"
+                       "digest before and after: {}\n"
+                       "run 'macadam reprocess' to search the trips for potholes\n",
                        file.string(),
                        done.from_version,
                        done.to_version,
-                       counted(done.cars, "car"),
-                       key_file_of(file).string(),
-                       done.made_key ? ", which is new: keep a copy of it apart from the "
-                                       "database"
-                                     : "",
+                       cars,
                        done.digest);
 }
 

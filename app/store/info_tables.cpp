@@ -1,6 +1,7 @@
 #include "app/store/info_tables.hpp"
 
 #include "app/cli/text_table.hpp"
+#include "app/store/car_change_output.hpp"
 
 #include "storage/networks/network_file.hpp"
 
@@ -71,6 +72,7 @@ std::vector<CarInfo> cars_of(const RoadStore& store) {
     }
     for (const auto& car : store.calibrated_cars()) {
         by_name[car.vehicle].calibration = car.calibration;
+        by_name[car.vehicle].periods = car.periods;
     }
     std::vector<CarInfo> cars;
     for (auto& [name, car] : by_name) {
@@ -124,6 +126,8 @@ const Columns<CarInfo> car_columns{
     {"offset_mm_per_m", as::iri(3),
      [](auto& r) { return calibrated(r, &CarCalibration::offset_um, 1000); }},
     {"relative_sd", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::relative_sd); }},
+    {"scatter", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::scatter); }},
+    {"changes", as::raw, [](auto& r) { return changes_json(r.periods); }},
 };
 
 /// Columns of the use in each day, or month.
@@ -161,6 +165,15 @@ std::string car_lines(std::span<const CarInfo> cars) {
     return cars.size() > count ? text + fmt::format("and {} more\n", cars.size() - count) : text;
 }
 
+/// Tells the cars that changed or scatter, of all cars.
+std::string change_lines(std::span<const CarInfo> cars) {
+    std::string text;
+    for (const auto& car : cars) {
+        text += changes_text(fmt::format("car {}", car.number), car.periods);
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
 /// Formats the last months.
 std::string month_lines(std::span<const DailyUsage> months) {
     const auto last = months.last(std::min(months.size(), max_rows));
@@ -186,7 +199,7 @@ std::map<std::string, DailyUsage> months_of(const std::vector<DailyUsage>& days)
 
 std::string text_of(const InfoTables& tables) {
     return fmt::format("\n{}", table_text(road_class_columns, tables.road_classes)) +
-           (tables.cars.empty() ? "" : car_lines(tables.cars)) +
+           (tables.cars.empty() ? "" : car_lines(tables.cars)) + change_lines(tables.cars) +
            (tables.days.empty() ? "" : month_lines(month_rows(tables.days)));
 }
 

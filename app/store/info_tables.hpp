@@ -27,6 +27,7 @@ struct CarInfo {
     double share = 0; ///< fraction of all passes
     double km = 0;
     std::optional<CarCalibration> calibration{}; ///< `std::nullopt`: not calibrated
+    std::vector<CarPeriod> periods{};            ///< as in CalibratedCar
 };
 
 /// Tables of `info` besides the totals.

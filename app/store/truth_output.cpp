@@ -6,12 +6,14 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <vector>
 
 namespace macadam {
 namespace {
 
 using Row = TruthComparison::Class;
+using Band = TruthComparison::Band;
 
 double bias_share(const Row& row) {
     return row.score.bias / row.score.mean_truth;
@@ -39,7 +41,26 @@ const Columns<Row> class_columns{
     {"highway", as::text, [](auto& r) { return r.highway; }},
     {"score", as::raw, [](auto& r) { return json_object(columns, r).text(); }},
 };
+
+const Columns<Band> band_columns{
+    {"from", as::real(0), [](auto& r) { return r.from; }},
+    {"to", as::real(0), [](auto& r) { return r.to; }},
+    {"score", as::raw, [](auto& r) { return json_object(columns, Row{"", r.score}).text(); }},
+};
 // clang-format on
+
+/// Names the rows of bands for the table: "IRI 1 to 2", "over 85 km/h".
+std::vector<Row>
+rows_of(const std::vector<Band>& bands, std::string_view quantity, std::string_view unit) {
+    std::vector<Row> rows;
+    for (const auto& [from, to, score] : bands) {
+        const auto limits = !to         ? fmt::format("over {:g}", from)
+                            : from == 0 ? fmt::format("below {:g}", *to)
+                                        : fmt::format("{:g} to {:g}", from, *to);
+        rows.push_back({fmt::format("{}{}{}", quantity, limits, unit), score});
+    }
+    return rows;
+}
 
 } // namespace
 
@@ -47,7 +68,7 @@ TruthComparison compared(const RoadStore& store, const std::filesystem::path& fi
     const auto truth = read_truth(file);
     std::vector<SegmentRecord> states;
     store.visit({}, [&](const SegmentRecord& record) { states.push_back(record); });
-    auto comparison = compare_with_truth(states, truth);
+    auto comparison = compare_with_truth(states, truth, store.mean_speeds_kmh());
     if (comparison.all.segments == 0) {
         throw InputError{fmt::format("{}: contains none of the {} measured segments, expected "
                                      "true values of this network",
@@ -60,16 +81,23 @@ TruthComparison compared(const RoadStore& store, const std::filesystem::path& fi
 std::string text_of(const TruthComparison& comparison) {
     std::vector<Row> rows{{"all", comparison.all}};
     rows.insert(rows.end(), comparison.classes.begin(), comparison.classes.end());
+    for (const auto& bands :
+         {rows_of(comparison.levels, "IRI ", ""), rows_of(comparison.speeds, "", " km/h")}) {
+        rows.insert(rows.end(), bands.begin(), bands.end());
+    }
     return table_text(columns, rows) +
            "IRI (MRI) in mm/m; RMSE of single segments, and of five in a row (about 100 "
            "m); share of true\n"
-           "values within the 90 % interval, %\n";
+           "values within the 90 % interval, %. Bands of the true IRI, and of the passes' mean "
+           "speed.\n";
 }
 
 std::string json_of(const TruthComparison& comparison) {
     JsonObject object;
     object.add("all", JsonRaw{json_object(columns, {"", comparison.all}).text()})
-        .add("classes", JsonRaw{json_rows(class_columns, comparison.classes)});
+        .add("classes", JsonRaw{json_rows(class_columns, comparison.classes)})
+        .add("by_level", JsonRaw{json_rows(band_columns, comparison.levels)})
+        .add("by_speed", JsonRaw{json_rows(band_columns, comparison.speeds)});
     return object.text();
 }
 

@@ -2,6 +2,7 @@
 #include "app/trace/survey_check_output.hpp"
 
 #include "app/cli/row_writer.hpp"
+#include "estimator/common/statistics.hpp"
 #include "render/report/document/line_chart.hpp"
 #include "storage/text/json.hpp"
 
@@ -14,7 +15,6 @@
 namespace macadam {
 namespace {
 
-constexpr double z_of_90_percent = 1.645;
 constexpr double same_place_m = 1; // between the end of a row and the beginning of the next
 
 std::optional<double> headline_of(const AgainstRow& row) {
@@ -23,7 +23,7 @@ std::optional<double> headline_of(const AgainstRow& row) {
 
 std::pair<double, double> interval_of(const AgainstRow& row) {
     const double iri = headline_of(row).value_or(0);
-    const double reach = z_of_90_percent * row.mean.sd_mm_per_m;
+    const double reach = normal_interval_90 * row.mean.sd_mm_per_m;
     return {std::max(0.0, iri - reach), iri + reach};
 }
 

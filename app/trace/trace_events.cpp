@@ -5,10 +5,9 @@
 #include "estimator/common/error.hpp"
 #include "estimator/events/event_detection.hpp"
 #include "storage/atomic/atomic_file.hpp"
+#include "storage/exports/event_export.hpp"
 #include "storage/text/columns.hpp"
 #include "storage/text/json.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
@@ -83,15 +82,7 @@ std::string feature_of(const EventRow& row) {
     std::erase_if(properties, [](const auto& column) {
         return column.name == "lat_deg" || column.name == "lon_deg";
     });
-    JsonObject point;
-    point.add("type", std::string{"Point"})
-        .add("coordinates",
-             JsonRaw{fmt::format("[{:.7f},{:.7f}]", row.at->lon_deg, row.at->lat_deg)});
-    JsonObject feature;
-    feature.add("type", std::string{"Feature"})
-        .add("geometry", JsonRaw{point.text()})
-        .add("properties", JsonRaw{json_object(properties, row).text()});
-    return feature.text();
+    return geojson_feature(*row.at, json_object(properties, row));
 }
 
 } // namespace

@@ -143,9 +143,9 @@ void trace_live(const std::filesystem::path& trip,
     }
     DroppedSamples left_out;
     WarnOnce said;
-    std::size_t told = 0;
+    std::size_t row_count = 0;
     const auto say = [&](const std::vector<LiveRow>& rows) {
-        told += tell(rows, json);
+        row_count += tell(rows, json);
         said.look_at(rows, config.estimator.channels, console);
     };
     std::optional<double> judge_s;
@@ -170,7 +170,7 @@ void trace_live(const std::filesystem::path& trip,
                                  feed.where(),
                                  counted(feed.count(), "row")));
     }
-    if (told == 0) {
+    if (row_count == 0) {
         throw InputError{fmt::format("{}: is {:.1f} m long, expected at least --length {} m",
                                      feed.name(),
                                      live.travelled_m(),

@@ -3,7 +3,6 @@
 #include "app/pipeline/pipeline.hpp"
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace macadam {

@@ -1,13 +1,12 @@
 #include "app/trace/trace_rows.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "estimator/roughness/roughness_mean.hpp"
 
 #include <algorithm>
 
 namespace macadam {
 namespace {
-
-constexpr double z_of_90_percent = 1.645;
 
 /// The headline: MRI where both tracks were observed, else HRI.
 std::optional<double> headline_of(const TraceRow& row) {
@@ -34,8 +33,8 @@ const Columns<TraceRow> columns{
     {"speed_mps", as::real(3, "m/s"), [](auto& r) { return r.speed_mps; }},
     {"iri", as::iri(3), headline_of},
     {"iri_sd", as::iri(3), [](auto& r) { return headline_of(r) ? Cell{r.mean.sd_mm_per_m} : Cell{}; }},
-    {"iri_low", as::iri(3), [](auto& r) { return bound_of(r, -z_of_90_percent); }},
-    {"iri_high", as::iri(3), [](auto& r) { return bound_of(r, z_of_90_percent); }},
+    {"iri_low", as::iri(3), [](auto& r) { return bound_of(r, -normal_interval_90); }},
+    {"iri_high", as::iri(3), [](auto& r) { return bound_of(r, normal_interval_90); }},
     {"iri_left", as::iri(3), [](auto& r) { return r.mean.left_mm_per_m; }},
     {"iri_right", as::iri(3), [](auto& r) { return r.mean.right_mm_per_m; }},
     {"mri", as::iri(3), [](auto& r) { return r.mean.mri_mm_per_m; }},

@@ -1,10 +1,11 @@
 #include "estimator/common/geo.hpp"
 
+#include "estimator/common/angle.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 namespace macadam {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr double equator_radius_m = 6378137.0;
 constexpr double flattening = 1 / 298.257223563;
 constexpr double eccentricity_squared = flattening * (2 - flattening);
-constexpr double rad_per_deg = std::numbers::pi / 180;
 
 /// Returns metres per degree of longitude and of latitude at a latitude.
 PointEn metres_per_degree(double lat_deg) {

@@ -100,15 +100,17 @@ RoadEvent rails_of(const LaneEvent& first, const LaneEvent& second, double start
 }
 
 std::vector<LaneEvent> lane_events(const EstimatedProfile& profile, const EventConfig& config) {
-    const auto in_track = [&](const auto& track_m, const auto& error_m) {
-        return events_in_track(track_m, error_m, profile.step_m, config);
+    const auto in_track = [&](const auto& track_m, const auto& error_m, const auto& thresholds) {
+        return events_in_track(track_m, error_m, profile.step_m, thresholds);
     };
     if (!profile.left_m.empty()) {
-        return joined(in_track(profile.left_m, profile.left_error_m),
-                      in_track(profile.right_m, profile.right_error_m));
+        return joined(in_track(profile.left_m, profile.left_error_m, config),
+                      in_track(profile.right_m, profile.right_error_m, config));
     }
+    auto of_mean = config;
+    of_mean.min_hole_mm = config.min_mean_hole_mm;
     std::vector<LaneEvent> lane;
-    for (const auto& event : in_track(profile.centre_m, profile.centre_error_m)) {
+    for (const auto& event : in_track(profile.centre_m, profile.centre_error_m, of_mean)) {
         lane.push_back({event, WheelTrack::unknown});
     }
     return lane;

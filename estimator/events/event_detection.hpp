@@ -13,6 +13,9 @@ struct EventConfig {
     double min_score = 6;    ///< standard deviations of road and estimate
     double min_hole_mm = 15; ///< of potholes and bumps
     double min_line_mm = 5;  ///< of joints that are steps
+
+    /// The same in the mean of both tracks, where a hole in one track has half its depth.
+    double min_mean_hole_mm = 10;
 };
 
 /// Detects potholes, bumps, joints and rails in the profile that the smoother estimated.

@@ -1,5 +1,7 @@
 #include "estimator/events/track_events.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -49,11 +51,9 @@ std::vector<double> road_sd(const std::vector<double>& sizes, double step_m) {
         for (std::size_t i = from; i < to; ++i) {
             near.push_back(std::abs(sizes[i]));
         }
-        const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-        std::ranges::nth_element(near, middle);
         std::fill(sd.begin() + static_cast<std::ptrdiff_t>(at),
                   sd.begin() + static_cast<std::ptrdiff_t>(std::min(sizes.size(), at + every)),
-                  *middle / normal_median);
+                  median(near) / normal_median);
     }
     return sd;
 }

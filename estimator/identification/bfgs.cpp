@@ -53,8 +53,8 @@ Minimum minimise_bfgs(const Eigen::VectorXd& start,
         }
         return value;
     };
-    const auto told = settings(); // the solver keeps a reference to it
-    LBFGSpp::LBFGSSolver<double, LBFGSpp::LineSearchNocedalWright> solver{told};
+    const auto parameters = settings(); // the solver keeps a reference to it
+    LBFGSpp::LBFGSSolver<double, LBFGSpp::LineSearchNocedalWright> solver{parameters};
     Eigen::VectorXd at = start;
     double value = 0;
     try {

@@ -254,10 +254,10 @@ public:
     }
 
     std::optional<double> next() {
-        if (told_ == means_.size()) {
+        if (next_ == means_.size()) {
             return {};
         }
-        return means_[told_++];
+        return means_[next_++];
     }
 
 private:
@@ -322,7 +322,7 @@ private:
     std::optional<GoldenDrive> car_;
     double sum_ = 0;
     std::vector<double> means_;
-    std::size_t told_ = 0;
+    std::size_t next_ = 0;
 };
 
 ExactIri::ExactIri(std::vector<double> edges_m, bool envelope, StrokeValue value)

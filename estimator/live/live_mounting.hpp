@@ -2,9 +2,6 @@
 
 #include "estimator/motion/mounting.hpp"
 
-#include <cstddef>
-#include <optional>
-
 namespace macadam {
 
 /// Running estimate of the sensor's mounting from quarter-second means of the last hour. Levelling

@@ -4,7 +4,6 @@
 #include "estimator/roughness/roughness_trace.hpp"
 #include "estimator/smoother/car_tuning.hpp"
 
-#include <cstddef>
 #include <optional>
 
 namespace macadam {

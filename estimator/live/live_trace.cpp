@@ -1,6 +1,5 @@
 #include "estimator/live/live_trace.hpp"
 
-#include "estimator/common/error.hpp"
 #include "estimator/motion/gnss_latency.hpp"
 #include "estimator/roughness/roughness_mean.hpp"
 
@@ -136,7 +135,7 @@ void LiveTrace::look(bool over) {
 }
 
 void LiveTrace::note_middle() {
-    const double middle_m = (static_cast<double>(told_) + 0.5) * config_.length_m;
+    const double middle_m = (static_cast<double>(reported_) + 0.5) * config_.length_m;
     const auto& odometer = *ruler_.odometer;
     if (!middle_ && odometer.travel_m(now_s() - settled_s) >= middle_m) {
         middle_ = middle_at(middle_m);
@@ -155,29 +154,30 @@ std::optional<double> LiveTrace::next_end_s() const {
         return std::nullopt;
     }
     const double piece_m = std::min(config_.length_m, longest_piece_m);
-    const double told_m = static_cast<double>(told_) * config_.length_m;
-    const double known_m = std::max(told_m, roughness_.known_until_m());
+    const double reported_m = static_cast<double>(reported_) * config_.length_m;
+    const double known_m = std::max(reported_m, roughness_.known_until_m());
     const double end_m =
-        std::min((std::floor(known_m / piece_m) + 1) * piece_m, told_m + config_.length_m) -
+        std::min((std::floor(known_m / piece_m) + 1) * piece_m, reported_m + config_.length_m) -
         roughness_.rear_m();
     return travelled_m() >= end_m ? std::optional{ruler_.odometer->t_s(end_m)} : std::nullopt;
 }
 
 std::vector<LiveRow> LiveTrace::rows_until(double travel_m) {
     std::vector<LiveRow> rows;
-    while (static_cast<double>(told_ + 1) * config_.length_m <= travel_m) {
-        const double from_m = static_cast<double>(told_) * config_.length_m;
-        const double seen_m =
-            ruler_.odometer->past_gap_m(from_m, static_cast<double>(told_ + 1) * config_.length_m);
+    while (static_cast<double>(reported_ + 1) * config_.length_m <= travel_m) {
+        const double from_m = static_cast<double>(reported_) * config_.length_m;
+        const double seen_m = ruler_.odometer->past_gap_m(
+            from_m, static_cast<double>(reported_ + 1) * config_.length_m);
         if (seen_m > from_m) {
-            told_ = std::max(told_ + 1, static_cast<std::size_t>(seen_m / config_.length_m));
+            reported_ =
+                std::max(reported_ + 1, static_cast<std::size_t>(seen_m / config_.length_m));
         } else {
             rows.push_back(row_from(from_m));
-            ++told_;
+            ++reported_;
         }
         middle_.reset();
     }
-    roughness_.forget_before(static_cast<double>(told_) * config_.length_m);
+    roughness_.forget_before(static_cast<double>(reported_) * config_.length_m);
     return rows;
 }
 

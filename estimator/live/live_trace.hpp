@@ -5,7 +5,6 @@
 #include "estimator/live/live_roughness.hpp"
 #include "estimator/live/sample_buffer.hpp"
 
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -91,7 +90,7 @@ private:
     std::optional<double> found_latency_s_;
     double looked_s_;
     double looked_back_s_;
-    std::size_t told_ = 0; ///< number of rows returned
+    std::size_t reported_ = 0; ///< number of rows returned
     std::optional<Middle> middle_;
     bool scale_is_free_;
 };

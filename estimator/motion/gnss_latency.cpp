@@ -1,11 +1,12 @@
 #include "estimator/motion/gnss_latency.hpp"
 
+#include "estimator/common/angle.hpp"
+#include "estimator/common/statistics.hpp"
 #include "estimator/motion/turn_latency.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <vector>
 
 namespace macadam {
@@ -22,12 +23,6 @@ constexpr double longest_chord_s = 6;
 constexpr double min_sd_s = 0.03;  // lower limit of the accuracy of any clock
 constexpr double worst_sd_s = 0.4; // of a usable result
 constexpr float max_apart_mps = 3; // limits the effect of a faulty reading
-
-float median_of(std::vector<float> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 /// Interpolates the wheel speed at a time; NaN in gaps.
 float wheel_mps(const SpeedSamples& wheels, double t_s) {
@@ -58,7 +53,7 @@ double deviation_mps(const TripLog& trip, double lag_s) {
     if (apart_mps.size() < min_fixes) {
         return NAN;
     }
-    const float middle = median_of(apart_mps);
+    const float middle = median(apart_mps);
     std::ranges::transform(
         apart_mps, apart_mps.begin(), [=](float a) { return std::abs(a - middle); });
     // The mean is used, not the median: speed is constant for most of a drive, and only its changes
@@ -93,7 +88,7 @@ std::vector<Chord> chords_of(const TripLog& trip) {
             chords.push_back({from->t_s,
                               fix.t_s,
                               way_m / (fix.t_s - from->t_s),
-                              -course_deg(from->at, fix.at) * std::numbers::pi / 180});
+                              -course_deg(from->at, fix.at) * rad_per_deg});
             from = &fix;
         }
     }
@@ -127,7 +122,7 @@ double cost_of(std::vector<float> apart, float most) {
     if (apart.size() < min_fixes) {
         return 0;
     }
-    const float middle = median_of(apart);
+    const float middle = median(apart);
     double sum = 0;
     for (const float a : apart) {
         sum += static_cast<double>(std::min(std::abs(a - middle), most));

@@ -1,18 +1,17 @@
 #include "estimator/motion/heading.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "estimator/motion/mounting.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 
 namespace macadam {
 namespace {
 
-constexpr double rad_per_deg = std::numbers::pi / 180;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double longest_silence_s = 0.5; // bridged by a line

@@ -1,6 +1,7 @@
 #include "estimator/motion/make_odometer.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/statistics.hpp"
 #include "estimator/motion/gnss_track.hpp"
 #include "estimator/motion/outlier_gate.hpp"
 
@@ -25,7 +26,6 @@ constexpr std::size_t min_comparisons = 20;
 constexpr double sd_of_scales = 0.03; // tyre wear and pressure, and the maker's margin
 constexpr double sd_common = 0.001;   // of GNSS speed itself
 constexpr double max_scale = 1.1;
-constexpr double sd_per_mad = 1.4826; // normal distribution
 constexpr double sd_median_over_mean = 1.2533;
 
 /// Speed at its own time, latency removed; negative when reversing.
@@ -138,12 +138,6 @@ GnssReadings gnss_readings(const TripLog& trip, const OdometerConfig& config) {
     return gnss;
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 /// Returns the factor that makes wheel speed agree with GNSS: the median of their ratio at speed,
 /// drawn towards 1 according to its uncertainty.
 double scale_between(const Odometer& wheels, const std::vector<Reading>& gnss) {
@@ -164,8 +158,9 @@ double scale_between(const Odometer& wheels, const std::vector<Reading>& gnss) {
     // A receiver's errors within one second are correlated.
     const double independent =
         std::min(static_cast<double>(ratios.size()), gnss.back().t_s - gnss.front().t_s + 1);
-    const double sd = std::hypot(
-        sd_median_over_mean * sd_per_mad * median(apart) / std::sqrt(independent), sd_common);
+    const double sd =
+        std::hypot(sd_median_over_mean * normal_sd_per_mad * median(apart) / std::sqrt(independent),
+                   sd_common);
     const double trust = sd_of_scales * sd_of_scales / (sd_of_scales * sd_of_scales + sd * sd);
     return std::clamp(1 + trust * (middle - 1), 2 - max_scale, max_scale);
 }

@@ -1,5 +1,6 @@
 #include "estimator/motion/mounting.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "estimator/common/gravity.hpp"
 
 #include <Eigen/Geometry>
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -18,7 +18,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 constexpr double window_s = 1;      // long against vibration, short against braking
 constexpr double steady_mps2 = 0.5; // limit of neither braking nor accelerating
 constexpr double chunk_s = 30;      // hills and bends average out

@@ -1,6 +1,7 @@
 #include "estimator/motion/stretch.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/statistics.hpp"
 #include "estimator/motion/butterworth.hpp"
 #include "estimator/motion/mounting.hpp"
 
@@ -182,19 +183,13 @@ struct Rate {
 /// Estimates white noise with the power of a trace near half its sampling rate, from its fourth
 /// differences: standard deviation of a sample. The median is used, so that bumps have no effect.
 double noise_floor(const std::vector<double>& values) {
-    constexpr double sum_of_squares = 70;  // of the weights 1, -4, 6, -4, 1
-    constexpr double sd_over_mad = 1.4826; // normal distribution
+    constexpr double sum_of_squares = 70; // of the weights 1, -4, 6, -4, 1
     std::vector<double> differences;
     for (std::size_t i = 2; i + 2 < values.size(); ++i) {
         differences.push_back(std::abs(values[i - 2] - 4 * values[i - 1] + 6 * values[i] -
                                        4 * values[i + 1] + values[i + 2]));
     }
-    if (differences.empty()) {
-        return 0;
-    }
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::ranges::nth_element(differences, middle);
-    return sd_over_mad * *middle / std::sqrt(sum_of_squares);
+    return normal_sd_per_mad * median(std::move(differences)) / std::sqrt(sum_of_squares);
 }
 
 /// Returns one axis of the gyroscope on the grid; empty if it was not sampled throughout at the

@@ -1,5 +1,8 @@
 #include "estimator/motion/turn_latency.hpp"
 
+#include "estimator/common/angle.hpp"
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -37,7 +40,7 @@ std::vector<Way> ways_of(const TripLog& trip) {
         }
         const double way_m = distance_m(from->at, fix.at);
         if (way_m >= min_way_m) {
-            const double rad = course_deg(from->at, fix.at) * std::numbers::pi / 180;
+            const double rad = course_deg(from->at, fix.at) * rad_per_deg;
             ways.push_back({from->t_s, fix.t_s, std::polar(way_m, std::numbers::pi / 2 - rad), 0});
             from = &fix;
         }
@@ -161,9 +164,7 @@ void add_asides(std::vector<double>& asides_m,
 
 double median_size(std::vector<double> values) {
     std::ranges::transform(values, values.begin(), [](double a) { return std::abs(a); });
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
+    return median(std::move(values));
 }
 
 /// Returns the cost under Student's t, scaled so that half of the values lie within the median.

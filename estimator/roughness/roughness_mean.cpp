@@ -7,6 +7,11 @@
 namespace macadam {
 namespace {
 
+// Error of the smoother that does not become smaller with the road: sensor noise beyond the stated,
+// tyres, what is wrong about friction. Simulated cars on roads below 1 mm/m are that far off
+// (docs/method/accuracy.md).
+constexpr double absolute_sd_mm_per_m = 0.06;
+
 /// Sums over the covered parts of cells, weighted by their length.
 struct Sums {
     double covered_m = 0;
@@ -151,7 +156,8 @@ double sd_of_smoother_mm_per_m(double iri_mm_per_m, const Sums& sums) {
     const double roads = static_cast<double>(sums.scatter.size());
     const double scatter = std::sqrt(square / (roads - 1)) / sums.covered_m;
     const double random = sums.random_sd / std::sqrt(std::max(sums.covered_m, 1.0));
-    return std::hypot(scatter, iri_mm_per_m * std::hypot(random, sums.common_sd));
+    const double relative = std::hypot(random, sums.common_sd);
+    return std::hypot(std::hypot(scatter, iri_mm_per_m * relative), absolute_sd_mm_per_m);
 }
 
 } // namespace

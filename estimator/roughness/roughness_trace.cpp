@@ -7,7 +7,6 @@
 #include "estimator/vehicle/quarter_car.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace macadam {

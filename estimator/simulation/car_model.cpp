@@ -1,6 +1,7 @@
 #include "estimator/simulation/car_model.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/gravity.hpp"
 
 #include <fmt/format.h>
 

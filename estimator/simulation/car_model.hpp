@@ -1,6 +1,5 @@
 #pragma once
 
-#include "estimator/common/gravity.hpp"
 #include "estimator/simulation/simulated_car.hpp"
 
 #include <array>

@@ -1,6 +1,7 @@
 #include "estimator/simulation/imu.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/gravity.hpp"
 #include "estimator/simulation/portable_math.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "estimator/simulation/portable_math.hpp"
 
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 
 namespace macadam::exact {

@@ -1,5 +1,6 @@
 #include "estimator/simulation/random.hpp"
 
+#include "estimator/common/splitmix.hpp"
 #include "estimator/simulation/portable_math.hpp"
 
 #include <bit>
@@ -7,31 +8,18 @@
 
 namespace macadam {
 
-namespace {
-
-/// Output function of splitmix64, a bijection of 64 bits that leaves no pattern.
-std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-}
-
-constexpr std::uint64_t golden_gamma = 0x9e3779b97f4a7c15U;
-
-} // namespace
-
 std::uint64_t seed_of(std::initializer_list<std::uint64_t> numbers) {
     std::uint64_t seed = numbers.size();
     for (const std::uint64_t number : numbers) {
-        seed = mixed(seed + golden_gamma + mixed(number + golden_gamma));
+        seed = splitmix_mixed(seed + splitmix_gamma + splitmix_mixed(number + splitmix_gamma));
     }
     return seed;
 }
 
 Random::Random(std::uint64_t seed) {
     for (auto& word : state_) {
-        seed += golden_gamma;
-        word = mixed(seed);
+        seed += splitmix_gamma;
+        word = splitmix_mixed(seed);
     }
 }
 

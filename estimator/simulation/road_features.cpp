@@ -89,27 +89,10 @@ void add_patches(RoadSurface& surface, const RoadRecipe& recipe, Random& random)
     }
 }
 
-void add_potholes(RoadSurface& surface, const RoadRecipe& recipe, Random& random) {
-    const double room_m = surface.length_m() - 2 * clear_of_ends_m;
-    const int count = draw_count(recipe.potholes_per_km, surface.length_m(), random);
-    for (int i = 0; i < count; ++i) {
-        const double length_m = random.uniform(min_pothole_m, max_pothole_m);
-        const double at_room = random.uniform();
-        const double depth_m = random.uniform(min_pothole_depth_m, max_pothole_depth_m);
-        const double middle_m = (random.uniform() < 0.5 ? -wheel_path_m : wheel_path_m) +
-                                random.uniform(-pothole_off_path_m, pothole_off_path_m);
-        if (length_m > room_m) {
-            continue;
-        }
-        add(surface,
-            clear_of_ends_m + at_room * (room_m - length_m),
-            length_m,
-            [&](double at_m, double lateral_m) {
-                const double across = lateral_m - middle_m + pothole_half_width_m;
-                return -depth_m * pothole(at_m, length_m) *
-                       pothole(across, 2 * pothole_half_width_m);
-            });
-    }
+void add_pothole(RoadSurface& surface, const Pothole& hole) {
+    add(surface, hole.from_m, hole.length_m, [&](double at_m, double lateral_m) {
+        return -hole.depth_m * pothole(at_m, hole.length_m) * hole.part_at(lateral_m);
+    });
 }
 
 } // namespace
@@ -133,6 +116,32 @@ double pothole(double at_m, double length_m) {
     return 0.5 - 0.5 * exact::cos(2 * std::numbers::pi * at_m / length_m);
 }
 
+double Pothole::part_at(double line_lateral_m) const {
+    const double across_m = line_lateral_m - lateral_m + pothole_half_width_m;
+    return pothole(across_m, 2 * pothole_half_width_m);
+}
+
+std::vector<Pothole> potholes_on(double length_m, const RoadRecipe& recipe, std::uint64_t seed) {
+    Random random{seed_of({seed, 3})};
+    const double room_m = length_m - 2 * clear_of_ends_m;
+    const int count = draw_count(recipe.potholes_per_km, length_m, random);
+    std::vector<Pothole> holes;
+    for (int i = 0; i < count; ++i) {
+        const double hole_m = random.uniform(min_pothole_m, max_pothole_m);
+        const double at_room = random.uniform();
+        const double depth_m = random.uniform(min_pothole_depth_m, max_pothole_depth_m);
+        const double path_m = random.uniform() < 0.5 ? -wheel_path_m : wheel_path_m;
+        const double off_path_m = random.uniform(-pothole_off_path_m, pothole_off_path_m);
+        if (hole_m <= room_m) {
+            holes.push_back({clear_of_ends_m + at_room * (room_m - hole_m),
+                             hole_m,
+                             depth_m,
+                             path_m + off_path_m});
+        }
+    }
+    return holes;
+}
+
 RoadSurface with_features(RoadSurface surface, const RoadRecipe& recipe, std::uint64_t seed) {
     if (recipe.joint_spacing_m > 0) {
         Random random{seed_of({seed, 1})};
@@ -140,8 +149,9 @@ RoadSurface with_features(RoadSurface surface, const RoadRecipe& recipe, std::ui
     }
     Random patches{seed_of({seed, 2})};
     add_patches(surface, recipe, patches);
-    Random potholes{seed_of({seed, 3})};
-    add_potholes(surface, recipe, potholes);
+    for (const auto& hole : potholes_on(surface.length_m(), recipe, seed)) {
+        add_pothole(surface, hole);
+    }
     return surface;
 }
 

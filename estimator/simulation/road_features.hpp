@@ -3,6 +3,7 @@
 #include "estimator/simulation/road_surface.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace macadam {
 
@@ -28,6 +29,20 @@ inline constexpr double min_pothole_m = 0.3, max_pothole_m = 1;
 inline constexpr double min_pothole_depth_m = 0.01, max_pothole_depth_m = 0.06;
 inline constexpr double pothole_half_width_m = 0.3;
 inline constexpr double pothole_off_path_m = 0.2; ///< largest offset of its middle from the path
+
+/// Pothole of a surface.
+struct Pothole {
+    double from_m; ///< station of its beginning
+    double length_m;
+    double depth_m;   ///< in its middle
+    double lateral_m; ///< of its middle, left of the middle of the lane
+
+    /// Returns the part of its depth that a line along the lane meets, from 0 to 1.
+    double part_at(double line_lateral_m) const;
+};
+
+/// Returns the potholes that with_features adds to a surface of this length, in no order.
+std::vector<Pothole> potholes_on(double length_m, const RoadRecipe& recipe, std::uint64_t seed);
 
 /// Adds the joints, patches and potholes of the recipe to the surface.
 RoadSurface with_features(RoadSurface surface, const RoadRecipe& recipe, std::uint64_t seed);

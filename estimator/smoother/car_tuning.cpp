@@ -14,28 +14,25 @@ namespace macadam {
 namespace {
 
 constexpr double relative_step = 0.03; // of a finite difference
-constexpr double usual_mass_kg = 1400;
 constexpr double friction_step_n = 20; // search step, for a car of usual_mass_kg
 constexpr double max_friction_n = 120; // above this a suspension is stuck
-constexpr double min_friction_sd_n = 5;
+
+// In simulated fleets the maximum of the likelihood lies this far from the true friction, for a car
+// of usual_mass_kg: a sensor's unstated low-pass looks like less of it, uneven dampers like more
+// (docs/decisions/42-friction-has-a-prior.md).
+constexpr double friction_model_sd_n = 12;
+
 constexpr double furthest = 1.5; // from the stated values, in prior standard deviations
 constexpr double trust = 0.25;   // weight of the likelihood, which ignores the model error
 constexpr int steps = 2;
 
-// Prior of the road's colour: waviness 1.6 to 2.6 corresponds to -0.3 to 0.6
-// (docs/method/smoother.md).
-constexpr double colour_sd = 0.4;
-constexpr double colour_step = 0.1;
-constexpr double min_colour = -0.3;
-constexpr double max_colour = 0.8;
 constexpr int first_rounds = 8; // from an even road
 constexpr int more_rounds = 3;  // from the previous level
 
-/// Parameters of the tuning: a car, and the colour of the road under it.
+/// A car and the friction of each of its suspensions.
 struct Point {
     Vehicle vehicle;
     double friction_n = 0;
-    double colour = 0;
 };
 
 /// Unknown that is moved from 0, its stated or usual value.
@@ -53,10 +50,6 @@ void times_exp(Point& point, double by) {
 
 void dynamic_index_times_exp(Point& point, double by) {
     point.vehicle.axles->dynamic_index *= std::exp(by);
-}
-
-void colour_by(Point& point, double by) {
-    point.colour = std::clamp(point.colour + by, min_colour, max_colour);
 }
 
 // Mass and damping are not among them. Over a road that is not known either, their likelihood has a
@@ -106,7 +99,6 @@ RoadEstimate run(const DriveRecord& passage,
     auto once = config;
     once.rounds = rounds;
     once.settling = rounds - 1;
-    once.colour = point.colour;
     return smooth_passages({std::move(car)}, once, begin);
 }
 
@@ -153,7 +145,8 @@ Slope slope_at(const RoadEstimate& here,
     return slope;
 }
 
-/// Friction from the likelihood at even steps, with a parabola through the maximum.
+/// Friction from the likelihood at even steps, with a parabola through the maximum, and from what
+/// is usual.
 struct Friction {
     double force_n;
     double sd_n;
@@ -175,9 +168,12 @@ Friction friction_of(const DriveRecord& passage, Point point, const SmootherConf
     const double bend = 2 * likelihood(last - 1) - likelihood(last) - likelihood(last - 2);
     const double peak = bend > 0 ? std::clamp(rise / (2 * bend), -1.5, 1.5) : rise > 0 ? 1.0 : -1.0;
     const double found_n = (static_cast<double>(last - 1) + peak) * step_n;
-    return {.force_n = std::max(0.0, found_n),
-            .sd_n =
-                std::hypot(min_friction_sd_n * size, bend > 0 ? step_n / std::sqrt(bend) : step_n),
+    const double found_sd_n =
+        std::hypot(friction_model_sd_n * size, bend > 0 ? step_n / std::sqrt(bend) : step_n);
+    const auto usual = usual_friction_n(point.vehicle.half_car);
+    const double trust_in_found = 1 / (1 + std::pow(found_sd_n / usual.sd, 2));
+    return {.force_n = std::lerp(usual.mean, std::max(0.0, found_n), trust_in_found),
+            .sd_n = found_sd_n * std::sqrt(trust_in_found),
             .iri_per_n = (mean_stroke(at[last]) / mean_stroke(at[last - 2]) - 1) / (2 * step_n)};
 }
 
@@ -233,21 +229,17 @@ TunedCar
 tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config) {
     Point point{.vehicle = vehicle, .friction_n = vehicle.half_car.friction_n.value_or(0)};
     TunedCar tuned{.vehicle = vehicle};
-    const Unknowns road{{colour_by, colour_sd, colour_step}};
-    point = moved(point, road, peak_about(passage, point, road, config).by);
     if (!vehicle.half_car.friction_n) {
         const auto friction = friction_of(passage, point, config);
         point.friction_n = friction.force_n;
         tuned.friction_sd_n = friction.sd_n;
         tuned.iri_sd = std::abs(friction.iri_per_n * friction.sd_n);
     }
-    auto unknowns = of_car(vehicle);
-    unknowns.insert(unknowns.end(), road.begin(), road.end());
+    const auto unknowns = of_car(vehicle);
     const auto peak = peak_about(passage, point, unknowns, config);
     point = moved(point, unknowns, peak.by);
     tuned.vehicle = point.vehicle;
     tuned.friction_n = point.friction_n;
-    tuned.colour = point.colour;
     tuned.iri_sd = std::hypot(tuned.iri_sd, peak.iri_sd, untuned_iri_sd(vehicle, true));
     return tuned;
 }

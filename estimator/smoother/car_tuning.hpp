@@ -9,7 +9,6 @@ struct TunedCar {
     Vehicle vehicle;       ///< stated parameters, corrected by the estimate
     double friction_n = 0; ///< of each suspension
     double friction_sd_n = 0;
-    double colour = 0; ///< of the road used for tuning: RoadPrior's
     double iri_sd = 0; ///< relative; remaining error common to every IRI of the car
 };
 
@@ -18,9 +17,10 @@ struct TunedCar {
 /// Its two axles meet the same road one after the other, and its channels respond to it in
 /// different ways; a wrong spring, tyre or dynamic index makes them contradict each other.
 /// The likelihood of the readings, computed from the smoother's innovations, therefore has a
-/// maximum near the true car. Dry friction is estimated unless it is stated; these three are moved
-/// within their stated uncertainty (Gauss-Newton on the likelihood and that prior). The uncertainty
-/// of all others, of mass and damping above all, goes into iri_sd.
+/// maximum near the true car. Dry friction is estimated unless it is stated, from the likelihood
+/// and from what is usual; springs, tyres and dynamic index are moved within their stated
+/// uncertainty (Gauss-Newton on the likelihood and that prior). The uncertainty of all others, of
+/// mass and damping above all, goes into iri_sd.
 ///
 /// \param passage  some 1,000 to 5,000 samples; its `cars` are ignored
 TunedCar

@@ -121,9 +121,8 @@ RoadEstimate begun(std::span<const DriveRecord> passages,
         estimate.level = begin->level;
         estimate.which = begin->which;
         estimate.noise = begin->noise;
-        estimate.level.prior.colour = config.colour;
     } else {
-        estimate.level = even_level(estimate.grid, estimate.felt, even_slope_m, config.colour);
+        estimate.level = even_level(estimate.grid, estimate.felt, even_slope_m);
         estimate.which.resize(passages.size());
         estimate.noise.resize(passages.size());
     }

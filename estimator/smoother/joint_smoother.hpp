@@ -1,7 +1,7 @@
 #pragma once
 
-#include "estimator/smoother/noise_level.hpp"
-#include "estimator/smoother/road_prior_scale.hpp"
+#include "estimator/smoother/adaptation/noise_level.hpp"
+#include "estimator/smoother/adaptation/road_prior_scale.hpp"
 #include "estimator/vehicle/vehicle.hpp"
 
 namespace macadam {
@@ -11,7 +11,6 @@ struct SmootherConfig {
     int rounds = 12;  ///< of adaptation of the road's level
     int settling = 5; ///< initial rounds that the draws exclude
     std::uint64_t seed = 1;
-    double colour = 0; ///< of the road: RoadPrior's
 };
 
 /// Passage with its vehicle.

@@ -166,7 +166,8 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     auto passage = passage_of(stretch, vehicle, config);
     if (passage.travel_m.size() < min_tuning_samples || !is_felt(passage)) {
         return {.vehicle = vehicle,
-                .friction_n = vehicle.half_car.friction_n.value_or(0),
+                .friction_n =
+                    vehicle.half_car.friction_n.value_or(usual_friction_n(vehicle.half_car).mean),
                 .iri_sd = untuned_sd};
     }
     const std::size_t count = std::min(passage.travel_m.size(), tuning_samples);
@@ -190,7 +191,6 @@ IriRun smoothed_iri(const Stretch& stretch,
                     const EstimatorConfig& config,
                     const PieceConfig& pieces) {
     SmootherConfig smoother;
-    smoother.colour = car.colour;
     auto passage = passage_of(stretch, car.vehicle, config);
     IriRun run = empty_run(stretch, config, smoother.cell_m);
     if (!is_felt(passage) || passage.travel_m.size() < 3) {

@@ -1,6 +1,6 @@
 #include "estimator/smoother/stretch_record.hpp"
 
-#include "estimator/smoother/box_smoothing.hpp"
+#include "estimator/smoother/adaptation/box_smoothing.hpp"
 #include "estimator/smoother/lowpass_inverse.hpp"
 #include "estimator/smoother/wheel_order.hpp"
 

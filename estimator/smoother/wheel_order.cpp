@@ -1,8 +1,8 @@
 #include "estimator/smoother/wheel_order.hpp"
 
-#include "estimator/smoother/road_prior_scale.hpp"
+#include "estimator/common/statistics.hpp"
+#include "estimator/smoother/adaptation/road_prior_scale.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -53,12 +53,6 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces_of(const DriveRecord& pa
         return some;
     }
     return pieces;
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 /// Returns the power of all channels at `count` frequencies from lowest * step, relative to the

@@ -23,7 +23,8 @@ Vehicle golden() {
                          .cs_ns_per_m = 1500,
                          .kt_n_per_m = 163250,
                          .is_kgm2 = 281,
-                         .l_m = 0.75},
+                         .l_m = 0.75,
+                         .friction_n = 0},
             .axles = {},
             .imu = {},
             .uncertainty = {}};
@@ -78,6 +79,11 @@ std::array<Vehicle, 6> make_built_in_vehicles() {
 }
 
 } // namespace
+
+UsualValue usual_friction_n(const HalfCar& car) {
+    const double size = car.ms_kg / usual_mass_kg;
+    return {.mean = 25 * size, .sd = 15 * size};
+}
 
 double gain_for_one_axle(const Vehicle& vehicle) {
     return vehicle.one_axle_gain.value_or(vehicle.gain);

@@ -24,6 +24,20 @@ struct HalfCar {
     std::optional<double> friction_n = std::nullopt;
 };
 
+/// Value that a vehicle file does not state, and its standard deviation.
+struct UsualValue {
+    double mean;
+    double sd;
+};
+
+/// Sprung mass of a middle-sized passenger car.
+inline constexpr double usual_mass_kg = 1400;
+
+/// Returns the dry friction of each suspension, in newtons, where the file is silent: from none to
+/// 50 N, evenly, for usual_mass_kg, and in proportion to the mass
+/// (docs/decisions/42-friction-has-a-prior.md).
+UsualValue usual_friction_n(const HalfCar& car);
+
 struct Axles {
     double wheelbase_m;
     double cg_to_front_m;

@@ -1,5 +1,6 @@
 #include "mapping/alignment/alignment.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "mapping/alignment/lag_search.hpp"
 #include "mapping/alignment/mean_signal.hpp"
 #include "mapping/alignment/shifted_signal.hpp"
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 namespace macadam {
@@ -33,10 +33,10 @@ struct Member {
     LagPrior prior;
     std::int32_t first_block;
     std::vector<std::int32_t> lag_cm; ///< one per block
-    Signal laid;                      ///< the signal shifted by its lags
+    Signal shifted;                   ///< the signal shifted by its lags
     double agreement = 0;             ///< rho^2 with the other traces
     LagStatus finding = LagStatus::alone;
-    TextureWeight weight{}; ///< of the shifted signal in the mean of all
+    SignalWeight weight{}; ///< of the shifted signal in the mean of all
 };
 
 bool is_found(const Member& member) {
@@ -55,7 +55,7 @@ Member member_of(const RoughnessTrace& trace, const AlignmentConfig& config) {
             .prior = prior_of(sd_m, config.prior_dof, config.drift_m2_per_m * lag_block_m, blocks),
             .first_block = first_block,
             .lag_cm = std::vector<std::int32_t>(blocks),
-            .laid = {}};
+            .shifted = {}};
 }
 
 /// Resets a member: unshifted, and without weight in the mean.
@@ -68,21 +68,21 @@ Member left_alone(Member member, LagStatus finding) {
 }
 
 Member put_down(Member member) {
-    member.laid = shifted_signal(member.signal, member.first_block, member.lag_cm);
+    member.shifted = shifted_signal(member.signal, member.first_block, member.lag_cm);
     return member;
 }
 
 // --------------------------------------------------------------------------------- common mean
 
-SignalTemplate bare_texture_of(std::span<const Member> members) {
-    auto first_m = members.front().laid.first_m;
+SignalTemplate empty_template_of(std::span<const Member> members) {
+    auto first_m = members.front().shifted.first_m;
     auto last_m = first_m;
     for (const auto& member : members) {
-        const auto& laid = member.laid;
-        first_m = std::min(first_m, laid.first_m);
-        last_m = std::max(last_m, laid.first_m + static_cast<std::int32_t>(laid.x.size()));
+        const auto& shifted = member.shifted;
+        first_m = std::min(first_m, shifted.first_m);
+        last_m = std::max(last_m, shifted.first_m + static_cast<std::int32_t>(shifted.x.size()));
     }
-    return bare_texture(first_m, last_m);
+    return empty_template(first_m, last_m);
 }
 
 // ------------------------------------------------------------------------------------ agreement
@@ -100,18 +100,18 @@ constexpr std::size_t part_m = slack_m; // cells multiplied at once
 }
 
 /// Correlates template and signal over each block, for each whole-metre lag.
-std::vector<Correlation> correlations(const Member& member, const Signal& texture) {
+std::vector<Correlation> correlations(const Member& member, const Signal& reference) {
     std::vector<Correlation> sums(member.lag_cm.size(), Correlation{});
     const auto last_block = sums.size() - 1;
-    const auto end = texture.x.size();
+    const auto end = reference.x.size();
     for (std::size_t b = 0, first = 0; b <= last_block; ++b) {
         const auto border_m = static_cast<std::int32_t>(lag_block_m) *
                               (member.first_block + static_cast<std::int32_t>(b) + 1);
         const auto last =
-            b == last_block ? end : static_cast<std::size_t>(border_m - texture.first_m);
+            b == last_block ? end : static_cast<std::size_t>(border_m - reference.first_m);
         for (; first < last; first = std::min(first + part_m, last)) {
             std::array<std::int16_t, part_m> here{};
-            std::copy_n(texture.x.begin() + static_cast<std::ptrdiff_t>(first),
+            std::copy_n(reference.x.begin() + static_cast<std::ptrdiff_t>(first),
                         std::min(part_m, last - first),
                         here.begin());
             const auto* const opposite = member.signal.x.data() + first; // at lag -reach_m
@@ -131,7 +131,7 @@ struct Agreement {
 /// Sums over the cells where both the shifted member and the template are known.
 struct Overlap {
     double metres;
-    double texture_2; ///< sums of squares
+    double reference_2; ///< sums of squares
     double signal_2;
     double product;
 };
@@ -145,12 +145,12 @@ std::vector<std::int16_t> masked(const std::vector<std::int16_t>& x,
     return both;
 }
 
-Overlap overlap_of(const Member& member, const Signal& texture) {
-    const auto r = masked(texture.x, member.laid.known);
-    const auto x = masked(member.laid.x, texture.known);
+Overlap overlap_of(const Member& member, const Signal& reference) {
+    const auto r = masked(reference.x, member.shifted.known);
+    const auto x = masked(member.shifted.x, reference.known);
     const auto sum = [](const auto& a, const auto& b) { return static_cast<double>(dot(a, b)); };
-    return {.metres = sum(texture.known, member.laid.known), // a product of -1 and -1
-            .texture_2 = sum(r, r),
+    return {.metres = sum(reference.known, member.shifted.known), // a product of -1 and -1
+            .reference_2 = sum(r, r),
             .signal_2 = sum(x, x),
             .product = sum(r, x)};
 }
@@ -170,7 +170,7 @@ double best_at_one_lag(std::span<const Correlation> sums) {
 
 /// Returns rho^2 of a correlation sum, corrected for chance; 0 if chance may explain all of it.
 double sure_share(double product, double needed, double independent, const Overlap& overlap) {
-    const double share = product * product / (overlap.texture_2 * overlap.signal_2);
+    const double share = product * product / (overlap.reference_2 * overlap.signal_2);
     if (product <= 0 || share * independent < needed) {
         return 0;
     }
@@ -180,9 +180,9 @@ double sure_share(double product, double needed, double independent, const Overl
 }
 
 Agreement
-agreement_of(const Member& member, const Signal& texture, std::span<const Correlation> sums) {
-    const auto overlap = overlap_of(member, texture);
-    if (!(overlap.texture_2 > 0) || !(overlap.signal_2 > 0)) {
+agreement_of(const Member& member, const Signal& reference, std::span<const Correlation> sums) {
+    const auto overlap = overlap_of(member, reference);
+    if (!(overlap.reference_2 > 0) || !(overlap.signal_2 > 0)) {
         return {0, 0};
     }
     const double independent = overlap.metres / member.independent_m;
@@ -190,20 +190,20 @@ agreement_of(const Member& member, const Signal& texture, std::span<const Correl
     const double share =
         std::max(sure_share(best_at_one_lag(sums), min_evidence, independent, overlap),
                  sure_share(overlap.product, chosen, independent, overlap));
-    const double unit = std::sqrt(overlap.texture_2 / overlap.metres) * signal_unit;
+    const double unit = std::sqrt(overlap.reference_2 / overlap.metres) * signal_unit;
     return {share, std::sqrt(share) / (1 - share) / unit / member.independent_m};
 }
 
-TextureWeight weight_of(double share) {
+SignalWeight weight_of(double share) {
     const auto whole = [](double weight) {
         return static_cast<std::int32_t>(std::lround(weight_unit * weight));
     };
     return {whole(std::sqrt(share) / (1 - share)), whole(share / (1 - share))};
 }
 
-/// Shifts a member to its best agreement with the other members, from which `texture` is built.
-Member placed(Member member, const SignalTemplate& texture) {
-    const auto under = texture_under(texture, member.laid.first_m, member.laid.x.size());
+/// Shifts a member to its best agreement with the other members, from which `reference` is built.
+Member placed(Member member, const SignalTemplate& reference) {
+    const auto under = profile_signal(reference, member.shifted.first_m, member.shifted.x.size());
     const auto sums = correlations(member, under);
     const auto agreement = agreement_of(member, under, sums);
     if (agreement.share <= 0) {
@@ -285,25 +285,25 @@ void hold_datum(std::vector<Member>& members) {
 /// position errors.
 void lay_first(std::vector<Member>& members) {
     constexpr auto seed = static_cast<std::int32_t>(seed_weight * weight_unit);
-    auto texture = bare_texture_of(members);
+    auto reference = empty_template_of(members);
     for (auto& member : members) {
-        member = placed(std::move(member), texture);
+        member = placed(std::move(member), reference);
         member.agreement = 1;
         member.weight = {seed, seed};
-        texture = with(std::move(texture), member.laid, member.weight);
+        reference = with(std::move(reference), member.shifted, member.weight);
     }
 }
 
 void lay_again(std::vector<Member>& members) {
-    auto texture = bare_texture_of(members);
+    auto reference = empty_template_of(members);
     for (auto& member : members) {
         member = put_down(std::move(member));
-        texture = with(std::move(texture), member.laid, member.weight);
+        reference = with(std::move(reference), member.shifted, member.weight);
     }
     for (auto& member : members) {
-        texture = with(std::move(texture), member.laid, member.weight, -1);
-        member = placed(std::move(member), texture);
-        texture = with(std::move(texture), member.laid, member.weight);
+        reference = with(std::move(reference), member.shifted, member.weight, -1);
+        member = placed(std::move(member), reference);
+        reference = with(std::move(reference), member.shifted, member.weight);
     }
 }
 
@@ -348,11 +348,7 @@ AlignmentSummary summary_of(std::span<const LagLine> lines) {
     summary.found = std::ssize(lags_cm);
     summary.moved_far =
         std::ranges::count_if(lags_cm, [](auto cm) { return cm > 100 * far_lag_m; });
-    if (!lags_cm.empty()) {
-        const auto middle = lags_cm.begin() + std::ssize(lags_cm) / 2;
-        std::ranges::nth_element(lags_cm, middle);
-        summary.middle_lag_cm = *middle;
-    }
+    summary.middle_lag_cm = median(std::move(lags_cm));
     return summary;
 }
 

@@ -3,7 +3,6 @@
 #include "mapping/alignment/signal.hpp"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace macadam {
@@ -17,7 +16,7 @@ struct SignalTemplate {
 };
 
 /// Weight of a signal, in units of `weight_unit`.
-struct TextureWeight {
+struct SignalWeight {
     std::int32_t weight = 0;
     std::int32_t precision = 0;
 };
@@ -25,16 +24,16 @@ struct TextureWeight {
 inline constexpr std::int32_t weight_unit = 256;
 
 /// Creates an empty template between two stations.
-SignalTemplate bare_texture(std::int32_t first_m, std::int32_t last_m);
+SignalTemplate empty_template(std::int32_t first_m, std::int32_t last_m);
 
 /// Adds an aligned signal to the template; `sign` -1 subtracts it.
-SignalTemplate with(SignalTemplate texture,
-                    const Signal& laid,
-                    const TextureWeight& weight,
+SignalTemplate with(SignalTemplate reference,
+                    const Signal& shifted,
+                    const SignalWeight& weight,
                     std::int32_t sign = 1);
 
 /// Estimates the most likely profile signal from a station on, assuming that profile signals have
 /// variance 1.
-Signal texture_under(const SignalTemplate& texture, std::int32_t first_m, std::size_t count);
+Signal profile_signal(const SignalTemplate& reference, std::int32_t first_m, std::size_t count);
 
 } // namespace macadam

@@ -30,8 +30,9 @@ std::size_t metres_alike(const Slope& slope) {
     return static_cast<std::size_t>(left);
 }
 
-/// Fills cells [first, last) of `laid`, in runs of equal integer lag.
-void lay(const Signal& from, std::size_t first, std::size_t last, Slope slope, Signal& laid) {
+/// Fills cells [first, last) of `shifted`, in runs of equal integer lag.
+void shift_cells(
+    const Signal& from, std::size_t first, std::size_t last, Slope slope, Signal& shifted) {
     constexpr int fine = 7; // fractional bits within a metre
     while (first < last) {
         const auto run = std::min(last - first, metres_alike(slope));
@@ -39,8 +40,8 @@ void lay(const Signal& from, std::size_t first, std::size_t last, Slope slope, S
                                                  reach_m + (slope.lag >> point));
         const auto* const x = from.x.data() + at;
         const auto* const known = from.known.data() + at;
-        auto* const to_x = laid.x.data() + first;
-        auto* const to_known = laid.known.data() + first;
+        auto* const to_x = shifted.x.data() + first;
+        auto* const to_known = shifted.known.data() + first;
         for (std::size_t i = 0; i < run; ++i) {
             const auto lag = slope.lag + static_cast<std::int32_t>(i) * slope.step;
             const auto share = (lag >> (point - fine)) & ((1 << fine) - 1);
@@ -71,26 +72,26 @@ Signal shifted_signal(const Signal& signal,
                       std::int32_t first_block,
                       std::span<const std::int32_t> lag_cm) {
     const auto count = signal.x.size() - 2 * pad_m - slack_m + 2 * reach_m;
-    Signal laid{signal.first_m - reach_m,
-                std::vector<std::int16_t>(count),
-                std::vector<std::int16_t>(count)};
+    Signal shifted{signal.first_m - reach_m,
+                   std::vector<std::int16_t>(count),
+                   std::vector<std::int16_t>(count)};
     const auto cell_of = [&](std::int32_t metre) {
         return static_cast<std::size_t>(
-            std::clamp<std::int64_t>(metre - laid.first_m, 0, static_cast<std::int64_t>(count)));
+            std::clamp<std::int64_t>(metre - shifted.first_m, 0, static_cast<std::int64_t>(count)));
     };
     auto middle = first_block * block_length + block_length / 2;
     std::size_t done = cell_of(middle);
-    lay(signal, 0, done, {fixed(lag_cm.front()), 0}, laid);
+    shift_cells(signal, 0, done, {fixed(lag_cm.front()), 0}, shifted);
     for (std::size_t b = 1; b < lag_cm.size(); ++b, middle += block_length) {
         const auto lag = fixed(lag_cm[b - 1]);
         const auto step = (fixed(lag_cm[b]) - lag) / block_length;
         const auto last = cell_of(middle + block_length);
-        const auto begun = laid.first_m + static_cast<std::int32_t>(done) - middle;
-        lay(signal, done, last, {lag + begun * step + step / 2, step}, laid);
+        const auto begun = shifted.first_m + static_cast<std::int32_t>(done) - middle;
+        shift_cells(signal, done, last, {lag + begun * step + step / 2, step}, shifted);
         done = last;
     }
-    lay(signal, done, count, {fixed(lag_cm.back()), 0}, laid);
-    return laid;
+    shift_cells(signal, done, count, {fixed(lag_cm.back()), 0}, shifted);
+    return shifted;
 }
 
 } // namespace macadam

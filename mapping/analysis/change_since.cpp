@@ -1,9 +1,9 @@
 #include "mapping/analysis/change_since.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "mapping/analysis/network_summary.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -13,8 +13,6 @@ namespace macadam {
 namespace {
 
 constexpr double um_per_mm = 1000;
-constexpr double interval_90 = 1.645; // two-sided, normal distribution
-constexpr double interval_95 = 1.96;
 
 struct Place {
     std::size_t before;
@@ -107,8 +105,8 @@ ChangedStretch rated(WorstSection stretch,
     }
     ChangedStretch rated{std::move(stretch), road_mean(first), road_mean(second), {}};
     rated.difference = mean_of(differences);
-    rated.low = rated.difference.mm_per_m - interval_90 * rated.difference.sd;
-    rated.high = rated.difference.mm_per_m + interval_90 * rated.difference.sd;
+    rated.low = rated.difference.mm_per_m - normal_interval_90 * rated.difference.sd;
+    rated.high = rated.difference.mm_per_m + normal_interval_90 * rated.difference.sd;
     return rated;
 }
 
@@ -212,7 +210,8 @@ ChangeSince change_since(const RoadNetwork& roads,
     for (const auto& [i, k] : places) {
         differences.push_back(difference_of(before[i], since[k], config.fusion));
         change.called_alone +=
-            chance_of(differences.back()) < std::erfc(interval_95 / std::numbers::sqrt2) ? 1 : 0;
+            chance_of(differences.back()) < std::erfc(normal_interval_95 / std::numbers::sqrt2) ? 1
+                                                                                                : 0;
     }
     const auto is_called = verdicts(differences, config.rate);
     for (std::size_t i = 0; i < places.size(); ++i) {

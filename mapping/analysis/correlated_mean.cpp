@@ -1,5 +1,7 @@
 #include "mapping/analysis/correlated_mean.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -10,7 +12,6 @@ namespace macadam {
 namespace {
 
 constexpr double um_per_mm = 1000;
-constexpr double interval_90 = 1.645; // two-sided, normal distribution
 
 /// Accumulates the sum over all pairs of a_i a_j exp(-|x_i - x_j| / L). All earlier terms decay by
 /// the same factor, so one running sum suffices.
@@ -51,8 +52,8 @@ RoadMean mean_of(std::span<const MeasuredPiece> pieces, const ErrorAlongRoad& er
     mean.iri = sum / mean.length_m;
     mean.sd =
         std::sqrt(std::lerp(pairs.sum(), together * together, errors.common_share)) / mean.length_m;
-    mean.low = std::max(0.0, mean.iri - interval_90 * mean.sd);
-    mean.high = mean.iri + interval_90 * mean.sd;
+    mean.low = std::max(0.0, mean.iri - normal_interval_90 * mean.sd);
+    mean.high = mean.iri + normal_interval_90 * mean.sd;
     return mean;
 }
 

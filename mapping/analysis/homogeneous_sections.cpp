@@ -1,5 +1,7 @@
 #include "mapping/analysis/homogeneous_sections.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,8 +9,7 @@
 namespace macadam {
 namespace {
 
-constexpr double sd_over_mad = 1.4826; // normal distribution
-constexpr double rounding = 1e-9;      // of sums of squares: a boundary must gain more
+constexpr double rounding = 1e-9; // of sums of squares: a boundary must gain more
 
 /// Length-weighted sums over the first i intervals.
 struct Sums {
@@ -38,10 +39,8 @@ double scatter(std::span<const ProfilePiece> profile, double least) {
     for (std::size_t i = 1; i < profile.size(); ++i) {
         steps.push_back(std::abs(profile[i].iri - profile[i - 1].iri));
     }
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::ranges::nth_element(steps, middle);
     return std::max(least,
-                    sd_over_mad * *middle /
+                    normal_sd_per_mad * median(std::move(steps)) /
                         std::sqrt(2.0)); // a difference has the scatter of two values
 }
 

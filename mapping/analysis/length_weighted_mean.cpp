@@ -1,5 +1,7 @@
 #include "mapping/analysis/length_weighted_mean.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,7 +10,6 @@ namespace macadam {
 namespace {
 
 constexpr double um_per_mm = 1000;
-constexpr double interval_90 = 1.645; // two-sided, normal distribution
 
 } // namespace
 
@@ -33,8 +34,8 @@ RoadMean road_mean(std::span<const RatedLength> pieces, double common_share) {
     }
     mean.iri = sum / mean.length_m;
     mean.sd = std::sqrt(std::lerp(apart, together * together, common_share)) / mean.length_m;
-    mean.low = std::max(0.0, mean.iri - interval_90 * mean.sd);
-    mean.high = mean.iri + interval_90 * mean.sd;
+    mean.low = std::max(0.0, mean.iri - normal_interval_90 * mean.sd);
+    mean.high = mean.iri + normal_interval_90 * mean.sd;
     return mean;
 }
 

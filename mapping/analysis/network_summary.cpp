@@ -1,5 +1,7 @@
 #include "mapping/analysis/network_summary.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,8 +20,7 @@ constexpr std::array<std::string_view, 11> kinds{"motorway",
                                                  "service",
                                                  "track",
                                                  "other"};
-constexpr double interval_90 = 1.645; // two-sided, normal distribution
-constexpr int shifts = 20;            // steps of the common error to either side
+constexpr int shifts = 20; // steps of the common error to either side
 constexpr std::int32_t thrice = 3;
 
 /// Returns the length in each class if all readings were biased by `shift` times their common sd.
@@ -40,7 +41,7 @@ std::vector<ClassLengthRange> class_ranges(std::span<const RatedLength> pieces,
         ranges.push_back({length_m, length_m, length_m});
     }
     for (int i = -shifts; i <= shifts; ++i) {
-        const auto shifted = class_lengths_m(pieces, classes, interval_90 * i / shifts);
+        const auto shifted = class_lengths_m(pieces, classes, normal_interval_90 * i / shifts);
         for (std::size_t c = 0; c < ranges.size(); ++c) {
             ranges[c].low_m = std::min(ranges[c].low_m, shifted[c]);
             ranges[c].high_m = std::max(ranges[c].high_m, shifted[c]);

@@ -1,11 +1,11 @@
 #include "mapping/analysis/worst_sections.hpp"
 
+#include "mapping/analysis/correlated_mean.hpp"
 #include "mapping/analysis/maximum_scoring_runs.hpp"
 #include "mapping/network/road_strokes.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace macadam {
@@ -203,38 +203,27 @@ std::vector<GeoPoint> line_through(const std::vector<Segment>& segments) {
     return line;
 }
 
-/// Returns the earlier or later of two times, by `better`; the known one if only one is known.
-template <typename Better>
-std::optional<std::int64_t>
-better_of(std::optional<std::int64_t> a, std::optional<std::int64_t> b, Better better) {
-    return a && b ? std::optional{better(*a, *b) ? *a : *b} : a ? a : b;
-}
-
 /// Summarises the measured segments of a section.
 WorstSection rated(std::vector<std::size_t> records, const Lookup& lookup, double common_share) {
-    WorstSection stretch{};
-    std::vector<RatedLength> lengths;
-    std::vector<std::int32_t> passes;
+    std::vector<MeasuredPiece> pieces;
     for (const auto i : records) {
-        const auto& state = *lookup.records[i].state;
-        lengths.push_back(rated_length(lookup.records[i]));
-        passes.push_back(state.passes);
-        stretch.worst_iri = std::max(stretch.worst_iri, lengths.back().iri);
-        stretch.vehicles = std::max(stretch.vehicles, state.vehicles);
-        stretch.first_seen_ms =
-            better_of(stretch.first_seen_ms, state.first_seen_ms, std::less<>{});
-        stretch.last_seen_ms =
-            better_of(stretch.last_seen_ms, state.last_seen_ms, std::greater<>{});
+        const auto& record = lookup.records[i];
+        pieces.push_back({record.segment.to_m - record.segment.from_m, 0, &*record.state});
     }
-    std::ranges::sort(passes);
-    stretch.mean = road_mean(lengths, common_share);
-    stretch.min_passes = passes.front();
-    stretch.median_passes = (passes[(passes.size() - 1) / 2] + passes[passes.size() / 2]) / 2.0;
-    stretch.records = std::move(records);
-    return stretch;
+    const auto road = measured_road(pieces, {.common_share = common_share, .correlation_m = 0});
+    WorstSection section{};
+    section.records = std::move(records);
+    section.mean = road.mean;
+    section.worst_iri = road.worst_iri;
+    section.min_passes = road.min_passes;
+    section.median_passes = road.median_passes;
+    section.vehicles = road.vehicles;
+    section.first_seen_ms = road.first_seen_ms;
+    section.last_seen_ms = road.last_seen_ms;
+    return section;
 }
 
-WorstSection stretch_of(const RoadNetwork& roads,
+WorstSection section_of(const RoadNetwork& roads,
                         const Lookup& lookup,
                         std::span<const Piece> pieces,
                         double common_share) {
@@ -246,16 +235,16 @@ WorstSection stretch_of(const RoadNetwork& roads,
             records.push_back(piece.record);
         }
     }
-    auto stretch = rated(std::move(records), lookup, common_share);
+    auto section = rated(std::move(records), lookup, common_share);
     const auto segments = segments_along(roads, pieces);
-    const auto& first = lookup.records[stretch.records.front()];
-    stretch.name = first.name;
-    stretch.highway = first.highway;
-    stretch.parts = parts_of(segments);
-    stretch.line = line_through(segments);
-    stretch.length_m = length_m;
-    stretch.middle = halfway_along(stretch.line);
-    return stretch;
+    const auto& first = lookup.records[section.records.front()];
+    section.name = first.name;
+    section.highway = first.highway;
+    section.parts = parts_of(segments);
+    section.line = line_through(segments);
+    section.length_m = length_m;
+    section.middle = halfway_along(section.line);
+    return section;
 }
 
 } // namespace
@@ -269,22 +258,22 @@ std::vector<WorstSection> worst_sections(const RoadNetwork& roads,
                                          const WorstSectionConfig& config) {
     const auto lookup = lookup_of(measured);
     const auto wanted = edges_to_follow(roads, lookup, config);
-    std::vector<WorstSection> stretches;
+    std::vector<WorstSection> sections;
     for (const auto& chain : road_strokes(roads, wanted, config.sharpest_turn_deg)) {
         const auto pieces = pieces_along(roads, lookup, chain);
         for (const auto& run : poor_runs(pieces, lookup, config)) {
             const auto of_run = std::span{pieces}.subspan(run.first, run.last - run.first);
-            auto stretch = stretch_of(roads, lookup, of_run, config.common_share);
-            if (stretch.length_m >= config.min_length_m - a_centimetre_m) {
-                stretches.push_back(std::move(stretch));
+            auto section = section_of(roads, lookup, of_run, config.common_share);
+            if (section.length_m >= config.min_length_m - a_centimetre_m) {
+                sections.push_back(std::move(section));
             }
         }
     }
-    std::ranges::sort(stretches, [&](const WorstSection& a, const WorstSection& b) {
+    std::ranges::sort(sections, [&](const WorstSection& a, const WorstSection& b) {
         return std::pair{-a.mean.iri, lookup.key(a.records.front())} <
                std::pair{-b.mean.iri, lookup.key(b.records.front())};
     });
-    return stretches;
+    return sections;
 }
 
 } // namespace macadam

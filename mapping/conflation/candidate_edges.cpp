@@ -1,9 +1,10 @@
 #include "mapping/conflation/candidate_edges.hpp"
 
+#include "estimator/common/angle.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -189,7 +190,7 @@ CandidateEdges::CandidateEdges(const RoadNetwork& roads,
                                const std::vector<bool>& left_out,
                                const ChangeConfig& config)
     : roads_{&roads}, left_out_{&left_out}, config_{config},
-      min_cosine_{std::cos(config.max_turned_deg * std::numbers::pi / 180)} {}
+      min_cosine_{std::cos(config.max_turned_deg * rad_per_deg)} {}
 
 std::vector<std::vector<NearPlaceOnEdge>>
 CandidateEdges::around(std::span<const RoadSample> samples) const {

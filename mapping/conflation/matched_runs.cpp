@@ -1,10 +1,11 @@
 #include "mapping/conflation/matched_runs.hpp"
 
+#include "mapping/geometry/line_simplification.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
-#include <utility>
 
 namespace macadam {
 namespace {
@@ -95,33 +96,26 @@ std::vector<Stretch> stretches_of(const RoadNetwork& after, const WalkRun& run) 
 }
 
 /// Keeps the minimum of knots, always including the last: those off the straight line between their
-/// neighbours (Douglas and Peucker, The Canadian Cartographer 10 (1973), pp. 112-122).
+/// neighbours.
 std::vector<Knot> straightened(std::span<const Knot> knots) {
-    if (knots.size() <= 2) {
-        return {knots.begin(), knots.end()};
-    }
-    const auto& first = knots.front();
-    const auto& last = knots.back();
-    const double slope = last.before_m > first.before_m
-                             ? (last.after_m - first.after_m) / (last.before_m - first.before_m)
-                             : 0;
-    double farthest_m = straight_m;
-    std::size_t split = 0;
-    for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+    const auto off_line_m = [&](std::size_t i, std::size_t from, std::size_t to) {
+        const auto &first = knots[from], &last = knots[to];
+        const double slope = last.before_m > first.before_m
+                                 ? (last.after_m - first.after_m) / (last.before_m - first.before_m)
+                                 : 0;
         const double on_line_m = first.after_m + slope * (knots[i].before_m - first.before_m);
-        const double off_m = std::abs(knots[i].after_m - on_line_m);
-        if (off_m > farthest_m) {
-            farthest_m = off_m;
-            split = i;
+        return std::abs(knots[i].after_m - on_line_m);
+    };
+    std::vector<bool> stays(knots.size(), false);
+    if (!knots.empty()) {
+        stays.front() = stays.back() = true;
+        keep_bends(0, knots.size() - 1, straight_m, off_line_m, stays);
+    }
+    std::vector<Knot> straight;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        if (stays[i]) {
+            straight.push_back(knots[i]);
         }
-    }
-    if (split == 0) {
-        return {first, last};
-    }
-    auto straight = straightened(knots.first(split + 1));
-    straight.pop_back();
-    for (const auto& knot : straightened(knots.subspan(split))) {
-        straight.push_back(knot);
     }
     return straight;
 }

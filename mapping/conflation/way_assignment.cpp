@@ -4,8 +4,6 @@
 #include "mapping/conflation/segment_correspondence.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <optional>
 #include <tuple>
 #include <utility>
 

@@ -1,20 +1,20 @@
 #include "mapping/fusion/fusion.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "mapping/fusion/roughness_time_series.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace macadam {
 namespace {
 
 constexpr double um_per_mm = 1000;
-constexpr double interval_90 = 1.645;  // two-sided, normal distribution
-constexpr double sd_over_mad = 1.4826; // normal distribution
-constexpr double claims = 6;           // pseudo-observations that scatter as claimed
+constexpr double claims = 6;         // pseudo-observations that scatter as claimed
 constexpr double survey_share = 0.5; // of a reference's variance: common to all its rows on a road
 
 using Eigen::Index;
@@ -54,18 +54,19 @@ double true_um(const FusionInput& input, double read_um) {
                : read_um;
 }
 
-/// Sorts passes by car, trip and occurrence; cars by their first trip, so that vehicle numbers do
-/// not affect any sum.
+/// Sorts passes by car, period, trip and occurrence; cars by their first trip, so that vehicle
+/// numbers do not affect any sum.
 std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
     struct Place {
         std::size_t first; ///< first pass of the car
         std::int64_t vehicle;
+        std::uint32_t period;
         std::size_t pass;
     };
     std::vector<Place> places;
     places.reserve(passes.size());
     for (std::size_t i = 0; i < passes.size(); ++i) {
-        places.push_back({i, passes[i].vehicle, i});
+        places.push_back({i, passes[i].vehicle, passes[i].period, i});
     }
     std::ranges::sort(places, {}, [](const Place& place) {
         return std::pair{place.vehicle, place.pass};
@@ -76,7 +77,7 @@ std::vector<const FusionInput*> by_car(std::span<const FusionInput> passes) {
         }
     }
     std::ranges::sort(places, {}, [](const Place& place) {
-        return std::pair{place.first, place.pass};
+        return std::tuple{place.first, place.period, place.pass};
     });
     std::vector<const FusionInput*> sorted;
     sorted.reserve(passes.size());
@@ -150,7 +151,7 @@ FusionObservations readings_of(const std::vector<const FusionInput*>& passes,
                                const Shares& shares,
                                const FusionConfig& config) {
     const auto same_car = [](const FusionInput& a, const FusionInput& b) {
-        return a.vehicle == b.vehicle;
+        return a.vehicle == b.vehicle && a.period == b.period;
     };
     const auto same_trip = [&](const FusionInput& a, const FusionInput& b) {
         return same_car(a, b) && a.trip_sha256 == b.trip_sha256;
@@ -168,6 +169,7 @@ FusionObservations readings_of(const std::vector<const FusionInput*>& passes,
         if (const auto& calibration = input(i)->calibration) {
             readings.car_sd[i] = std::hypot(calibration->relative_sd * level_um,
                                             std::sqrt(shares.common) * stated[i]);
+            readings.rest_sd[i] *= calibration->scatter;
         }
         if (input(i)->reference) {
             readings.car_sd[i] = std::sqrt(survey_share) * stated[i];
@@ -201,7 +203,7 @@ double scatter_um(const VectorXd& values, const VectorXd& variances) {
     for (auto& value : weighed) {
         value.value_um = std::abs(value.value_um - middle_um);
     }
-    return sd_over_mad * weighted_median(std::move(weighed));
+    return normal_sd_per_mad * weighted_median(std::move(weighed));
 }
 
 /// Returns 1 / variance of each single reading at the weights of the reading and its car.
@@ -276,8 +278,8 @@ SegmentState gathered(std::span<const FusionInput> passes) {
 SegmentState with_level(SegmentState state, const RoughnessTrend& level, double sd_um) {
     state.iri_um = std::max(0, whole_um(level.um));
     state.sd_um = std::max(1, whole_um(sd_um));
-    state.low_um = std::max(0, whole_um(level.um - interval_90 * sd_um));
-    state.high_um = std::max(state.iri_um, whole_um(level.um + interval_90 * sd_um));
+    state.low_um = std::max(0, whole_um(level.um - normal_interval_90 * sd_um));
+    state.high_um = std::max(state.iri_um, whole_um(level.um + normal_interval_90 * sd_um));
     if (level.trend) {
         state.trend_um_per_year = whole_um(level.trend->um_per_year);
         state.trend_sd_um_per_year = whole_um(level.trend->sd_um_per_year);
@@ -299,11 +301,14 @@ VectorXd common_sd(const VectorXd& stated, double level_um, const FusionConfig& 
     });
 }
 
-std::int32_t cars_in(const std::vector<const FusionInput*>& passes,
-                     const FusionObservations& readings) {
-    return static_cast<std::int32_t>(std::ranges::count_if(readings.cars, [&](const auto& car) {
-        return !passes[static_cast<std::size_t>(car.first)]->reference;
-    }));
+/// Counts the cars of passes that are sorted by car.
+std::int32_t cars_in(const std::vector<const FusionInput*>& passes) {
+    std::int32_t cars = 0;
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        const bool is_next = i == 0 || passes[i]->vehicle != passes[i - 1]->vehicle;
+        cars += is_next && !passes[i]->reference ? 1 : 0;
+    }
+    return cars;
 }
 
 std::vector<std::optional<std::int64_t>> times_of(const std::vector<const FusionInput*>& passes) {
@@ -355,7 +360,7 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const double references_um =
         std::sqrt(variance_of(apart, VectorXd{level.influence - cars_part}));
     auto state = with_level(gathered(passes), level, std::hypot(cars_um, references_um));
-    state.vehicles = cars_in(sorted, weighed);
+    state.vehicles = cars_in(sorted);
     state.left_um =
         side_um(level.um, side_off_um(sorted, weights, &Pass::iri_left_um, state.change));
     state.right_um =

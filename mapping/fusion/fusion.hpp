@@ -16,6 +16,8 @@ struct CarCalibration {
     double gain = 1; ///< reading = offset + gain * IRI
     double offset_um = 0;
     double relative_sd = 0.1; ///< remaining error, common to all its passes
+    double scatter = 1; ///< of its passes, over that of most cars; >= 1, and 1 if it is not out of
+                        ///< line
     friend bool operator==(const CarCalibration&, const CarCalibration&) = default;
 };
 
@@ -26,8 +28,10 @@ struct FusionInput {
     std::int64_t vehicle; ///< any number unique to a car or survey
     std::optional<std::int64_t> utc_ms;
     std::optional<CarCalibration> calibration{}; ///< of the vehicle; `std::nullopt`: not calibrated
-    bool reference = false; ///< from a survey with better instruments: pass.sd_um is its entire
-                            ///< error, shared with no car
+    bool reference = false;   ///< from a survey with better instruments: pass.sd_um is its entire
+                              ///< error, shared with no car
+    std::uint32_t period = 0; ///< of the vehicle, between its changes: each has a car error of its
+                              ///< own
 };
 
 /// Fuses the passes of one segment into its state: the level, on the day of the newest pass, of a

@@ -1,10 +1,10 @@
 #include "mapping/geometry/local_frame.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "estimator/common/plugin_library.hpp"
 #include "mapping/geometry/geodesy_plugin.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace macadam {
 namespace {
@@ -21,7 +21,6 @@ struct Axes {
 };
 
 Axes axes_at(const GeoPoint& origin) {
-    constexpr double rad_per_deg = std::numbers::pi / 180;
     const double lat = origin.lat_deg * rad_per_deg;
     const double lon = origin.lon_deg * rad_per_deg;
     const double sin_lat = std::sin(lat), cos_lat = std::cos(lat);
@@ -39,7 +38,6 @@ double dot(const Vector3& a, const Vector3& b) {
 /// times per trip, and accurate to a nanometre in double, so MRPT's long double is not needed.
 /// Source: Snyder, "Map Projections: A Working Manual" (1987), eq. 4-20; WGS 84.
 Vector3 geocentric(const GeoPoint& point) {
-    constexpr double rad_per_deg = std::numbers::pi / 180;
     constexpr double equator_m = 6378137;
     constexpr double flattening = 1 / 298.257223563;
     constexpr double square_eccentricity = flattening * (2 - flattening);

@@ -1,7 +1,6 @@
 #include "mapping/inference/inferred_network.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "mapping/inference/junctions.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <queue>
 #include <utility>
 

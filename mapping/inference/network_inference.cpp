@@ -1,22 +1,26 @@
 #include "mapping/inference/network_inference.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "mapping/geometry/local_frame.hpp"
 #include "mapping/inference/inferred_network.hpp"
 #include "mapping/inference/junctions.hpp"
-#include "mapping/inference/position_spread.hpp"
 #include "mapping/inference/refinement.hpp"
 #include "mapping/inference/track_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <tuple>
 
 namespace macadam {
 namespace {
 
 constexpr int rounds = 3; // of drawing; later rounds join ways kept apart by noise in the first
-constexpr int refinements = 2; // per round; the second compares every line with the road's centre
+constexpr int refinements = 2;  // per round; the second compares every line with the road's centre
+constexpr double beside_m = 60; // lines farther apart drove different roads
+constexpr std::size_t max_samples = 5000;    // points compared with all others around them
+constexpr double sd_per_median = 1 / 0.6745; // for absolute values of a normal distribution
 
 GeoBox extent_of(const TripLog& trip) {
     GeoBox box;
@@ -90,14 +94,44 @@ std::vector<TraceLine> lines_of(std::span<const TripDrawing* const> trips,
     return lines;
 }
 
+/// Raises the sd of the positions of lines to the spread between lines on the same road, where that
+/// exceeds the receivers' statement: slow receiver errors only show where two trips drove the same
+/// road.
+std::vector<TraceLine> with_seen_sd(std::vector<TraceLine> lines, const TraceConfig& config) {
+    TraceIndex index{config};
+    std::size_t points = 0;
+    for (std::size_t line = 0; line < lines.size(); ++line) {
+        index.add(lines[line].points, line);
+        points += lines[line].points.size();
+    }
+    const auto every = points / max_samples + 1;
+    std::vector<double> apart;
+    for (std::size_t line = 0; line < lines.size(); ++line) {
+        const auto& own = lines[line].points;
+        for (std::size_t i = every / 2; i < own.size(); i += every) {
+            for (const auto& join : index.all_alike(own[i], course_rad(own, i), beside_m)) {
+                if (join.at.way != line) {
+                    apart.push_back(join.away_m);
+                }
+            }
+        }
+    }
+    if (apart.empty()) {
+        return lines;
+    }
+    const double sd_m = median(std::move(apart)) * sd_per_median / std::numbers::sqrt2;
+    for (auto& line : lines) {
+        line.sd_m = std::max(line.sd_m, sd_m);
+    }
+    return lines;
+}
+
 double median_sd_m(const std::vector<TraceLine>& lines) {
     std::vector<double> sds;
     for (const auto& line : lines) {
         sds.push_back(line.sd_m);
     }
-    const auto middle = sds.begin() + static_cast<std::ptrdiff_t>(sds.size() / 2);
-    std::nth_element(sds.begin(), middle, sds.end());
-    return sds.empty() ? 0 : *middle;
+    return median(std::move(sds));
 }
 
 /// Converts the drawing to ways on the globe, with nodes numbered from 1 in the order of the ways.

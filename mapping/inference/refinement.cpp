@@ -1,9 +1,10 @@
 #include "mapping/inference/refinement.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 namespace macadam {
 namespace {
@@ -148,9 +149,7 @@ std::size_t median_count(const std::vector<std::vector<Offset>>& offsets) {
     for (const auto& at_vertex : offsets) {
         counts.push_back(at_vertex.size());
     }
-    const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-    std::nth_element(counts.begin(), middle, counts.end());
-    return std::max<std::size_t>(1, *middle);
+    return std::max<std::size_t>(1, median(std::move(counts)));
 }
 
 Offsets offsets_of(const std::vector<std::vector<PointEn>>& ways,

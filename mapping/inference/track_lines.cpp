@@ -1,5 +1,6 @@
 #include "mapping/inference/track_lines.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "mapping/matching/lattice/observations.hpp"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ constexpr double axis_per_radius = 1 / 1.5; // a 68 % radius is 1.5 sd of one ax
 constexpr double comes_back_m = 30;         // behind where it stood: the positions wandered
 
 // A car that turned round returns beside its own line; the legs of a hairpin diverge.
-constexpr double turned_rad = 150 * std::numbers::pi / 180;
+constexpr double turned_rad = 150 * rad_per_deg;
 constexpr std::size_t turn_points = 3;
 constexpr std::size_t leg_points = 8;
 constexpr double beside_m = 12;

@@ -1,5 +1,7 @@
 #include "mapping/inference/inferred_network.hpp"
 
+#include "estimator/common/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -77,7 +79,7 @@ std::vector<PointEn> points_of(const InferredNetwork& drawing, std::size_t way) 
 
 TraceIndex::TraceIndex(const TraceConfig& config)
     : spacing_m_{config.spacing_m}, cell_m_{2 * config.joins_m + config.spacing_m},
-      alike_rad_{config.joins_deg * std::numbers::pi / 180} {}
+      alike_rad_{config.joins_deg * rad_per_deg} {}
 
 std::int64_t TraceIndex::cell(double m) const {
     return static_cast<std::int64_t>(std::floor(m / cell_m_));

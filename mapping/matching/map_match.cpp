@@ -8,8 +8,6 @@
 #include "mapping/matching/placement/matched_path.hpp"
 #include "mapping/matching/placement/offset_smoothing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,10 +1,11 @@
 #include "mapping/network/packed_rtree.hpp"
 
+#include "mapping/geometry/hilbert_curve.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace macadam {
@@ -24,34 +25,14 @@ GridBox around(const GridBox& a, const GridBox& b) {
             std::max(a.east_e7, b.east_e7)};
 }
 
-/// Returns the distance along the Hilbert curve that fills a square of 2^32 by 2^32.
-///
-/// Source: H. S. Warren, "Hacker's Delight", 2nd ed. (2012), chapter 16: the state is one of four
-/// orientations, here as a swap and a complement of the two coordinates.
-std::uint64_t hilbert_distance(std::uint32_t x, std::uint32_t y) {
-    std::uint64_t distance = 0;
-    for (auto bit = 32U; bit-- > 0;) {
-        const auto right = x >> bit & 1U;
-        const auto up = y >> bit & 1U;
-        distance = distance << 2U | ((3U * right) ^ up);
-        if (up == 0) {
-            if (right == 1) {
-                x = ~x;
-                y = ~y;
-            }
-            std::swap(x, y);
-        }
-    }
-    return distance;
-}
-
 /// Returns the curve distance of the centre of a box, counted from the south pole and the
 /// antimeridian.
 std::uint64_t place_on_curve(const GridBox& box) {
     const auto middle = [](std::int32_t a, std::int32_t b) {
         return static_cast<std::uint32_t>((std::int64_t{a} + b) / 2 + (std::int64_t{1} << 31U));
     };
-    return hilbert_distance(middle(box.west_e7, box.east_e7), middle(box.south_e7, box.north_e7));
+    return hilbert_distance(
+        middle(box.west_e7, box.east_e7), middle(box.south_e7, box.north_e7), 32);
 }
 
 std::size_t parents_of(std::size_t boxes) {

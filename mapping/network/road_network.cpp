@@ -1,7 +1,5 @@
 #include "mapping/network/road_network.hpp"
 
-#include "mapping/network/speed_limits.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,10 +1,10 @@
 #include "mapping/passes/pass.hpp"
 
 #include "estimator/roughness/roughness_mean.hpp"
-#include "mapping/passes/segment_overlap.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <span>
 #include <utility>
@@ -26,6 +26,7 @@ struct Passage {
     std::optional<std::uint32_t> drive; ///< number over the chunk
     double t_enter_s;
     double t_leave_s;
+    std::vector<SegmentOverlap> parts;
 };
 
 bool goes_on(const Passage& passage, const SegmentOverlap& part) {
@@ -43,6 +44,7 @@ Passage longer_by(Passage passage, const SegmentOverlap& part) {
     passage.offset_m += length_m;
     passage.confident_m += length_m * part.confidence;
     passage.t_leave_s = part.t_leave_s;
+    passage.parts.push_back(part);
     return passage;
 }
 
@@ -55,7 +57,8 @@ std::vector<Passage> passages_of(std::span<const SegmentOverlap> parts) {
                                 .travel = {},
                                 .drive = part.drive,
                                 .t_enter_s = part.t_enter_s,
-                                .t_leave_s = part.t_leave_s});
+                                .t_leave_s = part.t_leave_s,
+                                .parts = {}});
         }
         passages.back() = longer_by(std::move(passages.back()), part);
     }
@@ -185,16 +188,16 @@ std::optional<Headline> headline_of(const IriMean& mean) {
         true};
 }
 
-std::vector<Pass> extract_passes(std::span<const SegmentOverlap> parts,
-                                 const IriTrace& roughness,
-                                 const Vehicle& vehicle,
-                                 const PassConfig& config) {
-    std::vector<Pass> passes;
+std::vector<DrivenPass> driven_passes(std::span<const SegmentOverlap> parts,
+                                      const IriTrace& roughness,
+                                      const Vehicle& vehicle,
+                                      const PassConfig& config) {
+    std::vector<DrivenPass> passes;
     std::map<SegmentKey, std::uint32_t> occurrences;
-    for (const auto& passage : passages_of(parts)) {
+    for (auto& passage : passages_of(parts)) {
         if (auto pass = pass_of(passage, roughness, vehicle, config)) {
             pass->occurrence = occurrences[pass->segment]++;
-            passes.push_back(*pass);
+            passes.push_back({*pass, std::move(passage.parts)});
         }
     }
     return passes;

@@ -2,6 +2,7 @@
 
 #include "estimator/roughness/roughness_trace.hpp"
 #include "mapping/network/segment.hpp"
+#include "mapping/passes/segment_overlap.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -32,8 +33,6 @@ struct Pass {
     std::optional<std::uint32_t> drive{}; ///< number of the RoughnessTrace it belongs to
 };
 
-struct SegmentOverlap; // mapping/passes/segment_overlap.hpp
-
 struct PassConfig {
     double min_cover = 0.5;      ///< of the segment's length, with a valid estimate
     double min_confidence = 0.2; ///< of the match, which errs on the low side
@@ -54,6 +53,12 @@ struct Headline {
 };
 std::optional<Headline> headline_of(const IriMean& mean);
 
+/// Pass with the intervals of its segment that the trip drove, in driving order.
+struct DrivenPass {
+    Pass pass;
+    std::vector<SegmentOverlap> parts;
+};
+
 /// Joins roughness and matched positions by travel: averages the roughness over each segment that
 /// the trip drove. Ordered as driven.
 ///
@@ -63,9 +68,9 @@ std::optional<Headline> headline_of(const IriMean& mean);
 ///
 /// A pass is omitted if less of the segment than `min_cover` has an estimate, or if the match
 /// confidence is below `min_confidence`.
-std::vector<Pass> extract_passes(std::span<const SegmentOverlap> parts,
-                                 const IriTrace& roughness,
-                                 const Vehicle& vehicle,
-                                 const PassConfig& config);
+std::vector<DrivenPass> driven_passes(std::span<const SegmentOverlap> parts,
+                                      const IriTrace& roughness,
+                                      const Vehicle& vehicle,
+                                      const PassConfig& config);
 
 } // namespace macadam

@@ -168,7 +168,7 @@ TripCut cut_trip(const IriTrace& roughness,
         return {};
     }
     auto parts = driven_parts(matched, roads, config.min_confidence);
-    auto passes = extract_passes(parts, roughness, vehicle, config);
+    auto passes = driven_passes(parts, roughness, vehicle, config);
     const TravelSpan told{matched.front().from_travel_m, matched.back().to_travel_m};
     return {std::move(passes), extract_traces(std::move(parts), told, roughness, roads, vehicle)};
 }

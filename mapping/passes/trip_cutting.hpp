@@ -10,7 +10,7 @@ namespace macadam {
 
 /// Roughness of a trip on the roads that it drove, in driving order.
 struct TripCut {
-    std::vector<Pass> passes;
+    std::vector<DrivenPass> passes;
     std::vector<RoughnessTrace> traces; ///< source of the passes, metre by metre
 };
 

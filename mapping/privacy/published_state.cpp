@@ -9,7 +9,7 @@ namespace {
 
 constexpr IriUm value_step_um = 10;
 constexpr IriUm sd_step_um = 50;
-constexpr std::int32_t min_told = 5;
+constexpr std::int32_t min_published = 5;
 
 IriUm rounded(IriUm um) {
     const auto half = um < 0 ? -value_step_um / 2 : value_step_um / 2;
@@ -52,17 +52,17 @@ bool rests_on_many(const RoadChange& change,
 
 } // namespace
 
-std::int32_t told_count(std::int32_t count) {
-    if (count < min_told) {
+std::int32_t published_count(std::int32_t count) {
+    if (count < min_published) {
         return 0;
     }
-    std::int64_t told = min_told;
+    std::int64_t lower = min_published;
     for (std::int64_t ten = 10;; ten *= 10) {
         for (const std::int64_t next : {ten, 2 * ten, 5 * ten}) {
             if (next > count) {
-                return static_cast<std::int32_t>(told);
+                return static_cast<std::int32_t>(lower);
             }
-            told = next;
+            lower = next;
         }
     }
 }
@@ -75,8 +75,8 @@ published(SegmentState state, std::span<const FusionInput> passes, const Release
     state.high_um = rounded_up(state.high_um);
     state.left_um = rounded(state.left_um);
     state.right_um = rounded(state.right_um);
-    state.passes = told_count(state.passes);
-    state.vehicles = told_count(min_count(cars_of(passes), rule));
+    state.passes = published_count(state.passes);
+    state.vehicles = published_count(min_count(cars_of(passes), rule));
     state.first_seen_ms = month_of(state.first_seen_ms);
     state.last_seen_ms = month_of(state.last_seen_ms);
     state.trend_um_per_year = rounded(state.trend_um_per_year);

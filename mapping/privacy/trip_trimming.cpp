@@ -1,6 +1,7 @@
 #include "mapping/privacy/trip_trimming.hpp"
 
 #include "estimator/common/geo.hpp"
+#include "estimator/common/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,12 +37,6 @@ std::vector<Place> places_of(const TripLog& trip, const Odometer& odometer) {
     return places;
 }
 
-double middle(std::vector<double> values) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, at);
-    return *at;
-}
-
 /// Returns the car's position: the consensus of the fixes there, or the nearest one. \param places
 /// not empty.
 GeoPoint place_at(const std::vector<Place>& places, double travel_m) {
@@ -60,7 +55,7 @@ GeoPoint place_at(const std::vector<Place>& places, double travel_m) {
         lat_deg.push_back(place->at.lat_deg);
         lon_deg.push_back(place->at.lon_deg);
     }
-    return {middle(std::move(lat_deg)), middle(std::move(lon_deg))};
+    return {median(std::move(lat_deg)), median(std::move(lon_deg))};
 }
 
 // --------------------------------------------------------------------------------------- stops

@@ -2,6 +2,7 @@
 
 #include "estimator/iri/iri.hpp"
 #include "estimator/simulation/random.hpp"
+#include "estimator/simulation/road_features.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -105,6 +106,14 @@ road_recipe(const FleetScenario& recipe, const WayView& way, bool forward, std::
     return road;
 }
 
+namespace {
+
+std::uint64_t surface_seed(const WayView& way, const Lane& lane, std::uint64_t seed) {
+    return seed_of({seed, draw_surface, bits_of(way.id), lane.forward});
+}
+
+} // namespace
+
 RoadSurface lane_surface(const FleetScenario& recipe,
                          const RoadNetwork& roads,
                          const Lane& lane,
@@ -112,7 +121,33 @@ RoadSurface lane_surface(const FleetScenario& recipe,
     const auto way = way_at(roads, lane.way);
     return make_surface(road_recipe(recipe, way, lane.forward, seed),
                         std::max(lane_length_m(roads, lane), shortest_lane_m),
-                        seed_of({seed, draw_surface, bits_of(way.id), lane.forward}));
+                        surface_seed(way, lane, seed));
+}
+
+std::vector<PotholeTruth> lane_potholes(const FleetScenario& recipe,
+                                        const RoadNetwork& roads,
+                                        const Lane& lane,
+                                        const RoadSurface& surface,
+                                        std::uint64_t seed) {
+    const auto way = way_at(roads, lane.way);
+    const double length_m = lane_length_m(roads, lane);
+    std::vector<PotholeTruth> truth;
+    for (const auto& hole : potholes_on(surface.length_m(),
+                                        road_recipe(recipe, way, lane.forward, seed),
+                                        surface_seed(way, lane, seed))) {
+        const double station_m = hole.from_m + hole.length_m / 2;
+        const bool is_left = hole.lateral_m > 0;
+        truth.push_back(
+            {.way_id = way.id,
+             .forward = lane.forward,
+             .at_m = lane.forward ? station_m : length_m - station_m,
+             .length_m = hole.length_m,
+             .depth_m = hole.depth_m * hole.part_at(is_left ? wheel_path_m : -wheel_path_m),
+             .is_left = is_left});
+    }
+    std::ranges::sort(
+        truth, {}, [&](const PotholeTruth& hole) { return lane.forward ? hole.at_m : -hole.at_m; });
+    return truth;
 }
 
 std::vector<SegmentTruth>

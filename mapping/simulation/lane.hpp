@@ -45,4 +45,11 @@ RoadSurface lane_surface(const FleetScenario& recipe,
 std::vector<SegmentTruth>
 lane_truth(const RoadNetwork& roads, const Lane& lane, const RoadSurface& surface);
 
+/// Returns the potholes of a lane's surface, in order along the lane.
+std::vector<PotholeTruth> lane_potholes(const FleetScenario& recipe,
+                                        const RoadNetwork& roads,
+                                        const Lane& lane,
+                                        const RoadSurface& surface,
+                                        std::uint64_t seed);
+
 } // namespace macadam

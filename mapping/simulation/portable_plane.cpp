@@ -1,9 +1,9 @@
 #include "mapping/simulation/portable_plane.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "estimator/simulation/portable_math.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace macadam {
 namespace {
@@ -12,7 +12,6 @@ namespace {
 constexpr double equator_radius_m = 6378137.0;
 constexpr double flattening = 1 / 298.257223563;
 constexpr double eccentricity_squared = flattening * (2 - flattening);
-constexpr double rad_per_deg = std::numbers::pi / 180;
 
 } // namespace
 

@@ -1,5 +1,7 @@
 #include "mapping/surveys/reference_passes.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -111,15 +113,6 @@ Pass pass_of(const Passage& passage, std::uint32_t occurrence, const ReferenceCo
     pass.covered_mm = static_cast<std::int32_t>(std::lround(covered_m(passage) * 1000));
     pass.confidence_ppm = static_cast<std::int32_t>(std::lround(confidence * 1e6));
     return pass;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) {
-        return 0;
-    }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 /// Returns the reason why a located row cannot enter a pass; "" if it can.

@@ -1,5 +1,7 @@
 #include "mapping/surveys/survey_line.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,9 +30,7 @@ double longest_leg_m(std::span<const PointEn> points) {
     if (steps_m.empty()) {
         return 0;
     }
-    const auto middle = steps_m.begin() + static_cast<std::ptrdiff_t>(steps_m.size() / 2);
-    std::ranges::nth_element(steps_m, middle);
-    return std::clamp(usual_steps * *middle, always_joined_m, never_joined_m);
+    return std::clamp(usual_steps * median(std::move(steps_m)), always_joined_m, never_joined_m);
 }
 
 /// Returns the point `distance_m` beyond b on the straight line from a.

@@ -1,11 +1,11 @@
 #include "mapping/surveys/survey_match.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "mapping/surveys/survey_line.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 
 namespace macadam {
@@ -86,7 +86,7 @@ std::vector<Sample> samples_of(const TripLine& line, const SurveyMatchConfig& co
 
 bool runs_alike(const PointEn& a, const PointEn& b, double max_angle_deg) {
     const double cosine = a.east_m * b.east_m + a.north_m * b.north_m;
-    return std::acos(std::clamp(cosine, -1.0, 1.0)) <= max_angle_deg * std::numbers::pi / 180;
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) <= max_angle_deg * rad_per_deg;
 }
 
 bool goes_on(const Met& before, double travel_m, const PlaceOnLeg& place, double max_distance_m) {

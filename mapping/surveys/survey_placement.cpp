@@ -1,12 +1,12 @@
 #include "mapping/surveys/survey_placement.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "mapping/routes/line_matching.hpp"
 #include "mapping/surveys/survey_line.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numbers>
 #include <optional>
 
 namespace macadam {
@@ -83,7 +83,7 @@ struct Stick {
 
 /// Returns the point at a distance and heading; accurate enough for the length of a row.
 GeoPoint place_at(const GeoPoint& from, double heading_deg, double distance_m) {
-    const double heading_rad = heading_deg * std::numbers::pi / 180;
+    const double heading_rad = heading_deg * rad_per_deg;
     return LocalFrame{from}.to_geo(
         {distance_m * std::sin(heading_rad), distance_m * std::cos(heading_rad)});
 }

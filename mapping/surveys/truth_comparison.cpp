@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -14,6 +16,10 @@ namespace {
 
 constexpr std::size_t run_segments = 5; // 100 m at the usual segment length
 constexpr double same_place_m = 0.01;   // truth files have a resolution of millimetres
+
+// Lower limits of bands. Most segments of towns lie below 45 km/h, those of country roads above 65.
+constexpr double level_bands[] = {0, 1, 2, 4};    // mm/m
+constexpr double speed_bands[] = {0, 45, 65, 85}; // km/h
 
 /// A segment known in both.
 struct Pair {
@@ -140,16 +146,44 @@ TruthScore score_of(std::span<const Pair> pairs) {
     return score;
 }
 
+/// Scores the pairs of each band. \param value_of  NaN: in no band.
+std::vector<TruthComparison::Band> bands_of(std::span<const Pair> pairs,
+                                            std::span<const double> limits,
+                                            const std::function<double(const Pair&)>& value_of) {
+    std::vector<TruthComparison::Band> bands;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        const auto to = i + 1 < limits.size() ? std::optional{limits[i + 1]} : std::nullopt;
+        std::vector<Pair> within;
+        std::ranges::copy_if(pairs, std::back_inserter(within), [&](const Pair& pair) {
+            const double value = value_of(pair);
+            return value >= limits[i] && !(to && value >= *to);
+        });
+        if (!within.empty()) {
+            bands.push_back({limits[i], to, score_of(within)});
+        }
+    }
+    return bands;
+}
+
 } // namespace
 
 TruthComparison compare_with_truth(std::span<const SegmentRecord> states,
-                                   std::span<const SegmentTruth> truth) {
+                                   std::span<const SegmentTruth> truth,
+                                   const std::map<SegmentKey, double>& speed_kmh) {
     const auto pairs = pairs_of(states, truth);
     std::map<std::string, std::vector<Pair>> by_class;
     for (const auto& pair : pairs) {
         by_class[pair.highway].push_back(pair);
     }
-    TruthComparison comparison{.all = score_of(pairs), .classes = {}};
+    TruthComparison comparison{
+        .all = score_of(pairs),
+        .classes = {},
+        .levels = bands_of(pairs, level_bands, [](const Pair& pair) { return pair.truth; }),
+        .speeds = bands_of(pairs, speed_bands, [&](const Pair& pair) {
+            const auto found = speed_kmh.find(pair.key);
+            return found != speed_kmh.end() ? found->second
+                                            : std::numeric_limits<double>::quiet_NaN();
+        })};
     for (const auto& [highway, part] : by_class) {
         comparison.classes.push_back({highway, score_of(part)});
     }

@@ -4,6 +4,8 @@
 #include "mapping/surveys/segment_truth.hpp"
 
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,16 +33,28 @@ struct TruthComparison {
         TruthScore score;
     };
     std::vector<Class> classes; ///< longest first
+
+    /// Segments with from <= value < to.
+    struct Band {
+        double from;
+        std::optional<double> to; ///< `std::nullopt`: no limit
+        TruthScore score;
+    };
+    std::vector<Band> levels; ///< of the true MRI, mm/m; those with segments
+    std::vector<Band> speeds; ///< of the mean speed of the passes, km/h; those with segments
 };
 
 /// Joins states and truth by segment key and compares their MRI. A run is five consecutive segments
 /// of one way and direction that all have a state and a truth; runs do not overlap.
 ///
-/// \param states  in key order; records without a state are skipped.
-/// \param truth   in key order.
+/// \param states     in key order; records without a state are skipped.
+/// \param truth      in key order.
+/// \param speed_kmh  mean speed of the passes of a segment; segments without one are in no band of
+///                   speed.
 /// \throws InputError  if a segment's position along its way differs: database and truth have
 /// different networks or segment lengths.
 TruthComparison compare_with_truth(std::span<const SegmentRecord> states,
-                                   std::span<const SegmentTruth> truth);
+                                   std::span<const SegmentTruth> truth,
+                                   const std::map<SegmentKey, double>& speed_kmh = {});
 
 } // namespace macadam

@@ -1,7 +1,6 @@
 #include "mapping/tiles/line_merging.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>

@@ -1,5 +1,7 @@
 #include "mapping/tiles/tile_grid.hpp"
 
+#include "estimator/common/angle.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,7 +10,6 @@
 namespace macadam {
 namespace {
 
-constexpr double rad_per_deg = std::numbers::pi / 180;
 const double farthest_deg = std::atan(std::sinh(std::numbers::pi)) / rad_per_deg; // 85.0511
 
 double tiles_across(int zoom) {

@@ -1,5 +1,6 @@
 #include "mapping/transfer/transferred_passes.hpp"
 
+#include "mapping/transfer/transferred_events.hpp"
 #include "mapping/transfer/transferred_pieces.hpp"
 #include "mapping/transfer/transferred_trace.hpp"
 
@@ -152,6 +153,15 @@ SegmentKey renamed_key(const SegmentKey& key, const SegmentCorrespondences& corr
     return correspondences.unchanged(key)->after;
 }
 
+PassEvent
+renamed(PassEvent event, const ShiftedChunk& to, const SegmentCorrespondences& correspondences) {
+    const double at_m =
+        station_m(event.segment.forward, static_cast<double>(event.at_mm) / mm_per_m);
+    event.segment = renamed_key(event.segment, correspondences);
+    event.at_mm = std::llround(mm_per_m * std::abs(at_m + to.shift_m));
+    return event;
+}
+
 Parted parted(const TripPasses& old, const SegmentCorrespondences& correspondences) {
     const double segment_length_m = correspondences.before().segment_length_m;
     std::map<ChunkOrder, std::optional<ShiftedChunk>> chunks;
@@ -173,6 +183,13 @@ Parted parted(const TripPasses& old, const SegmentCorrespondences& correspondenc
             parts.rest.passes.push_back(pass);
         }
     }
+    for (const auto& event : old.events) {
+        if (const auto to = moved(chunk_of(event.segment, segment_length_m))) {
+            parts.renamed.readings.events.push_back(renamed(event, *to, correspondences));
+        } else {
+            parts.rest.events.push_back(event);
+        }
+    }
     for (const auto& trace : old.traces) {
         if (const auto to = moved(trace.chunk)) {
             parts.renamed.readings.traces.push_back(trace);
@@ -184,6 +201,19 @@ Parted parted(const TripPasses& old, const SegmentCorrespondences& correspondenc
         }
     }
     return parts;
+}
+
+/// Finds the new pass that is made from the old pass of an event.
+NewOccurrence occurrence_in(const std::vector<NewPass>& passes) {
+    return [&](const PassEvent& old, const SegmentKey& after) -> std::optional<std::uint32_t> {
+        const auto is_old = [&](const Pass* pass) {
+            return pass->segment == old.segment && pass->occurrence == old.occurrence;
+        };
+        const auto made = std::ranges::find_if(passes, [&](const NewPass& each) {
+            return each.pass.segment == after && std::ranges::any_of(each.made_of, is_old);
+        });
+        return made == passes.end() ? std::nullopt : std::optional{made->pass.occurrence};
+    };
 }
 
 } // namespace
@@ -201,6 +231,8 @@ TransferredPasses carried(const TripPasses& old, const SegmentCorrespondences& c
         }
     }
     number_occurrences(passes);
+    std::ranges::move(carried_events(rest.events, correspondences, occurrence_in(passes)),
+                      std::back_inserter(all.readings.events));
     std::set<const Pass*> used;
     for (const auto& [pass, made_of] : passes) {
         all.readings.passes.push_back(pass);

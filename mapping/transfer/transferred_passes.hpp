@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mapping/conflation/segment_correspondence.hpp"
+#include "mapping/events/pass_event.hpp"
 #include "mapping/passes/chunk_trace.hpp"
 #include "mapping/passes/pass.hpp"
 
@@ -9,10 +10,11 @@
 
 namespace macadam {
 
-/// Passes and traces of one trip on the ways that a new network has not kept.
+/// Passes, traces and events of one trip on the ways that a new network has not kept.
 struct TripPasses {
     std::vector<Pass> passes;
     std::vector<RoughnessTrace> traces;
+    std::vector<PassEvent> events{};
 };
 
 struct TransferredPasses {
@@ -21,14 +23,13 @@ struct TransferredPasses {
     std::size_t lost = 0;  ///< old passes lost entirely
 };
 
-/// Transfers a trip's passes and traces to a new network.
+/// Transfers a trip's passes, traces and events to a new network.
 ///
 /// A chunk with unchanged segments keeps its data under the new key. Elsewhere, a new pass is the
 /// mean of the old passes of that drive over the new segment, weighted by the covered length. It
 /// has every validity flag that any of them has and the time of its midpoint, and is omitted if
 /// less than half of the segment is covered. Traces are assembled from the nearest metres of the
-/// old traces. Repeated drives over a chunk are distinguished by their times, as in extract_passes
-/// and cut_trip.
+/// old traces. Repeated drives over a chunk are distinguished by their times, as in cut_trip.
 TransferredPasses carried(const TripPasses& old, const SegmentCorrespondences& correspondences);
 
 } // namespace macadam

@@ -1,7 +1,6 @@
 #include "mapping/transfer/transferred_pieces.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace macadam {

@@ -3,7 +3,6 @@
 #include "mapping/transfer/transferred_passes.hpp"
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 

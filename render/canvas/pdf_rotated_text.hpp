@@ -6,7 +6,6 @@
 
 #include <map>
 #include <memory>
-#include <string>
 
 namespace macadam {
 

@@ -1,5 +1,7 @@
 #include "render/labels/label_lines.hpp"
 
+#include "mapping/geometry/line_clipping.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,29 +36,6 @@ std::vector<PixelPoint> laid(const RoadName& road, const PixelBox& cell) {
     return line;
 }
 
-struct Cut {
-    double from, to; ///< fractions of a line segment; from > to: outside
-};
-
-/// Clips a line segment by the method of Liang and Barsky.
-Cut cut_of(const PixelPoint& a, const PixelPoint& b, const PixelBox& room) {
-    Cut cut{0, 1};
-    const auto clip = [&](double start, double step, double low, double high) {
-        if (step == 0) {
-            if (start < low || start > high) {
-                cut = {1, 0};
-            }
-            return;
-        }
-        const auto [enter, leave] = std::minmax({(low - start) / step, (high - start) / step});
-        cut.from = std::max(cut.from, enter);
-        cut.to = std::min(cut.to, leave);
-    };
-    clip(a.x, b.x - a.x, room.left, room.right);
-    clip(a.y, b.y - a.y, room.top, room.bottom);
-    return cut;
-}
-
 PixelPoint between(const PixelPoint& a, const PixelPoint& b, double part) {
     if (part == 0) {
         return a;
@@ -74,7 +53,7 @@ std::optional<Piece> cut_piece(const PixelPoint& from, const PixelPoint& to, con
     const bool turned = stands_before(to, from);
     const auto& a = turned ? to : from;
     const auto& b = turned ? from : to;
-    const auto cut = cut_of(a, b, room);
+    const auto cut = clipped_line(a, b, {room.left, room.top, room.right, room.bottom});
     const auto first = between(a, b, cut.from);
     const auto last = between(a, b, cut.to);
     if (!(cut.from < cut.to) || first == last) {

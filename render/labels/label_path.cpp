@@ -1,8 +1,9 @@
 #include "render/labels/label_path.hpp"
 
+#include "estimator/common/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace macadam {
 namespace {
@@ -12,7 +13,7 @@ constexpr double capitals = 0.76; // with room for accents above capitals in man
 constexpr double descenders = 0.22;
 
 double cosine_of_deg(double deg) {
-    return std::cos(deg * std::numbers::pi / 180);
+    return std::cos(deg * rad_per_deg);
 }
 
 double dot(const PixelPoint& a, const PixelPoint& b) {

@@ -1,5 +1,7 @@
 #include "render/map/legend.hpp"
 
+#include "render/map/event_symbols.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -91,6 +93,11 @@ void draw_swatch(DrawTarget& canvas,
                  double unit,
                  const Palette& colours) {
     const double half_px = (swatch_px - core_px) / 2 * unit;
+    if (entry.swatch == LegendEntry::Swatch::event) {
+        const MapEvent symbol{{}, entry.event, Severity::moderate};
+        draw_event(canvas, symbol, {middle.x, middle.y}, unit, colours);
+        return;
+    }
     const PixelPoint from{middle.x - half_px, middle.y};
     const PixelPoint to{middle.x + half_px, middle.y};
     const double radius_px = core_px / 2 * unit;
@@ -102,6 +109,22 @@ void draw_swatch(DrawTarget& canvas,
     const double core_radius_px = certain ? radius_px : radius_px * 0.55;
     canvas.stroke(from, to, core_radius_px + std::max(1.0, casing_px * unit), colours.casing);
     canvas.stroke(from, to, core_radius_px, entry.rgb);
+}
+
+/// Adds the kinds of events in the scene.
+void add_events(const MapScene& scene, Legend& legend) {
+    for (const auto kind :
+         {EventKind::pothole, EventKind::bump, EventKind::joint, EventKind::rail}) {
+        const auto count = std::ranges::count(scene.events, kind, &MapEvent::kind);
+        if (count > 0) {
+            legend.entries.push_back({.swatch = LegendEntry::Swatch::event,
+                                      .rgb = 0,
+                                      .name = capitalised(name_of(kind)),
+                                      .range = {},
+                                      .length = {},
+                                      .event = kind});
+        }
+    }
 }
 
 } // namespace
@@ -145,6 +168,7 @@ Legend legend_of(const MapScene& scene, const MapStyle& style, const ClassTable&
                                   .range = {},
                                   .length = {}});
     }
+    add_events(scene, legend);
     return legend;
 }
 

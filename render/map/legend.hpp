@@ -2,6 +2,7 @@
 
 #include "render/canvas/draw_target.hpp"
 #include "render/scene/colour.hpp"
+#include "render/scene/scene.hpp"
 
 #include <string>
 #include <vector>
@@ -9,12 +10,13 @@
 namespace macadam {
 
 struct LegendEntry {
-    enum class Swatch { certain, uncertain, unmeasured };
+    enum class Swatch { certain, uncertain, unmeasured, event };
     Swatch swatch = Swatch::certain;
     std::uint32_t rgb = 0;
     std::string name;
     std::string range;
     std::string length;
+    EventKind event = EventKind::pothole; ///< of Swatch::event
 };
 
 struct Legend {

@@ -4,6 +4,7 @@
 #include "mapping/geometry/antimeridian.hpp"
 #include "render/labels/label_painter.hpp"
 #include "render/map/base_map_blend.hpp"
+#include "render/map/event_symbols.hpp"
 #include "render/map/map_labels.hpp"
 #include "render/map/pdf_labels.hpp"
 #include "render/map/pdf_roads.hpp"
@@ -14,7 +15,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace macadam {
@@ -174,6 +174,7 @@ void MapPlan::draw(const TakeRows& take, const Progress& progress) {
                 draw_labels(canvas, {&label, 1}, {}, label_inks(colours), setter_);
             }
         }
+        draw_events(canvas, scene_.events, placement_.frame, layout_.map, layout_.unit, colours);
         draw_map_surround(canvas, layout_, placement_, style_, setter_);
         take(std::move(canvas).finished().rgb);
         progress(std::size_t(top_px + count), std::size_t(size_.height_px));
@@ -197,6 +198,7 @@ std::string MapPlan::pdf(const PdfSheet& sheet) {
         draw_roads(page, roads.strands, roads.widths, theme, colours);
         page.end_clip();
         draw_labels(page, labels, label_inks(theme), setter_);
+        draw_events(page, scene_.events, placement_.frame, layout_.map, layout_.unit, theme);
         draw_map_surround(page, layout_, placement_, style_, setter_);
     });
 }

@@ -1,5 +1,6 @@
 #include "render/map/map_surround.hpp"
 
+#include "mapping/geometry/line_clipping.hpp"
 #include "render/canvas/canvas.hpp"
 #include "render/scene/scale_bar.hpp"
 
@@ -17,20 +18,8 @@ constexpr double label_px = 14;
 
 constexpr double min_scale = 0.9; // of a small map, relative to its scale without a legend
 
-/// Returns true if the line from `a` to `b` passes through the box, by Liang and Barsky's clipping.
 bool passes_through(const PixelBox& box, const PixelPoint& a, const PixelPoint& b) {
-    double from = 0;
-    double to = 1;
-    const auto clip = [&](double start, double step, double low, double high) {
-        if (step == 0) {
-            return low <= start && start <= high;
-        }
-        const auto [enter, leave] = std::minmax({(low - start) / step, (high - start) / step});
-        from = std::max(from, enter);
-        to = std::min(to, leave);
-        return from <= to;
-    };
-    return clip(a.x, b.x - a.x, box.left, box.right) && clip(a.y, b.y - a.y, box.top, box.bottom);
+    return !clipped_line(a, b, {box.left, box.top, box.right, box.bottom}).is_empty();
 }
 
 using Corners = std::array<PixelPoint, 4>;

@@ -1,5 +1,6 @@
 #include "render/projection/projection.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "estimator/common/error.hpp"
 #include "mapping/geometry/antimeridian.hpp"
 
@@ -8,13 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace macadam {
 namespace {
 
-constexpr double rad_per_deg = std::numbers::pi / 180;
 constexpr double farthest_deg = 85;          // Mercator does not reach the poles
 constexpr double min_side_m = 200;           // a smaller map shows no recognisable features
 constexpr double earth_radius_m = 6378137.0; // of the sphere of EPSG:3857

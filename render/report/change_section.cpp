@@ -1,6 +1,8 @@
 #include "render/report/common_parts.hpp"
 #include "render/report/sections.hpp"
 
+#include "estimator/common/statistics.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,8 +13,7 @@ using namespace document;
 
 namespace {
 
-constexpr double interval_90 = 1.645; // two-sided, normal distribution
-constexpr double by_chance = 0.05;    // past 1.96 sd, either side
+constexpr double by_chance = 0.05; // past 1.96 sd, either side
 
 /// Builds an id such as "worse-1"; `side` is "worse" or "better", as in ids and keys of the
 /// catalogue.
@@ -38,7 +39,7 @@ Table lengths_table(const Report& report) {
                              all.before_alone_m + all.since_alone_m;
     const auto add = [&](const ChangeLengths& lengths, const std::string& name) {
         const auto& mean = lengths.mean;
-        const double reach = interval_90 * mean.sd;
+        const double reach = normal_interval_90 * mean.sd;
         const bool known = mean.length_m > 0;
         table.rows.push_back(
             {name,

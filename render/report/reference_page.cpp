@@ -1,5 +1,6 @@
 #include "render/report/reference_page.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "render/report/reference_figures.hpp"
 #include "render/report/report.hpp"
 
@@ -14,7 +15,6 @@ using namespace document;
 namespace {
 
 constexpr const char* no_value = "–";
-constexpr double z_of_90_percent = 1.645;
 
 std::string iri_text(const Localisation& say, double mm_per_m) {
     return std::isnan(mm_per_m) ? no_value : say.iri(mm_per_m);
@@ -163,7 +163,7 @@ RichText drift_text(const Localisation& say, const ComparedControl& control) {
     }
     RichText text = say("reference.drift.a_year",
                         {{"drift", say.iri_change(control.drift->per_year)},
-                         {"interval", say.iri(z_of_90_percent * control.drift->sd_per_year)}});
+                         {"interval", say.iri(normal_interval_90 * control.drift->sd_per_year)}});
     if (control.drift->significant) {
         text.spans.push_back({", "});
         text.spans.push_back({say("reference.drift.drifts"), SpanLook::strong});
@@ -178,7 +178,7 @@ std::vector<Cell> row_of(const Localisation& say, const ComparedControl& control
             driven ? say.iri(control.cars.iri) : no_value,
             driven ? fmt::format("{} ± {}",
                                  say.iri_change(control.off),
-                                 say.iri(z_of_90_percent * control.off_sd))
+                                 say.iri(normal_interval_90 * control.off_sd))
                    : no_value,
             drift_text(say, control)};
 }

@@ -27,6 +27,9 @@ Document report_document(const Report& report) {
     if (measured) {
         document.sections.push_back(worst_section(report));
     }
+    if (!report.events.empty()) {
+        document.sections.push_back(events_section(report));
+    }
     if (report.change) {
         document.sections.push_back(change_section(report));
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/events/road_event.hpp"
 #include "mapping/analysis/change_since.hpp"
 #include "mapping/analysis/correlated_mean.hpp"
 #include "mapping/analysis/data_quality.hpp"
@@ -91,6 +92,19 @@ struct ReportPublication {
     double left_out_m = 0;    ///< length of these segments
 };
 
+/// Pothole or other event of the road.
+struct ReportEvent {
+    EventKind kind;
+    double size_mm, sd_mm;
+    std::string name;    ///< of the road; "" = none
+    std::string highway; ///< class of the road; "" = none
+    std::int64_t way_id;
+    double at_m; ///< along the way, from its first node
+    GeoPoint at;
+    std::int32_t passes, passes_over; ///< that report it, and that were searched there
+    std::string last_seen;            ///< day; "" = undated
+};
+
 /// Content of a report, as plain values. Texts are unprocessed.
 struct Report {
     Localisation wording{};
@@ -114,6 +128,8 @@ struct Report {
     std::size_t stretches = 0;           ///< number of poor sections
     double stretches_m = 0;              ///< their total length
     std::vector<ReportStretch> worst;    ///< worst of them, roughest first
+    std::vector<ReportEvent> events{};   ///< the largest first
+    std::size_t events_found = 0;        ///< including those not listed
     std::optional<ReportChange> change;  ///< `std::nullopt`: not requested
     std::vector<ReportSection> sections; ///< empty: not requested
     std::vector<ReportVehicle> vehicles; ///< in listing order

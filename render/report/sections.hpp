@@ -13,6 +13,7 @@ document::KeyNumbers key_numbers(const Report& report);
 document::DocumentSection condition_section(const Report& report);
 document::DocumentSection map_section(const Report& report);
 document::DocumentSection worst_section(const Report& report);
+document::DocumentSection events_section(const Report& report); ///< requires events
 document::DocumentSection change_section(const Report& report); ///< requires report.change
 document::DocumentSection own_sections(const Report& report);   ///< requires sections
 document::DocumentSection coverage_section(const Report& report);

@@ -1,10 +1,11 @@
 #include "render/roads/line_joining.hpp"
 
+#include "estimator/common/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numbers>
 #include <tuple>
 
 namespace macadam {
@@ -40,7 +41,7 @@ bool on_the_globe(const MapLine& line) {
 }
 
 PointEn unit_step(const GeoPoint& a, const GeoPoint& b) {
-    const double shrink = std::cos(a.lat_deg * std::numbers::pi / 180);
+    const double shrink = std::cos(a.lat_deg * rad_per_deg);
     const PointEn step{(b.lon_deg - a.lon_deg) * shrink, b.lat_deg - a.lat_deg};
     const double length = std::hypot(step.east_m, step.north_m);
     return {step.east_m / length, step.north_m / length};

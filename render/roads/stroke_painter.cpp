@@ -8,11 +8,9 @@
 #include <GL/glext.h>
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace macadam {
 namespace {

@@ -1,5 +1,7 @@
 #include "render/scene/colour_difference.hpp"
 
+#include "estimator/common/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,11 +82,11 @@ Lab seen(std::uint32_t rgb, ColourVision sight) {
 }
 
 double cos_deg(double deg) {
-    return std::cos(deg * std::numbers::pi / 180);
+    return std::cos(deg * rad_per_deg);
 }
 
 double sin_deg(double deg) {
-    return std::sin(deg * std::numbers::pi / 180);
+    return std::sin(deg * rad_per_deg);
 }
 
 double hue_deg(double a, double b) {

@@ -1,7 +1,6 @@
 #include "render/scene/nice_step.hpp"
 
 #include <cmath>
-#include <initializer_list>
 
 namespace macadam {
 

@@ -2,6 +2,7 @@
 
 #include "estimator/common/geo.hpp"
 #include "estimator/common/progress.hpp"
+#include "estimator/events/road_event.hpp"
 #include "mapping/style/base_map.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "mapping/style/map_style_values.hpp"
@@ -31,6 +32,13 @@ struct MapLine {
     std::string name;        ///< of the road, for its label
 };
 
+/// Pothole or other event of the road, drawn as a symbol.
+struct MapEvent {
+    GeoPoint at;
+    EventKind kind;
+    Severity severity;
+};
+
 struct MapStyle {
     enum class Theme { light, dark, print };
     Theme theme = Theme::light;
@@ -54,6 +62,7 @@ struct MapScene {
     /// 180 degrees, it continues over the antimeridian, as do the longitudes of the lines.
     GeoBox box;
     std::vector<MapLine> lines;
+    std::vector<MapEvent> events{}; ///< drawn over the roads, with entries in the legend
     std::string title;
     std::string subtitle;         ///< period, kilometres, cars
     std::string attribution;      ///< copyright notice

@@ -8,7 +8,6 @@
 #include <hb-ft.h>
 #include <hb.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>

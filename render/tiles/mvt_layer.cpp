@@ -1,5 +1,8 @@
 #include "render/tiles/mvt_layer.hpp"
 
+#include "estimator/common/splitmix.hpp"
+#include "mapping/geometry/line_clipping.hpp"
+
 #include <protozero/buffer_string.hpp>
 #include <protozero/pbf_writer.hpp>
 #include <protozero/varint.hpp>
@@ -68,31 +71,14 @@ std::uint32_t zigzag(std::int32_t value) {
     return (static_cast<std::uint32_t>(value) << 1U) ^ static_cast<std::uint32_t>(value >> 31);
 }
 
-/// Mixes the bits so that each depends on every other: numbers with two decimals share the pattern
-/// of their last 40 bits with 1 in 25 others. (The finalizer of splitmix64: S. Vigna,
-/// prng.di.unimi.it, 2015.)
+/// Mixes the bits: numbers with two decimals share the pattern of their last 40 bits with 1 in 25
+/// others.
 std::uint64_t mixed(std::uint64_t bits, std::uint64_t kind) {
-    std::uint64_t hash = bits ^ (kind << 61U);
-    hash = (hash ^ (hash >> 30U)) * 0xbf58476d1ce4e5b9U;
-    hash = (hash ^ (hash >> 27U)) * 0x94d049bb133111ebU;
-    return hash ^ (hash >> 31U);
+    return splitmix_mixed(bits ^ (kind << 61U));
 }
 
 std::uint32_t upper_half(std::uint64_t hash) {
     return static_cast<std::uint32_t>(hash >> 32U);
-}
-
-/// Clips the part of a line to least..most along one axis.
-/// \returns  false if no part is left.
-bool cut(double from, double step, std::pair<double, double>& part) {
-    constexpr double least = -tile_buffer, most = tile_extent + tile_buffer;
-    if (step == 0) {
-        return from >= least && from <= most;
-    }
-    const double a = (least - from) / step, b = (most - from) / step;
-    part.first = std::max(part.first, std::min(a, b));
-    part.second = std::min(part.second, std::max(a, b));
-    return part.first <= part.second;
 }
 
 } // namespace
@@ -164,16 +150,15 @@ bool VectorLayer::lies_within(const Place& place) {
     return is_within(place.x) && is_within(place.y);
 }
 
-/// Source: Liang and Barsky, "A new concept and method for line clipping", ACM Transactions on
-/// Graphics 3 (1984), pp. 1-22.
 void VectorLayer::put_clipped(const Place& from, const Place& to) {
     if (lies_within(from) && lies_within(to)) { // the usual case
         go_on(from, to);
         return;
     }
     const double dx = to.x - from.x, dy = to.y - from.y;
-    std::pair part{0.0, 1.0};
-    if (!cut(from.x, dx, part) || !cut(from.y, dy, part)) {
+    constexpr double low = -tile_buffer, high = tile_extent + tile_buffer;
+    const auto part = clipped_line(from, to, {low, low, high, high});
+    if (part.is_empty()) {
         end_piece();
         return;
     }
@@ -181,7 +166,7 @@ void VectorLayer::put_clipped(const Place& from, const Place& to) {
         return Place{static_cast<std::int32_t>(std::lround(from.x + share * dx)),
                      static_cast<std::int32_t>(std::lround(from.y + share * dy))};
     };
-    go_on(at(part.first), at(part.second));
+    go_on(at(part.from), at(part.to));
 }
 
 void VectorLayer::go_on(const Place& begin, const Place& end) {

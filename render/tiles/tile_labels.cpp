@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 namespace macadam {
 namespace {

@@ -3,10 +3,8 @@
 #include "render/projection/tile_pixel_grid.hpp"
 #include "render/scene/scene.hpp"
 
-#include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 namespace macadam {
 

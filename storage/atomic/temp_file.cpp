@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <fcntl.h>
 #include <unistd.h>
 

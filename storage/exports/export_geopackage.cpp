@@ -2,6 +2,7 @@
 
 #include "mapping/geometry/antimeridian.hpp"
 #include "storage/atomic/atomic_file_set.hpp"
+#include "storage/exports/feature_table.hpp"
 #include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/geopackage/qgis_style.hpp"
@@ -16,35 +17,6 @@
 
 namespace macadam {
 namespace {
-
-std::string_view sql_type(ColumnType::Kind kind) {
-    using Kind = ColumnType::Kind;
-    return kind == Kind::integer ? "INTEGER"
-           : kind == Kind::real  ? "DOUBLE"
-           : kind == Kind::day   ? "DATE"
-                                 : "TEXT";
-}
-
-std::string roughness_table() {
-    std::string sql = "\nCREATE TABLE roughness (\n"
-                      "    fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,\n"
-                      "    geom LINESTRING";
-    for (const auto& [name, type, value, shown] : segment_attributes()) {
-        sql += fmt::format(",\n    {} {}{}",
-                           name == "index" ? "\"index\"" : name, // a keyword of SQL
-                           sql_type(type.kind),
-                           type.required ? " NOT NULL" : "");
-    }
-    return sql + "\n);\n";
-}
-
-std::string roughness_insert() {
-    std::string sql = "INSERT INTO roughness VALUES (NULL, ?";
-    for (std::size_t i = 0; i < segment_attributes().size(); ++i) {
-        sql += ", ?";
-    }
-    return sql + ")";
-}
 
 /// Line with continuous longitudes across the antimeridian, because the table does not allow
 /// multi-part lines.
@@ -80,11 +52,11 @@ std::size_t write_geopackage(const SegmentExport& what, const std::filesystem::p
     add_geometry_functions(database);
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
-    database.run(roughness_table());
+    database.run(feature_table("roughness", "LINESTRING", segment_attributes()));
     GeoBox box;
     std::size_t written = 0;
     {
-        auto insert = database.prepare(roughness_insert());
+        auto insert = database.prepare(feature_insert("roughness", segment_attributes()));
         written = each_segment(what, [&](const SegmentRecord& record) {
             const auto line = smooth_line(record);
             write_row(insert, record, line, what.classes);

@@ -1,11 +1,11 @@
 #include "storage/exports/flatgeobuf_index.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/geometry/hilbert_curve.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -82,26 +82,6 @@ std::string announced(std::ifstream& plain) {
 
 // ------------------------------------------------------------------------------------ the tree
 
-/// Position of a cell of a 65536 x 65536 grid along a Hilbert curve, by recursive division into
-/// quarters, each a rotated or mirrored copy of the whole.
-std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
-    constexpr std::uint32_t side = 1U << 16U;
-    std::uint32_t place = 0;
-    for (std::uint32_t half = side / 2; half > 0; half /= 2) {
-        const std::uint32_t right = (x & half) != 0 ? 1 : 0;
-        const std::uint32_t upper = (y & half) != 0 ? 1 : 0;
-        place = place << 2U | ((3 * right) ^ upper);
-        if (upper == 0) {
-            if (right == 1) {
-                x = side - 1 - x;
-                y = side - 1 - y;
-            }
-            std::swap(x, y);
-        }
-    }
-    return place;
-}
-
 void include(Node& whole, const Node& part) {
     whole.west = std::min(whole.west, part.west);
     whole.south = std::min(whole.south, part.south);
@@ -132,9 +112,11 @@ void put_leaves(std::span<Node> leaves, const std::vector<GeoBox>& boxes) {
         return high > low ? static_cast<std::uint32_t>(last * (value - low) / (high - low)) : 0U;
     };
     for (auto& leaf : leaves) {
-        const auto along = hilbert_place(cell(all.west, all.east, (leaf.west + leaf.east) / 2),
-                                         cell(all.south, all.north, (leaf.south + leaf.north) / 2));
-        leaf.place |= std::uint64_t{along} << 32U; // feature numbers have 32 bits
+        const auto along =
+            hilbert_distance(cell(all.west, all.east, (leaf.west + leaf.east) / 2),
+                             cell(all.south, all.north, (leaf.south + leaf.north) / 2),
+                             16);
+        leaf.place |= along << 32U; // feature numbers have 32 bits
     }
     std::ranges::sort(leaves, {}, &Node::place);
     for (auto& leaf : leaves) {

@@ -3,7 +3,6 @@
 #include "estimator/common/geo.hpp"
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace macadam {

@@ -3,7 +3,6 @@
 #include "estimator/common/error.hpp"
 #include "storage/files/byte_stream.hpp"
 #include "storage/files/decompress.hpp"
-#include "storage/text/text.hpp"
 
 #include <archive.h>
 #include <archive_entry.h>

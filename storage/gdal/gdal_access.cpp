@@ -19,7 +19,6 @@
 #include <array>
 #include <mutex>
 #include <set>
-#include <string>
 #include <utility>
 
 namespace macadam {

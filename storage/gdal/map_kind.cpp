@@ -1,5 +1,6 @@
 #include "storage/gdal/map_kind.hpp"
 
+#include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/gdal/sqlite_map.hpp"
 
@@ -80,12 +81,6 @@ std::string head_of(const fs::path& file) {
     }
     head.resize(static_cast<std::size_t>(in.gcount()));
     return head;
-}
-
-std::string in_lower_case(std::string_view text) {
-    std::string lower{text};
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    return lower;
 }
 
 /// Tests whether another JSON text follows the first, that is for one feature per line. If the

@@ -8,8 +8,6 @@
 #include <fmt/core.h>
 #include <ogrsf_frmts.h>
 
-#include <memory>
-
 namespace macadam {
 
 namespace {

@@ -1,5 +1,6 @@
 #include "storage/gdal/sqlite_map.hpp"
 
+#include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 
 #include <fmt/core.h>
@@ -98,11 +99,6 @@ private:
     std::string name_;
     std::unique_ptr<sqlite3, Close> database_;
 };
-
-std::string in_lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 /// Recognises an R-tree by its definition: SQLite's words before the name of a virtual table, the
 /// name, and " USING rtree(" with column names. Any other spelling, for example with comments, is

@@ -1,5 +1,6 @@
 #include "storage/gdal/virtual_raster.hpp"
 
+#include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/gdal/map_kind.hpp"
 
@@ -120,12 +121,6 @@ constexpr std::size_t max_bytes = 256 << 20;
 template <typename Names>
 bool is_in(const Names& names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
-}
-
-std::string in_lower_case(std::string_view text) {
-    std::string lower{text};
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    return lower;
 }
 
 /// Parses a virtual raster.

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
 #include <utility>
 
 namespace macadam {
@@ -135,9 +134,8 @@ void list_features(Database& database, const FeatureLayer& layer) {
              layer.box.south_deg,
              layer.box.east_deg,
              layer.box.north_deg);
-    database
-        .prepare("INSERT INTO gpkg_geometry_columns VALUES (?, 'geom', 'LINESTRING', 4326, 0, 0)")
-        .run(layer.table);
+    database.prepare("INSERT INTO gpkg_geometry_columns VALUES (?, 'geom', ?, 4326, 0, 0)")
+        .run(layer.table, layer.geometry);
 }
 
 void add_index_triggers(Database& database, std::string_view table) {

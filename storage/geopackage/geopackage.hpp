@@ -16,13 +16,14 @@ namespace macadam {
 inline constexpr std::int64_t geopackage_application_id = 1196444487; ///< "GPKG"
 inline constexpr std::int64_t geopackage_user_version = 10300;        ///< 1.3.0
 
-/// Feature table or view of lines in WGS 84, as listed in a GeoPackage. Names are inserted into SQL
-/// unquoted and must never come from a user.
+/// Feature table or view of lines or points in WGS 84, as listed in a GeoPackage. Names are
+/// inserted into SQL unquoted and must never come from a user.
 struct FeatureLayer {
     std::string_view table;
     std::string_view title;
     std::string_view description;
     GeoBox box;
+    std::string_view geometry = "LINESTRING";
 };
 
 /// Creates the tables that turn an empty SQLite file into a GeoPackage 1.3.

@@ -19,6 +19,7 @@ constexpr std::uint8_t empty_flag = 0x10;
 constexpr std::int32_t srs_id = 4326;
 constexpr std::size_t header_bytes = 8;
 constexpr std::size_t envelope_bytes = 4 * sizeof(double);
+constexpr std::uint32_t wkb_point = 1;
 constexpr std::uint32_t wkb_line_string = 2;
 constexpr std::size_t line_head_bytes = 1 + 2 * sizeof(std::uint32_t);
 constexpr std::size_t point_bytes = 2 * sizeof(double);
@@ -35,6 +36,24 @@ Number number_at(std::string_view bytes, std::size_t place) {
     Number number;
     std::memcpy(&number, bytes.data() + place, sizeof(Number));
     return number;
+}
+
+/// Header, envelope, byte order and type of a geometry with these points.
+std::string head_of(std::span<const GeoPoint> points, std::uint32_t type) {
+    GeoBox box;
+    for (const auto& point : points) {
+        box = including(box, point);
+    }
+    std::string bytes{"GP\0", 3};
+    bytes.reserve(header_bytes + envelope_bytes + line_head_bytes + points.size() * point_bytes);
+    append(bytes, header_flags);
+    append(bytes, srs_id);
+    for (const double value : {box.west_deg, box.east_deg, box.south_deg, box.north_deg}) {
+        append(bytes, value);
+    }
+    append(bytes, std::uint8_t{1}); // little endian
+    append(bytes, type);
+    return bytes;
 }
 
 /// Tests for a geometry in the form that we write; others do not occur in our tables.
@@ -100,20 +119,15 @@ void add_geometry_functions(Database& database) {
     }
 }
 
+std::string geometry_of(const GeoPoint& point) {
+    auto bytes = head_of({&point, 1}, wkb_point);
+    append(bytes, point.lon_deg);
+    append(bytes, point.lat_deg);
+    return bytes;
+}
+
 std::string geometry_of(std::span<const GeoPoint> line) {
-    GeoBox box;
-    for (const auto& point : line) {
-        box = including(box, point);
-    }
-    std::string bytes{"GP\0", 3};
-    bytes.reserve(header_bytes + envelope_bytes + line_head_bytes + line.size() * point_bytes);
-    append(bytes, header_flags);
-    append(bytes, srs_id);
-    for (const double value : {box.west_deg, box.east_deg, box.south_deg, box.north_deg}) {
-        append(bytes, value);
-    }
-    append(bytes, std::uint8_t{1}); // little endian
-    append(bytes, wkb_line_string);
+    auto bytes = head_of(line, wkb_line_string);
     append(bytes, static_cast<std::uint32_t>(line.size()));
     for (const auto& point : line) {
         append(bytes, point.lon_deg);

@@ -11,6 +11,9 @@ void add_geometry_functions(Database& database);
 /// Encodes a line as GeoPackageBinary with its envelope, little endian.
 std::string geometry_of(std::span<const GeoPoint> line);
 
+/// Encodes a point in the same way.
+std::string geometry_of(const GeoPoint& point);
+
 /// Envelope of a geometry; `std::nullopt` if the geometry is empty or invalid.
 std::optional<GeoBox> box_of_geometry(std::string_view geometry);
 

@@ -59,16 +59,6 @@ constexpr std::string_view shut_values[] = {
     "use_sidepath",
 };
 
-template <std::size_t count>
-bool is_one_of(std::string_view value, const std::string_view (&values)[count]) {
-    return std::find(std::begin(values), std::end(values), value) != std::end(values);
-}
-
-std::string_view value(const OsmTags& tags, const char* key) {
-    const char* const found = tags(key);
-    return found == nullptr ? std::string_view{} : found;
-}
-
 std::string_view access_of(const OsmTags& tags) {
     for (const char* const key : {"motorcar", "motor_vehicle", "vehicle", "access"}) {
         if (const auto access = value(tags, key); !access.empty()) {

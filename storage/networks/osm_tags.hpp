@@ -2,14 +2,28 @@
 
 #include "mapping/network/road_network.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <string_view>
 
 namespace macadam {
 
 /// Returns the value of a key of an OSM way; null if the way lacks the key.
 using OsmTags = std::function<const char*(const char* key)>;
+
+/// Value of a key; "" if the way lacks the key.
+inline std::string_view value(const OsmTags& tags, const char* key) {
+    const char* const found = tags(key);
+    return found == nullptr ? std::string_view{} : found;
+}
+
+template <std::size_t count>
+bool is_one_of(std::string_view value, const std::string_view (&values)[count]) {
+    return std::ranges::find(values, value) != std::end(values);
+}
 
 /// Tests whether an ordinary car may drive on a way. Accepted classes: motorway to residential with
 /// their links, living streets, roads of unknown class, service roads, and tracks of grade1

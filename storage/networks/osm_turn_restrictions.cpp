@@ -14,16 +14,6 @@ constexpr std::string_view only_turns[] = {
     "only_left_turn", "only_right_turn", "only_straight_on", "only_u_turn"};
 constexpr std::string_view cars[] = {"motorcar", "motor_vehicle", "vehicle"};
 
-template <std::size_t count>
-bool is_one_of(std::string_view value, const std::string_view (&values)[count]) {
-    return std::find(std::begin(values), std::end(values), value) != std::end(values);
-}
-
-std::string_view value(const OsmTags& tags, const char* key) {
-    const char* const found = tags(key);
-    return found == nullptr ? std::string_view{} : found;
-}
-
 /// Tests whether cars are in a list such as `psv;motorcar`.
 bool names_cars(std::string_view list) {
     constexpr std::string_view between_words = "; ";

@@ -80,17 +80,17 @@ std::vector<std::string> track_names(const ErdHeader& header,
     if (names == std::vector<std::string>{"", ""}) {
         return {"left", "right"};
     }
-    auto told = names;
+    auto labels = names;
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (alone_with(names, i, 'l')) {
-            told[i] = "left";
+            labels[i] = "left";
         } else if (alone_with(names, i, 'r')) {
-            told[i] = "right";
+            labels[i] = "right";
         } else if (names[i].empty() || std::ranges::count(names, names[i]) > 1) {
-            told[i] = fmt::format("track_{}", i + 1);
+            labels[i] = fmt::format("track_{}", i + 1);
         }
     }
-    return told;
+    return labels;
 }
 
 /// Reads samples in sequence: one number per channel.

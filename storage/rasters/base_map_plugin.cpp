@@ -2,8 +2,6 @@
 
 #include "storage/rasters/raster_warper.hpp"
 
-#include <utility>
-
 namespace macadam {
 namespace {
 

@@ -12,7 +12,6 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace macadam {
 namespace {

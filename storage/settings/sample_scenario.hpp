@@ -1,7 +1,5 @@
 #pragma once
 
-#include "storage/settings/scenario_file.hpp"
-
 namespace macadam {
 
 /// Sample scenario with a comment on every key: five cars on existing roads. Its values are the

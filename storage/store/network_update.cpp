@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "mapping/transfer/transferred_passes.hpp"
 #include "storage/geopackage/geopackage.hpp"
+#include "storage/store/rows/event_row.hpp"
 #include "storage/store/rows/pass_writer.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/rows/segment_rowids.hpp"
@@ -90,7 +91,7 @@ std::vector<RoughnessCode> codes_in(std::string_view bytes) {
 class OldReadings {
 public:
     OldReadings(Database& database, double segment_length_m)
-        : segment_length_m_{segment_length_m},
+        : database_{&database}, segment_length_m_{segment_length_m},
           passes_{database.prepare(fmt::format(
               "SELECT old.way_id, old.direction, old.seq, pass.segment, {} FROM pass"
               " CROSS JOIN temp.old_segment AS old ON old.fid = pass.segment WHERE pass.trip = ?"
@@ -101,6 +102,13 @@ public:
               " trace.place_sd_mm, trace.iri, trace.iri_left FROM trace"
               " CROSS JOIN temp.old_segment AS old ON old.fid = trace.strip WHERE trace.trip = ?"
               " ORDER BY old.way_id, old.direction DESC, old.seq, trace.drive")},
+          events_{database.prepare(fmt::format(
+              "SELECT old.way_id, old.direction, old.seq, event.occurrence, {} FROM event"
+              " CROSS JOIN temp.old_segment AS old ON old.fid = event.segment WHERE event.trip = ?"
+              " ORDER BY old.way_id, old.direction DESC, old.seq, event.occurrence, event.number",
+              event_columns))},
+          remove_events_{database.prepare("DELETE FROM event WHERE trip = ? AND segment IN"
+                                          " (SELECT fid FROM temp.old_segment)")},
           remove_pass_{database.prepare(
               "DELETE FROM pass WHERE segment = ? AND trip = ? AND occurrence = ?")},
           remove_trace_{
@@ -108,6 +116,7 @@ public:
 
     TripPasses take(std::int64_t trip) {
         TripPasses readings;
+        take_events(trip, readings.events);
         std::vector<std::int64_t> rows; // rows of the passes' segments
         for (passes_.bind(trip); passes_.step();) {
             readings.passes.push_back(pass_in(passes_, 4, key_in(passes_, 0)));
@@ -136,9 +145,24 @@ public:
     }
 
 private:
+    void take_events(std::int64_t trip, std::vector<PassEvent>& events) {
+        for (events_.bind(trip); events_.step();) {
+            events.push_back(event_in(*database_,
+                                      events_,
+                                      4,
+                                      key_in(events_, 0),
+                                      static_cast<std::uint32_t>(events_.integer(3))));
+        }
+        events_.reset();
+        remove_events_.run(trip);
+    }
+
+    const Database* database_;
     double segment_length_m_;
     Statement passes_;
     Statement traces_;
+    Statement events_;
+    Statement remove_events_;
     Statement remove_pass_;
     Statement remove_trace_;
 };
@@ -154,7 +178,7 @@ MovedPasses move_readings(Database& database,
     std::size_t done = 0;
     for (const auto trip : trips) {
         const auto now = carried(old.take(trip), correspondences);
-        writer.write(trip, now.readings.passes, now.readings.traces);
+        writer.write(trip, now.readings.passes, now.readings.traces, now.readings.events);
         moved.carried += now.moved;
         moved.lost += now.lost;
         moved.now += now.readings.passes.size();
@@ -298,6 +322,7 @@ MovedPasses move_to_network(Database& database,
     rename_rows(database, correspondences, "published_until", "segment");
     rename_rows(database, correspondences, "published_pending", "segment");
     rename_rows(database, correspondences, "published_figure", "segment");
+    database.run("DELETE FROM published_event WHERE segment IN (SELECT fid FROM temp.old_segment)");
     move_valid_from(database, correspondences);
     remove_what_is_made_anew(database);
     database.run("DROP TABLE temp.old_segment");

@@ -157,8 +157,9 @@ bool RoadStore::contains_trip(const std::string& sha256) const {
 
 bool RoadStore::add_trip(const TripRecord& trip,
                          std::span<const Pass> passes,
-                         std::span<const RoughnessTrace> traces) {
-    const NewTrip one{&trip, passes, traces};
+                         std::span<const RoughnessTrace> traces,
+                         const std::optional<std::span<const PassEvent>>& events) {
+    const NewTrip one{&trip, passes, traces, false, events};
     return add_trips({&one, 1}).front();
 }
 
@@ -173,7 +174,7 @@ std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
     PassWriter writer{
         database, segments_per_chunk(impl_->settings.segment_length_m), Destination::kept};
     std::vector<bool> added;
-    for (const auto& [trip, passes, traces, readmit] : trips) {
+    for (const auto& [trip, passes, traces, readmit, events] : trips) {
         if (readmit) {
             unmark_forgotten(database, trip->sha256);
         }
@@ -181,7 +182,10 @@ std::vector<bool> RoadStore::add_trips(std::span<const NewTrip> trips) {
         if (added.back()) {
             const auto row = write_trip(database, *trip, impl_->pseudonym(trip->vehicle_id));
             write_row_reasons(database, row, trip->row_reasons);
-            writer.write(row, passes, traces);
+            writer.write(row, passes, traces, events.value_or(std::span<const PassEvent>{}));
+            if (events) {
+                database.prepare("INSERT INTO event_search VALUES (?)").run(row);
+            }
         }
     }
     writer.flush();

@@ -138,7 +138,8 @@ public:
     /// forgotten.
     bool add_trip(const TripRecord& trip,
                   std::span<const Pass> passes,
-                  std::span<const RoughnessTrace> traces = {});
+                  std::span<const RoughnessTrace> traces = {},
+                  const std::optional<std::span<const PassEvent>>& events = {});
 
     /// Adds many trips, which is faster: all of them or, on failure, none. \returns for each trip
     /// whether it is new.
@@ -171,7 +172,8 @@ public:
     /// discarded with this object. \returns false if there is no such trip.
     bool stage_trip(const TripRecord& trip,
                     std::span<const Pass> passes,
-                    std::span<const RoughnessTrace> traces);
+                    std::span<const RoughnessTrace> traces,
+                    const std::optional<std::span<const PassEvent>>& events = {});
 
     /// Begins a generation in which the staged trips replace their former results and the other
     /// trips are unchanged, in one transaction. Calibrated cars are recalibrated from the trips
@@ -228,6 +230,13 @@ public:
     void visit_summaries(const SegmentFilter& filter,
                          const std::function<void(const SegmentSummary&)>& visit) const;
 
+    /// Potholes and other events on the segments of a filter, fused over passes
+    /// (mapping/events/event_fusion.hpp), in the order of keys and along the way. With a period,
+    /// only passes within it are used, and count as passes over the place.
+    ///
+    /// \throws InputError  for a period of a publication, which has no events by month.
+    std::vector<EventRecord> events(const SegmentFilter& filter) const;
+
     /// Passes over a segment, in the order of (trip hash, occurrence).
     std::vector<HistoricPass> history(const SegmentKey& key) const;
 
@@ -237,6 +246,9 @@ public:
 
     /// Lengths with each direction counted, in the order of (highway, class from smooth to rough).
     std::vector<RoadClassLength> road_class_lengths() const;
+
+    /// Mean speed of the cars' passes over each segment, km/h; segments without one are missing.
+    std::map<SegmentKey, double> mean_speeds_kmh() const;
 
     /// Days with dated trips, in order.
     std::vector<DailyUsage> day_uses() const;

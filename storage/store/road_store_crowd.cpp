@@ -62,6 +62,8 @@ public:
                           " WHERE pass.trip = ? ORDER BY pass.t_ms, pass.segment")},
           erase_pass_{database.prepare(
               "DELETE FROM pass WHERE segment = ? AND trip = ? AND occurrence = ?")},
+          erase_events_{database.prepare(
+              "DELETE FROM event WHERE segment = ? AND trip = ? AND occurrence = ?")},
           move_passes_{database.prepare("UPDATE pass SET t_ms = t_ms - ?2 WHERE trip = ?1")},
           traces_{database.prepare("SELECT strip, drive FROM trace WHERE trip = ?")},
           erase_trace_{
@@ -85,6 +87,7 @@ public:
                 begin_ms = begin_ms.value_or(passes.passed[i].t_ms);
             } else {
                 erase_pass_.run(passes.rows[i].segment, trip.row, passes.rows[i].occurrence);
+                erase_events_.run(passes.rows[i].segment, trip.row, passes.rows[i].occurrence);
             }
         }
         erase_traces(trip.row, passes.rows, kept);
@@ -146,6 +149,7 @@ private:
     const PrivacyKey* key_;
     Statement select_;
     Statement erase_pass_;
+    Statement erase_events_;
     Statement move_passes_;
     Statement traces_;
     Statement erase_trace_;

@@ -115,6 +115,8 @@ void mark_segments(Database& database, std::int64_t trip) {
 void erase(Database& database, std::int64_t trip) {
     for (const char* const sql : {"DELETE FROM pass WHERE trip = ?",
                                   "DELETE FROM trace WHERE trip = ?",
+                                  "DELETE FROM event WHERE trip = ?",
+                                  "DELETE FROM event_search WHERE trip = ?",
                                   "DELETE FROM row_reason WHERE trip = ?",
                                   "DELETE FROM published_pending WHERE trip = ?",
                                   "DELETE FROM trip WHERE id = ?"}) {
@@ -132,8 +134,6 @@ constexpr const char* erase_changes =
     " AND segment.strip = dirty.strip)";
 
 constexpr const char* erase_cars_without_trips =
-    "DELETE FROM calibration WHERE NOT EXISTS"
-    " (SELECT 1 FROM trip WHERE trip.vehicle = calibration.vehicle);"
     "DELETE FROM vehicle WHERE NOT EXISTS (SELECT 1 FROM trip WHERE trip.vehicle = vehicle.id)";
 
 /// Lowers the recorded trip rows, because later trips may reuse the rows of deleted ones and are
@@ -201,6 +201,7 @@ std::size_t erase(Database& database, const KeptTrips& trips, std::int64_t segme
         erase(database, row);
         mark_forgotten(database, trip.sha256);
     }
+    erase_calibrations_without_trips(database);
     database.run(erase_cars_without_trips);
     database.run(free_rows_of_trips);
     return passes;
@@ -314,12 +315,13 @@ std::vector<CalibratedCar> RoadStore::calibrated_cars() const {
     std::vector<CalibratedCar> cars;
     while (select.step()) {
         if (const auto found = records.find(select.integer(0)); found != records.end()) {
-            const auto& [calibration, trips, passes] = found->second;
+            const auto& [calibration, trips, passes, periods] = found->second;
             cars.push_back({found->first,
                             select.text(1),
                             static_cast<std::size_t>(trips),
                             static_cast<std::size_t>(passes),
-                            calibration});
+                            calibration,
+                            periods});
         }
     }
     const auto places = places_of_cars(this->cars());

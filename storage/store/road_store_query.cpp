@@ -2,9 +2,9 @@
 #include "mapping/privacy/release_batches.hpp"
 #include "storage/store/fusion/chunk_states.hpp"
 #include "storage/store/road_store_impl.hpp"
+#include "storage/store/rows/segment_query.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/schema/network_rows.hpp"
-#include "storage/store/segment_query.hpp"
 #include "storage/text/case_folding.hpp"
 
 #include <fmt/format.h>

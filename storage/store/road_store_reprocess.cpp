@@ -30,16 +30,20 @@ CREATE TEMP TABLE IF NOT EXISTS staged_trip (
 );
 CREATE TEMP TABLE IF NOT EXISTS staged_pass AS SELECT * FROM main.pass WHERE 0;
 CREATE TEMP TABLE IF NOT EXISTS staged_trace AS SELECT * FROM main.trace WHERE 0;
+CREATE TEMP TABLE IF NOT EXISTS staged_event AS SELECT * FROM main.event WHERE 0;
+CREATE TEMP TABLE IF NOT EXISTS staged_event_search AS SELECT * FROM main.event_search WHERE 0;
 CREATE TEMP TABLE IF NOT EXISTS staged_reason AS SELECT * FROM main.row_reason WHERE 0;
 CREATE INDEX IF NOT EXISTS temp.staged_pass_of_trip ON staged_pass(trip);
 CREATE INDEX IF NOT EXISTS temp.staged_pass_of_segment ON staged_pass(segment);
 CREATE INDEX IF NOT EXISTS temp.staged_trace_of_trip ON staged_trace(trip);
 CREATE INDEX IF NOT EXISTS temp.staged_trace_of_strip ON staged_trace(strip);
+CREATE INDEX IF NOT EXISTS temp.staged_event_of_trip ON staged_event(trip);
 CREATE INDEX IF NOT EXISTS temp.staged_reason_of_trip ON staged_reason(trip);
 )";
 
 constexpr const char* drop_staging_tables =
     "DROP TABLE temp.staged_trip; DROP TABLE temp.staged_pass; DROP TABLE temp.staged_trace;"
+    "DROP TABLE temp.staged_event; DROP TABLE temp.staged_event_search;"
     "DROP TABLE temp.staged_reason;";
 
 /// Fusion is needed for both the old and the new passes of the trips.
@@ -50,9 +54,14 @@ INSERT OR IGNORE INTO strip_dirty
     SELECT strip FROM trace WHERE trip IN (SELECT trip FROM staged_trip);
 DELETE FROM pass WHERE trip IN (SELECT trip FROM staged_trip);
 DELETE FROM trace WHERE trip IN (SELECT trip FROM staged_trip);
+DELETE FROM event WHERE trip IN (SELECT trip FROM staged_trip);
+DELETE FROM event_search WHERE trip IN (SELECT trip FROM staged_trip);
 DELETE FROM row_reason WHERE trip IN (SELECT trip FROM staged_trip);
 INSERT INTO pass SELECT * FROM staged_pass WHERE trip IN (SELECT trip FROM staged_trip);
 INSERT INTO trace SELECT * FROM staged_trace WHERE trip IN (SELECT trip FROM staged_trip);
+INSERT INTO event SELECT * FROM staged_event WHERE trip IN (SELECT trip FROM staged_trip);
+INSERT INTO event_search
+    SELECT * FROM staged_event_search WHERE trip IN (SELECT trip FROM staged_trip);
 INSERT INTO row_reason SELECT * FROM staged_reason WHERE trip IN (SELECT trip FROM staged_trip);
 INSERT OR IGNORE INTO segment_dirty
     SELECT segment FROM pass WHERE trip IN (SELECT trip FROM staged_trip);
@@ -82,6 +91,8 @@ void stage_record(Database& database, std::int64_t row, const TripRecord& trip) 
              std::int64_t{read_generation(database)});
     for (const char* const sql : {"DELETE FROM staged_pass WHERE trip = ?",
                                   "DELETE FROM staged_trace WHERE trip = ?",
+                                  "DELETE FROM staged_event WHERE trip = ?",
+                                  "DELETE FROM staged_event_search WHERE trip = ?",
                                   "DELETE FROM staged_reason WHERE trip = ?"}) {
         database.prepare(sql).run(row);
     }
@@ -154,7 +165,8 @@ Reprocessed swap(Database& database) {
 
 bool RoadStore::stage_trip(const TripRecord& trip,
                            std::span<const Pass> passes,
-                           std::span<const RoughnessTrace> traces) {
+                           std::span<const RoughnessTrace> traces,
+                           const std::optional<std::span<const PassEvent>>& events) {
     auto& database = impl_->database;
     database.run(staging_tables);
     Transaction aside{database, Transaction::Kind::read}; // no writes to the database
@@ -165,7 +177,10 @@ bool RoadStore::stage_trip(const TripRecord& trip,
     stage_record(database, *row, trip);
     PassWriter writer{
         database, segments_per_chunk(impl_->settings.segment_length_m), Destination::staged};
-    writer.write(*row, passes, traces);
+    writer.write(*row, passes, traces, events.value_or(std::span<const PassEvent>{}));
+    if (events) {
+        database.prepare("INSERT INTO staged_event_search VALUES (?)").run(*row);
+    }
     writer.flush();
     aside.commit();
     return true;

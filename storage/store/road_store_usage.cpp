@@ -33,6 +33,23 @@ std::vector<RoadClassLength> RoadStore::road_class_lengths() const {
     return lengths;
 }
 
+std::map<SegmentKey, double> RoadStore::mean_speeds_kmh() const {
+    constexpr double kmh_of_mmps = 3.6e-3;
+    auto select = impl_->database.prepare(
+        "SELECT way_id, direction, seq, mean FROM (SELECT pass.segment, avg(speed_mmps) AS mean"
+        " FROM pass CROSS JOIN trip ON trip.id = pass.trip"
+        " WHERE trip.reference_ppm IS NULL AND speed_mmps > 0 GROUP BY pass.segment) AS driven"
+        " CROSS JOIN segment ON segment.fid = driven.segment");
+    std::map<SegmentKey, double> speeds_kmh;
+    while (select.step()) {
+        const SegmentKey key{select.integer(0),
+                             select.text(1) == "forward",
+                             static_cast<std::uint32_t>(select.integer(2))};
+        speeds_kmh[key] = kmh_of_mmps * select.real(3);
+    }
+    return speeds_kmh;
+}
+
 std::vector<DailyUsage> RoadStore::day_uses() const {
     auto select = impl_->database.prepare(
         "SELECT t0_utc_ms, (SELECT count(*) FROM pass WHERE pass.trip = trip.id) FROM trip"

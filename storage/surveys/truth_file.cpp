@@ -104,6 +104,21 @@ std::string truth_rows(std::span<const SegmentTruth> truth) {
     return rows;
 }
 
+std::string pothole_truth_rows(std::span<const PotholeTruth> truth) {
+    std::string rows;
+    for (const auto& hole : truth) {
+        fmt::format_to(std::back_inserter(rows),
+                       "{},{},{:.3f},{:.3f},{:.1f},{}\n",
+                       hole.way_id,
+                       hole.forward ? "forward" : "backward",
+                       hole.at_m,
+                       hole.length_m,
+                       1000 * hole.depth_m,
+                       hole.is_left ? "left" : "right");
+    }
+    return rows;
+}
+
 std::vector<SegmentTruth> read_truth(const std::filesystem::path& file) {
     TextLines lines{decompressed(file_bytes(file), file.string()), file.string()};
     const auto header = lines.next();

@@ -1,6 +1,7 @@
 #include "storage/tiles/tile_archive.hpp"
 
 #include "estimator/common/error.hpp"
+#include "mapping/geometry/hilbert_curve.hpp"
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/atomic/atomic_file_set.hpp"
 #include "storage/atomic/atomic_folder.hpp"
@@ -39,23 +40,8 @@ const std::filesystem::path& expect_known_suffix(const std::filesystem::path& fi
 // ------------------------------------------------------------------------------------- contents
 
 std::uint64_t tile_number(const TileId& tile) {
-    // Tiles of all lower zooms.
-    std::uint64_t number = ((std::uint64_t{1} << (2U * tile.zoom)) - 1) / 3;
-    std::uint64_t x = tile.x, y = tile.y;
-    for (auto half = (std::uint64_t{1} << tile.zoom) / 2; half > 0; half /= 2) {
-        const bool east = (x & half) != 0, south = (y & half) != 0;
-        number += half * half * ((east ? 3U : 0U) ^ (south ? 1U : 0U));
-        x &= half - 1;
-        y &= half - 1;
-        if (!south) { // the curve is mirrored within this quarter
-            if (east) {
-                x = half - 1 - x;
-                y = half - 1 - y;
-            }
-            std::swap(x, y);
-        }
-    }
-    return number;
+    const auto of_lower_zooms = ((std::uint64_t{1} << (2U * tile.zoom)) - 1) / 3;
+    return of_lower_zooms + hilbert_distance(tile.x, tile.y, static_cast<unsigned>(tile.zoom));
 }
 
 std::uint32_t TileIndex::content_of(std::string_view bytes) {
@@ -69,7 +55,7 @@ std::uint32_t TileIndex::content_of(std::string_view bytes) {
     }
     assert(places_.size() < std::numeric_limits<std::uint32_t>::max());
     const auto content = static_cast<std::uint32_t>(places_.size());
-    places_.push_back(spool_.append(bytes));
+    places_.push_back(temp_file_.append(bytes));
     by_hash_.emplace(hash, content);
     return content;
 }

@@ -114,7 +114,7 @@ std::vector<RoadPart> road_parts_in(std::string_view bytes) {
 
 void TileBuckets::settle() {
     for (const auto& [tile, bytes] : open_) {
-        places_[tile].push_back(spool_.append(bytes));
+        places_[tile].push_back(temp_file_.append(bytes));
     }
     open_.clear();
     open_bytes_ = 0;
@@ -134,7 +134,7 @@ std::string TileBuckets::read(const TileId& tile) const {
     std::string bytes;
     if (const auto found = places_.find(tile); found != places_.end()) {
         for (const auto& place : found->second) {
-            bytes += spool_.read(place);
+            bytes += temp_file_.read(place);
         }
     }
     return bytes;

@@ -27,7 +27,7 @@ std::vector<RoadPart> road_parts_in(std::string_view bytes);
 class TileBuckets {
 public:
     /// \param beside  see TempFile.
-    explicit TileBuckets(const std::filesystem::path& beside) : spool_{beside} {}
+    explicit TileBuckets(const std::filesystem::path& beside) : temp_file_{beside} {}
 
     /// \param item  appended to the bytes of the tile.
     template <typename Item>
@@ -50,12 +50,12 @@ public:
     /// Bytes of a tile; "" if it is empty.
     std::string read(const TileId& tile) const;
 
-    const std::filesystem::path& beside() const { return spool_.beside(); }
+    const std::filesystem::path& beside() const { return temp_file_.beside(); }
 
 private:
     static constexpr std::size_t max_open_bytes = std::size_t{16} << 20U;
 
-    TempFile spool_;
+    TempFile temp_file_;
     std::map<TileId, std::string> open_;
     std::size_t open_bytes_ = 0;
     std::map<TileId, std::vector<ByteRange>> places_;

@@ -31,7 +31,7 @@ std::uint64_t tile_number(const TileId& tile);
 /// of their numbers, and contents are numbered by first appearance.
 class TileIndex {
 public:
-    explicit TileIndex(const std::filesystem::path& beside) : spool_{beside} {}
+    explicit TileIndex(const std::filesystem::path& beside) : temp_file_{beside} {}
 
     void add(const TileId& tile, std::string_view bytes);
 
@@ -41,13 +41,13 @@ public:
     const std::vector<TileEntry>& entries() const { return entries_; }
     std::size_t count() const { return places_.size(); }
     std::uint32_t size_of(std::size_t content) const { return places_[content].size; }
-    std::string bytes_of(std::size_t content) const { return spool_.read(places_[content]); }
-    std::uint64_t bytes() const { return spool_.size(); }
+    std::string bytes_of(std::size_t content) const { return temp_file_.read(places_[content]); }
+    std::uint64_t bytes() const { return temp_file_.size(); }
 
 private:
     std::uint32_t content_of(std::string_view bytes);
 
-    TempFile spool_;
+    TempFile temp_file_;
     std::vector<TileEntry> entries_;
     std::vector<ByteRange> places_;
     std::unordered_multimap<std::size_t, std::uint32_t> by_hash_;

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Measures the program and its parts and writes what was found as Markdown.
 
-usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [NAME...]
+usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [--cars N] [NAME...]
 
 BUILD_DIR      a release build with the target `benches`
 WORK_DIR       where the measured data is made and kept between runs
 --keep DOC.md  also puts what was measured in the place of those sections of a document
 --kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
-NAME           start process estimation match store render vector_tile; all when none is named
+--cars N       largest fleet for `calibration`, 2,500 unless given; each car has 1,000 passes
+NAME           start process estimation match store calibration render vector_tile; all when none is named
 
 Machines are shared and noisy. So what is to be compared runs turn by turn in one go, the figure is
 the median of the turns, and the ratio is what counts. CPU seconds are user and system together.
@@ -273,7 +274,7 @@ PARTS = {
                    "driver that makes them from a GeoPackage of the same segments, which holds them ready.",
 }
 TITLES = {"start": "Start", "process": "Whole commands", "estimation": "Estimation", "match": "Matching", "store": "Store",
-          "render": "Picture", "vector_tile": "Vector tiles"}
+          "calibration": "Calibration", "render": "Picture", "vector_tile": "Vector tiles"}
 
 
 def kept(document, sections):
@@ -341,7 +342,30 @@ def vector_tiles(build, work):
         "gzipped as in files.\n\n" + head + rows
 
 
+def calibration(build, work, macadam, cars):
+    """`calibrate` and `info` of fleets that double, to `cars`."""
+    rows = []
+    for fleet in (cars // 8, cars // 4, cars // 2, cars):
+        file = work / f"fleet-{fleet}.gpkg"
+        for left in work.glob(f"{file.name}*"):
+            left.unlink()
+        say(f"making {file}")
+        made = subprocess.run([build / "tests" / "bench" / "calibration_fleet", file, str(round(fleet ** 0.5))],
+                              stdout=subprocess.PIPE, check=True, text=True).stdout.split(", ")
+        done, shown = run([macadam, "calibrate", file, "--quiet"]), run([macadam, "info", file])
+        passes = int(made[1].split()[0])
+        rows.append([made[0].split()[0], f"{passes:,}", f"{done.wall_s:.1f}", f"{done.cpu_s:.1f}", f"{1e6 * done.cpu_s / passes:.1f}",
+                     f"{done.peak_mb:.0f}", f"{shown.wall_s:.1f}", f"{shown.peak_mb:.0f}"])
+        file.unlink()
+    return "`calibrate` of fleets that double, fusion of all segments included: ten trips of 100 passes for each car near its home, some " + \
+        "50 passes for each segment, one car in a hundred changes (tests/bench/calibration_fleet.cpp; `./run bench --cars 10000 " + \
+        "calibration`). Then `info`.\n\n" + table(
+            ["cars", "passes", "wall s", "CPU s", "CPU µs a pass", "peak MB", "info, wall s", "info, peak MB"], rows)
+
+
 def measured(name, arguments, macadam):
+    if name == "calibration":
+        return calibration(arguments.build, arguments.work, macadam, arguments.cars)
     if name == "start":
         return start(macadam, arguments.work)
     if name == "process":
@@ -366,6 +390,7 @@ def main():
         parser.add_argument(name, type=lambda word: Path(word).resolve())
     parser.add_argument("--keep", type=Path)
     parser.add_argument("--kubicka", type=Path)
+    parser.add_argument("--cars", type=int, default=2500)
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_intermixed_args()
     if unknown := set(arguments.names) - set(TITLES):

@@ -8,7 +8,7 @@
 #include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/store/road_store.hpp"
-#include "support/roads/texture.hpp"
+#include "support/roads/roughness_pattern.hpp"
 #include "support/roads/town.hpp"
 
 #include <benchmark/benchmark.h>
@@ -39,9 +39,9 @@ std::vector<Pass> passes_over(const std::vector<SegmentKey>& keys) {
 
 /// What trip `number` reads of a road of that length, some metres off its place.
 RoughnessTrace trace_of_trip(int number, double length_m) {
-    static const auto texture = testing::texture(1000, 1);
+    static const auto pattern = testing::roughness_pattern(1000, 1);
     const double lag_m = (number * 37) % 60 / 10.0 - 3;
-    return testing::read_texture(texture,
+    return testing::read_pattern(pattern,
                                  {.from_m = -10,
                                   .to_m = std::ceil(length_m) + 10,
                                   .lag_m = [=](double) { return lag_m - 20; },

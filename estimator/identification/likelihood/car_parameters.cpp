@@ -7,10 +7,6 @@
 namespace macadam {
 namespace {
 
-// Dry friction of a suspension: 10 to 60 N in passenger cars of usual_mass_kg.
-constexpr double usual_friction_n = 30;
-constexpr double usual_mass_kg = 1400;
-
 constexpr double usual_rebound_excess = 0.3;
 constexpr double max_rebound_excess = 0.9;
 
@@ -132,8 +128,7 @@ FittedCar expected_car(const Vehicle& vehicle) {
                   .pitch_arm_m = usual_pitch_arm_m,
                   .roll_arm_m = usual_roll_arm_m};
     auto& half_car = car.vehicle.half_car;
-    half_car.friction_n =
-        half_car.friction_n.value_or(usual_friction_n * half_car.ms_kg / usual_mass_kg);
+    half_car.friction_n = half_car.friction_n.value_or(usual_friction_n(half_car).mean);
     return car;
 }
 

@@ -133,12 +133,9 @@ Pair Smoother::disturbance(std::ptrdiff_t cell, const Increment& q, Vector& r) c
             double& at = r[layout_.place(cell, side)];
             at_station[side] = at;
             at = 0;
-            const RoadProcessCoefficients& by = forward_.wander[index][side];
-            if (index > 0) {
-                r[layout_.place(cell - 1, side)] += by.one * at_station[side];
-            }
-            if (index > 1) {
-                r[layout_.place(cell - 2, side)] += by.two * at_station[side];
+            std::ptrdiff_t before = cell;
+            for (const double weight : forward_.processes[side].lags(index)) {
+                r[layout_.place(--before, side)] += weight * at_station[side];
             }
         }
     }

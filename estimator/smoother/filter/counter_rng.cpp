@@ -1,16 +1,15 @@
 #include "estimator/smoother/filter/counter_rng.hpp"
 
+#include "estimator/common/splitmix.hpp"
+
 #include <cmath>
 #include <numbers>
 
 namespace macadam {
 namespace {
 
-std::uint64_t mixed(std::uint64_t x) { // splitmix64's finalizer
-    x += 0x9E3779B97F4A7C15U;
-    x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
-    x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
-    return x ^ (x >> 31U);
+std::uint64_t mixed(std::uint64_t x) {
+    return splitmix_mixed(x + splitmix_gamma);
 }
 
 double unit(std::uint64_t bits) { // in (0, 1]

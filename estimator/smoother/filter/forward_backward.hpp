@@ -9,7 +9,7 @@ namespace macadam {
 /// Result of the Kalman filter (forward pass) in the form that the backward pass needs.
 struct FilterResult {
     StateLayout layout;
-    std::vector<std::array<RoadProcessCoefficients, 2>> wander{};
+    std::array<RoadProcess, 2> processes; ///< of the mean, of half the difference
     std::vector<SampleOrder> events{};
     std::vector<std::ptrdiff_t> last_before{}; ///< station of the window before each event
     std::ptrdiff_t last_cell = 0;              ///< ... and at the end

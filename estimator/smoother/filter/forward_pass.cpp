@@ -62,7 +62,7 @@ public:
            SmootherMemory memory)
         : passages_{passages}, grid_{grid}, prior_{prior}, seed_{seed},
           pass_{.layout = layout_of(passages, grid),
-                .wander = wander_of(prior, grid),
+                .processes = road_processes(prior, grid.cell_m),
                 .events = events_of(passages, grid.cell_m)},
           size_{pass_.layout.size}, p_(size_ * size_), moved_(states * size_), gain_(size_),
           estimate_(size_), error_(size_) {
@@ -80,9 +80,8 @@ private:
     std::size_t index(std::ptrdiff_t cell) const {
         return static_cast<std::size_t>(cell - grid_.first_cell);
     }
-    /// Returns the station two before, or the previous one near the start, where its weight is 0.
-    std::ptrdiff_t two_before(std::ptrdiff_t cell) const {
-        return index(cell) < 2 ? cell - 1 : cell - 2;
+    std::span<const double> lags(std::ptrdiff_t cell, std::size_t side) const {
+        return pass_.processes[side].lags(index(cell));
     }
     double draw(std::uint64_t what, const SampleOrder& event, std::size_t which) const {
         return counter_normal(seed_,
@@ -163,19 +162,21 @@ void Filter::append(std::ptrdiff_t cell) {
     const auto& layout = pass_.layout;
     const Increment& q = prior_.increments[index(cell)];
     const Pair w = draw_increment(cell, q);
-    const auto& by = pass_.wander[index(cell)];
     for (std::size_t side = 0; side < 2; ++side) {
         if (!layout.side[side]) {
             continue;
         }
         const std::size_t at = layout.place(cell, side);
-        const std::size_t one = layout.place(cell - 1, side);
-        const std::size_t two = layout.place(two_before(cell), side);
-        wide::copy_times(row(at), by[side].one, row(one), size_);
-        wide::add(row(at), by[side].two, row(two), size_);
-        estimate_[at] = by[side].one * estimate_[one] + by[side].two * estimate_[two];
-        error_[at] =
-            by[side].one * error_[one] + by[side].two * error_[two] + (side == 0 ? w.mean : w.half);
+        std::fill_n(row(at), size_, 0.0);
+        estimate_[at] = 0;
+        error_[at] = side == 0 ? w.mean : w.half;
+        std::ptrdiff_t before = cell;
+        for (const double weight : lags(cell, side)) {
+            const std::size_t from = layout.place(--before, side);
+            wide::add(row(at), weight, row(from), size_);
+            estimate_[at] += weight * estimate_[from];
+            error_[at] += weight * error_[from];
+        }
     }
     correlate(cell, q);
 }
@@ -184,16 +185,16 @@ void Filter::append(std::ptrdiff_t cell) {
 /// computed: their own columns still belong to the station that left.
 void Filter::correlate(std::ptrdiff_t cell, const Increment& q) {
     const auto& layout = pass_.layout;
-    const auto& by = pass_.wander[index(cell)];
     const double more[2][2] = {{q.mean, q.cross}, {q.cross, q.half}};
     double among[2][2] = {};
     for (std::size_t a = 0; a < 2; ++a) {
         for (std::size_t b = 0; b < 2; ++b) {
             if (layout.side[a] && layout.side[b]) {
                 const double* made = row(layout.place(cell, a));
-                const double one = made[layout.place(cell - 1, b)];
-                const double two = made[layout.place(two_before(cell), b)];
-                among[a][b] = by[b].one * one + by[b].two * two;
+                std::ptrdiff_t before = cell;
+                for (const double weight : lags(cell, b)) {
+                    among[a][b] += weight * made[layout.place(--before, b)];
+                }
             }
         }
     }

@@ -5,20 +5,22 @@
 
 namespace macadam {
 
-std::vector<std::array<RoadProcessCoefficients, 2>> wander_of(const RoadPrior& prior,
-                                                              const RoadGrid& grid) {
-    const double mean_keep = std::exp(-grid.cell_m / prior.mean_length_m);
-    const double half_keep = std::exp(-grid.cell_m / prior.half_length_m);
-    const double colour = prior.colour;
-    std::vector<std::array<RoadProcessCoefficients, 2>> wander(
-        grid.cells,
-        std::array{RoadProcessCoefficients{mean_keep + colour, -mean_keep * colour},
-                   RoadProcessCoefficients{half_keep, 0}});
-    // The change before the first station is not known.
-    for (std::size_t i = 0; i < std::min<std::size_t>(2, grid.cells); ++i) {
-        wander[i] = {RoadProcessCoefficients{mean_keep, 0}, RoadProcessCoefficients{half_keep, 0}};
+RoadProcess::RoadProcess(double keep, const std::vector<double>& changes) {
+    by_known_.emplace_back();
+    for (std::size_t known = 0; known <= changes.size(); ++known) {
+        std::vector<double> lags(known + 1);
+        lags[0] = keep;
+        for (std::size_t i = 0; i < known; ++i) {
+            lags[i] += changes[i];
+            lags[i + 1] -= keep * changes[i];
+        }
+        by_known_.push_back(std::move(lags));
     }
-    return wander;
+}
+
+std::array<RoadProcess, 2> road_processes(const RoadPrior& prior, double cell_m) {
+    return {RoadProcess{std::exp(-cell_m / prior.mean_length_m), prior.change_weights},
+            RoadProcess{std::exp(-cell_m / prior.half_length_m), {}}};
 }
 
 Increment first_increment(const RoadPrior& prior, const RoadGrid& grid) {
@@ -35,16 +37,17 @@ Pair drawn_increment(const Increment& q, double one, double two) {
 }
 
 std::vector<Pair> profile_of(std::span<const Pair> increments_m,
-                             std::span<const std::array<RoadProcessCoefficients, 2>> wander) {
-    std::vector<Pair> profile(increments_m.size());
-    Pair before;
-    Pair at;
-    for (std::size_t i = 0; i < increments_m.size(); ++i) {
-        const auto [mean, half] = wander[i];
-        const Pair next{mean.one * at.mean + mean.two * before.mean + increments_m[i].mean,
-                        half.one * at.half + half.two * before.half + increments_m[i].half};
-        before = at;
-        profile[i] = at = next;
+                             const std::array<RoadProcess, 2>& processes) {
+    std::vector<Pair> profile(increments_m.begin(), increments_m.end());
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const auto mean = processes[0].lags(i);
+        for (std::size_t k = 0; k < mean.size(); ++k) {
+            profile[i].mean += mean[k] * profile[i - 1 - k].mean;
+        }
+        const auto half = processes[1].lags(i);
+        for (std::size_t k = 0; k < half.size(); ++k) {
+            profile[i].half += half[k] * profile[i - 1 - k].half;
+        }
     }
     return profile;
 }

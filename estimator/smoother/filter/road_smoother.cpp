@@ -14,8 +14,8 @@ SmoothedRoad smooth_road(std::span<const DriveRecord> passages,
     road.log_likelihood = forward.log_likelihood;
     road.innovation = std::move(forward.innovation);
     road.log_variance = std::move(forward.log_variance);
-    road.profile_m = profile_of(road.increment_m, forward.wander);
-    road.perturbation_m = profile_of(road.perturbed_m, forward.wander);
+    road.profile_m = profile_of(road.increment_m, forward.processes);
+    road.perturbation_m = profile_of(road.perturbed_m, forward.processes);
     memory = std::move(forward.memory);
     return road;
 }

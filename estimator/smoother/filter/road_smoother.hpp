@@ -14,10 +14,9 @@ struct Increment {
 /// with a correlation length.
 struct RoadPrior {
     std::vector<Increment> increments; ///< one per station of the grid
-    /// Correlation of consecutive changes, in (-1, 1): above 0 the spectrum of elevation falls
-    /// faster than that of a random walk (waviness above 2), below 0 slower. It applies to the
-    /// mean; half the difference remains a random walk.
-    double colour = 0;
+    /// Autoregression of the changes of the mean: weights of the changes at the stations before,
+    /// nearest first; empty: a random walk (waviness 2). Half the difference remains a random walk.
+    std::vector<double> change_weights{};
     double mean_length_m = 30; ///< corner at 190 m, where the golden car has no response
     double half_length_m = 4;  ///< long waves are common to both tracks
 };

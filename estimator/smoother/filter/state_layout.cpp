@@ -1,5 +1,7 @@
 #include "estimator/smoother/filter/state_layout.hpp"
 
+#include "estimator/smoother/filter/road_process.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +31,7 @@ std::array<bool, states> live_states(const DriveRecord& passage) {
 }
 
 /// Returns the number of stations held at once: those under the longest car and its travel in a
-/// step.
+/// step, and the memory of the road.
 std::size_t window_of(std::span<const DriveRecord> passages, double cell_m) {
     double longest_m = 0;
     for (const auto& passage : passages) {
@@ -40,7 +42,7 @@ std::size_t window_of(std::span<const DriveRecord> passages, double cell_m) {
         const auto& car = passage.cars.front().car;
         longest_m = std::max(longest_m, car.front_m - car.rear_m + step_m);
     }
-    return static_cast<std::size_t>(std::ceil(longest_m / cell_m)) + 3;
+    return std::max(static_cast<std::size_t>(std::ceil(longest_m / cell_m)) + 3, max_road_lags + 1);
 }
 
 StateLayout::Car

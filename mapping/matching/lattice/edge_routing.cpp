@@ -1,14 +1,14 @@
 #include "mapping/matching/lattice/edge_routing.hpp"
 
+#include "estimator/common/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace macadam {
 namespace {
 
-constexpr double rad_per_deg = std::numbers::pi / 180;
 constexpr std::size_t first_labels = 1024;
 constexpr std::size_t most_kept = 1'000'000; // cached edges, 20 MB
 constexpr double dead_end_share = 0.25;      // of the cost of a U-turn, where there is no other way

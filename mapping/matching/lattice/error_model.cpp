@@ -1,5 +1,8 @@
 #include "mapping/matching/lattice/error_model.hpp"
 
+#include "estimator/common/angle.hpp"
+#include "estimator/common/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,8 +15,6 @@
 namespace macadam {
 namespace {
 
-constexpr double rad_per_deg = std::numbers::pi / 180;
-
 // Position errors are correlated from sample to sample, so one sample carries much less information
 // than its error suggests: hence an sd of several times the median distance.
 constexpr std::size_t asked_samples = 60;
@@ -21,7 +22,6 @@ constexpr double sd_per_median = 5.5;
 constexpr double usual_m = 30; // hardly any position lies farther from its road
 constexpr double best_share = 0.5;
 constexpr double sample_weight = 0.75;
-constexpr double normal_sd_per_median = 1.4826;          // of absolute normal errors
 constexpr double min_close_sd_m = 3;                     // maps have errors too
 constexpr double farthest_lane_m = 20;                   // from a road's line
 constexpr double lane_doubt = 8;                         // weight of the prior, in samples
@@ -149,13 +149,6 @@ std::optional<Beside> beside(const MatchObservations& positions,
     return {};
 }
 
-/// \param values  at least one.
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Estimates the lane offset on roads of one kind, shrunk towards 0 if samples are few.
 double lane_m(std::span<const Beside> besides, bool two_way) {
     std::vector<double> right_m;
@@ -197,7 +190,7 @@ RoadSpread road_spread(const MatchObservations& positions,
     }
     const double min_m = best_share * config.emission_sd_m;
     return {std::clamp(sd_per_median * median(from_line_m), min_m, config.emission_sd_m),
-            std::max(min_close_sd_m, normal_sd_per_median * median(from_lane_m)),
+            std::max(min_close_sd_m, normal_sd_per_mad * median(from_lane_m)),
             oneway_m,
             two_way_m};
 }

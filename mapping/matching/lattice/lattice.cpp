@@ -1,5 +1,6 @@
 #include "mapping/matching/lattice/lattice.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "mapping/matching/lattice/off_network.hpp"
 #include "mapping/matching/lattice/posterior.hpp"
 
@@ -27,7 +28,7 @@ constexpr std::size_t widest_far_beam = 5; // if each state needs a long search
 constexpr double far_m = 1000;
 
 constexpr double fit_sds = 2; // lateral tolerance of a road that fits
-constexpr double fit_course_sd_rad = 15 * std::numbers::pi / 180;
+constexpr double fit_course_sd_rad = 15 * rad_per_deg;
 constexpr double farthest_fit_m = 20;
 constexpr double fit_without_course_nats = 1.2; // a near road may lead another way
 

@@ -1,17 +1,15 @@
 #include "mapping/matching/lattice/observations.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "mapping/matching/lattice/dead_reckoning.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 namespace macadam {
 namespace {
-
-constexpr double rad_per_deg = std::numbers::pi / 180;
 
 constexpr double worst_radius_m = 100;      // a worse fix could be on any road of the quarter
 constexpr double fastest_mps = 90;          // faster than any car

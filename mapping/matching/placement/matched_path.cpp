@@ -3,7 +3,6 @@
 #include "mapping/matching/placement/path_ends.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 namespace macadam {
 namespace {

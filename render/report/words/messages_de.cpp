@@ -156,6 +156,38 @@ constexpr std::array messages{
     Message{"map.scale", "{length}, Norden oben"},
     Message{"map.remark", "Eine dünne Linie hat wenige Überfahrten oder ein weites Intervall."},
 
+    Message{"event", "Schlaglöcher und andere Ereignisse"},
+    Message{"event.about",
+            "Ereignisse werden im Straßenprofil jeder Überfahrt gesucht. Aufgeführt ist, worin "
+            "mindestens zwei Überfahrten und ein Drittel aller seit der ersten Meldung "
+            "übereinstimmen."},
+    Message{"event.found.one", "{count} Ereignis wurde gefunden;"},
+    Message{"event.found.other", "{count} Ereignisse wurden gefunden;"},
+    Message{"event.listed.one", "das größte ist aufgeführt."},
+    Message{"event.listed.other", "die größten {count} sind aufgeführt."},
+    Message{"event.caption", "Ereignisse, die größten zuerst"},
+    Message{"event.remark",
+            "Größe: Tiefe eines Schlaglochs, Höhe der anderen, ± ihre Standardabweichung. Wo die "
+            "Fahrzeuge die Radspuren nicht unterscheiden, ist es das Mittel beider Spuren: Ein "
+            "Loch in einer Spur ist bis zu doppelt so tief. Position: Breite, Länge. "
+            "Überfahrten: Anzahl derer, die das Ereignis melden, von allen dort durchsuchten."},
+    Message{"event.kind", "Art"},
+    Message{"event.severity", "Schwere"},
+    Message{"event.size_mm", "Größe, mm"},
+    Message{"event.chainage", "Station"},
+    Message{"event.position", "Position"},
+    Message{"event.last_seen", "Zuletzt"},
+    Message{"event.pothole", "Schlagloch"},
+    Message{"event.bump", "Erhebung"},
+    Message{"event.joint", "Fuge"},
+    Message{"event.rail", "Bahnübergang"},
+    Message{"event.low", "gering"},
+    Message{"event.moderate", "mittel"},
+    Message{"event.high", "hoch"},
+    Message{"event.share", "{passes} von {over}"},
+    Message{"event.place", "Weg {way}, {at} m"},
+    Message{"event.place_osm", "OSM-Weg {way}, {at} m"},
+
     Message{"worst", "Schlechteste Stellen"},
     Message{"worst.none",
             "Keine Stelle von mindestens {least} m hat einen mittleren IRI über {border}."},

@@ -155,6 +155,37 @@ constexpr std::array messages{
     Message{"map.scale", "{length}, north up"},
     Message{"map.remark", "A thin line has few passes or a wide interval."},
 
+    Message{"event", "Potholes and other events"},
+    Message{"event.about",
+            "Events are found in the road profile of each pass. They are listed if at least two "
+            "passes and a third of all passes since the first report agree."},
+    Message{"event.found.one", "{count} event was found;"},
+    Message{"event.found.other", "{count} events were found;"},
+    Message{"event.listed.one", "the largest is listed."},
+    Message{"event.listed.other", "the largest {count} are listed."},
+    Message{"event.caption", "Events, largest first"},
+    Message{"event.remark",
+            "Size: depth of a pothole, height of the others, ± its standard deviation. Where the "
+            "cars do not tell the wheel tracks apart it is the mean of both tracks: a hole in "
+            "one track is up to twice as deep. Position: latitude, longitude. Passes: those that "
+            "report the event, of all searched there."},
+    Message{"event.kind", "Kind"},
+    Message{"event.severity", "Severity"},
+    Message{"event.size_mm", "Size, mm"},
+    Message{"event.chainage", "Chainage"},
+    Message{"event.position", "Position"},
+    Message{"event.last_seen", "Last seen"},
+    Message{"event.pothole", "Pothole"},
+    Message{"event.bump", "Bump"},
+    Message{"event.joint", "Joint"},
+    Message{"event.rail", "Rail crossing"},
+    Message{"event.low", "low"},
+    Message{"event.moderate", "moderate"},
+    Message{"event.high", "high"},
+    Message{"event.share", "{passes} of {over}"},
+    Message{"event.place", "way {way}, {at} m"},
+    Message{"event.place_osm", "OSM way {way}, {at} m"},
+
     Message{"worst", "Worst sections"},
     Message{"worst.none", "No section of {least} m or more has a mean IRI above {border}."},
     Message{"worst.about",

@@ -19,16 +19,6 @@ bool is_chosen(const PassChoice& choice, const FusionInput& input) {
            (!choice.period || is_in(*choice.period, input.utc_ms));
 }
 
-DriveSet drives_of(const std::vector<ChunkPass>& passes) {
-    DriveSet drives;
-    for (const auto& [fid, input, from_m, to_m] : passes) {
-        if (input.pass.drive) {
-            drives.emplace(input.trip_sha256, *input.pass.drive);
-        }
-    }
-    return drives;
-}
-
 /// Sets the lag of a pass from its aligned trace.
 void put_in_its_place(ChunkPass& pass, std::span<const PlacedTrace> traces) {
     auto& input = pass.input;
@@ -40,6 +30,17 @@ void put_in_its_place(ChunkPass& pass, std::span<const PlacedTrace> traces) {
                            placed->trace,
                            lag_m(placed->lag, pass.from_m),
                            lag_m(placed->lag, pass.to_m));
+    }
+}
+
+/// Sets the calibration of the car's period to which a pass belongs.
+void set_calibration(FusionInput& input, const CarRecord& car) {
+    input.calibration = car.calibration;
+    if (!car.periods.empty()) {
+        const auto period = period_at(car.periods, input.utc_ms);
+        input.period = static_cast<std::uint32_t>(period);
+        input.calibration =
+            period < car.periods.size() ? car.periods[period].calibration : std::nullopt;
     }
 }
 
@@ -62,6 +63,16 @@ std::vector<FusedSegment> fused(std::vector<ChunkPass> passes,
 
 } // namespace
 
+DriveSet drives_of(std::span<const ChunkPass> passes) {
+    DriveSet drives;
+    for (const auto& [fid, input, from_m, to_m] : passes) {
+        if (input.pass.drive) {
+            drives.emplace(input.trip_sha256, *input.pass.drive);
+        }
+    }
+    return drives;
+}
+
 ChunkFusion::ChunkFusion(Database& database)
     : traces_{database}, passes_{database}, valid_from_{database},
       cars_{read_calibrations(database)}, config_{read_fusion_config(database)} {}
@@ -77,7 +88,7 @@ std::vector<ChunkPass> ChunkFusion::valid_passes(std::int64_t chunk, std::int64_
     }
     for (auto& pass : passes) {
         if (const auto car = cars_.find(pass.input.vehicle); car != cars_.end()) {
-            pass.input.calibration = car->second.calibration;
+            set_calibration(pass.input, car->second);
         }
     }
     return passes;
@@ -115,13 +126,19 @@ FusedChunk ChunkFusion::of(std::int64_t chunk, std::int64_t segments_per_chunk) 
 
 std::vector<FusedSegment>
 ChunkFusion::of(std::int64_t chunk, std::int64_t segments_per_chunk, const PassChoice& choice) {
-    auto passes = valid_passes(chunk, segments_per_chunk);
-    std::erase_if(passes, [&](const auto& pass) { return !is_chosen(choice, pass.input); });
-    if (passes.empty()) {
+    auto chosen = passes(chunk, segments_per_chunk, choice);
+    if (chosen.empty()) {
         return {};
     }
-    const auto traces = traces_.placed(chunk, drives_of(passes));
-    return fused(std::move(passes), traces, config_);
+    const auto traces = traces_.placed(chunk, drives_of(chosen));
+    return fused(std::move(chosen), traces, config_);
+}
+
+std::vector<ChunkPass>
+ChunkFusion::passes(std::int64_t chunk, std::int64_t segments_per_chunk, const PassChoice& choice) {
+    auto passes = valid_passes(chunk, segments_per_chunk);
+    std::erase_if(passes, [&](const auto& pass) { return !is_chosen(choice, pass.input); });
+    return passes;
 }
 
 } // namespace macadam

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -32,6 +33,9 @@ struct PassChoice {
     bool cars_alone;              ///< without references
 };
 
+/// Drives of passes.
+DriveSet drives_of(std::span<const ChunkPass> passes);
+
 /// Aligns and fuses the passes of chunks into segment states, by the rules that the database has at
 /// construction.
 class ChunkFusion {
@@ -44,6 +48,10 @@ public:
     /// States from a selection of passes, as if there were no others.
     std::vector<FusedSegment>
     of(std::int64_t chunk, std::int64_t segments_per_chunk, const PassChoice& choice);
+
+    /// Passes of a selection that count, at the positions from their own trips.
+    std::vector<ChunkPass>
+    passes(std::int64_t chunk, std::int64_t segments_per_chunk, const PassChoice& choice);
 
     /// Aligned passes of these trips, given by hash; uncalibrated, and including passes of a former
     /// surface.

@@ -1,7 +1,11 @@
 #include "storage/store/fusion/fusion_settings.hpp"
 
+#include "storage/store/rows/segment_row.hpp"
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace macadam {
 namespace {
@@ -26,6 +30,66 @@ constexpr std::array settings{
 
 std::int64_t whole(double value, double unit) {
     return std::llround(value * unit);
+}
+
+CarPeriod period_in(const Statement& row) {
+    constexpr double max_scatter = 100; // of a database that was modified by another program
+    CarPeriod period{.from_ms = known_utc_ms(row, 2), .change = {}, .calibration = {}};
+    const auto share = [&](int column) {
+        return static_cast<double>(row.integer(column)) / millionths;
+    };
+    if (!row.is_null(3)) {
+        period.calibration = CarCalibration{.gain = share(3),
+                                            .offset_um = static_cast<double>(row.integer(4)),
+                                            .relative_sd = share(5),
+                                            .scatter = std::clamp(share(6), 1.0, max_scatter)};
+    }
+    period.shared = static_cast<std::size_t>(row.integer(7));
+    if (!row.is_null(8)) {
+        period.change = CarChange{.level = share(8), .level_sd = share(9), .scatter = share(10)};
+    }
+    return period;
+}
+
+void read_periods(Database& database, CarRecords& cars) {
+    auto select = database.prepare(
+        "SELECT vehicle, number, from_ms, gain_ppm, offset_um, sd_ppm, scatter_ppm, passes,"
+        " change_ppm, change_sd_ppm, change_scatter_ppm FROM calibration_period"
+        " WHERE number = 0 OR from_ms IS NOT NULL ORDER BY vehicle, number");
+    while (select.step()) {
+        if (const auto car = cars.find(select.integer(0)); car != cars.end()) {
+            car->second.periods.push_back(period_in(select));
+        }
+    }
+}
+
+void write_periods(Database& database, const CarRecords& cars) {
+    auto insert =
+        database.prepare("INSERT INTO calibration_period VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    const auto ppm = [](double value) { return whole(value, millionths); };
+    for (const auto& [vehicle, car] : cars) {
+        for (std::size_t i = 0; i < car.periods.size(); ++i) {
+            const auto& [from_ms, change, calibration, shared] = car.periods[i];
+            const auto of_calibration = [&](double CarCalibration::*value, double unit) {
+                return calibration ? std::optional{whole((*calibration).*value, unit)}
+                                   : std::nullopt;
+            };
+            const auto of_change = [&](double CarChange::*value) {
+                return change ? std::optional{ppm((*change).*value)} : std::nullopt;
+            };
+            insert.run(vehicle,
+                       static_cast<std::int64_t>(i),
+                       from_ms,
+                       of_calibration(&CarCalibration::gain, millionths),
+                       of_calibration(&CarCalibration::offset_um, 1),
+                       of_calibration(&CarCalibration::relative_sd, millionths),
+                       ppm(calibration ? calibration->scatter : 1),
+                       static_cast<std::int64_t>(shared),
+                       of_change(&CarChange::level),
+                       of_change(&CarChange::level_sd),
+                       of_change(&CarChange::scatter));
+        }
+    }
 }
 
 } // namespace
@@ -59,6 +123,7 @@ CarRecords read_calibrations(Database& database) {
             .relative_sd = static_cast<double>(select.integer(3)) / millionths};
         cars[select.integer(0)] = {calibration, select.integer(4), select.integer(5)};
     }
+    read_periods(database, cars);
     return cars;
 }
 
@@ -73,6 +138,15 @@ void write_calibrations(Database& database, const CarRecords& cars) {
                    car.trips,
                    car.passes);
     }
+    database.run("DELETE FROM calibration_period");
+    write_periods(database, cars);
+}
+
+void erase_calibrations_without_trips(Database& database) {
+    constexpr const char* without_trips =
+        " WHERE vehicle NOT IN (SELECT vehicle FROM trip WHERE vehicle IS NOT NULL)";
+    database.run(std::string{"DELETE FROM calibration"} + without_trips);
+    database.run(std::string{"DELETE FROM calibration_period"} + without_trips);
 }
 
 ValidFrom::ValidFrom(Database& database)

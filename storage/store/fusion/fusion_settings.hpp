@@ -1,10 +1,12 @@
 #pragma once
 
+#include "mapping/fusion/car_period.hpp"
 #include "mapping/fusion/fusion.hpp"
 #include "storage/sqlite/sqlite.hpp"
 
 #include <cstdint>
 #include <unordered_map>
+#include <vector>
 
 namespace macadam {
 
@@ -21,13 +23,19 @@ struct CarRecord {
     CarCalibration calibration; ///< rounded to whole millionths and um/m
     std::int64_t trips;         ///< used for the calibration
     std::int64_t passes;
+    std::vector<CarPeriod> periods{}; ///< of a car that changed or whose passes scatter: oldest
+                                      ///< first, `calibration` is that of the last calibrated one;
+                                      ///< else empty
 };
 using CarRecords = std::unordered_map<std::int64_t, CarRecord>; ///< by row of table vehicle
 
 CarRecords read_calibrations(Database& database);
 
-/// Replaces all calibrations.
+/// Replaces all calibrations and their periods.
 void write_calibrations(Database& database, const CarRecords& cars);
+
+/// Deletes the calibrations of cars that have no trips.
+void erase_calibrations_without_trips(Database& database);
 
 /// Dates from which passes over segments count; older and undated passes belong to a former
 /// surface.

@@ -1,7 +1,7 @@
 #include "storage/store/fusion/store_calibration.hpp"
 
 #include "estimator/common/error.hpp"
-#include "mapping/fusion/fleet_calibration.hpp"
+#include "mapping/fusion/fleet/changing_fleet.hpp"
 #include "storage/store/fusion/chunk_states.hpp"
 #include "storage/store/fusion/fusion_settings.hpp"
 #include "storage/store/privacy/car_order.hpp"
@@ -26,8 +26,8 @@ namespace {
 constexpr std::int64_t window_ms = 31'557'600'000;
 constexpr std::int64_t undated = -1;
 
-// Far more than needed for two parameters per car; they take 80 MB.
-constexpr std::int64_t max_readings = 2'000'000;
+// A thousand for each of 10,000 cars, to find changes; they take 1.5 GB.
+constexpr std::int64_t max_readings = 12'000'000;
 
 constexpr std::uint8_t unsure = validity::too_slow | validity::start_up | validity::lateral_alone;
 
@@ -46,6 +46,7 @@ struct Fleet {
         std::uint32_t car; ///< number of the car or survey
     };
     std::unordered_map<std::string, Trip> number_of_trip; ///< of the basis, by hash
+    FleetTrips origins;                                   ///< of the trips, by number
     std::unordered_set<std::string> trips;                ///< hashes of the trips
     std::vector<std::optional<double>> known;             ///< relative sd of surveys
     std::int64_t newest_ms = std::numeric_limits<std::int64_t>::min();
@@ -87,7 +88,9 @@ Fleet fleet_of(Database& database, CalibrationBasis basis) {
             continue;
         }
         fleet.trips.insert(sha256);
-        if (const auto utc_ms = known_utc_ms(trips, 2)) {
+        fleet.origins.car.push_back(fleet.number_of_trip.at(sha256).car);
+        fleet.origins.utc_ms.push_back(known_utc_ms(trips, 2));
+        if (const auto& utc_ms = fleet.origins.utc_ms.back()) {
             fleet.newest_ms = std::max(fleet.newest_ms, *utc_ms);
         }
     }
@@ -206,17 +209,37 @@ FusionConfig components_of(const FleetCalibration& found, double stated_variance
     config.rest_relative_sd = found.rest_sd;
     config.anchor_relative_sd = found.anchor_sd;
     if (stated_variance > 0) {
+        constexpr double places_of_prior = 1;
+        const double places = found.local_error_places;
         config.car_share = found.car_sd * found.car_sd / stated_variance;
+        config.common_share = (places_of_prior * config.common_share +
+                               places * found.local_error_variance / stated_variance) /
+                              (places_of_prior + places);
     }
     return config;
 }
 
 /// Number of surveys that passed places within a year of a car.
-std::size_t surveys_in(const FleetCalibration& found, std::size_t cars) {
-    return static_cast<std::size_t>(
-        std::count_if(found.shared.begin() + static_cast<std::ptrdiff_t>(cars),
-                      found.shared.end(),
-                      [](std::size_t shared) { return shared > 0; }));
+std::size_t surveys_in(const std::vector<std::vector<CarPeriod>>& periods, std::size_t cars) {
+    return static_cast<std::size_t>(std::count_if(
+        periods.begin() + static_cast<std::ptrdiff_t>(cars), periods.end(), [](const auto& survey) {
+            return survey.front().shared > 0;
+        }));
+}
+
+CalibratedCar calibrated_car(const Car& car, const std::vector<CarPeriod>& periods) {
+    CalibratedCar calibrated{car.row, car.pseudonym, car.trips, 0, {}};
+    for (const auto& period : periods) {
+        calibrated.shared += period.shared;
+        if (period.calibration) {
+            calibrated.calibration = period.calibration;
+        }
+    }
+    const auto& last = calibrated.calibration;
+    if (last && (periods.size() > 1 || last->scatter > 1)) {
+        calibrated.periods = periods;
+    }
+    return calibrated;
 }
 
 void write_rules(Database& database, const CalibrationReport& calibration) {
@@ -225,7 +248,8 @@ void write_rules(Database& database, const CalibrationReport& calibration) {
         if (car.calibration) {
             records[car.row] = {*car.calibration,
                                 static_cast<std::int64_t>(car.trips),
-                                static_cast<std::int64_t>(car.shared)};
+                                static_cast<std::int64_t>(car.shared),
+                                car.periods};
         }
     }
     write_calibrations(database, records);
@@ -239,8 +263,9 @@ CalibrationReport find_calibration(Database& database,
                                    CalibrationBasis basis,
                                    const Progress& progress) {
     const auto fleet = fleet_of(database, basis);
-    const auto readings = readings_of(database, segments_per_chunk, fleet, basis, progress);
-    const auto found = calibrate_fleet(readings.all, fleet.known, {}, readings.stated_sd());
+    auto readings = readings_of(database, segments_per_chunk, fleet, basis, progress);
+    const auto [found, periods] = calibrate_changing_fleet(
+        std::move(readings.all), fleet.origins, fleet.known, {}, readings.stated_sd());
     const auto count = static_cast<double>(std::max<std::size_t>(1, readings.of_cars));
 
     CalibrationReport report{.generation = read_generation(database),
@@ -248,13 +273,12 @@ CalibrationReport find_calibration(Database& database,
                              .components = {},
                              .car_relative_sd = found.car_sd,
                              .readings = readings.of_cars,
-                             .surveys = surveys_in(found, fleet.cars.size()),
+                             .surveys = surveys_in(periods, fleet.cars.size()),
                              .places = found.places};
     bool any = false;
     for (std::size_t i = 0; i < fleet.cars.size(); ++i) {
-        const auto& [row, pseudonym, trips] = fleet.cars[i];
-        report.cars.push_back({row, pseudonym, trips, found.shared[i], found.cars[i]});
-        any = any || found.cars[i].has_value();
+        report.cars.push_back(calibrated_car(fleet.cars[i], periods[i]));
+        any = any || report.cars.back().calibration;
     }
     const auto places = places_of_cars(read_cars(database));
     std::ranges::sort(report.cars, {}, [&](const auto& car) { return places.at(car.vehicle); });
@@ -266,6 +290,8 @@ CalibrationReport find_calibration(Database& database,
 
 void build_shadow_calibration(Database& database, const CalibrationReport& calibration) {
     database.run("CREATE TEMP TABLE calibration AS SELECT * FROM main.calibration WHERE 0;"
+                 "CREATE TEMP TABLE calibration_period AS SELECT * FROM main.calibration_period"
+                 " WHERE 0;"
                  "CREATE TEMP TABLE fusion_setting (key TEXT PRIMARY KEY NOT NULL, value INTEGER)");
     write_rules(database, calibration);
 }

@@ -20,13 +20,14 @@ CalibrationReport find_calibration(Database& database,
                                    CalibrationBasis basis,
                                    const Progress& progress);
 
-/// Shadows the tables `calibration` and `fusion_setting` with these rules for this connection, so
+/// Drops the tables that shadow the rules, if they exist.
+inline constexpr const char* drop_shadow_calibration =
+    "DROP TABLE IF EXISTS temp.calibration; DROP TABLE IF EXISTS temp.calibration_period;"
+    "DROP TABLE IF EXISTS temp.fusion_setting;";
+
+/// Shadows the tables of calibrations and `fusion_setting` with these rules for this connection, so
 /// that later fusion uses them.
 void build_shadow_calibration(Database& database, const CalibrationReport& calibration);
-
-/// Drops those tables, if they exist.
-inline constexpr const char* drop_shadow_calibration =
-    "DROP TABLE IF EXISTS temp.calibration; DROP TABLE IF EXISTS temp.fusion_setting;";
 
 /// Begins a generation with these rules, within the caller's transaction.
 void take_calibration(Database& database, const CalibrationReport& calibration);

@@ -21,7 +21,7 @@ struct Publication {
     double km = 0;             ///< of the published segments
     std::size_t left_out = 0;  ///< segments with passes that are not published, rounded to tens
     double left_out_km = 0;    ///< of those, rounded to tenths
-    std::int32_t trips = 0;    ///< lower bound, rounded by told_count()
+    std::int32_t trips = 0;    ///< lower bound, rounded by published_count()
     std::int32_t vehicles = 0; ///< likewise
 };
 

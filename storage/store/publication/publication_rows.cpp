@@ -31,11 +31,14 @@ CREATE TEMP VIEW row_reason AS SELECT * FROM main.row_reason
     WHERE trip IN (SELECT id FROM main.trip WHERE reference_ppm IS NOT NULL);
 CREATE TEMP VIEW vehicle AS SELECT * FROM main.vehicle WHERE 0;
 CREATE TEMP VIEW trace AS SELECT * FROM main.trace WHERE 0;
+CREATE TEMP VIEW event AS SELECT * FROM main.event WHERE 0;
+CREATE TEMP VIEW event_search AS SELECT * FROM main.event_search WHERE 0;
 CREATE TEMP VIEW strip_state AS SELECT * FROM main.strip_state WHERE 0;
 CREATE TEMP VIEW segment_dirty AS SELECT * FROM main.segment_dirty WHERE 0;
 CREATE TEMP VIEW strip_dirty AS SELECT * FROM main.strip_dirty WHERE 0;
 CREATE TEMP VIEW state_change AS SELECT * FROM main.state_change WHERE 0;
 CREATE TEMP VIEW calibration AS SELECT * FROM main.calibration WHERE 0;
+CREATE TEMP VIEW calibration_period AS SELECT * FROM main.calibration_period WHERE 0;
 CREATE TEMP VIEW audit AS SELECT * FROM main.audit WHERE 0;
 CREATE TEMP VIEW import_note AS SELECT * FROM main.import_note WHERE 0;
 CREATE TEMP VIEW forgotten AS SELECT * FROM main.forgotten WHERE 0;
@@ -75,7 +78,7 @@ Publication add_publication(Database& database, const std::string& month) {
     auto left = database.prepare(left_out_segments);
     left.step();
     const auto count = [&](const char* sql) {
-        return std::int64_t{told_count(static_cast<std::int32_t>(database.number(sql)))};
+        return std::int64_t{published_count(static_cast<std::int32_t>(database.number(sql)))};
     };
     database
         .prepare("INSERT INTO publication VALUES"

@@ -3,13 +3,17 @@
 #include "estimator/common/error.hpp"
 #include "mapping/privacy/drive_ends.hpp"
 #include "mapping/privacy/network_blocks.hpp"
+#include "mapping/privacy/published_event.hpp"
 #include "mapping/privacy/published_state.hpp"
 #include "mapping/privacy/release_batches.hpp"
 #include "storage/sqlite/bulk_insert.hpp"
+#include "storage/store/fusion/chunk_events.hpp"
 #include "storage/store/fusion/chunk_states.hpp"
 #include "storage/store/fusion/store_version.hpp"
 #include "storage/store/publication/publication_rows.hpp"
+#include "storage/store/rows/event_row.hpp"
 #include "storage/store/rows/segment_row.hpp"
+#include "storage/store/rows/segment_rowids.hpp"
 #include "storage/store/schema/store_schema.hpp"
 
 #include <fmt/format.h>
@@ -93,7 +97,8 @@ class PublicationMaker {
 public:
     PublicationMaker(Database& database, const PublicationWork& work)
         : work_{work}, blocks_{*work.roads}, trips_{rows_of_trips(database)},
-          ends_{end_passes_of(database, blocks_, trips_)}, states_{database},
+          ends_{end_passes_of(database, blocks_, trips_)}, states_{database}, events_{database},
+          rows_{database, work.segments_per_chunk},
           number_{1 + database.number("SELECT coalesce(max(number), 0) FROM publication")},
           before_{reach_of(database, number_ - 1)}, rule_{.last_of_key =
                                                               read_last_of_keys(database)},
@@ -107,6 +112,11 @@ public:
               "SELECT coalesce(max(number), 0) FROM published_figure WHERE segment = ?")},
           put_figure_{database.prepare("INSERT INTO published_figure VALUES"
                                        " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")},
+          drop_events_{database.prepare("DELETE FROM published_event WHERE segment IN"
+                                        " (SELECT fid FROM segment WHERE fid >= ?1"
+                                        " AND fid < ?1 + ?2 AND strip = ?1)")},
+          put_event_{database.prepare("INSERT INTO published_event VALUES"
+                                      " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")},
           put_state_{database, "INSERT OR REPLACE INTO published_state", state_column_count},
           last_trip_{database.number("SELECT coalesce(max(id), 0) FROM trip")} {
         for (std::int64_t hold = 0; hold <= longest_hold; ++hold) {
@@ -220,10 +230,24 @@ private:
                 told.push_back(std::move(passes[i]));
             }
         }
+        write_events(chunk, told);
         states_.align_with_each_other(chunk, told);
         for (const auto& segment : segments) {
             if (!segment.release.batches.empty()) {
                 write_segment(segment, told, place);
+            }
+        }
+    }
+
+    /// Replaces the events of a chunk by those that enough cars report in published passes.
+    void write_events(std::int64_t chunk, const std::vector<ChunkPass>& told) {
+        drop_events_.run(chunk, work_.segments_per_chunk);
+        EventInputs inputs;
+        events_.add(chunk, told, inputs);
+        std::int64_t number = 0;
+        for (auto& event : fuse_events(std::move(inputs.reports), inputs.segments)) {
+            if (const auto shown = published(std::move(event), rule_)) {
+                write_published_event(put_event_, rows_.row_of(shown->segment), number++, *shown);
             }
         }
     }
@@ -289,6 +313,8 @@ private:
     TripRows trips_;
     EndPasses ends_;
     ChunkFusion states_;
+    ChunkEvents events_;
+    SegmentRowids rows_;
     std::int64_t number_;
     PublicationReach before_;
     ReleaseRule rule_;
@@ -301,6 +327,8 @@ private:
     Statement put_pending_;
     Statement figures_;
     Statement put_figure_;
+    Statement drop_events_;
+    Statement put_event_;
     BulkInsert put_state_;
     std::int64_t last_trip_;
 };
@@ -309,7 +337,8 @@ private:
 constexpr const char* withdraw_roads_that_are_no_more =
     "DELETE FROM published_state WHERE fid IN (SELECT valid_from.segment FROM valid_from"
     " WHERE NOT EXISTS (SELECT 1 FROM published_figure AS figure"
-    " WHERE figure.segment = valid_from.segment AND figure.until_ms > valid_from.from_ms))";
+    " WHERE figure.segment = valid_from.segment AND figure.until_ms > valid_from.from_ms));"
+    "DELETE FROM published_event WHERE segment NOT IN (SELECT fid FROM published_state)";
 
 } // namespace
 

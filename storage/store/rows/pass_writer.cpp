@@ -1,7 +1,9 @@
 #include "storage/store/rows/pass_writer.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace macadam {
@@ -24,12 +26,15 @@ PassWriter::PassWriter(Database& database, std::int64_t segments_per_chunk, Dest
       add_trace_{database.prepare(marks_
                                       ? "INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?, ?)"
                                       : "INSERT INTO staged_trace VALUES (?, ?, ?, ?, ?, ?, ?)")},
+      add_event_{database, marks_ ? "INSERT INTO event" : "INSERT INTO staged_event", 11},
       mark_segment_{database, "INSERT OR IGNORE INTO segment_dirty", 1},
       mark_chunk_{database, "INSERT OR IGNORE INTO strip_dirty", 1} {}
 
 void PassWriter::write(std::int64_t trip,
                        std::span<const Pass> passes,
-                       std::span<const RoughnessTrace> traces) {
+                       std::span<const RoughnessTrace> traces,
+                       std::span<const PassEvent> events) {
+    write_events(trip, events);
     for (const auto& pass : passes) {
         const auto segment = segments_.row_of(pass.segment);
         write_pass(segment, trip, pass);
@@ -49,6 +54,7 @@ void PassWriter::write(std::int64_t trip,
 
 void PassWriter::flush() {
     add_pass_.flush();
+    add_event_.flush();
     mark_segment_.flush();
     mark_chunk_.flush();
 }
@@ -69,6 +75,33 @@ void PassWriter::write_pass(std::int64_t segment, std::int64_t trip, const Pass&
                   std::int64_t{pass.confidence_ppm},
                   pass.t_ms,
                   whole(pass.drive));
+}
+
+/// Numbers the events of each pass in the order along the way.
+void PassWriter::write_events(std::int64_t trip, std::span<const PassEvent> events) {
+    std::vector<PassEvent> sorted{events.begin(), events.end()};
+    const auto pass_of = [](const PassEvent& event) {
+        return std::tuple{event.segment, event.occurrence};
+    };
+    std::ranges::sort(sorted, {}, [&](const PassEvent& event) {
+        return std::tuple{pass_of(event), event.at_mm, event.kind, event.track, event.size_um};
+    });
+    std::int64_t number = 0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const auto& event = sorted[i];
+        number = i > 0 && pass_of(event) == pass_of(sorted[i - 1]) ? number + 1 : 0;
+        add_event_.add(segments_.row_of(event.segment),
+                       trip,
+                       std::int64_t{event.occurrence},
+                       number,
+                       static_cast<std::int64_t>(event.kind),
+                       static_cast<std::int64_t>(event.track),
+                       event.at_mm,
+                       std::int64_t{event.place_sd_mm},
+                       std::int64_t{event.size_um},
+                       std::int64_t{event.sd_um},
+                       std::int64_t{event.length_mm});
+    }
 }
 
 void PassWriter::write_trace(std::int64_t chunk, std::int64_t trip, const RoughnessTrace& trace) {

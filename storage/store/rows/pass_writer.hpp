@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/events/pass_event.hpp"
 #include "mapping/passes/chunk_trace.hpp"
 #include "mapping/passes/pass.hpp"
 #include "storage/sqlite/bulk_insert.hpp"
@@ -18,28 +19,32 @@ enum class Destination {
     staged ///< temporary tables of the connection (storage/store/road_store_reprocess.cpp)
 };
 
-/// Writes passes and traces of trips and, in permanent tables, marks their segments and chunks as
-/// dirty. Use it within one transaction, because it caches look-ups.
+/// Writes passes, traces and events of trips and, in permanent tables, marks their segments and
+/// chunks as dirty. Use it within one transaction, because it caches look-ups.
 class PassWriter {
 public:
     PassWriter(Database& database, std::int64_t segments_per_chunk, Destination destination);
 
     /// \param trip  row of the trip.
     /// \throws InputError  for a segment or a chunk that the database does not contain.
-    void
-    write(std::int64_t trip, std::span<const Pass> passes, std::span<const RoughnessTrace> traces);
+    void write(std::int64_t trip,
+               std::span<const Pass> passes,
+               std::span<const RoughnessTrace> traces,
+               std::span<const PassEvent> events = {});
 
     /// Writes the buffered rows; call it before the commit.
     void flush();
 
 private:
     void write_pass(std::int64_t segment, std::int64_t trip, const Pass& pass);
+    void write_events(std::int64_t trip, std::span<const PassEvent> events);
     void write_trace(std::int64_t chunk, std::int64_t trip, const RoughnessTrace& trace);
 
     bool marks_;
     SegmentRowids segments_;
     BulkInsert add_pass_;
     Statement add_trace_;
+    BulkInsert add_event_;
     BulkInsert mark_segment_;
     BulkInsert mark_chunk_;
     std::unordered_set<std::int64_t> marked_segments_; ///< rows of table segment

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mapping/fusion/car_period.hpp"
 #include "mapping/fusion/fusion.hpp"
 #include "mapping/network/segment.hpp"
 
@@ -62,10 +63,14 @@ struct CalibratedCar {
     std::size_t shared; ///< passes over places that other cars passed within a year
     /// `std::nullopt`: too few places shared with others.
     std::optional<CarCalibration> calibration;
+
+    /// If the car changed or its passes scatter: its periods, oldest first, of which `calibration`
+    /// is that of the last calibrated one. Else empty.
+    std::vector<CarPeriod> periods{};
 };
 
 /// Calibration of the cars of a database, with the components of their errors
-/// (mapping/fusion/fleet_calibration.hpp).
+/// (mapping/fusion/fleet/fleet_calibration.hpp).
 struct CalibrationReport {
     int generation;
     std::vector<CalibratedCar> cars; ///< in the order of RoadStore::cars(), without the unknown car

@@ -80,6 +80,24 @@ CREATE TABLE trace (
     PRIMARY KEY (strip, trip, drive)
 ) WITHOUT ROWID;
 CREATE INDEX trace_of_trip ON trace(trip);
+CREATE TABLE event (
+    segment INTEGER NOT NULL REFERENCES segment(fid),
+    trip INTEGER NOT NULL REFERENCES trip(id),
+    occurrence INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    kind INTEGER NOT NULL,
+    track INTEGER NOT NULL,
+    at_mm INTEGER NOT NULL,
+    place_sd_mm INTEGER NOT NULL,
+    size_um INTEGER NOT NULL,
+    sd_um INTEGER NOT NULL,
+    length_mm INTEGER NOT NULL,
+    PRIMARY KEY (segment, trip, occurrence, number)
+) WITHOUT ROWID;
+CREATE INDEX event_of_trip ON event(trip);
+CREATE TABLE event_search (
+    trip INTEGER PRIMARY KEY NOT NULL REFERENCES trip(id)
+);
 CREATE TABLE strip_state (
     strip INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
     drives INTEGER NOT NULL,
@@ -151,6 +169,20 @@ CREATE TABLE calibration (
     trips INTEGER NOT NULL,
     passes INTEGER NOT NULL
 );
+CREATE TABLE calibration_period (
+    vehicle INTEGER NOT NULL REFERENCES vehicle(id),
+    number INTEGER NOT NULL,
+    from_ms INTEGER,
+    gain_ppm INTEGER,
+    offset_um INTEGER,
+    sd_ppm INTEGER,
+    scatter_ppm INTEGER NOT NULL,
+    passes INTEGER NOT NULL,
+    change_ppm INTEGER,
+    change_sd_ppm INTEGER,
+    change_scatter_ppm INTEGER,
+    PRIMARY KEY (vehicle, number)
+) WITHOUT ROWID;
 CREATE TABLE valid_from (
     segment INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
     from_ms INTEGER NOT NULL
@@ -236,6 +268,23 @@ CREATE TABLE published_figure (
     flags INTEGER NOT NULL,
     passes INTEGER NOT NULL,
     vehicles INTEGER NOT NULL,
+    PRIMARY KEY (segment, number)
+) WITHOUT ROWID;
+CREATE TABLE published_event (
+    segment INTEGER NOT NULL REFERENCES segment(fid),
+    number INTEGER NOT NULL,
+    kind INTEGER NOT NULL,
+    track INTEGER NOT NULL,
+    at_mm INTEGER NOT NULL,
+    place_sd_mm INTEGER NOT NULL,
+    size_um INTEGER NOT NULL,
+    sd_um INTEGER NOT NULL,
+    length_mm INTEGER NOT NULL,
+    passes INTEGER NOT NULL,
+    passes_over INTEGER NOT NULL,
+    vehicles INTEGER NOT NULL,
+    first_seen_ms INTEGER,
+    last_seen_ms INTEGER,
     PRIMARY KEY (segment, number)
 ) WITHOUT ROWID;
 CREATE VIEW roughness AS

@@ -2,6 +2,7 @@
 
 #include "estimator/common/geo.hpp"
 #include "mapping/alignment/alignment.hpp"
+#include "mapping/events/event_fusion.hpp"
 #include "mapping/fusion/segment_record.hpp"
 #include "mapping/network/segment.hpp"
 #include "mapping/passes/chunk_trace.hpp"
@@ -68,6 +69,17 @@ struct NewTrip {
     std::span<const Pass> passes;
     std::span<const RoughnessTrace> traces;
     bool readmit = false; ///< import it even if it was forgotten
+
+    /// Events on the passes; `std::nullopt`: the trip was not searched for events.
+    std::optional<std::span<const PassEvent>> events{};
+};
+
+/// Event of the road with its position and road.
+struct EventRecord {
+    FusedEvent event;
+    GeoPoint at;         ///< on the polyline of the road
+    std::string name;    ///< of the road, "" if the map has none
+    std::string highway; ///< OSM's class, "" if there is none
 };
 
 /// Pass with its origin, as an entry of a segment's history.

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
+#include "storage/store/rows/event_row.hpp"
 #include "storage/store/rows/segment_row.hpp"
 #include "storage/store/schema/store_schema.hpp"
 
@@ -95,6 +96,29 @@ void add_passes(Sha256& hash, Database& database, Ticks& ticks) {
     }
 }
 
+/// Adds the trips that were searched for events, and the events. Databases before version 4 have
+/// none, and a database without them has the digest that it had then.
+void add_events(Sha256& hash, Database& database) {
+    if (database.number("SELECT count(*) FROM sqlite_schema WHERE name = 'event'") == 0) {
+        return;
+    }
+    auto searched = database.prepare("SELECT trip.sha256 FROM event_search AS search"
+                                     " CROSS JOIN trip ON trip.id = search.trip ORDER BY 1");
+    while (searched.step()) {
+        hash.add(fmt::format("searched {}\n", searched.text(0)));
+    }
+    auto select = database.prepare(fmt::format(
+        "SELECT segment.segment, trip.sha256, occurrence, {} FROM event"
+        " CROSS JOIN segment ON segment.fid = event.segment"
+        " CROSS JOIN trip ON trip.id = event.trip ORDER BY {}, trip.sha256, occurrence, number",
+        event_columns,
+        are_rows_in_order(database) ? "event.segment" : order_of_keys));
+    while (select.step()) {
+        hash.add(fmt::format("event {} {}", select.text(0), select.text(1)) +
+                 columns_from(select, 2, 3 + event_column_count));
+    }
+}
+
 } // namespace
 
 std::string digest_of(Database& database, const Progress& progress) {
@@ -110,6 +134,7 @@ std::string digest_of(Database& database, const Progress& progress) {
         hash.add(state_line(*record_in(select).state));
         ticks.add();
     }
+    add_events(hash, database);
     return hash.hex();
 }
 

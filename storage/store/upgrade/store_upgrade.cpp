@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int first_version_with_key = 3;
+
 /// Checks the free disk space: new rows are written beside the old ones, and the journal holds the
 /// pages of both.
 void expect_room(Database& database) {
@@ -133,20 +135,26 @@ StoreUpgrade upgrade_store(const fs::path& file,
     }
     expect_sound(database);
     done.digest = digest_told(database, progress("computing the digest"));
-    NewKey key{file};
-    done.made_key = key.is_new();
-    make_days(database, progress("rounding times to days"));
-    done.trips = shorten_trip_names(database, progress("removing vehicle ids from file names"));
-    done.cars = name_cars(database, key.key());
+    std::optional<NewKey> key;
+    if (done.from_version < first_version_with_key) {
+        key.emplace(file);
+        done.made_key = key->is_new();
+        make_days(database, progress("rounding times to days"));
+        done.trips = shorten_trip_names(database, progress("removing vehicle ids from file names"));
+        done.cars = name_cars(database, key->key());
+        put_settings_of_version_3(database, key->key().id());
+    }
     add_missing_objects(database);
-    put_settings_of_version_3(database, key.key().id());
+    put_version(database);
     add_audit(database,
               "upgrade",
               fmt::format("from version {} to {}", done.from_version, store_version));
     expect_same_digest(
         database, done.digest, digest_told(database, progress("verifying the digest")));
     check_store(database);
-    key.keep(); // even if the commit is in doubt: the next upgrade uses it
+    if (key) {
+        key->keep(); // even if the commit is in doubt: the next upgrade uses it
+    }
     all.commit();
     return done;
 }

@@ -123,9 +123,13 @@ std::size_t name_cars(Database& database, const PrivacyKey& key) {
 }
 
 void put_settings_of_version_3(Database& database, const std::string& key_id) {
-    database.run("UPDATE meta SET value = '3' WHERE key = 'version';"
-                 "INSERT OR REPLACE INTO meta VALUES ('privacy', 'own')");
+    database.run("INSERT OR REPLACE INTO meta VALUES ('privacy', 'own')");
     put_key_id(database, key_id);
+}
+
+void put_version(Database& database) {
+    database.prepare("UPDATE meta SET value = ? WHERE key = 'version'")
+        .run(fmt::format("{}", store_version));
 }
 
 void add_missing_objects(Database& database) {

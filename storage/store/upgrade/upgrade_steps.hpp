@@ -31,4 +31,7 @@ void put_settings_of_version_3(Database& database, const std::string& key_id);
 /// Creates the tables, indexes, views and triggers that were added since.
 void add_missing_objects(Database& database);
 
+/// Writes the current version into table meta.
+void put_version(Database& database);
+
 } // namespace macadam

@@ -1,5 +1,6 @@
 #include "storage/trips/rawlog/rawlog_plugin.hpp"
 
+#include "estimator/common/angle.hpp"
 #include "estimator/common/error.hpp"
 
 #include <mrpt/obs/CObservationComment.h>
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace macadam {
@@ -22,7 +22,6 @@ namespace obs = mrpt::obs;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double knot_mps = 1852.0 / 3600; // ISO 80000-3: one international nautical mile per hour
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 constexpr double day_s = 86400;
 
 // mrpt::Clock counts 100 ns from 1601-01-01T00:00:00Z.

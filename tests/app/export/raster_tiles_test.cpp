@@ -121,10 +121,12 @@ TEST(PictureTiles, AreThoseThatAreDrawnEachForItselfFromTheStore) {
     const auto tiles = drawn(file, plan);
     const auto tiles_512 = drawn(file, plan_512);
     const auto store = RoadStore::open(file, RoadStore::Access::read);
+    ASSERT_FALSE(tiles.empty());
     for (const auto& [tile, png] : tiles) {
         EXPECT_TRUE(png == alone(store, plan, tile))
             << int(tile.zoom) << '/' << tile.x << '/' << tile.y;
     }
+    ASSERT_FALSE(tiles_512.empty());
     for (const auto& [tile, png] : tiles_512) {
         EXPECT_TRUE(png == alone(store, plan_512, tile))
             << int(tile.zoom) << '/' << tile.x << '/' << tile.y;

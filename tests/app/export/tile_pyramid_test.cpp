@@ -174,6 +174,7 @@ TEST(TilePyramid, ShowsASegmentInEveryTileThatItComesInto) {
             shown[tile].insert(*feature.id);
         }
     }
+    ASSERT_FALSE(made.segments.empty());
     for (const auto& segment : made.segments) {
         for (int step = 0; step <= 50; ++step) { // places along its straight line
             const auto &a = segment.line.front(), &b = segment.line.back();

@@ -1,6 +1,7 @@
 #include "driven_chunks.hpp"
 
 #include "app/pipeline/pipeline.hpp"
+#include "estimator/events/event_detection.hpp"
 #include "estimator/iri/iri.hpp"
 #include "estimator/motion/trip_motion.hpp"
 #include "estimator/simulation/road_surface.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 namespace macadam::testing {
@@ -76,8 +78,8 @@ Motion motion_of(double speed_mps, std::mt19937_64& random) {
     return motion;
 }
 
-RoadUnderWheels under(const RoadSurface& surface, double half_track_m, std::mt19937_64& random) {
-    const auto wander_m = slow_values(0.15, 200, random);
+RoadUnderWheels
+under(const RoadSurface& surface, double half_track_m, const std::vector<double>& wander_m) {
     RoadUnderWheels road;
     for (double at_m = 0; at_m < straight_road_m; at_m += road.step_m) {
         const double aside_m = value_at(wander_m, at_m);
@@ -184,8 +186,25 @@ PipelineConfig config_of(bool smoother) {
     PipelineConfig config;
     config.estimator.method = smoother ? Method::smoother : Method::kf;
     config.estimator.tracks = false; // as `import` does
+    config.estimator.profile = true;
     config.stretch.samples_a_metre = smoother ? 2.6 : 0;
     return config;
+}
+
+std::vector<RoadEvent> events_in(const IriTrace& roughness) {
+    std::vector<RoadEvent> events;
+    for (const auto& run : roughness.runs) {
+        std::ranges::move(detect_events(run.profile), std::back_inserter(events));
+    }
+    return events;
+}
+
+std::vector<TrueHole> holes_of(const RoadRecipe& recipe, std::uint64_t seed) {
+    std::vector<TrueHole> holes;
+    for (const auto& hole : potholes_on(straight_road_m, recipe, seed)) {
+        holes.push_back({hole.from_m + hole.length_m / 2 - way_begins_m, hole});
+    }
+    return holes;
 }
 
 ChunkDrive driven(const FleetCarRecipe& car,
@@ -197,34 +216,52 @@ ChunkDrive driven(const FleetCarRecipe& car,
     std::uniform_real_distribution<double> speed_kmh{35, 95};
     std::normal_distribution<double> scale{1, 0.005};
     const auto motion = motion_of(speed_kmh(random) / 3.6, random);
-    const auto road = under(surface, car.car.vehicle.half_car.l_m, random);
+    ChunkDrive drive;
+    drive.half_track_m = car.car.vehicle.half_car.l_m;
+    drive.aside_m = slow_values(0.15, 200, random);
+    const auto road = under(surface, drive.half_track_m, drive.aside_m);
     const auto imu = simulate_imu(car.car, car.imu, road, motion, random());
     const auto vehicle = wrong_by_5_percent(car.car, random);
     const auto config = config_of(scenario.smoother);
     const auto log = log_of(motion, imu, scale(random));
     const auto trace = trace_of(log, motion_of(log), vehicle, config);
-    ChunkDrive drive;
     const double sd_m = phone ? scenario.phones_place_sd_m : scenario.place_sd_m;
     const double told_sd_m = scenario.phones_place_sd_m > 0 ? sd_m : 0;
     drive.place_error_m = slow_values(sd_m, scenario.place_length_m, random);
     const auto matched = matched_along(motion, trace.odometer, drive.place_error_m, told_sd_m);
     auto cut = cut_trip(trace.roughness, matched, roads, vehicle, config.pass);
-    drive.passes = std::move(cut.passes);
+    for (const auto& driven : cut.passes) {
+        drive.passes.push_back(driven.pass);
+    }
+    drive.events = place_events(events_in(trace.roughness), cut.passes);
     drive.traces = std::move(cut.traces);
     return drive;
 }
 
 } // namespace
 
+double TrueHole::depth_mm() const {
+    return 1000 * hole.depth_m * hole.part_at(hole.lateral_m > 0 ? wheel_path_m : -wheel_path_m);
+}
+
+double TrueHole::met_mm(const ChunkDrive& drive) const {
+    const double aside_m = value_at(drive.aside_m, at_m + way_begins_m);
+    return 1000 * hole.depth_m *
+           std::max(hole.part_at(aside_m + drive.half_track_m),
+                    hole.part_at(aside_m - drive.half_track_m));
+}
+
 DrivenChunks driven_chunks(const ChunkScenario& scenario) {
     std::mt19937_64 random{scenario.seed};
     const auto cars = parse_recipe("", "the sample recipe").cars;
-    const auto surface = make_surface({.iri_mm_per_m = scenario.iri_mm_per_m,
-                                       .patches_per_km = scenario.patches_per_km,
-                                       .potholes_per_km = scenario.potholes_per_km},
-                                      straight_road_m,
-                                      scenario.seed);
-    DrivenChunks chunks{.roads = straight_way(), .drives = {}, .true_mri = {}};
+    const RoadRecipe recipe{.iri_mm_per_m = scenario.iri_mm_per_m,
+                            .patches_per_km = scenario.patches_per_km,
+                            .potholes_per_km = scenario.potholes_per_km};
+    const auto surface = make_surface(recipe, straight_road_m, scenario.seed);
+    DrivenChunks chunks{.holes = holes_of(recipe, scenario.seed),
+                        .roads = straight_way(),
+                        .drives = {},
+                        .true_mri = {}};
     chunks.true_mri = true_mri(surface, chunks.roads);
     for (std::size_t i = 0; i < scenario.passes; ++i) {
         const bool phone = scenario.phones_place_sd_m > 0 && i % 2 == 1;

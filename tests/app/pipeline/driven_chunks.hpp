@@ -1,5 +1,7 @@
 #pragma once
 
+#include "estimator/simulation/road_features.hpp"
+#include "mapping/events/pass_event.hpp"
 #include "mapping/passes/chunk_trace.hpp"
 #include "mapping/passes/pass.hpp"
 
@@ -28,13 +30,28 @@ inline constexpr double way_m = straight_road_m - 2 * way_begins_m;
 /// One trip over it. Five cars take turns at 35 to 95 km/h, each with a vehicle file 5 % wrong and
 /// an odometer 0.5 % wrong; they wander in their lane.
 struct ChunkDrive {
+    std::vector<PassEvent> events;
+    double half_track_m;
+    std::vector<double> aside_m; ///< of the car in its lane, at each metre of the road
     std::vector<RoughnessTrace> traces;
     std::vector<Pass> passes;
     std::vector<double> place_error_m; ///< of the match, at each metre of the road
 };
 
+struct TrueHole {
+    double at_m; ///< along the way
+    Pothole hole;
+
+    /// Depth in the wheel path of a car in the middle of its lane.
+    double depth_mm() const;
+
+    /// Depth that the wheels of a drive met.
+    double met_mm(const ChunkDrive& drive) const;
+};
+
 struct DrivenChunks {
-    RoadNetwork roads; ///< one way
+    std::vector<TrueHole> holes; ///< in no order
+    RoadNetwork roads;           ///< one way
     std::vector<ChunkDrive> drives;
     std::vector<double> true_mri; ///< of the segments, by index
 };

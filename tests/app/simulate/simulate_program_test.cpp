@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -79,6 +80,39 @@ protected:
     fs::path folder_;
 };
 
+TEST_F(Simulate, TellsTheTruePotholesOfTheRecipe) {
+    const std::string header = "way_id,direction,at_m,length_m,depth_mm,track\n";
+    write_file(folder_ / "recipe.toml", recipe + "[[road]]\npotholes_per_km = 0\n");
+    ASSERT_EQ(simulate("plain").exit_status, 0);
+    EXPECT_EQ(read_file(folder_ / "plain/truth-potholes.csv"), header);
+
+    write_file(folder_ / "recipe.toml", recipe + "[[road]]\npotholes_per_km = 20\n");
+    ASSERT_EQ(simulate("holes").exit_status, 0);
+    const auto truth = read_file(folder_ / "holes/truth-potholes.csv");
+    EXPECT_THAT(truth, StartsWith(header));
+    std::istringstream rows{truth.substr(header.size())};
+    std::size_t count = 0;
+    for (std::string row; std::getline(rows, row); ++count) {
+        double at_m = 0, length_m = 0, depth_mm = 0;
+        char direction[16], track[8];
+        long way = 0;
+        ASSERT_EQ(std::sscanf(row.c_str(),
+                              "%ld,%15[a-z],%lf,%lf,%lf,%7[a-z]",
+                              &way,
+                              direction,
+                              &at_m,
+                              &length_m,
+                              &depth_mm,
+                              track),
+                  6)
+            << row;
+        EXPECT_TRUE(way >= 11 && way <= 15) << row;
+        EXPECT_TRUE(at_m > 0 && at_m < 900) << row;
+        EXPECT_TRUE(depth_mm >= 0 && depth_mm <= 60) << row;
+    }
+    EXPECT_GT(count, 80U); // 20 a kilometre on 5.4 km of lanes
+}
+
 TEST_F(Simulate, LeavesTripsVehiclesNetworkAndTruth) {
     const auto run = simulate("fleet");
     ASSERT_EQ(run.exit_status, 0) << run.err;
@@ -91,6 +125,7 @@ TEST_F(Simulate, LeavesTripsVehiclesNetworkAndTruth) {
                             "trips/one-0001.trip.csv.gz",
                             "trips/one-0002.trip.csv.gz",
                             "trips/two-0003.trip.csv.gz",
+                            "truth-potholes.csv",
                             "truth.csv",
                             "vehicles/one.toml",
                             "vehicles/two.toml"));
@@ -240,8 +275,9 @@ std::vector<std::string> names_in(const fs::path& folder) {
 TEST_F(Simulate, FillsAFolderThatIsThereAndEmpty) {
     fs::create_directory(folder_ / "fleet");
     ASSERT_EQ(simulate("fleet/", {"--trips", "1"}).exit_status, 0);
-    EXPECT_THAT(names_in(folder_ / "fleet"),
-                ElementsAre("network.osm.pbf", "trips", "truth.csv", "vehicles"));
+    EXPECT_THAT(
+        names_in(folder_ / "fleet"),
+        ElementsAre("network.osm.pbf", "trips", "truth-potholes.csv", "truth.csv", "vehicles"));
 }
 
 TEST_F(Simulate, LeavesNothingWhenItFails) {

@@ -53,7 +53,9 @@ TEST(EventTemplates, MeasureTheSizeOfTheirOwnShape) {
 }
 
 TEST(EventTemplates, EndAtTheLevelTheyBeginAtUnlessTheyAreSteps) {
-    for (const auto& shape : event_templates(step_m)) {
+    const auto templates = event_templates(step_m);
+    ASSERT_FALSE(templates.empty());
+    for (const auto& shape : templates) {
         double sum = 0;
         for (const double change : shape.change) {
             sum += change;

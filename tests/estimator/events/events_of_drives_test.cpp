@@ -244,7 +244,9 @@ TEST(EventsOfDrives, TellPlaceTrackAndDepthWithItsUncertainty) {
 TEST(EventsOfDrives, AreNoneOnRoadsWithoutDefects) {
     for (const double iri : {1.0, 6.0}) {
         const auto road = road_with_holes({.iri_mm_per_m = iri}, 0, 5);
-        for (const auto& events : passes_over(road.road)) {
+        const auto passes = passes_over(road.road);
+        ASSERT_FALSE(passes.empty());
+        for (const auto& events : passes) {
             EXPECT_THAT(events, ::testing::IsEmpty());
         }
     }
@@ -269,6 +271,26 @@ TEST(EventsOfDrives, AlarmFalselyLessThanEveryFiveKilometresOnAMeasuredRoad) {
     std::printf("%d false alarms in %.0f km, %zu events\n", alarms, driven_km, count);
     ASSERT_GT(count, 0U);
     EXPECT_LT(alarms / driven_km, 0.2);
+}
+
+/// With the sensors of `import`, where two passes of three decide, as in a database.
+TEST(EventsOfDrives, OfVerticalAndPitchAgreeOnNoHoleOnTheMeasuredRoad) {
+    const auto road = measured_road();
+    Passes passes;
+    for (const auto& drive : drives) {
+        passes.push_back(detect_events(profile_of(road, drive, {true, false, false, true})));
+    }
+    int alarms = 0;
+    std::size_t count = 0;
+    for (const auto& events : passes) {
+        count += events.size();
+        alarms += static_cast<int>(std::ranges::count_if(events, [&](const auto& event) {
+            return event.kind == EventKind::pothole && seen_by(passes, event.travel_m) >= 2;
+        }));
+    }
+    std::printf("%d reports of a hole that passes agree on, of %zu events\n", alarms, count);
+    ASSERT_GT(count, 0U);
+    EXPECT_LT(alarms / (length_m / 1000), 0.2);
 }
 
 /// The mean of both tracks shows half the depth of a hole in one of them.

@@ -68,6 +68,8 @@ TEST(AmplitudeSpectrum, GrowsWithTheSignal) {
     std::ranges::transform(once, std::back_inserter(thrice), [](double x) { return 3 * x; });
     const auto a = amplitude_spectrum(once, step_s, band);
     const auto b = amplitude_spectrum(thrice, step_s, band);
+    ASSERT_FALSE(a.hz.empty());
+    ASSERT_EQ(b.amplitude.size(), a.hz.size());
     for (std::size_t i = 0; i < a.hz.size(); ++i) {
         ASSERT_NEAR(b.amplitude[i], 3 * a.amplitude[i], 1e-12);
     }

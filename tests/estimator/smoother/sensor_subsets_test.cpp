@@ -5,13 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace macadam::testing {
 namespace {
 
 constexpr double segment_m = 40;
 constexpr Bound hri_rmse{.wanted = 0.09};
 constexpr Bound mri_rmse{.wanted = 0.12};
-constexpr Bound over_kf{.wanted = 0.95, .reached = 1.05};
+constexpr Bound over_kf{.wanted = 0.95};
 constexpr Bound over_kf_with_factor{.wanted = 0.95};
 
 class SensorSubset : public ::testing::TestWithParam<double> {};
@@ -39,7 +41,8 @@ TEST_P(SensorSubset, OfLateralAloneIsBetterThanThePublishedFilter) {
     std::vector<Held> kf;
     for (const auto& world : worlds()) {
         const auto recipe = drive_in(world, GetParam());
-        const auto& car = recipe.car.vehicle;
+        auto car = recipe.car.vehicle;
+        car.half_car.friction_n = std::nullopt; // which the likelihood of this channel needs
         const auto [stretch, truth] = driven_road(recipe);
         append(ours,
                held_beside(smoothed(stretch, car, {.lateral = true, .yaw = true}),

@@ -47,8 +47,10 @@ double drive_length_m() {
 }
 
 DriveRecipe drive_in(const World& world, double speed_kmh) {
+    auto car = two_axle_car(world.axles, world.imu_ahead_m);
+    car.half_car.friction_n = 0; // as linear_car_of() has it
     return {.road = world.road,
-            .car = linear_car_of(two_axle_car(world.axles, world.imu_ahead_m)),
+            .car = linear_car_of(car),
             .length_m = drive_length_m(),
             .speed_kmh = speed_kmh,
             .seed = 11};

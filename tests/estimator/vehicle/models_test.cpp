@@ -21,7 +21,9 @@ const HalfCar car{.ms_kg = 1600,
                   .l_m = 0.78};
 
 TEST(GoldenCar, HasTheTransitionOfTheStandard) {
-    for (const auto& row : read_table("iri_reference/golden_car_coefficients.csv", 1)) {
+    const auto table = read_table("iri_reference/golden_car_coefficients.csv", 1);
+    ASSERT_FALSE(table.empty());
+    for (const auto& row : table) {
         const auto step = discretise(golden_car(), row[0] / golden_speed_mps);
         for (int i = 0; i < 4; ++i) {
             for (int j = 0; j < 4; ++j) {

@@ -157,7 +157,9 @@ TEST(NetworkChange, LosesARoadThatIsGone) {
     const auto art = street();
     auto after = testing::edited(art.ways);
     testing::erase(after, 2);
-    for (const auto& road : changed(art.ways, after).same) {
+    const auto same = changed(art.ways, after).same;
+    ASSERT_FALSE(same.empty());
+    for (const auto& road : same) {
         EXPECT_EQ(road.before.way_id, 1);
         EXPECT_EQ(road.after.way_id, 1);
     }

@@ -169,6 +169,7 @@ TEST(MapMatch, CutsTheTraceWhereNoWayJoinsTwoRoads) {
 TEST(MapMatch, IsContiguousInTravel) {
     const WithCarPark there;
     const auto trace = match(there.trip, there.art);
+    ASSERT_GT(trace.size(), 1U);
     for (std::size_t i = 1; i < trace.size(); ++i) {
         EXPECT_DOUBLE_EQ(trace[i].from_travel_m, trace[i - 1].to_travel_m);
         EXPECT_LE(trace[i].from_travel_m, trace[i].to_travel_m);

@@ -129,7 +129,7 @@ TEST(ChunkTraces, AreOnePerDriveAndPassesSayWhichIsTheirs) {
     const auto passes = cut_trip(trace, matched, kilometre(), car(), {}).passes;
     ASSERT_THAT(passes, SizeIs(60));
     for (std::size_t i = 0; i < passes.size(); ++i) {
-        EXPECT_EQ(passes[i].drive, i < 40 ? 0U : 1U);
+        EXPECT_EQ(passes[i].pass.drive, i < 40 ? 0U : 1U);
     }
 }
 

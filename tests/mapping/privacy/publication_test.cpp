@@ -173,12 +173,12 @@ TEST(NetworkBlocks, EndAtJunctionsAndAfterFiveHundredMetres) {
 // ----------------------------------------------------------------------------------------- state
 
 TEST(PublishedState, RoundsCountsDown) {
-    EXPECT_EQ(told_count(4), 0);
-    EXPECT_EQ(told_count(5), 5);
-    EXPECT_EQ(told_count(9), 5);
-    EXPECT_EQ(told_count(10), 10);
-    EXPECT_EQ(told_count(49), 20);
-    EXPECT_EQ(told_count(2'147'483'647), 2'000'000'000);
+    EXPECT_EQ(published_count(4), 0);
+    EXPECT_EQ(published_count(5), 5);
+    EXPECT_EQ(published_count(9), 5);
+    EXPECT_EQ(published_count(10), 10);
+    EXPECT_EQ(published_count(49), 20);
+    EXPECT_EQ(published_count(2'147'483'647), 2'000'000'000);
 }
 
 FusionInput reading(std::int64_t car, std::int64_t utc_ms) {
@@ -199,21 +199,21 @@ TEST(PublishedState, TellsMonthsAndAChangeOnlyOfManyCars) {
     state.vehicles = 6;
     state.first_seen_ms = january_ms + 3 * day_ms;
     state.change = RoadChange{february_ms + day_ms, -812};
-    auto told = published(state, passes, {});
-    EXPECT_EQ(told.iri_um, 2350);
-    EXPECT_EQ(told.sd_um, 250);
-    EXPECT_EQ(told.low_um, 2000);
-    EXPECT_EQ(told.high_um, 2700);
-    EXPECT_EQ(told.passes, 5);
-    EXPECT_EQ(told.first_seen_ms, january_ms);
-    EXPECT_EQ(told.change, std::nullopt);
+    auto coarse = published(state, passes, {});
+    EXPECT_EQ(coarse.iri_um, 2350);
+    EXPECT_EQ(coarse.sd_um, 250);
+    EXPECT_EQ(coarse.low_um, 2000);
+    EXPECT_EQ(coarse.high_um, 2700);
+    EXPECT_EQ(coarse.passes, 5);
+    EXPECT_EQ(coarse.first_seen_ms, january_ms);
+    EXPECT_EQ(coarse.change, std::nullopt);
     for (int car = 0; car < 5; ++car) {
         passes.push_back(reading(car, february_ms + 2 * day_ms));
     }
-    told = published(state, passes, {});
-    ASSERT_TRUE(told.change);
-    EXPECT_EQ(told.change->utc_ms, february_ms);
-    EXPECT_EQ(told.change->um, -810);
+    coarse = published(state, passes, {});
+    ASSERT_TRUE(coarse.change);
+    EXPECT_EQ(coarse.change->utc_ms, february_ms);
+    EXPECT_EQ(coarse.change->um, -810);
 }
 
 } // namespace

@@ -45,7 +45,9 @@ double travel_at(const Motion& motion, double t_s) {
 
 TEST(Receiver, SaysWhereTheCarWasALatencyAgo) {
     const auto [path, motion] = ride();
-    for (const auto& fix : received_fixes(path, motion, faultless(), 1.0, 1)) {
+    const auto fixes = received_fixes(path, motion, faultless(), 1.0, 1);
+    ASSERT_FALSE(fixes.empty());
+    for (const auto& fix : fixes) {
         const auto was = path.plane.to_geo(place_at(path, travel_at(motion, fix.t_s - 1)).at);
         ASSERT_LT(distance_m(fix.at, was), 0.2); // one step of the motion: 0.1 m
     }
@@ -109,6 +111,7 @@ TEST(WheelSpeed, IsTheTruthTimesItsScaleInWholeQuanta) {
     const OdometerRecipe odometer{
         .rate_hz = 50, .scale_sd = 0, .noise_mps = 0, .quantum_mps = 0.05};
     const auto speeds = wheel_speeds(motion, odometer, 1.02, 1);
+    ASSERT_FALSE(speeds.t_s.empty());
     for (std::size_t i = 0; i < speeds.t_s.size(); ++i) {
         const auto at = static_cast<std::size_t>(speeds.t_s[i] / motion.step_s);
         ASSERT_NEAR(speeds.speed_mps[i], 1.02 * motion.speed_mps[at], 0.025 + 0.02);

@@ -58,7 +58,10 @@ double length_of(const RoadNetwork& roads, const std::vector<EdgeId>& route) {
 
 TEST(Route, GoesOnWhereItCameToByRoadsThatMayBeDriven) {
     const auto art = town();
-    for (const auto& route : routes_in(art.roads, short_trips())) {
+    const auto routes = routes_in(art.roads, short_trips());
+    ASSERT_FALSE(routes.empty());
+    for (const auto& route : routes) {
+        ASSERT_FALSE(route.empty());
         for (std::size_t i = 0; i < route.size(); ++i) {
             EXPECT_TRUE(is_drivable(art.roads, route[i]));
             if (i > 0) {
@@ -107,7 +110,9 @@ TEST(Route, IsAsLongAsDrawnGiveOrTakeItsLastEdge) {
     const auto art = town();
     auto driving = short_trips();
     driving.return_share = 0;
-    for (const auto& route : routes_in(art.roads, driving)) {
+    const auto routes = routes_in(art.roads, driving);
+    ASSERT_FALSE(routes.empty());
+    for (const auto& route : routes) {
         const double length = length_of(art.roads, route);
         EXPECT_GE(length, 2000);
         EXPECT_LE(length, 3000 + length_m(art.roads, route.back()));

@@ -67,6 +67,7 @@ TEST(SpeedPlan, DrivesThePathToItsEnd) {
 
 TEST(SpeedPlan, SpeedIsTheRateOfTravelAndAccelerationThatOfSpeed) {
     const auto motion = ride({}).motion;
+    ASSERT_GT(motion.travel_m.size(), 2U);
     for (std::size_t i = 1; i + 1 < motion.travel_m.size(); ++i) {
         const double v = (motion.travel_m[i + 1] - motion.travel_m[i - 1]) / (2 * motion.step_s);
         ASSERT_NEAR(v, motion.speed_mps[i], 1e-3);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 
 using namespace macadam;
@@ -117,4 +118,26 @@ TEST(TruthComparison, RefusesTheTruthOfOtherSegments) {
         EXPECT_THAT(error.what(),
                     HasSubstr("segment '1+0000' is '0.000 to 25.000 m' in the truth"));
     }
+}
+
+TEST(TruthComparison, ScoresBandsOfTheTrueRoughnessAndOfSpeed) {
+    const std::vector states{record(0, 0.9), record(1, 1.2), record(2, 4.4), record(3, 5.0)};
+    const std::vector truths{truth(0, 0.8), truth(1, 1.0), truth(2, 4.0), truth(3, 5.0)};
+    const std::map<SegmentKey, double> speeds{
+        {{1, true, 0}, 44.9}, {{1, true, 1}, 45.0}, {{1, true, 2}, 90.0}};
+    const auto comparison = compare_with_truth(states, truths, speeds);
+    ASSERT_EQ(comparison.levels.size(), 3U); // none from 2 to 4
+    EXPECT_EQ(comparison.levels[0].to, 1);
+    EXPECT_NEAR(comparison.levels[0].score.bias, 0.1, 1e-9);
+    EXPECT_EQ(comparison.levels[1].from, 1); // the lower limit is within
+    EXPECT_NEAR(comparison.levels[1].score.bias, 0.2, 1e-9);
+    EXPECT_EQ(comparison.levels[2].from, 4);
+    EXPECT_FALSE(comparison.levels[2].to);
+    EXPECT_EQ(comparison.levels[2].score.segments, 2U);
+    ASSERT_EQ(comparison.speeds.size(), 3U);
+    EXPECT_EQ(comparison.speeds[0].to, 45);
+    EXPECT_EQ(comparison.speeds[1].from, 45);
+    EXPECT_EQ(comparison.speeds[2].from, 85);
+    EXPECT_EQ(comparison.speeds[2].score.segments, 1U); // one segment has no speed
+    EXPECT_TRUE(compare_with_truth(states, truths).speeds.empty());
 }

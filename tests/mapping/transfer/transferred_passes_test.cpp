@@ -227,6 +227,73 @@ std::vector<Way> with_new_junction(const std::vector<Way>& ways) {
     return after;
 }
 
+/// Adds an event every 70 m of a trip over way 1.
+TripPasses with_events(TripPasses trip, const RoadNetwork& roads) {
+    for (const auto& pass : trip.passes) {
+        const auto range = *stations_of(roads, pass.segment);
+        const double at_m = 70 * std::ceil(range.from_m / 70);
+        if (at_m < range.to_m) {
+            trip.events.push_back({.segment = pass.segment,
+                                   .occurrence = pass.occurrence,
+                                   .kind = EventKind::pothole,
+                                   .track = WheelTrack::left,
+                                   .at_mm = std::llround(1000 * std::abs(at_m)),
+                                   .place_sd_mm = 900,
+                                   .size_um = 30'000,
+                                   .sd_um = 9'000});
+        }
+    }
+    return trip;
+}
+
+GeoPoint point_of(const RoadNetwork& roads, const PassEvent& event) {
+    const auto link = way_at(roads, *way_numbered(roads, event.segment.way_id)).first_link;
+    const auto way = way_at(roads, *way_numbered(roads, event.segment.way_id));
+    const double at_m = static_cast<double>(event.at_mm) / 1000;
+    for (auto i = link; i < way.past_link; ++i) {
+        for (const auto& segment : segments_of(roads, edge_of(LinkId{i}, true))) {
+            if (at_m >= segment.from_m && at_m <= segment.to_m) {
+                return between(segment.line.front(),
+                               segment.line.back(),
+                               (at_m - segment.from_m) / (segment.to_m - segment.from_m));
+            }
+        }
+    }
+    return {};
+}
+
+TEST(TransferredPasses, TakeTheirEventsAlong) {
+    const auto art = long_street();
+    auto renumbered = testing::edited(art.ways);
+    testing::renumber(renumbered, 1, 50);
+    auto split = testing::edited(art.ways);
+    testing::split(split, 1, 1, 9);
+    auto reversed = testing::edited(art.ways);
+    testing::reverse(reversed, 1);
+    for (const auto& after : {testing::ways_of(renumbered),
+                              testing::ways_of(split),
+                              testing::ways_of(reversed),
+                              with_new_junction(art.ways)}) {
+        const auto there = world(art.ways, after);
+        for (const bool forward : {true, false}) {
+            const auto old = with_events(driven(there.before, 1, forward), there.before);
+            ASSERT_GT(old.events.size(), 15U);
+            const auto now = there.carry(old).readings;
+            ASSERT_EQ(now.events.size(), old.events.size());
+            for (const auto& event : now.events) {
+                const auto at = point_of(there.after, event);
+                const auto same = std::ranges::any_of(old.events, [&](const PassEvent& each) {
+                    return distance_m(at, point_of(there.before, each)) < 0.1;
+                });
+                EXPECT_TRUE(same) << name_of(event.segment);
+                EXPECT_TRUE(std::ranges::any_of(now.passes, [&](const Pass& pass) {
+                    return pass.segment == event.segment && pass.occurrence == event.occurrence;
+                }));
+            }
+        }
+    }
+}
+
 /// By brute force: what the old passes say of each centimetre of the new segment.
 double
 mean_over(const std::vector<Pass>& old, const RoadNetwork& roads, const WayMeasureRange& range) {

@@ -165,7 +165,9 @@ TEST(LabelPlacement, KeepsLabelsApart) {
     TypeSetter setter;
     for (const unsigned seed : {1U, 2U, 3U}) {
         std::vector<int> inked(512 * 512);
-        for (const auto& label : labels_of(crooked_streets(seed))) {
+        const auto labels = labels_of(crooked_streets(seed));
+        ASSERT_FALSE(labels.empty());
+        for (const auto& label : labels) {
             const auto mask = halo_of(label_mask(label, setter), label.halo_px);
             for (int y = 0; y < mask.height; ++y) {
                 for (int x = 0; x < mask.width; ++x) {
@@ -235,7 +237,9 @@ TEST(LabelPlacement, LeavesOutRoadsTooCrookedForLetters) {
 
 TEST(LabelPlacement, TurnsNoLetterFurtherThanToldFromTheNext) {
     const LabelConfig config{.max_bend_deg = 10};
-    for (const auto& label : labels_of(crooked_streets(11), config)) {
+    const auto labels = labels_of(crooked_streets(11), config);
+    ASSERT_FALSE(labels.empty());
+    for (const auto& label : labels) {
         for (std::size_t i = 1; i < label.glyphs.size(); ++i) {
             const auto& a = label.glyphs[i - 1].pose;
             const auto& b = label.glyphs[i].pose;

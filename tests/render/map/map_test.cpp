@@ -126,7 +126,9 @@ TEST(Map, ShowsTheWorseDirectionWhereThereIsNoRoomForBoth) {
 TEST(Map, HasAnEntryInItsLegendForEveryClass) {
     const auto image = render_map(scene({road({{-400, 0}, {400, 0}}, 0)}, 400), {}, 512, 512);
     const PixelBox corner{256, 300, 512, 480};
-    for (const auto rgb : ramp_colours("rdylbu", 3)) {
+    const auto colours = ramp_colours("rdylbu", 3);
+    ASSERT_EQ(colours.size(), 3U);
+    for (const auto rgb : colours) {
         EXPECT_GT(count_of(image, corner, rgb), 20U) << std::hex << rgb;
     }
 }

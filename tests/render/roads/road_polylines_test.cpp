@@ -135,10 +135,14 @@ TEST(RoadPolylines, CloseARingWhereTheyAreSeparate) {
     for (int i = 0; i < 12; ++i) {
         ring.push_back(line({at(i), at((i + 1) % 12)}, 1));
     }
-    for (const auto& strand : separate_polylines(ring, all_lines(ring), frame)) {
+    const auto strands = separate_polylines(ring, all_lines(ring), frame);
+    ASSERT_EQ(strands.size(), ring.size());
+    for (const auto& strand : strands) {
         EXPECT_EQ(strand.first, 2U); // two line segments before the line, and two after it
         EXPECT_EQ(strand.looks.size(), 5U);
-        for (const auto& quad : ribbon(strand, {5, every_look, {0, 0, 1000, 1000}})) {
+        const auto quads = ribbon(strand, {5, every_look, {0, 0, 1000, 1000}});
+        ASSERT_FALSE(quads.empty());
+        for (const auto& quad : quads) {
             EXPECT_EQ(quad[0].round_before, 0); // mitred, also where the ring's numbers begin
             EXPECT_EQ(quad[0].round_after, 0);
         }

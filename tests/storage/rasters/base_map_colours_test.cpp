@@ -23,6 +23,7 @@ TEST(BaseMapFile, IsTheMeanOfItsPixelsWhereItIsMadeSmaller) {
         const int side_px = int(2000 / times) - 1;
         const auto rgba =
             whole(open_base_map(file), {"", 1'700'003, 6'099'996, 10 * times, side_px, side_px});
+        ASSERT_EQ(rgba.size(), std::size_t(side_px) * std::size_t(side_px) * 4);
         for (std::size_t at = 0; at < rgba.size(); at += 4) {
             // The mean is 155; a tent of few pixels does not weigh black and white quite alike.
             ASSERT_NEAR(rgba[at], 155, 3) << times;

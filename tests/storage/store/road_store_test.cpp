@@ -177,7 +177,16 @@ TEST(RoadStore, DigestsTheTextThatTheDocumentationDescribes) {
     auto store = new_store(test_folder() / "a.gpkg");
     auto pass = passes_of(0)[0];
     pass.iri_right_um.reset();
-    store.add_trip(trip_record(3), std::vector{pass});
+    const PassEvent event{.segment = pass.segment,
+                          .occurrence = 0,
+                          .kind = EventKind::bump,
+                          .track = WheelTrack::both,
+                          .at_mm = 12'345,
+                          .place_sd_mm = 900,
+                          .size_um = 31'000,
+                          .sd_um = 9'500,
+                          .length_mm = 1'500};
+    store.add_trip(trip_record(3), std::vector{pass}, {}, std::vector{event});
     store.refresh();
     const auto optional = [](const auto& value) { return value ? std::to_string(*value) : "-"; };
     const auto state = *records_of(store)[0].state;
@@ -188,6 +197,8 @@ TEST(RoadStore, DigestsTheTextThatTheDocumentationDescribes) {
     text += "state 1+0000 " + std::to_string(state.iri_um) + " " + std::to_string(state.sd_um) +
             " " + std::to_string(state.low_um) + " " + std::to_string(state.high_um) + " " +
             optional(state.left_um) + " - 0 0 1 1 - - - - - -\n";
+    text += "searched " + trip_record(3).sha256 + "\nevent 1+0000 " + trip_record(3).sha256 +
+            " 0 1 3 12345 900 31000 9500 1500\n";
     Sha256 hash;
     hash.add(text);
     EXPECT_EQ(store.digest(), hash.hex());

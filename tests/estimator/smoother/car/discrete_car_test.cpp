@@ -199,7 +199,9 @@ TEST(RideOver, BeginsAtRestOnTheRoadAsHighAsItLies) {
     passage.cars = {car_steps(linear_car(lopsided_car()), 0.02)};
     passage.travel_m = {5, 5.4, 5.8};
     const std::vector<Pair> road_m(60, Pair{0.3, 0});
-    for (const auto& x : simulate_response(passage, {cell_m, 0, road_m.size()}, road_m)) {
+    const auto states = simulate_response(passage, {cell_m, 0, road_m.size()}, road_m);
+    ASSERT_EQ(states.size(), passage.travel_m.size());
+    for (const auto& x : states) {
         EXPECT_NEAR(x[0], 0.3, 1e-12);
         EXPECT_NEAR(x[1], 0, 1e-10);
         EXPECT_NEAR(x[2], 0, 1e-12);

@@ -5,15 +5,17 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace macadam::testing {
 namespace {
 
 constexpr double cell_m = 0.25;
 
-RoadPrior prior_of(double colour, const RoadGrid& grid) {
+RoadPrior prior_of(std::vector<double> change_weights, const RoadGrid& grid) {
     RoadPrior prior;
-    prior.colour = colour;
+    prior.change_weights = std::move(change_weights);
     prior.increments.assign(grid.cells, {2e-6, 8e-7, 3e-7});
     return prior;
 }
@@ -30,7 +32,7 @@ double keep(double length_m) {
 std::vector<Pair> after_a_change(const RoadPrior& prior, const RoadGrid& grid, std::size_t at) {
     std::vector<Pair> increments(grid.cells);
     increments[at] = {1, 1};
-    return profile_of(increments, wander_of(prior, grid));
+    return profile_of(increments, road_processes(prior, grid.cell_m));
 }
 
 /// Spectrum of the mean's elevation at a wave number, over the increments', from what one change
@@ -46,61 +48,58 @@ double spectrum_of(const RoadPrior& prior, double per_m) {
     return std::norm(sum);
 }
 
-/// How fast the spectrum falls from a wave of 4 m to one of 1.5 m.
-double waviness(double colour) {
-    const auto prior = prior_of(colour, grid_of(4000));
-    return std::log(spectrum_of(prior, 0.25) / spectrum_of(prior, 1 / 1.5)) /
-           std::log((1 / 1.5) / 0.25);
-}
-
 } // namespace
 
-/// Changes that go on by a share, of a road that forgets: two poles, one after the other.
-TEST(RoadWander, HasTheSpectrumOfItsTwoPoles) {
-    for (const double colour : {-0.3, 0.0, 0.4, 0.8}) {
-        const auto prior = prior_of(colour, grid_of(4000));
+/// The autoregression of the changes, of a road that forgets: one filter after the other.
+TEST(RoadProcess, HasTheSpectrumOfItsAutoregression) {
+    for (const std::vector<double>& weights : {std::vector<double>{},
+                                               {0.4},
+                                               {0.5, -0.3, 0.1},
+                                               {0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.3}}) {
+        const auto prior = prior_of(weights, grid_of(4000));
         for (const double per_m : {0.005, 0.05, 0.4, 1.3, 2.0}) {
             const auto z = std::polar(1.0, -2 * std::numbers::pi * per_m * cell_m);
-            const double expected = 1 / std::norm((1.0 - keep(30) * z) * (1.0 - colour * z));
-            EXPECT_NEAR(spectrum_of(prior, per_m) / expected, 1, 1e-9) << colour << " " << per_m;
+            std::complex<double> changes = 1;
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                changes -= weights[i] * std::pow(z, static_cast<double>(i + 1));
+            }
+            const double expected = 1 / std::norm((1.0 - keep(30) * z) * changes);
+            EXPECT_NEAR(spectrum_of(prior, per_m) / expected, 1, 1e-9)
+                << weights.size() << " weights, " << per_m << " waves a metre";
         }
     }
 }
 
-TEST(RoadWander, FallsFasterTheMoreItsChangesGoOn) {
-    EXPECT_LT(waviness(-0.3), waviness(0) - 0.15);
-    EXPECT_GT(waviness(0.5), waviness(0) + 0.3);
-}
-
-TEST(RoadWander, LeavesHalfTheDifferenceARandomWalkThatForgets) {
+TEST(RoadProcess, LeavesHalfTheDifferenceARandomWalkThatForgets) {
     const auto grid = grid_of(60);
-    const auto road = after_a_change(prior_of(0.6, grid), grid, 5);
+    const auto road = after_a_change(prior_of({0.6, 0.1}, grid), grid, 5);
     for (std::size_t i = 5; i < grid.cells; ++i) {
         EXPECT_NEAR(road[i].half, std::pow(keep(4), static_cast<double>(i - 5)), 1e-12);
     }
 }
 
 /// Before the second station there is no change that could go on.
-TEST(RoadWander, KnowsNoChangeBeforeItsFirst) {
+TEST(RoadProcess, KnowsNoChangeBeforeItsFirst) {
     const auto grid = grid_of(10);
-    const auto coloured = after_a_change(prior_of(0.6, grid), grid, 0);
-    EXPECT_NEAR(coloured[1].mean, keep(30), 1e-12);
-    EXPECT_NEAR(coloured[2].mean, keep(30) * keep(30), 1e-12)
+    const auto road = after_a_change(prior_of({0.6, 0.2}, grid), grid, 0);
+    EXPECT_NEAR(road[1].mean, keep(30), 1e-12);
+    EXPECT_NEAR(road[2].mean, keep(30) * keep(30), 1e-12)
         << "the first station's height is no change";
 }
 
-TEST(RoadWander, IsAsHighAtItsFirstStationAsEverAfter) {
+TEST(RoadProcess, IsAsHighAtItsFirstStationAsEverAfter) {
     const auto grid = grid_of(50);
-    const auto prior = prior_of(0, grid);
+    const auto prior = prior_of({}, grid);
     const auto first = first_increment(prior, grid);
     const Increment q = prior.increments.front();
     EXPECT_NEAR(first.mean, keep(30) * keep(30) * first.mean + q.mean, 1e-12 * first.mean);
     EXPECT_NEAR(first.half, keep(4) * keep(4) * first.half + q.half, 1e-12 * first.half);
 }
 
-TEST(RoadWander, OfFewerStationsThanItLooksBackIsStillOne) {
-    EXPECT_EQ(wander_of(prior_of(0.5, grid_of(1)), grid_of(1)).size(), 1);
-    EXPECT_EQ(after_a_change(prior_of(0.5, grid_of(1)), grid_of(1), 0)[0].mean, 1);
+TEST(RoadProcess, OfFewerStationsThanItLooksBackIsStillOne) {
+    const auto road = after_a_change(prior_of({0.5, 0.1}, grid_of(1)), grid_of(1), 0);
+    ASSERT_EQ(road.size(), 1);
+    EXPECT_EQ(road[0].mean, 1);
 }
 
 /// Two normal numbers are mapped by a matrix; its square is the covariance.

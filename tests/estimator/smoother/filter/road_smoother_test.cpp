@@ -72,7 +72,7 @@ SmoothedRoad road_of(const std::vector<DriveRecord>& passages,
 /// A prior that differs from station to station, with covariance between its two sides.
 RoadPrior uneven_prior(const RoadGrid& grid) {
     RoadPrior prior;
-    prior.colour = 0.3;
+    prior.change_weights = {0.3, -0.2, 0.1};
     for (std::size_t i = 0; i < grid.cells; ++i) {
         const double q = 1e-6 * (1 + static_cast<double>(i % 5));
         prior.increments.push_back({q, 0.4 * q, (i % 2 == 0 ? 0.5 : -0.3) * std::sqrt(0.4) * q});
@@ -154,15 +154,19 @@ Dense dense_of(const std::vector<DriveRecord>& passages,
         }
         dense.variance.block<2, 2>(2 * cell, 2 * cell) << q.mean, q.cross, q.cross, q.half;
         for (int side = 0; side < 2; ++side) {
-            double before = 0;
-            double at = 1; // of a road that changed here and nowhere else
+            // A road that changed here and nowhere else: `change` over what it keeps of its height.
+            std::vector<double> change(grid.cells);
+            double height = 0;
             for (int later = cell; later < cells; ++later) {
-                dense.profile(2 * later + side, 2 * cell + side) = at;
-                // The change of the first two stations is not known to go on.
-                const double colour = side == 0 && later >= 1 ? prior.colour : 0;
-                const double next = (keep[side] + colour) * at - keep[side] * colour * before;
-                before = at;
-                at = next;
+                const auto at = static_cast<std::size_t>(later);
+                change[at] = later == cell ? 1 : 0;
+                const std::size_t weights = side == 0 ? prior.change_weights.size() : 0;
+                for (std::size_t i = 0; i < weights && i + 1 < at; ++i) {
+                    // That of the first station is its height, which does not go on.
+                    change[at] += prior.change_weights[i] * change[at - 1 - i];
+                }
+                height = keep[side] * height + change[at];
+                dense.profile(2 * later + side, 2 * cell + side) = height;
             }
         }
     }

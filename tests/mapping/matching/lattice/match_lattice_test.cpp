@@ -174,6 +174,8 @@ TEST(MatchLattice, WeighsStatesAsAllChainsThroughThemDo) {
         }
     }
     const auto posterior = posteriors(lattice).all;
+    ASSERT_EQ(expected.size(), samples * states);
+    ASSERT_EQ(posterior.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_NEAR(posterior[i], expected[i] / whole, 1e-6); // costs are floats
     }

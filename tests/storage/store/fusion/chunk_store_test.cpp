@@ -4,8 +4,8 @@
 #include "storage/sqlite/sqlite.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/road_art.hpp"
+#include "support/roads/roughness_pattern.hpp"
 #include "support/roads/store_world.hpp"
-#include "support/roads/texture.hpp"
 
 #include <gmock/gmock.h>
 
@@ -48,7 +48,7 @@ IriUm mean_um(const RoughnessTrace& trace, double from_m, double to_m) {
 
 /// A trip along the whole road that reads `lag_m` too far on, forward or backward.
 Trip driven(int number, double lag_m, bool forward) {
-    static const auto texture = testing::texture(700, 77);
+    static const auto pattern = testing::roughness_pattern(700, 77);
     constexpr double shift_m = 650; // stations of the way back are below 0
     Trip trip;
     const auto segments = segments_of(roads(), edge_of(LinkId{0}, forward));
@@ -59,8 +59,8 @@ Trip driven(int number, double lag_m, bool forward) {
             const double from_m = forward ? (first ? 0 : 490) : (first ? -510 : -600);
             const double to_m = forward ? (first ? 510 : 600) : (first ? 0 : -490);
             const double offset_m = forward ? 20 : shift_m;
-            auto trace = testing::read_texture(
-                texture,
+            auto trace = testing::read_pattern(
+                pattern,
                 {.from_m = from_m + offset_m,
                  .to_m = to_m + offset_m,
                  .lag_m = [lag_m](double) { return lag_m; },

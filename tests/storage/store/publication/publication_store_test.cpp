@@ -46,7 +46,8 @@ struct Crowd {
                                                                        .attribution = "",
                                                                        .privacy = privacy})} {}
 
-    void drive(int car, std::int64_t utc_ms, IriUm iri_um = 2000) {
+    /// \param holes  also reports a pothole at 55 m of the second road and one of the first
+    void drive(int car, std::int64_t utc_ms, IriUm iri_um = 2000, bool holes = false) {
         auto record = testing::trip_record(1000 + trips_++);
         record.vehicle_id = "car " + std::to_string(car);
         record.t0_utc_ms = utc_ms;
@@ -62,7 +63,18 @@ struct Crowd {
                 passes.push_back(pass);
             }
         }
-        store.add_trip(record, passes);
+        std::vector<PassEvent> events;
+        for (std::int64_t way = 1; holes && way <= 2; ++way) {
+            events.push_back({.segment = {way, true, 2},
+                              .occurrence = 0,
+                              .kind = EventKind::pothole,
+                              .track = WheelTrack::unknown,
+                              .at_mm = 55'300,
+                              .place_sd_mm = 800,
+                              .size_um = 31'000,
+                              .sd_um = 9'000});
+        }
+        store.add_trip(record, passes, {}, events);
     }
     void drive_all(int cars, std::int64_t utc_ms, IriUm iri_um = 2000) {
         for (int car = 0; car < cars; ++car) {
@@ -86,9 +98,58 @@ struct Crowd {
         return records;
     }
 
+    std::vector<EventRecord> events(Reader reader = Reader::anyone) const {
+        return RoadStore::open(file, RoadStore::Access::read, {}, reader).events({});
+    }
+
 private:
     int trips_ = 0;
 };
+
+TEST(Publication, TellsOfEventsThatFiveCarsReport) {
+    Crowd crowd;
+    for (int car = 0; car < 8; ++car) {
+        crowd.drive(car, january_ms, 2000, car < 4);
+    }
+    crowd.store.refresh();
+    EXPECT_EQ(crowd.events(Reader::operator_).size(), 2U);
+    EXPECT_THAT(crowd.events(), IsEmpty());
+    crowd.publish(february_ms);
+    EXPECT_THAT(crowd.events(), IsEmpty());
+
+    for (int car = 4; car < 10; ++car) {
+        crowd.drive(car, february_ms + 5 * day_ms, 2000, true);
+    }
+    crowd.store.refresh();
+    EXPECT_THAT(crowd.events(), IsEmpty()); // until the next publication
+    crowd.publish(march_ms);
+    const auto events = crowd.events();
+    ASSERT_EQ(events.size(), 1U); // none at the end of the trips
+    const auto& event = events.front().event;
+    EXPECT_EQ(event.segment, (SegmentKey{2, true, 2}));
+    EXPECT_EQ(event.at_mm, 55'000);
+    EXPECT_EQ(event.size_um, 30'000);
+    EXPECT_EQ(event.passes, 10);
+    EXPECT_EQ(event.passes_over, 10);
+    EXPECT_EQ(event.vehicles, 10);
+    EXPECT_EQ(event.first_seen_ms, january_ms);
+    EXPECT_EQ(event.last_seen_ms, february_ms);
+}
+
+TEST(Publication, HasNoEventsByMonth) {
+    Crowd crowd;
+    for (int car = 0; car < 6; ++car) {
+        crowd.drive(car, january_ms, 2000, true);
+    }
+    crowd.store.refresh();
+    crowd.publish(february_ms);
+    EXPECT_EQ(crowd.events().size(), 1U);
+    SegmentFilter filter;
+    filter.period = Period{january_ms, february_ms};
+    const auto store = RoadStore::open(crowd.file, RoadStore::Access::read);
+    EXPECT_THAT(refusal_of([&] { store.events(filter); }),
+                HasSubstr("expected no --since and --until"));
+}
 
 TEST(Publication, ComesBeforeAnythingLeavesACrowd) {
     Crowd crowd;

@@ -482,6 +482,7 @@ TEST(Rawlog, IsRefusedWhereverAnUncompressedOneIsCut) {
 TEST(Rawlog, IsRefusedWhereverACompressedOneIsCut) {
     const auto bytes = content_of(rtk_file);
     const auto folder = test_folder();
+    ASSERT_GT(bytes.size(), 1600U);
     for (std::size_t size = 10; size < bytes.size(); size += size < 100 ? 30 : 1500) {
         const auto file = written(folder, "cut.rawlog", bytes.substr(0, size));
         EXPECT_THAT(refusal_of([&] {
