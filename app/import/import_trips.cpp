@@ -75,30 +75,27 @@ std::vector<std::string> known_text(const TrimRule& trim) {
     return {};
 }
 
-/// Reason to leave a trip as it is.
-struct Skip {
-    TripReport::Result result;
-    std::vector<std::string> warnings;
-};
-
-std::optional<Skip> skip_of(const Intake& intake, const std::string& sha256) {
+/// Looks up a trip by the hash of its content. Returns whether to skip it; the report says why.
+bool is_skipped(const Intake& intake, const std::string& sha256, TripReport& report) {
     using Result = TripReport::Result;
+    const auto skip = [&](Result result, std::vector<std::string> warnings) {
+        report.result = result;
+        report.warnings = std::move(warnings);
+        report.error.clear();
+        return true;
+    };
+    report.sha256 = sha256;
     const std::scoped_lock lock{intake.store_in_use};
     const bool is_known = intake.store.contains_trip(sha256);
     if (intake.work.reprocess) {
-        return is_known ? std::nullopt
-                        : std::optional{Skip{Result::unknown,
-                                             {"is not in the database: import it with 'macadam "
-                                              "import'"}}};
+        return !is_known &&
+               skip(Result::unknown, {"is not in the database: import it with 'macadam import'"});
     }
     if (is_known) {
-        return Skip{Result::known, known_text(intake.work.pipeline.trim)};
+        return skip(Result::known, known_text(intake.work.pipeline.trim));
     }
-    if (!intake.work.readmit && intake.store.has_forgotten(sha256)) {
-        return Skip{Result::known,
-                    {"was permanently deleted on request; --take-back re-admits it"}};
-    }
-    return std::nullopt;
+    return !intake.work.readmit && intake.store.has_forgotten(sha256) &&
+           skip(Result::known, {"was permanently deleted on request; --take-back re-admits it"});
 }
 
 /// Runs a step of a trip. Returns why the trip has to be rejected, "" if it does not.
@@ -114,45 +111,27 @@ std::string refusal_in(const std::string& file, Step step) {
     }
 }
 
-/// Content of a trip, or the reason why there is none to process.
-struct ReadTrip {
-    std::string sha256; ///< "" if the content cannot be read
-    TripLog log;
-    std::string refusal;      ///< "" if there is none
-    std::optional<Skip> skip; ///< `std::nullopt`: process the log
-};
-
-/// Reads a trip once: recognises it by the hash of its content, before parsing if that is short.
-ReadTrip read_once(const Intake& intake, const TripSource& source) {
-    ReadTrip read;
+/// Reads a trip once, and looks it up before parsing if its content is short. If there is no log to
+/// process, the report says why.
+std::optional<TripLog>
+read_once(const Intake& intake, const TripSource& source, TripReport& report) {
     std::optional<OpenTrip> trip;
     std::optional<std::string> sha256;
-    const auto name = source.name();
-    read.refusal = refusal_in(name, [&] { sha256 = trip.emplace(source).sha256_ahead(); });
-    if (!read.refusal.empty()) {
-        return read;
+    report.error = refusal_in(report.file, [&] { sha256 = trip.emplace(source).sha256_ahead(); });
+    if (!report.error.empty() || (sha256 && is_skipped(intake, *sha256, report))) {
+        return std::nullopt;
     }
-    const bool is_short = sha256.has_value();
-    if (is_short) {
-        read.sha256 = *sha256;
-        read.skip = skip_of(intake, read.sha256);
-    }
-    if (read.skip) {
-        return read;
-    }
+    std::optional<TripLog> log;
     const Progress progress{.report = {}, .stop = intake.stop};
-    read.refusal = refusal_in(name, [&] { read.log = trip->read(needs_of_import(), progress); });
-    const bool is_stopped = !read.refusal.empty() && intake.stop.stop_requested();
-    if (is_short || is_stopped) {
-        return read;
+    report.error = refusal_in(report.file, [&] { log = trip->read(needs_of_import(), progress); });
+    if (sha256 || (!log && intake.stop.stop_requested())) {
+        return log;
     }
-    const auto unreadable = refusal_in(name, [&] { read.sha256 = trip->sha256(); });
-    if (unreadable.empty()) {
-        read.skip = skip_of(intake, read.sha256);
-    } else {
-        read.refusal = unreadable;
+    const auto unreadable = refusal_in(report.file, [&] { sha256 = trip->sha256(); });
+    if (!unreadable.empty()) {
+        report.error = unreadable;
     }
-    return read;
+    return !sha256 || is_skipped(intake, *sha256, report) ? std::nullopt : std::move(log);
 }
 
 /// Estimates and matches a trip.
@@ -196,18 +175,12 @@ ProcessedTrip process_trip(const Intake& intake, const TripSource& source) {
     ProcessedTrip trip;
     auto& report = trip.report;
     report.file = source.name();
-    auto read = read_once(intake, source);
-    report.sha256 = std::move(read.sha256);
-    if (read.skip) {
-        report.result = read.skip->result;
-        report.warnings = std::move(read.skip->warnings);
+    auto log = read_once(intake, source, report);
+    if (!log) {
         return trip;
     }
-    report.error = std::move(read.refusal);
-    if (report.error.empty()) {
-        report.error =
-            refusal_in(report.file, [&] { add_passes(trip, intake, source, std::move(read.log)); });
-    }
+    report.error =
+        refusal_in(report.file, [&] { add_passes(trip, intake, source, std::move(*log)); });
     if (report.error.empty()) {
         report.result = intake.work.reprocess ? Result::reprocessed : Result::imported;
     } else if (report.rows.read > 0) {

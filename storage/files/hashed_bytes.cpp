@@ -11,22 +11,7 @@ constexpr std::size_t block_bytes = 64 << 10; // malloc keeps it for the next fi
 
 } // namespace
 
-class HashedBytes::Stream final : public ByteStream {
-public:
-    explicit Stream(HashedBytes& bytes) : bytes_{bytes} {}
-
-    std::size_t read(std::span<char> into) override { return bytes_.read(into); }
-    std::uint64_t consumed() const override { return bytes_.from_->consumed(); }
-
-private:
-    HashedBytes& bytes_;
-};
-
 HashedBytes::HashedBytes(std::unique_ptr<ByteStream> from) : from_{std::move(from)} {}
-
-std::unique_ptr<ByteStream> HashedBytes::stream() {
-    return std::make_unique<Stream>(*this);
-}
 
 std::size_t HashedBytes::read(std::span<char> into) {
     if (ahead_.empty()) {

@@ -4,6 +4,7 @@
 #include "storage/files/sha256.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <memory>
@@ -13,12 +14,12 @@
 namespace macadam {
 
 /// Bytes that are hashed as they are read, so that content is identified and parsed in one pass.
-class HashedBytes {
+class HashedBytes final : public ByteStream {
 public:
     explicit HashedBytes(std::unique_ptr<ByteStream> from);
 
-    /// Stream over the bytes. They must outlive it.
-    std::unique_ptr<ByteStream> stream();
+    std::size_t read(std::span<char> into) override;
+    std::uint64_t consumed() const override { return from_->consumed(); }
 
     /// Reads ahead into memory, and hands the bytes out again later.
     /// \returns true if the end was reached within `max_bytes`, so that the hash is known.
@@ -26,16 +27,12 @@ public:
     /// \throws InputError  as the stream does.
     bool read_ahead(std::size_t max_bytes);
 
-    /// Reads to the end, whatever became of the stream, and returns the SHA-256 of all bytes: 64
-    /// lower-case hex digits.
+    /// Reads to the end, and returns the SHA-256 of all bytes: 64 lower-case hex digits.
     ///
-    /// \throws InputError  if the bytes cannot be read, also if a reader of the stream met that.
+    /// \throws InputError  if the bytes cannot be read, also if an earlier reader met that.
     std::string sha256();
 
 private:
-    class Stream;
-
-    std::size_t read(std::span<char> into);
     std::size_t fetch(std::span<char> into);
 
     std::unique_ptr<ByteStream> from_;

@@ -77,8 +77,9 @@ bool CsvTable::has(std::string_view column) const {
 }
 
 CsvTable read_csv_table(const std::filesystem::path& file) {
-    HashedBytes bytes{decompressed(file_bytes(file), file.string())};
-    TextLines lines{bytes.stream(), file.string()};
+    auto opened = std::make_unique<HashedBytes>(decompressed(file_bytes(file), file.string()));
+    auto& bytes = *opened;
+    TextLines lines{std::move(opened), file.string()};
     CsvTable table;
     table.header = cells_of_line(lines.next().value_or(""), ',');
     table.where = lines.where();

@@ -38,25 +38,24 @@ std::size_t size_of(const TripSource& source) {
 /// Bytes that report progress as they are read, and stop on request.
 class WatchedBytes final : public ByteStream {
 public:
-    WatchedBytes(std::unique_ptr<ByteStream> from, const TripSource& source, Progress progress)
-        : from_{std::move(from)}, name_{source.name()}, size_{size_of(source)}, progress_{std::move(
-                                                                                    progress)} {}
+    WatchedBytes(ByteStream& from, const TripSource& source, const Progress& progress)
+        : from_{from}, name_{source.name()}, size_{size_of(source)}, progress_{progress} {}
 
     std::size_t read(std::span<char> into) override {
         progress_(static_cast<std::size_t>(consumed()), size_);
         if (progress_.stop.stop_requested()) {
             throw InputError{fmt::format("{}: reading was stopped", name_)};
         }
-        return from_->read(into);
+        return from_.read(into);
     }
 
-    std::uint64_t consumed() const override { return from_->consumed(); }
+    std::uint64_t consumed() const override { return from_.consumed(); }
 
 private:
-    std::unique_ptr<ByteStream> from_;
+    ByteStream& from_;
     std::string name_;
     std::size_t size_;
-    Progress progress_;
+    const Progress& progress_;
 };
 
 } // namespace
@@ -95,7 +94,7 @@ TripLog OpenTrip::parsed(const TripNeeds& needs, const Progress& progress) {
         return read_foreign_trip(source_, needs, progress.stop);
     }
     const auto name = source_.name();
-    auto bytes = std::make_unique<WatchedBytes>(bytes_->stream(), source_, progress);
+    auto bytes = std::make_unique<WatchedBytes>(*bytes_, source_, progress);
     if (name.ends_with(rawlog_suffix)) {
         return read_rawlog(std::move(bytes), name, needs);
     }

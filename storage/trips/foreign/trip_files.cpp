@@ -32,20 +32,6 @@ Place place_of(const TripSource& source) {
     return {source.file, source.member.substr(0, source.member.rfind('/') + 1)};
 }
 
-TripContents::File file_read(const fs::path& path, const std::string& name) {
-    TripContents::File file{.name = name, .bytes = {}, .refusal = {}};
-    try {
-        const auto bytes = decompressed(file_bytes(path), path.string());
-        std::vector<char> block(1 << 20);
-        while (const auto count = bytes->read(block)) {
-            file.bytes.append(block.data(), count);
-        }
-    } catch (const InputError& error) {
-        file.refusal = error.what();
-    }
-    return file;
-}
-
 } // namespace
 
 std::string name_of_file(const TripSource& source, const std::string& file) {
@@ -58,8 +44,14 @@ TripSource with_contents(TripSource source) {
         return source;
     }
     TripContents contents;
+    std::vector<char> block(1 << 20);
     for (const auto& file : source.files) {
-        contents.files.push_back(file_read(place_of(source).file / file, file));
+        const auto path = place_of(source).file / file;
+        const auto bytes = decompressed(file_bytes(path), path.string());
+        auto& kept = contents.files.emplace_back(file).bytes;
+        while (const auto count = bytes->read(block)) {
+            kept.append(block.data(), count);
+        }
     }
     source.contents = std::make_shared<const TripContents>(std::move(contents));
     return source;

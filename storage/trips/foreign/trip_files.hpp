@@ -12,7 +12,8 @@ namespace macadam {
 std::string name_of_file(const TripSource& source, const std::string& file);
 
 /// Reads the files of a foreign trip into memory, decompressed, if they are not yet: its parsers
-/// look at some of them several times. A file that cannot be read throws when it is opened.
+/// look at some of them several times.
+/// \throws InputError  if one cannot be read.
 TripSource with_contents(TripSource source);
 
 /// Opens one of the files of a trip with contents.

@@ -59,7 +59,7 @@ constexpr std::string_view sha256_of_longer =
 
 TEST(HashedBytes, AreHashedAsTheyAreRead) {
     auto bytes = hashed(longer);
-    EXPECT_EQ(rest_of(*bytes.stream()), longer);
+    EXPECT_EQ(rest_of(bytes), longer);
     EXPECT_EQ(bytes.sha256(), sha256_of_longer);
     EXPECT_EQ(bytes.sha256(), sha256_of_longer); // asked again
 }
@@ -68,37 +68,33 @@ TEST(HashedBytes, ThatWereReadAheadComeAgainInTheirOrder) {
     auto all = hashed(longer);
     EXPECT_TRUE(all.read_ahead(1000));
     EXPECT_EQ(all.sha256(), sha256_of_longer);
-    EXPECT_EQ(rest_of(*all.stream()), longer);
+    EXPECT_EQ(rest_of(all), longer);
 
     auto some = hashed(longer);
     EXPECT_FALSE(some.read_ahead(12));
-    EXPECT_EQ(rest_of(*some.stream()), longer);
+    EXPECT_EQ(rest_of(some), longer);
     EXPECT_EQ(some.sha256(), sha256_of_longer);
 }
 
 TEST(HashedBytes, OfNothingHaveAHash) {
     auto none = hashed("");
     EXPECT_TRUE(none.read_ahead(1000));
-    EXPECT_EQ(rest_of(*none.stream()), "");
+    EXPECT_EQ(rest_of(none), "");
     EXPECT_EQ(none.sha256(), // FIPS 180-4, of the empty message
               "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
 TEST(HashedBytes, ThatNobodyReadToTheEndAreHashedWhole) {
     auto bytes = hashed(longer);
-    {
-        std::vector<char> block(3);
-        const auto stream = bytes.stream();
-        ASSERT_EQ(stream->read(block), 3U);
-    }
+    std::vector<char> block(3);
+    ASSERT_EQ(bytes.read(block), 3U);
     EXPECT_EQ(bytes.sha256(), sha256_of_longer);
     EXPECT_EQ(hashed("abc").sha256(), sha256_of_abc);
 }
 
 TEST(HashedBytes, ThatCannotBeReadSaySoToEveryoneWhoAsks) {
     auto bytes = hashed("abc", "broken");
-    const auto stream = bytes.stream();
-    EXPECT_EQ(refusal_of([&] { rest_of(*stream); }), "broken");
+    EXPECT_EQ(refusal_of([&] { rest_of(bytes); }), "broken");
     EXPECT_EQ(refusal_of([&] { bytes.sha256(); }), "broken");
 
     auto ahead = hashed("abc", "broken");
