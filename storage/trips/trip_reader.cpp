@@ -68,9 +68,8 @@ OpenTrip::OpenTrip(TripSource source) : source_{std::move(source)} {
     }
 }
 
-std::optional<std::string> OpenTrip::sha256_ahead() {
-    constexpr std::size_t max_bytes_ahead = std::size_t{32} << 20; // an hour at 100 Hz
-    return !bytes_ || bytes_->read_ahead(max_bytes_ahead) ? std::optional{sha256()} : std::nullopt;
+std::optional<std::string> OpenTrip::sha256_ahead(std::size_t max_bytes) {
+    return !bytes_ || bytes_->read_ahead(max_bytes) ? std::optional{sha256()} : std::nullopt;
 }
 
 TripLog OpenTrip::read(const TripNeeds& needs, const Progress& progress) {

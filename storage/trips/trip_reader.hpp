@@ -5,6 +5,7 @@
 #include "storage/files/hashed_bytes.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -17,10 +18,11 @@ public:
     explicit OpenTrip(TripSource source);
 
     /// SHA-256 of the decompressed content, to recognise a trip before it is parsed.
-    /// `std::nullopt` for more than 32 MiB, which are not kept in memory for this.
+    /// `std::nullopt` for more than `max_bytes`, which are not kept in memory for this; by default
+    /// four hours at 100 Hz.
     ///
     /// \throws InputError  if the content cannot be read.
-    std::optional<std::string> sha256_ahead();
+    std::optional<std::string> sha256_ahead(std::size_t max_bytes = std::size_t{128} << 20);
 
     /// Parses the trip, as read_trip does. Callable once.
     TripLog read(const TripNeeds& needs, const Progress& progress = {});
