@@ -7,7 +7,7 @@
 #include "app/import/import_references.hpp"
 #include "app/import/import_trips.hpp"
 #include "app/import/trip_inputs.hpp"
-#include "app/import/trip_outcome_output.hpp"
+#include "app/import/trip_report_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
 
@@ -40,7 +40,6 @@ struct ImportOptions {
     KnownRoughness known;
 };
 
-constexpr std::int64_t max_jobs = 256;
 constexpr double max_trim_m = 100000;
 
 PipelineConfig config_of(const Arguments& arguments) {
@@ -55,10 +54,7 @@ PipelineConfig config_of(const Arguments& arguments) {
 }
 
 ImportOptions parse_import(const Arguments& arguments) {
-    const auto jobs = arguments.integer("--jobs").value_or(1);
-    if (jobs < 1 || jobs > max_jobs) {
-        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, max_jobs)};
-    }
+    const auto jobs = jobs_of(arguments);
     const auto& paths = arguments.operands("PATH");
     auto known = parse_known_roughness(arguments);
     if (paths.empty() && !known.survey && !known.control) {
@@ -66,7 +62,7 @@ ImportOptions parse_import(const Arguments& arguments) {
     }
     return {.store = store_file(arguments),
             .paths = {paths.begin(), paths.end()},
-            .jobs = static_cast<std::size_t>(jobs),
+            .jobs = jobs,
             .json = arguments.flag("--json"),
             .readmit = arguments.flag("--take-back"),
             .pipeline = config_of(arguments),
@@ -169,16 +165,18 @@ void run_import(const Arguments& arguments, const Console& console) {
         console.say(spoken(*earlier));
     }
 
-    const auto tell = [&](const TripOutcome& outcome) { print_outcome(outcome, options.json); };
+    const auto tell = [&](const TripReport& trip) { print_report(trip, options.json); };
     const auto importing = console.progress("importing");
-    const auto totals = import_trips(
-        store,
-        trips,
-        vehicles,
-        options.pipeline,
-        {options.jobs, options.readmit, [&](const std::string& words) { console.say(words); }},
-        importing,
-        tell);
+    const auto totals =
+        import_trips(store,
+                     trips,
+                     vehicles,
+                     {.pipeline = options.pipeline,
+                      .jobs = options.jobs,
+                      .readmit = options.readmit,
+                      .warn = [&](const std::string& words) { console.say(words); }},
+                     importing,
+                     tell);
     const auto fused = fuse(store, console);
 
     console.say(fmt::format("{} imported, {} already imported, {} rejected; {}, {} fused",
@@ -228,7 +226,7 @@ constexpr std::array options{
     mapping_option,
     Option{
         "--trim", "METRES", "Remove the first and last N metres of each trip, for privacy.", "0"},
-    Option{"--jobs", "N", "Number of trips processed in parallel.", "1"},
+    jobs_option,
     method_option,
     channels_option,
     no_filters_option,

@@ -3,7 +3,7 @@
 #include "app/database/segment_options.hpp"
 #include "app/import/import_trips.hpp"
 #include "app/import/trip_inputs.hpp"
-#include "app/import/trip_outcome_output.hpp"
+#include "app/import/trip_report_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
 
@@ -17,18 +17,8 @@
 namespace macadam {
 namespace {
 
-constexpr std::int64_t max_jobs = 256;
-
-std::size_t parse_jobs(const Arguments& arguments) {
-    const auto jobs = arguments.integer("--jobs").value_or(1);
-    if (jobs < 1 || jobs > max_jobs) {
-        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, max_jobs)};
-    }
-    return static_cast<std::size_t>(jobs);
-}
-
 void run_reprocess(const Arguments& arguments, const Console& console) {
-    const auto jobs = parse_jobs(arguments);
+    const auto jobs = jobs_of(arguments);
     auto config = pipeline_config_of(arguments);
     config.estimator.tracks = false; // as in an import
     const auto& words = arguments.operands("PATH");
@@ -39,10 +29,11 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
                      {.mapping = mapping_of(arguments), .max_files = max_members_of(arguments)},
                      console};
     const bool json = arguments.flag("--json");
-    const auto tell = [&](const TripOutcome& outcome) { print_outcome(outcome, json); };
+    const auto tell = [&](const TripReport& trip) { print_report(trip, json); };
 
     const auto working = console.progress("reprocessing");
-    const auto totals = reprocess_trips(store, trips, vehicles, config, jobs, working, tell);
+    const ImportWork work{.pipeline = config, .jobs = jobs, .reprocess = true};
+    const auto totals = import_trips(store, trips, vehicles, work, working, tell);
     working(1, 1); // clears the progress bar
     if (totals.interrupted) {
         throw InputError{"interrupted: the database is unchanged"};
@@ -75,7 +66,7 @@ constexpr std::array options{
     vehicle_option,
     vehicles_option,
     mapping_option,
-    Option{"--jobs", "N", "Number of trips processed in parallel.", "1"},
+    jobs_option,
     max_members_option,
     method_option,
     channels_option,

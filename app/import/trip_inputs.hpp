@@ -20,6 +20,12 @@ inline constexpr Option max_members_option{
 /// \throws UsageError  for an invalid number.
 std::size_t max_members_of(const Arguments& arguments);
 
+inline constexpr Option jobs_option{"--jobs", "N", "Number of trips processed in parallel.", "1"};
+
+/// Parses --jobs.
+/// \throws UsageError  for an invalid number.
+std::size_t jobs_of(const Arguments& arguments);
+
 /// Thread-safe sequence of the trips of several paths, in the order of the paths.
 class AskedTrips {
 public:

@@ -1,53 +1,25 @@
 #include "app/pipeline/pipeline.hpp"
 
 #include "app/pipeline/privacy_trim.hpp"
+#include "app/pipeline/trip_preparation.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/common/gravity.hpp"
 #include "estimator/events/event_detection.hpp"
-#include "estimator/motion/gnss_latency.hpp"
-#include "estimator/motion/make_odometer.hpp"
-#include "estimator/motion/mounting.hpp"
+#include "estimator/motion/stretch.hpp"
 #include "estimator/smoother/smoothed_iri.hpp"
-#include "mapping/passes/trace_cutting.hpp"
+#include "mapping/passes/trip_cutting.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
+#include <string_view>
+#include <utility>
 
 namespace macadam {
 namespace {
-
-constexpr double slow_sampling_hz = 80; // below it the shortest waves of IRI are missed
-constexpr double steep_tilt_deg = 15;   // beyond a careless mounting
-constexpr double odd_scale = 0.05;      // wheel speed against GNSS
-constexpr double odd_gravity = 0.1;     // sensors of cars and phones are accurate to 3 %
-
-/// Returns the typical sampling rate of the acceleration, from the median step of its time stamps.
-double rate_hz(const TriaxialSamples& acc) {
-    if (acc.t_s.size() < 2) {
-        return 0;
-    }
-    std::vector<double> steps_s(acc.t_s.size() - 1);
-    for (std::size_t i = 0; i < steps_s.size(); ++i) {
-        steps_s[i] = acc.t_s[i + 1] - acc.t_s[i];
-    }
-    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-    std::ranges::nth_element(steps_s, middle);
-    return 1 / *middle;
-}
-
-enum class Axis : int { lateral = 1, vertical = 2 };
-
-/// Returns whether the sensor axis nearest to an axis of the vehicle has any readings.
-bool was_sampled(const TripLog& trip, const Mounting& mounting, Axis axis) {
-    const std::vector<float>* readings[] = {&trip.acc.x, &trip.acc.y, &trip.acc.z};
-    Eigen::Index nearest = 0;
-    mounting.to_vehicle.row(static_cast<int>(axis)).cwiseAbs().maxCoeff(&nearest);
-    return std::ranges::any_of(*readings[nearest], [](float value) { return !std::isnan(value); });
-}
 
 double length_m(const IriRun& run) {
     return run.cell_m * static_cast<double>(run.centre_mm_per_m.size());
@@ -73,26 +45,41 @@ std::vector<std::string> lateral_text(const IriTrace& roughness, Channels channe
                         where)};
 }
 
+void expect_sensors(const TripLog& trip, const std::optional<SensorSet>& sensors) {
+    if (sensors && (sensors->roll || sensors->pitch || sensors->yaw) && trip.gyro.t_s.empty()) {
+        throw InputError{
+            "contains no angular rates, expected gyro_x_radps, gyro_y_radps and gyro_z_radps"};
+    }
+}
+
 std::size_t samples_in(const StretchSpan& span) {
     return span.last - span.first;
 }
 
 /// Marks the samples of a stretch as unused because the channel in use was not sampled.
-RowAudit without_vibration(RowAudit use, const StretchSpan& span) {
-    const auto first = use.acc.begin() + static_cast<std::ptrdiff_t>(span.first);
+SampleUse without_vibration(SampleUse acc, const StretchSpan& span) {
+    const auto first = acc.begin() + static_cast<std::ptrdiff_t>(span.first);
     std::fill(first,
               first + static_cast<std::ptrdiff_t>(span.last - span.first + 1),
-              static_cast<std::uint8_t>(RowReason::unused_channel));
-    return use;
+              code(RowReason::unused_channel));
+    return acc;
 }
 
 /// Marks the angular rates of a stretch as used.
-RowAudit with_rates(RowAudit use, const TripLog& trip, const StretchSpan& span) {
+SampleUse with_rates(SampleUse gyro, const TripLog& trip, const StretchSpan& span) {
     const auto& t_s = trip.gyro.t_s;
     const auto from = std::ranges::lower_bound(t_s, trip.acc.t_s[span.first]) - t_s.begin();
     const auto to = std::ranges::upper_bound(t_s, trip.acc.t_s[span.last]) - t_s.begin();
-    std::fill(use.gyro.begin() + from, use.gyro.begin() + to, std::uint8_t{0});
-    return use;
+    std::fill(gyro.begin() + from, gyro.begin() + to, std::uint8_t{0});
+    return gyro;
+}
+
+/// Returns the use of samples that served two purposes; the second has the better reasons.
+SampleUse used_by_either(SampleUse first, const SampleUse& second) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        first[i] = first[i] == 0 ? first[i] : second[i];
+    }
+    return first;
 }
 
 /// Shifts a match from the antenna to the centre of gravity, which reaches a position `ahead_m` of
@@ -194,15 +181,17 @@ std::optional<std::int64_t> begin_of(const KeptParts& kept, const Odometer& odom
                : std::optional{std::llround(1000 * odometer.t_s(kept.parts.front().from_m))};
 }
 
-std::vector<Pass> counting_from(std::int64_t begin_ms, std::vector<Pass> passes) {
-    for (auto& pass : passes) {
-        pass.t_ms -= begin_ms;
+std::vector<Pass> counting_from(std::int64_t begin_ms, std::span<const DrivenPass> driven) {
+    std::vector<Pass> passes;
+    for (const auto& [pass, parts] : driven) {
+        passes.push_back(pass);
+        passes.back().t_ms -= begin_ms;
     }
     return passes;
 }
 
 /// Explains why a trip gave no pass.
-std::string no_pass_reason(const IriTrace& roughness, const MatchedTrace& matched) {
+std::string_view no_pass_reason(const IriTrace& roughness, const MatchedTrace& matched) {
     if (length_on_roads_m(matched) <= 0) {
         return "the trip is outside this map";
     }
@@ -224,34 +213,6 @@ std::optional<std::vector<RoadEvent>> events_in(const IriTrace& roughness) {
     return events;
 }
 
-std::vector<Pass> without_parts(std::span<const DrivenPass> driven) {
-    std::vector<Pass> passes;
-    std::ranges::transform(driven, std::back_inserter(passes), &DrivenPass::pass);
-    return passes;
-}
-
-void expect_sensors(const TripLog& trip, const std::optional<SensorSet>& sensors) {
-    if (sensors && (sensors->roll || sensors->pitch || sensors->yaw) && trip.gyro.t_s.empty()) {
-        throw InputError{
-            "contains no angular rates, expected gyro_x_radps, gyro_y_radps and gyro_z_radps"};
-    }
-}
-
-/// Estimates the latency from the speeds if possible, otherwise from the movement between fixes
-/// against wheels and gyro.
-std::optional<FoundLatency> latency_of(const TripLog& trip) {
-    if (const auto by_speeds_s = estimate_gnss_latency_s(trip)) {
-        return FoundLatency{*by_speeds_s, latency_by_speeds_sd_s};
-    }
-    if (trip.fixes.size() < 2 || (trip.speed.t_s.empty() && trip.gyro.t_s.empty())) {
-        return std::nullopt;
-    }
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    const auto mounting = estimate_mounting(trip, odometer);
-    return find_gnss_latency(trip, make_heading(trip, odometer, mounting));
-}
-
 } // namespace
 
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
@@ -259,162 +220,91 @@ double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
     return meta.gnss_antenna_pos_m ? front_m - meta.gnss_antenna_pos_m->front() : 0;
 }
 
-void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels) {
-    const bool vertical = was_sampled(trip, mounting, Axis::vertical);
-    const bool lateral = was_sampled(trip, mounting, Axis::lateral);
-    if (!vertical && (channels == Channels::vertical || channels == Channels::both)) {
-        throw InputError{"contains no vertical acceleration, expected acc_z_mps2"};
-    }
-    if (!lateral && channels == Channels::lateral) {
-        throw InputError{"contains no lateral acceleration, expected acc_y_mps2"};
-    }
-    if (!vertical && !lateral) {
-        throw InputError{"contains neither vertical nor lateral acceleration, expected "
-                         "acc_z_mps2"};
-    }
-}
-
-std::vector<std::string>
-warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting) {
-    std::vector<std::string> warnings;
-    if (const double hz = rate_hz(trip.acc); hz > 0 && hz < slow_sampling_hz) {
-        warnings.push_back(fmt::format(
-            "acceleration was sampled at {:.0f} Hz; short waves are missed below {:.0f} Hz",
-            hz,
-            slow_sampling_hz));
-    }
-    if (mounting.moved) {
-        warnings.emplace_back("gravity changed: the sensor moved during the trip");
-    }
-    if (mounting.gravity_mps2 > 0 &&
-        std::abs(mounting.gravity_mps2 / standard_gravity_mps2 - 1) > odd_gravity) {
-        warnings.push_back(fmt::format("gravity measures {:.2f} m/s2: the accelerometer's "
-                                       "scale is wrong, or the sensor moved in the car",
-                                       mounting.gravity_mps2));
-    }
-    if (!trip.meta.gravity_included && trip.meta.frame == Frame::sensor &&
-        !trip.meta.mount_rpy_deg && !trip.meta.mount_quat) {
-        warnings.emplace_back("the log has no gravity: the z axis is taken as vertical");
-    }
-    if (mounting.tilt_deg > steep_tilt_deg) {
-        warnings.push_back(
-            fmt::format("the sensor was tilted by {:.0f} degrees; corrected", mounting.tilt_deg));
-    }
-    if (std::abs(odometer.scale() - 1) > odd_scale) {
-        warnings.push_back(fmt::format("wheel speed differed from GNSS speed by {:+.1f} %; "
-                                       "corrected",
-                                       100 * (1 / odometer.scale() - 1)));
-    }
-    if (mounting.gravity_missing) {
-        warnings.emplace_back(
-            "no gravity in the acceleration, although the log says that it is included; the "
-            "axes are taken as stated");
-    }
-    if (mounting.heading_unknown) {
-        warnings.emplace_back(
-            "the heading of the sensor could not be determined: too little braking and "
-            "accelerating; lateral acceleration is unreliable");
-    }
-    if (trip.meta.frame_stated && trip.meta.frame != Frame::sensor &&
-        (trip.meta.mount_rpy_deg || trip.meta.mount_quat)) {
-        warnings.emplace_back("the mounting angles were not applied: they require 'frame: sensor'");
-    }
-    for (const auto& column : trip.unknown_columns) {
-        warnings.push_back(fmt::format("unknown column '{}' ignored", column));
-    }
-    return warnings;
-}
-
-TripLog with_latency(TripLog trip, std::vector<std::string>& warnings) {
-    if (trip.meta.gnss_latency_stated || trip.fixes.empty()) {
-        return trip;
-    }
-    if (const auto found = latency_of(trip)) {
-        trip.meta.gnss_latency_s = found->latency_s;
-        trip.meta.gnss_latency_sd_s = found->sd_s;
-        warnings.push_back(fmt::format("GNSS delay estimated at {:.2f} s", found->latency_s));
-    } else {
-        warnings.emplace_back("GNSS delay unknown (no gnss_latency_s) and could not be "
-                              "estimated; positions may be off by up to 2 s of driving");
-    }
-    return trip;
-}
-
-TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config) {
-    auto use = unused(trip);
-    auto odometer = make_odometer(trip, config.odometer, use);
-    const auto mounting = estimate_mounting(trip, odometer);
-    expect_channels(trip, mounting, config.estimator.channels);
+TripTrace trace_of(const TripLog& trip,
+                   TripMotion motion,
+                   const Vehicle& vehicle,
+                   const PipelineConfig& config) {
+    expect_channels(trip, motion.mounting, config.estimator.channels);
     expect_sensors(trip, config.estimator.sensors);
-
-    IriTrace roughness{.runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
-    const auto spans = find_stretches(trip, odometer, config.stretch, use, mounting.otherwise);
+    auto found = find_stretches(trip, motion.odometer, config.stretch, motion.mounting.otherwise);
     const auto stretch_of = [&](const StretchSpan& span) {
-        return make_stretch(trip, span, odometer, mounting, config.stretch);
+        return make_stretch(trip, span, motion.odometer, motion.mounting, config.stretch);
     };
     std::optional<TunedCar> car;
-    if (config.estimator.method == Method::smoother && !spans.empty()) {
-        car =
-            car_in(stretch_of(std::ranges::max(spans, {}, samples_in)), vehicle, config.estimator);
+    if (config.estimator.method == Method::smoother && !found.spans.empty()) {
+        const auto longest = std::ranges::max(found.spans, {}, samples_in);
+        car = car_in(stretch_of(longest), vehicle, config.estimator);
     }
-    for (const auto& span : spans) {
+    IriTrace roughness{.runs = {},
+                       .slow = slow_parts(motion.odometer, config.stretch.min_speed_mps)};
+    SampleUse gyro(trip.gyro.t_s.size(), code(RowReason::unused_channel));
+    for (const auto& span : found.spans) {
         const auto stretch = stretch_of(span);
         auto run = car ? smoothed_iri(stretch, *car, config.estimator)
                        : estimate_iri(stretch, vehicle, config.estimator);
         if (run.centre_mm_per_m.empty()) {
-            use = without_vibration(std::move(use), span);
-        } else {
-            roughness.runs.push_back(std::move(run));
-            use = car && !stretch.roll_radps.empty() ? with_rates(std::move(use), trip, span)
-                                                     : std::move(use);
+            found.acc = without_vibration(std::move(found.acc), span);
+            continue;
+        }
+        roughness.runs.push_back(std::move(run));
+        if (car && !stretch.roll_radps.empty()) {
+            gyro = with_rates(std::move(gyro), trip, span);
         }
     }
     auto warnings = lateral_text(roughness, config.estimator.channels);
-    std::ranges::move(warnings_of(trip, odometer, mounting), std::back_inserter(warnings));
-    auto heading = make_heading(trip, odometer, mounting);
-    return {std::move(odometer),
-            std::move(heading),
-            std::move(roughness),
-            std::move(use),
-            std::move(warnings)};
+    std::ranges::move(warnings_of(trip, motion.odometer, motion.mounting),
+                      std::back_inserter(warnings));
+    return {.odometer = std::move(motion.odometer),
+            .heading = std::move(motion.heading),
+            .roughness = std::move(roughness),
+            .use = {.acc = std::move(found.acc),
+                    .gyro = std::move(gyro),
+                    .speed = std::move(motion.speed),
+                    .fixes = std::move(motion.fixes)},
+            .warnings = std::move(warnings)};
 }
 
-TripResult passes_of(TripLog trip,
+TripResult passes_of(TripLog log,
                      const Vehicle& vehicle,
                      const RoadNetwork& roads,
                      const PipelineConfig& config) {
-    std::vector<std::string> warnings;
-    trip = with_latency(std::move(trip), warnings);
+    auto [trip, motion, warnings] = prepared(std::move(log), config.odometer);
     auto with_profile = config;
     with_profile.estimator.profile = true;
-    auto trace = trace_of(trip, vehicle, with_profile);
+    auto trace = trace_of(trip, std::move(motion), vehicle, with_profile);
+    std::ranges::move(trace.warnings, std::back_inserter(warnings));
     const auto events = events_in(trace.roughness);
     const auto kept = kept_of(trip, trace.odometer, config.trim);
-    trace.use = without_vibration_outside(std::move(trace.use), trip, trace.odometer, kept);
     const double distance_m = recorded_m(trip, trace.odometer, kept, config.odometer.max_gap_s);
+    const auto within = [&](SampleUse use, const std::vector<double>& t_s, double latency_s = 0) {
+        return trimmed_use(std::move(use), t_s, latency_s, trace.odometer, kept);
+    };
+    auto use = std::move(trace.use);
+    use.acc = within(std::move(use.acc), trip.acc.t_s);
+    use.gyro = within(std::move(use.gyro), trip.gyro.t_s);
+    use.speed = within(std::move(use.speed), trip.speed.t_s, trip.meta.speed_latency_s);
     trip.acc = {};
     trip.gyro.x = trip.gyro.y = trip.gyro.z = {};
-    const auto matched = behind_antenna(
-        map_match(trip, trace.odometer, roads, config.match, trace.use, trace.heading),
-        antenna_ahead_m(trip.meta, vehicle));
 
-    trace.use = without_places_outside(std::move(trace.use), trip, trace.odometer, kept);
-    std::ranges::move(trace.warnings, std::back_inserter(warnings));
-
+    auto match = map_match(trip, trace.odometer, roads, config.match, trace.heading);
+    use.fixes = within(used_by_either(std::move(use.fixes), match.fixes),
+                       times_of(trip.fixes),
+                       trip.meta.gnss_latency_s);
+    const auto matched =
+        behind_antenna(std::move(match.trace), antenna_ahead_m(trip.meta, vehicle));
     const auto kept_match = trimmed(matched, kept, roads);
     const auto begin_ms = begin_of(kept, trace.odometer);
-    const auto driven = driven_passes(trace.roughness, kept_match, roads, vehicle, config.pass);
-    auto traces = extract_traces(trace.roughness, kept_match, roads, vehicle, config.pass);
+    auto cut = cut_trip(trace.roughness, kept_match, roads, vehicle, config.pass);
     if (!kept.is_whole) {
         warnings.push_back(trim_text(kept, trace.odometer.whole_m(), config.trim));
     }
-    if (driven.empty() && begin_ms) {
-        warnings.push_back(no_pass_reason(trace.roughness, matched));
+    if (cut.passes.empty() && begin_ms) {
+        warnings.emplace_back(no_pass_reason(trace.roughness, matched));
     }
-    return {.passes = counting_from(begin_ms.value_or(0), without_parts(driven)),
-            .traces = std::move(traces),
-            .events = events ? std::optional{place_events(*events, driven)} : std::nullopt,
-            .rows = account(trip, trace.use),
+    return {.passes = counting_from(begin_ms.value_or(0), cut.passes),
+            .traces = std::move(cut.traces),
+            .events = events ? std::optional{place_events(*events, cut.passes)} : std::nullopt,
+            .rows = account(trip, use),
             .begin_ms = begin_ms,
             .distance_m = distance_m,
             .matched_m = length_on_roads_m(kept_match),

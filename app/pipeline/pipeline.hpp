@@ -16,7 +16,7 @@
 
 namespace macadam {
 
-struct Mounting; // estimator/motion/mounting.hpp
+struct TripMotion; // estimator/motion/trip_motion.hpp
 
 struct PipelineConfig {
     OdometerConfig odometer;
@@ -36,24 +36,17 @@ struct TripTrace {
     std::vector<std::string> warnings;
 };
 
-/// Fills in the receiver's latency if the log does not state it and it can be estimated. Adds the
-/// estimate, or the failure, to `warnings`.
-TripLog with_latency(TripLog trip, std::vector<std::string>& warnings);
-
-/// Checks that the trip has the requested acceleration.
-/// \throws InputError  if the log lacks it.
-void expect_channels(const TripLog& trip, const Mounting& mounting, Channels channels);
-
-/// Returns warnings about a log's sampling rate, mounting, wheel speed and columns.
-std::vector<std::string>
-warnings_of(const TripLog& trip, const Odometer& odometer, const Mounting& mounting);
-
 /// Returns the distance of the antenna ahead of the centre of gravity. The log counts from the
 /// front axle; a car with one axle has it under its centre of gravity.
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle);
 
 /// Estimates the roughness along the trip's own travel. Uses no map.
-TripTrace trace_of(const TripLog& trip, const Vehicle& vehicle, const PipelineConfig& config);
+///
+/// \throws InputError  if the log lacks a requested sensor, or sampled too slowly.
+TripTrace trace_of(const TripLog& trip,
+                   TripMotion motion,
+                   const Vehicle& vehicle,
+                   const PipelineConfig& config);
 
 /// Result of one trip for the database, with every row of its log accounted for.
 struct TripResult {

@@ -94,29 +94,6 @@ MatchedTrace within(const MatchedTrace& matched, const TravelSpan& part, const R
         cut_before(backward(cut_before(matched, part.from_m, roads)), -part.to_m, roads));
 }
 
-std::vector<std::uint8_t> trimmed(std::vector<std::uint8_t> use,
-                                  const std::vector<double>& t_s,
-                                  double latency_s,
-                                  const Odometer& odometer,
-                                  const KeptParts& kept) {
-    if (kept.is_whole) {
-        return use;
-    }
-    std::vector<std::pair<double, double>> times_s;
-    for (const auto& part : kept.parts) {
-        times_s.emplace_back(odometer.t_s(part.from_m), odometer.t_s(part.to_m));
-    }
-    for (std::size_t i = 0; i < use.size(); ++i) {
-        const double at_s = t_s[i] - latency_s;
-        const auto after =
-            std::ranges::upper_bound(times_s, at_s, {}, &std::pair<double, double>::first);
-        if (after == times_s.begin() || at_s > std::prev(after)->second) {
-            use[i] = static_cast<std::uint8_t>(RowReason::trimmed);
-        }
-    }
-    return use;
-}
-
 } // namespace
 
 TrimRule trim_in(RoadStore& store, TrimRule asked) {
@@ -152,24 +129,26 @@ MatchedTrace trimmed(const MatchedTrace& matched, const KeptParts& kept, const R
     return all;
 }
 
-RowAudit without_vibration_outside(RowAudit use,
-                                   const TripLog& trip,
-                                   const Odometer& odometer,
-                                   const KeptParts& kept) {
-    use.acc = trimmed(std::move(use.acc), trip.acc.t_s, 0, odometer, kept);
-    use.gyro = trimmed(std::move(use.gyro), trip.gyro.t_s, 0, odometer, kept);
-    return use;
-}
-
-RowAudit without_places_outside(RowAudit use,
-                                const TripLog& trip,
-                                const Odometer& odometer,
-                                const KeptParts& kept) {
-    std::vector<double> fixes_s(trip.fixes.size());
-    std::ranges::transform(trip.fixes, fixes_s.begin(), &GnssFix::t_s);
-    use.speed =
-        trimmed(std::move(use.speed), trip.speed.t_s, trip.meta.speed_latency_s, odometer, kept);
-    use.fixes = trimmed(std::move(use.fixes), fixes_s, trip.meta.gnss_latency_s, odometer, kept);
+SampleUse trimmed_use(SampleUse use,
+                      const std::vector<double>& t_s,
+                      double latency_s,
+                      const Odometer& odometer,
+                      const KeptParts& kept) {
+    if (kept.is_whole) {
+        return use;
+    }
+    std::vector<std::pair<double, double>> times_s;
+    for (const auto& part : kept.parts) {
+        times_s.emplace_back(odometer.t_s(part.from_m), odometer.t_s(part.to_m));
+    }
+    for (std::size_t i = 0; i < use.size(); ++i) {
+        const double at_s = t_s[i] - latency_s;
+        const auto after =
+            std::ranges::upper_bound(times_s, at_s, {}, &std::pair<double, double>::first);
+        if (after == times_s.begin() || at_s > std::prev(after)->second) {
+            use[i] = code(RowReason::trimmed);
+        }
+    }
     return use;
 }
 

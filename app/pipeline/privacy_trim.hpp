@@ -28,18 +28,13 @@ double length_m(const KeptParts& kept);
 /// Restricts a match to the kept parts. A segment that extends beyond a cut is removed completely.
 MatchedTrace trimmed(const MatchedTrace& matched, const KeptParts& kept, const RoadNetwork& roads);
 
-/// Marks samples of acceleration and rotation outside the kept parts as not used, with the reason
-/// `trimmed`.
-RowAudit without_vibration_outside(RowAudit use,
-                                   const TripLog& trip,
-                                   const Odometer& odometer,
-                                   const KeptParts& kept);
-
-/// Marks speeds and fixes outside the kept parts in the same way.
-RowAudit without_places_outside(RowAudit use,
-                                const TripLog& trip,
-                                const Odometer& odometer,
-                                const KeptParts& kept);
+/// Marks samples of one stream outside the kept parts as not used, with the reason `trimmed`.
+/// \param t_s  their time stamps, `latency_s` behind the true times
+SampleUse trimmed_use(SampleUse use,
+                      const std::vector<double>& t_s,
+                      double latency_s,
+                      const Odometer& odometer,
+                      const KeptParts& kept);
 
 /// Describes the trim.
 /// \param whole_m  length of the trip

@@ -7,9 +7,8 @@
 #include "app/profile/place_on_profile.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/motion/make_odometer.hpp"
-#include "estimator/motion/mounting.hpp"
 #include "estimator/motion/stretch.hpp"
+#include "estimator/motion/trip_motion.hpp"
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/profiles/profile_reader.hpp"
 #include "storage/settings/vehicle_writer.hpp"
@@ -87,13 +86,12 @@ RoadProfile road_of(const MeasuredProfile& measured, const fs::path& file) {
 }
 
 std::vector<Stretch> stretches_of(const TripLog& trip) {
-    auto use = unused(trip);
     const StretchConfig config;
-    const auto odometer = make_odometer(trip, OdometerConfig{}, use);
-    const auto mounting = estimate_mounting(trip, odometer);
+    const auto motion = motion_of(trip);
+    const auto found = find_stretches(trip, motion.odometer, config, motion.mounting.otherwise);
     std::vector<Stretch> stretches;
-    for (const auto& span : find_stretches(trip, odometer, config, use, mounting.otherwise)) {
-        stretches.push_back(make_stretch(trip, span, odometer, mounting, config));
+    for (const auto& span : found.spans) {
+        stretches.push_back(make_stretch(trip, span, motion.odometer, motion.mounting, config));
     }
     return stretches;
 }

@@ -152,8 +152,11 @@ void print_events(const StoreReader& store, const QueryOptions& options, const C
     }
     if (events.empty()) {
         console.say(
-            "no pothole, bump, joint or rail was reported by two passes or more there; trips "
-            "that were imported before version 4 are searched by 'macadam reprocess'");
+            store.shows_published_alone()
+                ? "no pothole, bump, joint or rail of at least five cars is published there"
+                : "no pothole, bump, joint or rail was reported by two passes or more there; "
+                  "trips that were imported before version 4 are searched by 'macadam "
+                  "reprocess'");
     }
     if (!events.empty() || options.format != "table") {
         print_in(options.format,

@@ -58,13 +58,15 @@ class_km_of(const StoreReader& store, const ClassTable& classes, int min_passes)
     return km;
 }
 
-/// Returns all events of a database, in the box's longitudes where it crosses the antimeridian.
+/// Returns the events in a box, in its longitudes where it crosses the antimeridian.
 std::vector<MapEvent> map_events(const StoreReader& store, const GeoBox& box) {
     std::vector<MapEvent> events;
     for (const auto& [event, at, name, highway] : store.events({})) {
         const double turn_deg = at.lon_deg + 360 <= box.east_deg ? 360 : 0;
-        events.push_back(
-            {{at.lat_deg, at.lon_deg + turn_deg}, event.kind, severity_of(event.size_um / 1000.0)});
+        const GeoPoint place{at.lat_deg, at.lon_deg + turn_deg};
+        if (contains(box, place)) {
+            events.push_back({place, event.kind, severity_of(event.size_um / 1000.0)});
+        }
     }
     return events;
 }
@@ -194,18 +196,16 @@ map_lines(const StoreReader& store, const GeoBox& box, const ClassTable& classes
 }
 
 MapPlan load_map(const StoreReader& store, const MapRequest& request) {
+    MapPlan plan{
+        scene_around(store, request), request.style, {request.width_px, request.height_px}};
     const auto load = [&](const GeoBox& box) {
-        return map_lines(store, box, classes_of(request), request.style.min_passes);
+        plan.set_roads(map_lines(store, box, classes_of(request), request.style.min_passes),
+                       request.events ? map_events(store, box) : std::vector<MapEvent>{});
     };
-    auto scene = scene_around(store, request);
-    if (request.events) {
-        scene.events = map_events(store, scene.box);
-    }
-    MapPlan plan{std::move(scene), request.style, {request.width_px, request.height_px}};
     const auto ground = plan.ground();
-    plan.set_lines(load(ground));
+    load(ground);
     if (!holds(ground, plan.ground())) {
-        plan.set_lines(load(plan.ground()));
+        load(plan.ground());
     }
     expect_roads(plan.scene());
     return plan;

@@ -264,7 +264,7 @@ private:
 std::string not_kept(const TripLog& trip) {
     std::map<std::string, std::size_t> reasons;
     for (const auto row : trip.rows) {
-        if (row >= static_cast<std::uint8_t>(RowReason::wrong_cell_count)) {
+        if (row >= code(RowReason::wrong_cell_count)) {
             ++reasons[name_of(static_cast<RowReason>(row))];
         }
     }

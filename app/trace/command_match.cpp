@@ -2,13 +2,11 @@
 #include "app/cli/overwrite_guard.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
-#include "app/pipeline/pipeline.hpp"
 #include "app/pipeline/single_trip.hpp"
+#include "app/pipeline/trip_preparation.hpp"
 #include "app/trace/match_output.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/motion/make_odometer.hpp"
-#include "estimator/motion/mounting.hpp"
 #include "mapping/matching/edge_traversals.hpp"
 #include "mapping/matching/map_match.hpp"
 #include "mapping/network/build_network.hpp"
@@ -76,16 +74,17 @@ RoadNetwork roads_of(const MatchOptions& options, const Console& console) {
         read_network(options.network, options.columns, console.progress("reading roads"), warn));
 }
 
-/// Returns the trip with its receiver's latency; invented times have none.
-TripLog timed(TripLog trip, std::vector<std::string>& warnings) {
+/// Prepares a trip for matching; invented times have no latency.
+PreparedTrip prepared_or_untimed(TripLog trip) {
     const auto made_up = trip.meta.other.find(times_key);
     if (made_up == trip.meta.other.end()) {
-        return with_latency(std::move(trip), warnings);
+        return prepared(std::move(trip));
     }
-    warnings.push_back(fmt::format("its points have no increasing times; {}, so t_enter_s and "
-                                   "t_leave_s give the order only",
-                                   made_up->second));
-    return trip;
+    auto words = fmt::format("its points have no increasing times; {}, so t_enter_s and "
+                             "t_leave_s give the order only",
+                             made_up->second);
+    auto motion = motion_of(trip);
+    return {std::move(trip), std::move(motion), {std::move(words)}};
 }
 
 void run_match(const Arguments& arguments, const Console& console) {
@@ -95,22 +94,16 @@ void run_match(const Arguments& arguments, const Console& console) {
     }
     const auto roads = roads_of(options, console);
     const auto source = one_trip(options.trip, mapping_of(arguments));
-    std::vector<std::string> warnings;
-    const auto trip = timed(
-        read_trip(source, needs_of_match_with_heading(), console.progress("reading")), warnings);
-
-    const auto [trace, summary] = with_trip_name(source.name(), [&] {
-        auto use = unused(trip);
-        const auto odometer = make_odometer(trip, {}, use);
-        const auto heading = make_heading(trip, odometer, estimate_mounting(trip, odometer));
-        auto matched = map_match(trip, odometer, roads, {}, use, heading);
-        auto words = matched_words(matched, odometer);
-        return std::pair{std::move(matched), std::move(words)};
+    auto log = read_trip(source, needs_of_match_with_heading(), console.progress("reading"));
+    const auto trip =
+        with_trip_name(source.name(), [&] { return prepared_or_untimed(std::move(log)); });
+    const auto trace = with_trip_name(source.name(), [&] {
+        return map_match(trip.trip, trip.motion.odometer, roads, {}, trip.motion.heading).trace;
     });
-    for (const auto& warning : warnings) {
+    for (const auto& warning : trip.warnings) {
         console.say(warning);
     }
-    console.say(summary);
+    console.say(matched_words(trace, trip.motion.odometer));
 
     const bool geojson = options.output && options.output->extension() == ".geojson";
     const auto text = options.arcs ? arcs_csv(trace, roads)

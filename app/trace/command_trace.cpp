@@ -5,6 +5,7 @@
 #include "app/pipeline/estimation_options.hpp"
 #include "app/pipeline/pipeline.hpp"
 #include "app/pipeline/single_trip.hpp"
+#include "app/pipeline/trip_preparation.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
 #include "app/trace/survey_check.hpp"
 #include "app/trace/survey_check_output.hpp"
@@ -202,13 +203,16 @@ void run_trace(const Arguments& arguments, const Console& console) {
     }
     const auto survey = options.survey ? read_survey(*options.survey, options.mm_per_m_of_one)
                                        : std::vector<SurveyRow>{};
-    std::vector<std::string> warnings;
     const auto source = one_trip(options.trip, mapping_of(arguments));
-    const auto trip =
-        with_latency(read_trip(source, needs_of_trace(), console.progress("reading")), warnings);
-    const auto chosen = vehicles(options.trip, trip.meta.vehicle_id);
-    const auto trace = with_trip_name(
-        source.name(), [&] { return trace_of(trip, chosen.vehicle, options.pipeline); });
+    auto log = read_trip(source, needs_of_trace(), console.progress("reading"));
+    const auto chosen = vehicles(options.trip, log.meta.vehicle_id);
+    auto found = with_trip_name(
+        source.name(), [&] { return prepared(std::move(log), options.pipeline.odometer); });
+    const auto& trip = found.trip;
+    const auto trace = with_trip_name(source.name(), [&] {
+        return trace_of(trip, std::move(found.motion), chosen.vehicle, options.pipeline);
+    });
+    auto warnings = std::move(found.warnings);
 
     if (!chosen.warning.empty()) {
         warnings.push_back(chosen.warning);

@@ -1,6 +1,7 @@
 #include "app/trace/trace_live.hpp"
 
 #include "app/pipeline/single_trip.hpp"
+#include "app/pipeline/trip_preparation.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
 #include "app/trace/trace_rows.hpp"
 

@@ -1,5 +1,6 @@
 #include "estimator/common/trip.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace macadam {
@@ -57,6 +58,12 @@ const char* name_of(RowReason reason) {
     }
     assert(false);
     return "";
+}
+
+std::vector<double> times_of(const std::vector<GnssFix>& fixes) {
+    std::vector<double> t_s(fixes.size());
+    std::ranges::transform(fixes, t_s.begin(), &GnssFix::t_s);
+    return t_s;
 }
 
 RowCount account(const TripLog& trip, const RowAudit& use) {

@@ -93,6 +93,11 @@ enum class RowReason : std::uint8_t {
 };
 const char* name_of(RowReason reason);
 
+/// Returns the reason as rows and uses hold it.
+constexpr std::uint8_t code(RowReason reason) {
+    return static_cast<std::uint8_t>(reason);
+}
+
 /// Recording of one car from start to stop, by sensor.
 ///
 /// `rows` has one entry per data row of the log, in order: a sum of row_content flags for the
@@ -110,13 +115,15 @@ struct TripLog {
     std::vector<std::string> unknown_columns;
 };
 
-/// Use of a trip's samples in an estimate: one flag per sample of each stream, with the reason for
-/// unused samples.
+/// Use of the samples of one stream: for each 0 if it was used, otherwise the RowReason.
+using SampleUse = std::vector<std::uint8_t>;
+
+/// Use of a trip's samples in an estimate, by stream.
 struct RowAudit {
-    std::vector<std::uint8_t> acc; ///< 0 = used, otherwise a RowReason
-    std::vector<std::uint8_t> gyro;
-    std::vector<std::uint8_t> speed;
-    std::vector<std::uint8_t> fixes;
+    SampleUse acc;
+    SampleUse gyro;
+    SampleUse speed;
+    SampleUse fixes;
 };
 
 struct RowCount {
@@ -126,6 +133,8 @@ struct RowCount {
     std::map<std::string, std::size_t> reasons;
     friend bool operator==(const RowCount&, const RowCount&) = default;
 };
+
+std::vector<double> times_of(const std::vector<GnssFix>& fixes);
 
 /// Counts used and rejected rows. A row is used if at least one of its samples was; otherwise it is
 /// rejected once, with the first reason in the order acc, gyro, speed, fix.

@@ -76,8 +76,7 @@ settled_of(const Odometer::Knots& knots, double now_s, const LiveRulerConfig& co
 
 std::optional<Odometer> measured_by(const TripLog& motion, const OdometerConfig& config) {
     try {
-        auto use = unused(motion);
-        return make_odometer(motion, config, use);
+        return make_odometer(motion, config).odometer;
     } catch (const InputError&) { // too few data so far
         return std::nullopt;
     }

@@ -145,8 +145,8 @@ void LiveRoughness::go_on(const TripLog& recent,
     if (recent.acc.t_s.size() < 2) {
         return;
     }
-    auto use = unused(recent);
-    for (const auto& span : find_stretches(recent, odometer, stretch_, use, mounting.otherwise)) {
+    const auto found = find_stretches(recent, odometer, stretch_, mounting.otherwise);
+    for (const auto& span : found.spans) {
         const double span_end_s = end_s(recent, span);
         const bool ended = now_s - span_end_s > ended_after_s;
         const double until_s = ended ? span_end_s : std::min(final_s, span_end_s);

@@ -21,10 +21,6 @@ constexpr double standing_mps = 1;       // mean speed below which the car stood
 // the length to 2 %, and a receiver at rest does not drift that far.
 constexpr double min_move_m = 15;
 
-std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
-}
-
 bool repeats(const GnssFix& fix, const GnssFix& before) {
     const bool unmoved = fix.at == before.at;
     const bool must_move = !(fix.speed_mps <= static_cast<float>(moving_mps));

@@ -20,7 +20,7 @@ struct Place {
 /// Accepted positions of a trip.
 struct GnssTrack {
     std::vector<Place> places;
-    std::vector<std::uint8_t> use; ///< one entry per fix: 0, or the RowReason
+    SampleUse use; ///< of the fixes
 };
 
 /// Rejects positions that have a poor stated accuracy, that repeat the previous one, or that are

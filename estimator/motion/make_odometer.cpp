@@ -34,10 +34,6 @@ struct Reading {
     double speed_mps;
 };
 
-std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
-}
-
 /// Averages the readings within each `thin_s`, so that a fast bus needs no more memory than a slow
 /// one: the distance is preserved. The first and the last reading are unchanged.
 class Thinner {
@@ -104,20 +100,26 @@ std::vector<Reading> plausible_readings(std::size_t count,
     return thinner.finish();
 }
 
-std::vector<Reading>
-wheel_readings(const TripLog& trip, const OdometerConfig& config, RowAudit& use) {
+struct WheelReadings {
+    std::vector<Reading> readings;
+    SampleUse use;
+};
+
+WheelReadings wheel_readings(const TripLog& trip, const OdometerConfig& config) {
     const double scale = trip.meta.speed_scale.value_or(1);
     const auto at = [&](std::size_t i) {
         return Reading{trip.speed.t_s[i] - trip.meta.speed_latency_s,
                        scale * static_cast<double>(trip.speed.speed_mps[i])};
     };
-    return plausible_readings(trip.speed.t_s.size(), at, config, use.speed);
+    WheelReadings wheels{.readings = {}, .use = SampleUse(trip.speed.t_s.size())};
+    wheels.readings = plausible_readings(wheels.use.size(), at, config, wheels.use);
+    return wheels;
 }
 
 struct GnssReadings {
     std::vector<Reading> readings;
     std::vector<std::size_t> fixes; ///< fixes with a speed
-    std::vector<std::uint8_t> use;  ///< one entry per such fix
+    SampleUse use;                  ///< one entry per such fix
 };
 
 GnssReadings gnss_readings(const TripLog& trip, const OdometerConfig& config) {
@@ -328,22 +330,22 @@ std::vector<Odometer::Pause> pauses_in(const Odometer::Knots& knots,
     return pauses;
 }
 
-/// Marks the fixes; a fix was used if its position or its speed was.
-void mark_fixes(const GnssTrack& track, const GnssReadings& gnss, bool speeds_used, RowAudit& use) {
-    use.fixes = track.use;
+/// Returns the use of the fixes; a fix was used if its position or its speed was.
+SampleUse use_of_fixes(SampleUse positions, const GnssReadings& gnss, bool speeds_used) {
     for (std::size_t i = 0; i < gnss.fixes.size(); ++i) {
-        auto& fix = use.fixes[gnss.fixes[i]];
+        auto& fix = positions[gnss.fixes[i]];
         if (speeds_used && gnss.use[i] == 0 && fix != code(RowReason::repeated_fix)) {
             fix = 0;
         }
     }
+    return positions;
 }
 
 } // namespace
 
-Odometer make_odometer(const TripLog& trip, const OdometerConfig& config, RowAudit& use) {
+MeasuredOdometer make_odometer(const TripLog& trip, const OdometerConfig& config) {
     const auto gnss = gnss_readings(trip, config);
-    auto wheels = wheel_readings(trip, config, use);
+    auto [wheels, speed_use] = wheel_readings(trip, config);
     const bool by_wheels = wheels.size() >= 2;
     double scale = trip.meta.speed_scale.value_or(1);
     if (by_wheels && !trip.meta.speed_scale) {
@@ -361,14 +363,16 @@ Odometer make_odometer(const TripLog& trip, const OdometerConfig& config, RowAud
     const auto track = track_of(trip, config, farthest ? &*farthest : nullptr);
     const auto places = odometer_of(track, config);
     farthest.reset();
-    mark_fixes(track, gnss, readings.size() >= 2, use);
+    auto fix_use = use_of_fixes(track.use, gnss, readings.size() >= 2);
 
     readings = without_pauses(std::move(readings), track);
     if (readings.size() >= 2) {
         const auto ends_s = pause_ends(track);
         auto knots = knots_of(readings, places, ends_s, config.max_gap_s);
         auto pauses = pauses_in(knots, ends_s);
-        return Odometer{std::move(knots), by_wheels ? scale : 1, std::move(pauses)};
+        return {Odometer{std::move(knots), by_wheels ? scale : 1, std::move(pauses)},
+                std::move(speed_use),
+                std::move(fix_use)};
     }
     if (!places) {
         throw InputError{fmt::format(
@@ -376,7 +380,9 @@ Odometer make_odometer(const TripLog& trip, const OdometerConfig& config, RowAud
             readings.size(),
             track.places.size())};
     }
-    return Odometer{places->knots(), 1, pauses_in(places->knots(), pause_ends(track))};
+    return {Odometer{places->knots(), 1, pauses_in(places->knots(), pause_ends(track))},
+            std::move(speed_use),
+            std::move(fix_use)};
 }
 
 } // namespace macadam

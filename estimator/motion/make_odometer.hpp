@@ -1,14 +1,20 @@
 #pragma once
 
+#include "estimator/common/trip.hpp"
 #include "estimator/motion/odometer.hpp"
 
 namespace macadam {
 
-/// Builds the odometer of a trip. In `use`, marks the speeds and the fixes (for their speed or
-/// position) that were used, and the reason for the others. `use` must have been made by
-/// `unused(trip)`.
+/// Odometer of a trip, and the samples that it is made of.
+struct MeasuredOdometer {
+    Odometer odometer;
+    SampleUse speed;
+    SampleUse fixes; ///< a fix is used if its speed or its position is
+};
+
+/// Builds the odometer of a trip.
 ///
 /// \throws InputError  if the trip has neither speeds nor two fixes.
-Odometer make_odometer(const TripLog& trip, const OdometerConfig& config, RowAudit& use);
+MeasuredOdometer make_odometer(const TripLog& trip, const OdometerConfig& config);
 
 } // namespace macadam

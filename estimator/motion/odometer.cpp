@@ -137,13 +137,4 @@ double Odometer::end_s() const {
     return knots_.t_s.back();
 }
 
-RowAudit unused(const TripLog& trip) {
-    constexpr auto reason = static_cast<std::uint8_t>(RowReason::unused_channel);
-    const auto all = [=](std::size_t n) { return std::vector<std::uint8_t>(n, reason); };
-    return {.acc = all(trip.acc.t_s.size()),
-            .gyro = all(trip.gyro.t_s.size()),
-            .speed = all(trip.speed.t_s.size()),
-            .fixes = all(trip.fixes.size())};
-}
-
 } // namespace macadam

@@ -76,7 +76,4 @@ private:
     std::vector<Pause> pauses_;
 };
 
-/// Returns an audit in which every sample is `unused_channel`.
-RowAudit unused(const TripLog& trip);
-
 } // namespace macadam

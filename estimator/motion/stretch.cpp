@@ -21,20 +21,6 @@ constexpr double settle_periods = 4; // of the filter's corner, at both ends
 constexpr double minor_share = 0.2;  // of an axis that need not be sampled: sin(11.5 degrees)
 constexpr std::size_t min_samples = 16;
 
-std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
-}
-
-double median_step_s(const std::vector<double>& t_s) {
-    std::vector<double> steps_s(t_s.size() - 1);
-    for (std::size_t i = 0; i < steps_s.size(); ++i) {
-        steps_s[i] = t_s[i + 1] - t_s[i];
-    }
-    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-    std::ranges::nth_element(steps_s, middle);
-    return *middle;
-}
-
 void check_rate(const TriaxialSamples& acc, const StretchConfig& config) {
     const double rate_hz = 1 / median_step_s(acc.t_s);
     // Tolerates clocks that are slightly slow.
@@ -266,6 +252,16 @@ double grid_rate_hz(const TripLog& trip,
 
 } // namespace
 
+double median_step_s(const std::vector<double>& t_s) {
+    std::vector<double> steps_s(t_s.size() - 1);
+    for (std::size_t i = 0; i < steps_s.size(); ++i) {
+        steps_s[i] = t_s[i + 1] - t_s[i];
+    }
+    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+    std::ranges::nth_element(steps_s, middle);
+    return *middle;
+}
+
 std::vector<TravelSpan> slow_parts(const Odometer& odometer, double min_speed_mps) {
     const auto& knots = odometer.knots();
     std::vector<TravelSpan> parts;
@@ -285,28 +281,26 @@ std::vector<TravelSpan> slow_parts(const Odometer& odometer, double min_speed_mp
     return parts;
 }
 
-std::vector<StretchSpan> find_stretches(const TripLog& trip,
-                                        const Odometer& odometer,
-                                        const StretchConfig& config,
-                                        RowAudit& use,
-                                        std::span<const TimeSpan> moved) {
+FoundStretches find_stretches(const TripLog& trip,
+                              const Odometer& odometer,
+                              const StretchConfig& config,
+                              std::span<const TimeSpan> moved) {
     const auto& t_s = trip.acc.t_s;
+    FoundStretches found{.spans = {}, .acc = SampleUse(t_s.size(), code(RowReason::short_stretch))};
     if (t_s.size() < 2) {
-        std::ranges::fill(use.acc, code(RowReason::short_stretch));
-        return {};
+        return found;
     }
     check_rate(trip.acc, config);
 
-    std::vector<StretchSpan> spans;
     const auto keep = [&](std::size_t first, std::size_t end) {
         const bool whole =
             end - first >= min_samples &&
             odometer.travel_m(t_s[end - 1]) - odometer.travel_m(t_s[first]) >= config.min_length_m;
-        std::fill(use.acc.begin() + static_cast<std::ptrdiff_t>(first),
-                  use.acc.begin() + static_cast<std::ptrdiff_t>(end),
-                  whole ? std::uint8_t{0} : code(RowReason::short_stretch));
         if (whole) {
-            spans.push_back({first, end - 1});
+            std::fill(found.acc.begin() + static_cast<std::ptrdiff_t>(first),
+                      found.acc.begin() + static_cast<std::ptrdiff_t>(end),
+                      std::uint8_t{0});
+            found.spans.push_back({first, end - 1});
         }
     };
     const double max_gap_s = std::max(config.max_gap_s, config.max_gap_steps * median_step_s(t_s));
@@ -322,14 +316,14 @@ std::vector<StretchSpan> find_stretches(const TripLog& trip,
             first = i;
         }
         if (reason != 0) {
-            use.acc[i] = reason;
+            found.acc[i] = reason;
             first = i + 1;
         }
     }
     if (first < t_s.size()) {
         keep(first, t_s.size());
     }
-    return spans;
+    return found;
 }
 
 Stretch make_stretch(const TripLog& trip,

@@ -28,6 +28,9 @@ struct StretchConfig {
     double longest_s = 3600;    ///< longer stretches are cut, to limit memory
 };
 
+/// Returns the median step of time stamps, s. At least two.
+double median_step_s(const std::vector<double>& t_s);
+
 /// Returns the travel intervals below `min_speed_mps` or in reverse, in order, not overlapping.
 std::vector<TravelSpan> slow_parts(const Odometer& odometer, double min_speed_mps);
 
@@ -35,6 +38,12 @@ std::vector<TravelSpan> slow_parts(const Odometer& odometer, double min_speed_mp
 struct StretchSpan {
     std::size_t first;
     std::size_t last;
+};
+
+/// Stretches of a trip, in order, and the samples of trip.acc that are in one.
+struct FoundStretches {
+    std::vector<StretchSpan> spans;
+    SampleUse acc;
 };
 
 /// Part of a trip without gaps, at speed, on one even time grid. Sizes agree.
@@ -55,17 +64,15 @@ struct Stretch {
     std::vector<double> travel_m; ///< of the centre of gravity
 };
 
-/// Cuts a trip at gaps, stops, reversing and unknown speed; records in `use.acc` the reason for
-/// rejecting the samples outside.
+/// Cuts a trip at gaps, stops, reversing and unknown speed.
 ///
 /// \param moved  times with another sensor orientation (Mounting::otherwise), which are excluded.
 ///
 /// \throws InputError  if vibration was sampled slower than min_rate_hz.
-std::vector<StretchSpan> find_stretches(const TripLog& trip,
-                                        const Odometer& odometer,
-                                        const StretchConfig& config,
-                                        RowAudit& use,
-                                        std::span<const TimeSpan> moved = {});
+FoundStretches find_stretches(const TripLog& trip,
+                              const Odometer& odometer,
+                              const StretchConfig& config,
+                              std::span<const TimeSpan> moved = {});
 
 /// Builds one stretch on its even grid: rotated by `mounting`, low-passed against aliasing where
 /// the grid is coarser than the log, and interpolated by a cubic. Stretches are built one by one to

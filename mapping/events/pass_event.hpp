@@ -26,7 +26,7 @@ struct PassEvent {
 /// Places the events of a trip on the segments of its passes, by travel. Events off the passes, or
 /// with values that are not finite, are dropped: whatever hides a pass hides its events.
 ///
-/// \param passes  of driven_passes(), in driving order
+/// \param passes  of cut_trip(), in driving order
 /// \returns       in the order of (segment, occurrence, at_mm, kind, track)
 std::vector<PassEvent> place_events(std::span<const RoadEvent> events,
                                     std::span<const DrivenPass> passes);

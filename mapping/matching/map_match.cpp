@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -154,15 +155,15 @@ void fill(MatchedTrace& trace,
 
 } // namespace
 
-MatchedTrace map_match(const TripLog& trip,
-                       const Odometer& odometer,
-                       const RoadNetwork& roads,
-                       const MatchConfig& config,
-                       RowAudit& use,
-                       const Heading& heading) {
-    const auto positions = positions_of(trip, odometer, heading, config, use);
+TripMatch map_match(const TripLog& trip,
+                    const Odometer& odometer,
+                    const RoadNetwork& roads,
+                    const MatchConfig& config,
+                    const Heading& heading) {
+    auto positions = positions_of(trip, odometer, heading, config);
+    TripMatch match{.trace = {}, .fixes = std::move(positions.use)};
     if (positions.samples.empty()) {
-        return {};
+        return match;
     }
     CandidateIndex plane{roads, positions.frame};
     EdgeRouter routes{roads, config.u_turn_cost_m};
@@ -171,7 +172,7 @@ MatchedTrace map_match(const TripLog& trip,
 
     const double begin_m = positions.all.front().travel_m;
     const double end_m = positions.all.back().travel_m;
-    MatchedTrace trace;
+    auto& trace = match.trace;
     std::size_t sample = 0; // up to which the trace is filled
     for (const auto& path : paths) {
         auto pieces =
@@ -186,7 +187,7 @@ MatchedTrace map_match(const TripLog& trip,
     }
     const auto hole = hole_between(positions, chain, sample, chain.size(), config);
     fill(trace, hole.kind, end_m, hole.reason, begin_m, odometer);
-    return trace;
+    return match;
 }
 
 } // namespace macadam

@@ -35,6 +35,12 @@ struct MatchedInterval {
 /// Ordered by travel and contiguous, from the first to the last position.
 using MatchedTrace = std::vector<MatchedInterval>;
 
+/// A trip on the network, and the fixes that place it there.
+struct TripMatch {
+    MatchedTrace trace;
+    SampleUse fixes;
+};
+
 /// Matches one trip to the network with a hidden Markov model: the edges driven, their direction,
 /// and the offset on them at each travelled distance.
 ///
@@ -44,16 +50,14 @@ using MatchedTrace = std::vector<MatchedInterval>;
 /// round. Viterbi finds the cheapest path; where no path joins two samples, the trace has a gap.
 /// Confidence is the forward-backward posterior of the edge on the same lattice.
 ///
-/// Works with positions alone, and with speed, course and rates of turn (`heading`). `use.fixes`
-/// records which fixes were used.
+/// Works with positions alone, and with speed, course and rates of turn (`heading`).
 ///
 /// Source: P. Newson, J. Krumm, "Hidden Markov map matching through noise and sparseness", ACM
 /// SIGSPATIAL GIS 2009, pp. 336-343.
-MatchedTrace map_match(const TripLog& trip,
-                       const Odometer& odometer,
-                       const RoadNetwork& roads,
-                       const MatchConfig& config,
-                       RowAudit& use,
-                       const Heading& heading = {});
+TripMatch map_match(const TripLog& trip,
+                    const Odometer& odometer,
+                    const RoadNetwork& roads,
+                    const MatchConfig& config,
+                    const Heading& heading = {});
 
 } // namespace macadam

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace macadam {
@@ -50,5 +51,15 @@ struct RoughnessTrace {
 };
 
 inline constexpr double trace_margin_m = 10;
+
+/// One metre of a trace.
+struct TraceCell {
+    RoughnessCode iri = no_roughness;
+    RoughnessCode left = no_roughness;
+};
+
+/// Fills a trace with these cells, from the first known to the last; `trace.first_m` is the start
+/// of `cells`, and the trace has no cells yet. Empty if no cell is known.
+RoughnessTrace with_cells(RoughnessTrace trace, std::span<const TraceCell> cells);
 
 } // namespace macadam

@@ -188,32 +188,18 @@ std::optional<Headline> headline_of(const IriMean& mean) {
         true};
 }
 
-std::vector<DrivenPass> driven_passes(const IriTrace& roughness,
-                                      const MatchedTrace& matched,
-                                      const RoadNetwork& roads,
+std::vector<DrivenPass> driven_passes(std::span<const SegmentOverlap> parts,
+                                      const IriTrace& roughness,
                                       const Vehicle& vehicle,
                                       const PassConfig& config) {
     std::vector<DrivenPass> passes;
     std::map<SegmentKey, std::uint32_t> occurrences;
-    const auto parts = driven_parts(matched, roads, config.min_confidence);
     for (auto& passage : passages_of(parts)) {
         if (auto pass = pass_of(passage, roughness, vehicle, config)) {
             pass->occurrence = occurrences[pass->segment]++;
             passes.push_back({*pass, std::move(passage.parts)});
         }
     }
-    return passes;
-}
-
-std::vector<Pass> extract_passes(const IriTrace& roughness,
-                                 const MatchedTrace& matched,
-                                 const RoadNetwork& roads,
-                                 const Vehicle& vehicle,
-                                 const PassConfig& config) {
-    std::vector<Pass> passes;
-    std::ranges::transform(driven_passes(roughness, matched, roads, vehicle, config),
-                           std::back_inserter(passes),
-                           &DrivenPass::pass);
     return passes;
 }
 

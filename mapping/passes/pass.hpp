@@ -1,12 +1,12 @@
 #pragma once
 
 #include "estimator/roughness/roughness_trace.hpp"
-#include "mapping/matching/map_match.hpp"
 #include "mapping/network/segment.hpp"
 #include "mapping/passes/segment_overlap.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace macadam {
@@ -59,8 +59,8 @@ struct DrivenPass {
     std::vector<SegmentOverlap> parts;
 };
 
-/// Joins roughness and matched positions by travel: averages the trace over each segment that the
-/// trip drove. Ordered as driven.
+/// Joins roughness and matched positions by travel: averages the roughness over each segment that
+/// the trip drove. Ordered as driven.
 ///
 /// Both inputs refer to the centre of gravity, so no shift is applied. Several intervals of one
 /// pass are combined, weighted by the length they cover. A gap shorter than the segment does not
@@ -68,17 +68,9 @@ struct DrivenPass {
 ///
 /// A pass is omitted if less of the segment than `min_cover` has an estimate, or if the match
 /// confidence is below `min_confidence`.
-std::vector<DrivenPass> driven_passes(const IriTrace& roughness,
-                                      const MatchedTrace& matched,
-                                      const RoadNetwork& roads,
+std::vector<DrivenPass> driven_passes(std::span<const SegmentOverlap> parts,
+                                      const IriTrace& roughness,
                                       const Vehicle& vehicle,
                                       const PassConfig& config);
-
-/// The same without the intervals.
-std::vector<Pass> extract_passes(const IriTrace& roughness,
-                                 const MatchedTrace& matched,
-                                 const RoadNetwork& roads,
-                                 const Vehicle& vehicle,
-                                 const PassConfig& config);
 
 } // namespace macadam

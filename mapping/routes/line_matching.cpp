@@ -75,10 +75,9 @@ MatchedTrace match_of(const RoadNetwork& roads, std::span<const GeoPoint> line) 
         throw InputError{"a line needs two different places"};
     }
     const auto trip = car_along(line);
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
     const MatchConfig config{.spacing_m = step_m}; // lines may be as short as one section
-    return map_match(trip, odometer, roads, config, use);
+    return map_match(trip, odometer, roads, config).trace;
 }
 
 } // namespace

@@ -29,8 +29,7 @@ struct TransferredPasses {
 /// mean of the old passes of that drive over the new segment, weighted by the covered length. It
 /// has every validity flag that any of them has and the time of its midpoint, and is omitted if
 /// less than half of the segment is covered. Traces are assembled from the nearest metres of the
-/// old traces. Repeated drives over a chunk are distinguished by their times, as in extract_passes
-/// and extract_traces.
+/// old traces. Repeated drives over a chunk are distinguished by their times, as in cut_trip.
 TransferredPasses carried(const TripPasses& old, const SegmentCorrespondences& correspondences);
 
 } // namespace macadam

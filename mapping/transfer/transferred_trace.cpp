@@ -1,7 +1,5 @@
 #include "mapping/transfer/transferred_trace.hpp"
 
-#include "mapping/passes/trace_cells.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,7 +7,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::int32_t sd_step_mm = 100; // rounding of extract_traces
+constexpr std::int32_t sd_step_mm = 100; // rounding of cut_trip
 
 /// An interval with the old trace that was read there.
 struct TracedPiece {

@@ -117,8 +117,9 @@ MapPlan::MapPlan(MapScene scene, MapStyle style, const PictureSize& size)
       placement_{
           placement_of(scene_, legend_of(scene_, style_, classes_of(style_)), layout_, setter_)} {}
 
-void MapPlan::set_lines(std::vector<MapLine> lines) {
+void MapPlan::set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events) {
     scene_.lines = std::move(lines);
+    scene_.events = std::move(events);
     placement_ =
         placement_of(scene_, legend_of(scene_, style_, classes_of(style_)), layout_, setter_);
 }

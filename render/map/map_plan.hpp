@@ -15,7 +15,7 @@ namespace macadam {
 /// the lines on its ground are loaded, beside which it places the legend; then it is drawn:
 ///
 ///     MapPlan plan{scene, style, size};
-///     plan.set_lines(load(plan.ground()));
+///     plan.set_roads(load(plan.ground()));
 ///     plan.draw(take);
 class MapPlan {
 public:
@@ -28,9 +28,9 @@ public:
     /// projection whose visible extent is unknown it is the box, grown by far.
     GeoBox ground() const;
 
-    /// Sets the roads. If the legend finds no corner without roads, the map makes room for it and
-    /// needs the roads of a larger ground.
-    void set_lines(std::vector<MapLine> lines);
+    /// Sets the roads and the events on them. If the legend finds no corner without roads, the map
+    /// makes room for it and needs the roads of a larger ground.
+    void set_roads(std::vector<MapLine> lines, std::vector<MapEvent> events = {});
 
     const MapScene& scene() const { return scene_; }
     const MapStyle& style() const { return style_; }

@@ -49,9 +49,10 @@ Table table_of(const Report& report) {
 DocumentSection events_section(const Report& report) {
     const auto& say = report.wording;
     DocumentSection section{say("event"), {}};
-    section.blocks.emplace_back(Paragraph{say("event.about") + " " +
-                                          say.counted("event.found", report.events_found) + " " +
-                                          say.counted("event.listed", report.events.size())});
+    section.blocks.emplace_back(
+        Paragraph{say(report.publication ? "event.about.crowd" : "event.about") + " " +
+                  say.counted("event.found", report.events_found) + " " +
+                  say.counted("event.listed", report.events.size())});
     section.blocks.emplace_back(table_of(report));
     section.blocks.emplace_back(Paragraph{say("event.remark"), true});
     return section;

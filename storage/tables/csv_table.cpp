@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/files/byte_stream.hpp"
 #include "storage/files/decompress.hpp"
+#include "storage/files/hashed_bytes.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/tables/text_lines.hpp"
 #include "storage/text/text.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 #include <set>
 
 namespace macadam {
@@ -76,7 +78,9 @@ bool CsvTable::has(std::string_view column) const {
 }
 
 CsvTable read_csv_table(const std::filesystem::path& file) {
-    TextLines lines{decompressed(file_bytes(file), file.string()), file.string()};
+    auto opened = std::make_unique<HashedBytes>(decompressed(file_bytes(file), file.string()));
+    auto& bytes = *opened;
+    TextLines lines{std::move(opened), file.string()};
     CsvTable table;
     table.header = cells_of_line(lines.next().value_or(""), ',');
     table.where = lines.where();
@@ -96,7 +100,7 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
         table.rows.push_back(std::move(cells));
         table.places.push_back(lines.where());
     }
-    table.sha256 = lines.sha256();
+    table.sha256 = bytes.sha256();
     return table;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "storage/files/byte_stream.hpp"
-#include "storage/files/sha256.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,18 +28,12 @@ public:
     /// "file:line" of the last line returned; of the first line before any was returned.
     std::string where() const;
 
-    std::uint64_t consumed() const { return bytes_->consumed(); }
-
-    /// SHA-256 of the whole text, available after the last line was read.
-    std::string sha256() { return sha256_.hex(); }
-
 private:
     void fill();
     std::string_view taken(std::size_t size, std::size_t skip);
 
     std::unique_ptr<ByteStream> bytes_;
     std::string name_;
-    Sha256 sha256_;
     std::vector<char> block_;
     std::size_t first_ = 0; ///< start of the unread bytes of the block, [first_, last_)
     std::size_t last_ = 0;

@@ -5,7 +5,7 @@
 #include "storage/files/decompress.hpp"
 #include "storage/trips/foreign/foreign_trip.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
-#include "storage/trips/foreign/phone_export.hpp"
+#include "storage/trips/foreign/trip_files.hpp"
 #include "storage/trips/log/trip_assembly.hpp"
 #include "storage/trips/log/trip_rows.hpp"
 #include "storage/trips/rawlog/rawlog_reader.hpp"
@@ -26,7 +26,7 @@ std::unique_ptr<ByteStream> open(const TripSource& source) {
 }
 
 /// Size of the file, or of the contents in memory.
-std::size_t bytes_of_source(const TripSource& source) {
+std::size_t size_of(const TripSource& source) {
     if (source.contents) {
         return source.contents->files.front().bytes.size();
     }
@@ -35,61 +35,74 @@ std::size_t bytes_of_source(const TripSource& source) {
     return unknown_size ? 0 : static_cast<std::size_t>(size);
 }
 
-/// Reports progress at intervals, and stops on request.
-class ProgressThrottle {
+/// Bytes that report progress as they are read, and stop on request.
+class WatchedBytes final : public ByteStream {
 public:
-    ProgressThrottle(const TripSource& source, const Progress& progress)
-        : name_{source.name()}, progress_{progress}, whole_{bytes_of_source(source)} {}
+    WatchedBytes(ByteStream& from, const TripSource& source, const Progress& progress)
+        : from_{from}, name_{source.name()}, size_{size_of(source)}, progress_{progress} {}
 
-    void step(const TripRows& rows) {
-        constexpr std::size_t rows_between = 1 << 16;
-        if (++rows_ % rows_between != 0) {
-            return;
-        }
-        progress_(static_cast<std::size_t>(rows.consumed()), whole_);
+    std::size_t read(std::span<char> into) override {
+        progress_(static_cast<std::size_t>(consumed()), size_);
         if (progress_.stop.stop_requested()) {
             throw InputError{fmt::format("{}: reading was stopped", name_)};
         }
+        return from_.read(into);
     }
 
+    std::uint64_t consumed() const override { return from_.consumed(); }
+
 private:
+    ByteStream& from_;
     std::string name_;
+    std::size_t size_;
     const Progress& progress_;
-    std::size_t whole_;
-    std::size_t rows_ = 0;
 };
 
 } // namespace
 
-std::string content_sha256(const TripSource& source) {
-    if (is_foreign(source)) {
-        return foreign_sha256(source);
+OpenTrip::OpenTrip(TripSource source) : source_{std::move(source)} {
+    if (is_foreign(source_)) {
+        source_ = with_contents(std::move(source_));
+    } else {
+        bytes_.emplace(open(source_));
     }
-    constexpr std::size_t block = 1 << 20;
-    const auto bytes = open(source);
-    std::vector<char> buffer(block);
-    Sha256 sha256;
-    while (const auto count = bytes->read(buffer)) {
-        sha256.add({buffer.data(), count});
-    }
-    return sha256.hex();
 }
 
-TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress) {
-    if (is_foreign(source)) {
-        return read_foreign_trip(source, needs, progress);
+std::optional<std::string> OpenTrip::sha256_ahead(std::size_t max_bytes) {
+    return !bytes_ || bytes_->read_ahead(max_bytes) ? std::optional{sha256()} : std::nullopt;
+}
+
+TripLog OpenTrip::read(const TripNeeds& needs, const Progress& progress) {
+    auto trip = parsed(needs, progress);
+    trip.sha256 = sha256();
+    return trip;
+}
+
+std::string OpenTrip::sha256() {
+    if (bytes_) {
+        return bytes_->sha256();
     }
-    if (source.name().ends_with(rawlog_suffix)) {
-        return read_rawlog({open(source), source.name(), bytes_of_source(source)}, needs, progress);
+    if (foreign_sha256_.empty()) {
+        foreign_sha256_ = foreign_sha256(source_);
     }
-    if (is_gpx_name(source.name())) {
-        return read_gpx({open(source), source.name(), bytes_of_source(source)}, needs, progress);
+    return foreign_sha256_;
+}
+
+TripLog OpenTrip::parsed(const TripNeeds& needs, const Progress& progress) {
+    if (!bytes_) {
+        return read_foreign_trip(source_, needs, progress.stop);
     }
-    TripRows rows{open(source), source, needs};
+    const auto name = source_.name();
+    auto bytes = std::make_unique<WatchedBytes>(*bytes_, source_, progress);
+    if (name.ends_with(rawlog_suffix)) {
+        return read_rawlog(std::move(bytes), name, needs);
+    }
+    if (is_gpx_name(name)) {
+        return read_gpx(std::move(bytes), name, needs);
+    }
+    TripRows rows{std::move(bytes), source_, needs};
     TripStreams streams{needs, rows.header()};
-    ProgressThrottle pace{source, progress};
     while (const auto row = rows.next()) {
-        pace.step(rows);
         streams.add(*row);
     }
     if (!rows.closed()) {
@@ -97,8 +110,11 @@ TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progre
     }
     auto trip = streams.take();
     trip.meta = rows.meta();
-    trip.sha256 = rows.sha256();
     return trip;
+}
+
+TripLog read_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress) {
+    return OpenTrip{source}.read(needs, progress);
 }
 
 } // namespace macadam

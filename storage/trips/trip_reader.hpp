@@ -2,14 +2,43 @@
 
 #include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
+#include "storage/files/hashed_bytes.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 namespace macadam {
 
-/// SHA-256 of the decompressed content of a trip, without parsing it: a quick test for known trips.
-std::string content_sha256(const TripSource& source);
+/// A trip whose content is opened, decompressed and hashed once, while it is parsed.
+class OpenTrip {
+public:
+    /// \throws InputError  if the file cannot be opened, or could not be extracted.
+    explicit OpenTrip(TripSource source);
+
+    /// SHA-256 of the decompressed content, to recognise a trip before it is parsed.
+    /// `std::nullopt` for more than `max_bytes`, which are not kept in memory for this; by default
+    /// four hours at 100 Hz.
+    ///
+    /// \throws InputError  if the content cannot be read.
+    std::optional<std::string> sha256_ahead(std::size_t max_bytes = std::size_t{128} << 20);
+
+    /// Parses the trip, as read_trip does. Callable once.
+    TripLog read(const TripNeeds& needs, const Progress& progress = {});
+
+    /// SHA-256 of the whole content, also if it could not be parsed: 64 lower-case hex digits.
+    ///
+    /// \throws InputError  if the content cannot be read.
+    std::string sha256();
+
+private:
+    TripLog parsed(const TripNeeds& needs, const Progress& progress);
+
+    TripSource source_;
+    std::optional<HashedBytes> bytes_; ///< `std::nullopt`: a foreign trip, of several files
+    std::string foreign_sha256_;       ///< once it was asked for
+};
 
 /// Reads a "macadam-trip 1" log, plain, .gz or .zst, as a stream: its samples, and for every data
 /// row its contribution or the reason why it has none. By suffix also rawlogs

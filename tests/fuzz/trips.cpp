@@ -4,6 +4,7 @@
 #include "targets.hpp"
 
 #include "app/pipeline/pipeline.hpp"
+#include "estimator/motion/trip_motion.hpp"
 #include "mapping/inference/network_inference.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
@@ -181,7 +182,7 @@ Answer read_as(const std::string& name, std::string_view input) {
     return may_refuse([&] {
         const auto trip = read_trip(source, needs_of_import());
         expect_sound(trip);
-        expect(trip.sha256 == content_sha256(source), "a trip has the hash of its content");
+        expect(trip.sha256 == OpenTrip{source}.sha256(), "a trip has the hash of its content");
     });
 }
 
@@ -239,7 +240,7 @@ Answer gpx(std::string_view input) {
     return may_refuse([&] {
         const auto trip = read_trip(source, needs_of_match());
         expect_sound(trip);
-        expect(trip.sha256 == content_sha256(source), "a trip has the hash of its content");
+        expect(trip.sha256 == OpenTrip{source}.sha256(), "a trip has the hash of its content");
         for (const auto& way : trace_network(std::span{&trip, 1}, TraceConfig{})) {
             expect(way.line.size() == way.node_ids.size() && way.line.size() >= 2,
                    "every point of a way has its node");
@@ -261,7 +262,7 @@ Answer trip_written(std::string_view input) {
         const auto again = read_written(first);
         expect_sound(again);
         write_trip(again, second.file);
-        expect(content_sha256(first) == content_sha256(second),
+        expect(OpenTrip{first}.sha256() == OpenTrip{second}.sha256(),
                "what was written once is written so again");
     });
 }
@@ -307,7 +308,7 @@ Answer trip_trace(std::string_view input) {
     return may_refuse([&] {
         const auto trip = read_trip(source, needs_of_import());
         const auto& car = *built_in_vehicle("generic");
-        const auto trace = trace_of(trip, car, {});
+        const auto trace = trace_of(trip, motion_of(trip), car, {});
         expect_accounted(trip, trace.use);
         const auto roads = build_network(trace_network(std::span{&trip, 1}, TraceConfig{}));
         for (const auto& config : configs_of_import(input.size() < short_log)) {

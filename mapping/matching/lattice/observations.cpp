@@ -4,7 +4,6 @@
 #include "mapping/matching/lattice/dead_reckoning.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -203,13 +202,12 @@ std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixe
 MatchObservations positions_of(const TripLog& trip,
                                const Odometer& odometer,
                                const Heading& heading,
-                               const MatchConfig& config,
-                               RowAudit& use) {
-    assert(use.fixes.size() == trip.fixes.size());
+                               const MatchConfig& config) {
     const auto faults = faults_of(trip.fixes, worst_radius_m);
 
     MatchObservations positions{{}, has_speed(trip), {}, {}, &heading, latency_sd_s(trip, heading)};
     std::vector<GeoPoint> places;
+    positions.use.resize(trip.fixes.size());
     for (std::size_t i = 0; i < trip.fixes.size(); ++i) {
         if (!faults[i]) {
             const auto& fix = trip.fixes[i];
@@ -223,9 +221,8 @@ MatchObservations positions_of(const TripLog& trip,
                                      static_cast<float>(std::hypot(config.emission_sd_m, own_sd)),
                                      own_sd,
                                      course_rad(fix)});
-            use.fixes[i] = 0;
-        } else if (use.fixes[i] != 0) { // the odometer may have used its speed
-            use.fixes[i] = static_cast<std::uint8_t>(*faults[i]);
+        } else {
+            positions.use[i] = code(*faults[i]);
         }
     }
     if (places.empty()) {

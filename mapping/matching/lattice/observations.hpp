@@ -36,6 +36,7 @@ struct MatchObservations {
     const Heading* heading = nullptr;
 
     double latency_sd_s = 0; ///< of the uncorrected receiver latency in t_s
+    SampleUse use{};         ///< of the trip's fixes
 };
 
 /// Returns for each fix the reason for rejecting it: no position, worse accuracy than
@@ -44,11 +45,10 @@ struct MatchObservations {
 std::vector<std::optional<RowReason>> faults_of(const std::vector<GnssFix>& fixes,
                                                 double worst_accuracy_m);
 
-/// Selects the usable fixes of a trip and records in `use` the reasons for rejecting the others.
+/// Selects the usable fixes of a trip.
 MatchObservations positions_of(const TripLog& trip,
                                const Odometer& odometer,
                                const Heading& heading,
-                               const MatchConfig& config,
-                               RowAudit& use);
+                               const MatchConfig& config);
 
 } // namespace macadam

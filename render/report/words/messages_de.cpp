@@ -161,6 +161,10 @@ constexpr std::array messages{
             "Ereignisse werden im Straßenprofil jeder Überfahrt gesucht. Aufgeführt ist, worin "
             "mindestens zwei Überfahrten und ein Drittel aller seit der ersten Meldung "
             "übereinstimmen."},
+    Message{"event.about.crowd",
+            "Ereignisse werden im Straßenprofil jeder Überfahrt gesucht. Aufgeführt ist, worin "
+            "Überfahrten von mindestens fünf Fahrzeugen und ein Drittel aller seit der ersten "
+            "Meldung übereinstimmen; Daten sind der erste Tag eines Monats."},
     Message{"event.found.one", "{count} Ereignis wurde gefunden;"},
     Message{"event.found.other", "{count} Ereignisse wurden gefunden;"},
     Message{"event.listed.one", "das größte ist aufgeführt."},

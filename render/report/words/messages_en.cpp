@@ -159,6 +159,10 @@ constexpr std::array messages{
     Message{"event.about",
             "Events are found in the road profile of each pass. They are listed if at least two "
             "passes and a third of all passes since the first report agree."},
+    Message{"event.about.crowd",
+            "Events are found in the road profile of each pass. They are listed if passes of at "
+            "least five cars and a third of all passes since the first report agree; dates are "
+            "the first day of a month."},
     Message{"event.found.one", "{count} event was found;"},
     Message{"event.found.other", "{count} events were found;"},
     Message{"event.listed.one", "the largest is listed."},

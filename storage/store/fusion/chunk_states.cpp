@@ -1,6 +1,6 @@
 #include "storage/store/fusion/chunk_states.hpp"
 
-#include "mapping/passes/trace_cutting.hpp"
+#include "mapping/passes/trip_cutting.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -10,7 +10,7 @@
 #include "storage/trips/foreign/trip_files.hpp"
 #include "storage/trips/log/trip_assembly.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,6 @@ constexpr double earliest_utc_s = 631152000; // 1990-01-01
 constexpr double latest_utc_s = 4102444800;  // 2100-01-01
 
 constexpr double same_time_s = 0.1; // gravity changes slowly; it is logged with each acceleration
-constexpr std::size_t rows_between = 1 << 16;
 
 double& at(TripRow& row, TripColumn column) {
     return row.value[static_cast<std::size_t>(column)];
@@ -54,13 +53,8 @@ void expect_channels(const TripMapping& mapping, const TripHeader& header, const
         if (!std::any_of(group.begin(), group.end(), [&](const std::string& column) {
                 return gives(header, column);
             })) {
-            throw InputError{fmt::format("{}: gives no {}, expected one", mapping.where, [&] {
-                std::string words;
-                for (const auto& column : group) {
-                    words += (words.empty() ? "" : " or ") + column;
-                }
-                return words;
-            }())};
+            throw InputError{fmt::format(
+                "{}: gives no {}, expected one", mapping.where, fmt::join(group, " or "))};
         }
     }
 }
@@ -116,13 +110,10 @@ public:
     TripMerger(const TripMapping& mapping, const TripNeeds& needs, const TripHeader& header)
         : mapping_{mapping}, streams_{needs, header} {}
 
-    void add(TableReader table, bool is_gravity, const Progress& progress) {
+    void add(TableReader table, bool is_gravity, const std::stop_token& stop) {
         while (auto row = table.next()) {
-            if (streams_.rows() % rows_between == rows_between - 1) {
-                progress(0, 0);
-                if (progress.stop.stop_requested()) {
-                    throw InputError{fmt::format("{}: reading was stopped", mapping_.where)};
-                }
+            if (stop.stop_requested()) {
+                throw InputError{fmt::format("{}: reading was stopped", mapping_.where)};
             }
             put_on_clock(*row);
             if (is_gravity) {
@@ -234,7 +225,7 @@ std::string foreign_sha256(const TripSource& source) {
 }
 
 TripLog
-read_foreign_trip(const TripSource& source, const TripNeeds& needs, const Progress& progress) {
+read_foreign_trip(const TripSource& source, const TripNeeds& needs, const std::stop_token& stop) {
     const auto mapping = source.mapping ? *source.mapping : mapping_of_export(source);
     const auto header = header_of(mapping);
     if (!source.mapping) {
@@ -248,11 +239,10 @@ read_foreign_trip(const TripSource& source, const TripNeeds& needs, const Progre
         const auto& file = source.mapping ? source.files[i] : table.file;
         const auto name = name_of_file(source, file);
         TextLines lines{decoded(bytes_of_file(source, file), table.encoding, name), name};
-        collector.add({std::move(lines), table, name}, table.is_gravity, progress);
+        collector.add({std::move(lines), table, name}, table.is_gravity, stop);
     }
     auto trip = collector.take();
     trip.meta.trip_id = trip_id_of(source);
-    trip.sha256 = foreign_sha256(source);
     return trip;
 }
 

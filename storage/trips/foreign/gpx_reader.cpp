@@ -1,7 +1,6 @@
 #include "storage/trips/foreign/gpx_reader.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/files/sha256.hpp"
 #include "storage/text/text.hpp"
 #include "storage/text/utc.hpp"
 #include "storage/trips/log/trip_assembly.hpp"
@@ -229,25 +228,13 @@ std::string words_of(const Content& content) {
     return words.empty() ? "nothing" : fmt::format("{} only", fmt::join(words, ", "));
 }
 
-struct Parsed {
-    std::vector<Segment> segments;
-    std::string sha256;
-};
-
-Parsed parsed(GpxSource source, const Progress& progress) {
-    GpxParser parser{source.name};
-    Sha256 sha256;
+std::vector<Segment> parsed(ByteStream& bytes, const std::string& name) {
+    GpxParser parser{name};
     std::vector<char> buffer(block);
     for (bool is_last = false; !is_last;) {
-        const auto count = source.bytes->read(buffer);
+        const auto count = bytes.read(buffer);
         is_last = count == 0;
-        const std::string_view bytes{buffer.data(), count};
-        sha256.add(bytes);
-        parser.add(bytes, is_last);
-        progress(static_cast<std::size_t>(source.bytes->consumed()), source.whole_bytes);
-        if (progress.stop.stop_requested()) {
-            throw InputError{fmt::format("{}: reading was stopped", source.name)};
-        }
+        parser.add({buffer.data(), count}, is_last);
     }
     const auto where = parser.where();
     auto content = parser.take();
@@ -257,7 +244,7 @@ Parsed parsed(GpxSource source, const Progress& progress) {
         throw InputError{fmt::format(
             "{}: contains {}, expected a track (trk) with points (trkpt)", where, held)};
     }
-    return {std::move(content.segments), sha256.hex()};
+    return std::move(content.segments);
 }
 
 double first_time(const Segment& segment) {
@@ -320,19 +307,14 @@ constexpr std::array<std::string_view, 6> given_columns{
     "t_s", "lat_deg", "lon_deg", "gnss_speed_mps", "course_deg", "hacc_m"};
 
 void expect_positions_to_do(const TripNeeds& needs, const std::string& name) {
-    std::vector<std::string> missing;
-    for (const auto& group : needs.columns) {
-        if (std::ranges::none_of(group, [](const auto& column) {
-                return std::ranges::find(given_columns, column) != given_columns.end();
-            })) {
-            missing.push_back(fmt::format("{}", fmt::join(group, " or ")));
-        }
-    }
+    const auto missing = missing_columns(needs, [](const std::string& column) {
+        return std::ranges::find(given_columns, column) != given_columns.end();
+    });
     if (!missing.empty()) {
         throw InputError{fmt::format("{}: is a GPX track, which has positions only, expected "
                                      "also {}",
                                      name,
-                                     fmt::join(missing, " and "))};
+                                     missing)};
     }
 }
 
@@ -347,10 +329,10 @@ bool is_gpx_name(std::string_view name) {
     return name.ends_with(".gpx") || name.ends_with(".gpx.gz") || name.ends_with(".gpx.zst");
 }
 
-TripLog read_gpx(GpxSource source, const TripNeeds& needs, const Progress& progress) {
-    expect_positions_to_do(needs, source.name);
-    const auto name = source.name;
-    auto [segments, sha256] = parsed(std::move(source), progress);
+TripLog
+read_gpx(std::unique_ptr<ByteStream> bytes, const std::string& name, const TripNeeds& needs) {
+    expect_positions_to_do(needs, name);
+    auto segments = parsed(*bytes, name);
     TripMeta meta;
     meta.trip_id = without_suffixes(name);
     double zero_s = 0;
@@ -374,7 +356,6 @@ TripLog read_gpx(GpxSource source, const TripNeeds& needs, const Progress& progr
     }
     auto trip = streams.take();
     trip.meta = std::move(meta);
-    trip.sha256 = std::move(sha256);
     return trip;
 }
 

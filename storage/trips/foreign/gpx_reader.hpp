@@ -1,11 +1,9 @@
 #pragma once
 
-#include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
 #include "storage/files/byte_stream.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,13 +12,6 @@ namespace macadam {
 
 /// Tests for the name of a GPX track: .gpx, .gpx.gz or .gpx.zst.
 bool is_gpx_name(std::string_view name);
-
-/// Input of read_gpx().
-struct GpxSource {
-    std::unique_ptr<ByteStream> bytes; ///< decompressed
-    std::string name;                  ///< for messages
-    std::size_t whole_bytes;           ///< size on disk, for progress; 0: unknown
-};
 
 /// Key of TripMeta::other for a log without times; its value states how times were made up.
 inline constexpr const char* times_key = "times";
@@ -36,8 +27,12 @@ inline constexpr const char* times_key = "times";
 /// Entities that the file declares are refused, and lengths of names and texts and the depth are
 /// bounded.
 ///
+/// \param bytes  decompressed
+/// \param name  for messages
+///
 /// \throws InputError  "file:line: ..." if it is not GPX, is truncated, or holds no track point; or
 ///                     if a column is required that a GPX file does not have.
-TripLog read_gpx(GpxSource source, const TripNeeds& needs, const Progress& progress = {});
+TripLog
+read_gpx(std::unique_ptr<ByteStream> bytes, const std::string& name, const TripNeeds& needs);
 
 } // namespace macadam

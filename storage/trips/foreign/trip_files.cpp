@@ -7,6 +7,9 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+#include <vector>
+
 namespace macadam {
 
 namespace {
@@ -23,7 +26,7 @@ Place place_of(const TripSource& source) {
     if (source.mapping == nullptr) {
         return {source.file, source.member};
     }
-    if (!source.contents) {
+    if (source.member.empty()) { // not in an archive
         return {source.file.parent_path(), ""};
     }
     return {source.file, source.member.substr(0, source.member.rfind('/') + 1)};
@@ -36,11 +39,26 @@ std::string name_of_file(const TripSource& source, const std::string& file) {
     return (place.file / (place.prefix + file)).string();
 }
 
+TripSource with_contents(TripSource source) {
+    if (source.contents) {
+        return source;
+    }
+    TripContents contents;
+    std::vector<char> block(1 << 20);
+    for (const auto& file : source.files) {
+        const auto path = place_of(source).file / file;
+        const auto bytes = decompressed(file_bytes(path), path.string());
+        auto& kept = contents.files.emplace_back(file).bytes;
+        while (const auto count = bytes->read(block)) {
+            kept.append(block.data(), count);
+        }
+    }
+    source.contents = std::make_shared<const TripContents>(std::move(contents));
+    return source;
+}
+
 std::unique_ptr<ByteStream> bytes_of_file(const TripSource& source, const std::string& file) {
     const auto place = place_of(source);
-    if (!source.contents) {
-        return decompressed(file_bytes(place.file / file), name_of_file(source, file));
-    }
     auto bytes = bytes_of(source.contents, file);
     if (bytes == nullptr) {
         throw InputError{fmt::format(

@@ -11,7 +11,13 @@ namespace macadam {
 /// Name of a file of a trip, for messages.
 std::string name_of_file(const TripSource& source, const std::string& file);
 
-/// Opens one of `source.files` from its folder or archive, decompressed.
+/// Reads the files of a foreign trip into memory, decompressed, if they are not yet: its parsers
+/// look at some of them several times.
+/// \throws InputError  if one cannot be read.
+TripSource with_contents(TripSource source);
+
+/// Opens one of the files of a trip with contents.
+/// \throws InputError  if it could not be read, or there is none of this name.
 std::unique_ptr<ByteStream> bytes_of_file(const TripSource& source, const std::string& file);
 
 } // namespace macadam

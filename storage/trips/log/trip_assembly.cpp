@@ -22,10 +22,6 @@ constexpr double earth_m = 4e7; // once around
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
-}
-
 bool is_reason(std::uint8_t gift) {
     return gift >= code(RowReason::wrong_cell_count);
 }
@@ -87,13 +83,6 @@ void keep(const std::vector<std::uint8_t>& members, TriaxialSamples& samples) {
     keep(members, samples.x);
     keep(members, samples.y);
     keep(members, samples.z);
-}
-
-std::vector<double> times_of(const std::vector<GnssFix>& fixes) {
-    std::vector<double> t_s(fixes.size());
-    std::transform(
-        fixes.begin(), fixes.end(), t_s.begin(), [](const GnssFix& fix) { return fix.t_s; });
-    return t_s;
 }
 
 /// Clears the flag of rows whose sample the sensor's stream dropped.

@@ -15,8 +15,6 @@ public:
 
     void add(const TripRow& row);
 
-    std::size_t rows() const { return trip_.rows.size(); }
-
     /// Returns the trip, without its header data. Where the times of a sensor do not increase, as
     /// many samples as possible are kept: a single wrong time stamp loses only its own sample.
     TripLog take();

@@ -69,28 +69,16 @@ Head read_head(TextLines& lines) {
     throw InputError{fmt::format("{}: the file ends here, expected a header row", lines.where())};
 }
 
-std::string joined(const std::vector<std::string>& words, std::string_view between) {
-    std::string text;
-    for (const auto& word : words) {
-        text += (text.empty() ? "" : std::string{between}) + word;
-    }
-    return text;
-}
-
 void expect_columns(const Head& head, const TripNeeds& needs) {
     const auto& names = head.header.names;
-    std::vector<std::string> missing;
-    for (const auto& group : needs.columns) {
-        if (std::find_first_of(group.begin(), group.end(), names.begin(), names.end()) ==
-            group.end()) {
-            missing.push_back(joined(group, " or "));
-        }
-    }
+    const auto missing = missing_columns(needs, [&](const std::string& column) {
+        return std::ranges::find(names, column) != names.end();
+    });
     if (!missing.empty()) {
         throw InputError{fmt::format("{}: the header has {}, expected also {}",
                                      head.where,
                                      in_quotes(head.header_line, 200),
-                                     joined(missing, " and "))};
+                                     missing)};
     }
 }
 

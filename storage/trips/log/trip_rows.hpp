@@ -35,9 +35,6 @@ public:
     std::string_view line() const { return line_; }
     std::string where() const { return lines_.where(); } ///< "file:line" of the last row
 
-    std::uint64_t consumed() const { return lines_.consumed(); }
-    std::string sha256() { return lines_.sha256(); }
-
 private:
     void expect_end();
 

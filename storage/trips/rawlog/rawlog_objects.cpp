@@ -82,7 +82,6 @@ void RawlogObjects::fill() {
         block_.resize(2 * block_.size());
     }
     const auto count = bytes_->read(std::span{block_}.subspan(last_));
-    sha256_.add({block_.data() + last_, count});
     last_ += count;
     ended_ = count == 0;
 }

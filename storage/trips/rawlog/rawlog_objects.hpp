@@ -1,7 +1,6 @@
 #pragma once
 
 #include "storage/files/byte_stream.hpp"
-#include "storage/files/sha256.hpp"
 #include "storage/trips/rawlog/rawlog_layout.hpp"
 
 #include <cstddef>
@@ -37,11 +36,6 @@ public:
     /// "file: object 12 at byte 3456" of the last object; objects count from 1, bytes from 0.
     std::string where() const;
 
-    std::uint64_t consumed() const { return bytes_->consumed(); }
-
-    /// SHA-256 of the whole file, available after the last object was read.
-    std::string sha256() { return sha256_.hex(); }
-
 private:
     std::string_view rest() const { return {block_.data() + first_, last_ - first_}; }
     void fill();
@@ -56,7 +50,6 @@ private:
 
     std::unique_ptr<ByteStream> bytes_;
     std::string name_;
-    Sha256 sha256_;
     std::vector<char> block_;
     std::size_t first_ = 0; ///< start of the unread bytes in the block
     std::size_t last_ = 0;

@@ -33,7 +33,6 @@ struct Content {
     std::vector<std::ptrdiff_t> objects;
     std::map<std::string, std::size_t> classes; ///< number of objects per class
     std::optional<TripMeta> head;
-    std::string sha256;
 };
 
 /// Parses the lines "# key: value" of a comment like a log header.
@@ -52,23 +51,9 @@ TripMeta meta_in(std::string_view text, const std::string& where) {
     return parse_meta(lines);
 }
 
-void tell(const Progress& progress,
-          const RawlogObjects& objects,
-          std::size_t count,
-          std::size_t whole) {
-    constexpr std::size_t objects_between = 1 << 14;
-    if (count % objects_between != 0) {
-        return;
-    }
-    progress(static_cast<std::size_t>(objects.consumed()), whole);
-    if (progress.stop.stop_requested()) {
-        throw InputError{fmt::format("{}: reading was stopped", objects.where())};
-    }
-}
-
-Content read_objects(RawlogSource source, const Progress& progress) {
+Content read_objects(std::unique_ptr<ByteStream> bytes, const std::string& name) {
     auto* const decode = plugin_function<RawlogDecode>("macadam_rawlog.so", rawlog_decode_name);
-    RawlogObjects objects{std::move(source.bytes), source.name};
+    RawlogObjects objects{std::move(bytes), name};
     Content content;
     const auto take = [&](RawlogObservation observation) {
         const auto* const comment = std::get_if<RawlogComment>(&observation.what);
@@ -83,7 +68,6 @@ Content read_objects(RawlogSource source, const Progress& progress) {
         }
     };
     while (const auto object = objects.next()) {
-        tell(progress, objects, content.objects.size() + 1, source.whole_bytes);
         ++content.classes[object->name];
         if (object->kind == RawlogClass::other) {
             content.objects.push_back(-1);
@@ -97,7 +81,6 @@ Content read_objects(RawlogSource source, const Progress& progress) {
                 "{}: MRPT cannot read this {}: {}", objects.where(), object->name, error.what())};
         }
     }
-    content.sha256 = objects.sha256();
     return content;
 }
 
@@ -281,12 +264,8 @@ void expect_columns(const Columns& columns,
                     const TripNeeds& needs,
                     const Content& content,
                     const std::string& name) {
-    std::vector<std::string> missing;
-    for (const auto& group : needs.columns) {
-        if (std::ranges::none_of(group, [&](const auto& each) { return columns.has(each); })) {
-            missing.push_back(fmt::format("{}", fmt::join(group, " or ")));
-        }
-    }
+    const auto missing =
+        missing_columns(needs, [&](const std::string& column) { return columns.has(column); });
     if (missing.empty()) {
         return;
     }
@@ -294,17 +273,15 @@ void expect_columns(const Columns& columns,
     for (const auto& [kind, count] : content.classes) {
         held.push_back(fmt::format("{} {}", count, kind));
     }
-    throw InputError{fmt::format("{}: contains {}, expected also messages for {}",
-                                 name,
-                                 fmt::join(held, ", "),
-                                 fmt::join(missing, " and "))};
+    throw InputError{fmt::format(
+        "{}: contains {}, expected also messages for {}", name, fmt::join(held, ", "), missing)};
 }
 
 } // namespace
 
-TripLog read_rawlog(RawlogSource source, const TripNeeds& needs, const Progress& progress) {
-    const auto name = source.name;
-    auto content = read_objects(std::move(source), progress);
+TripLog
+read_rawlog(std::unique_ptr<ByteStream> bytes, const std::string& name, const TripNeeds& needs) {
+    auto content = read_objects(std::move(bytes), name);
     const auto& observations = content.observations;
     const auto meta = content.head ? *content.head : meta_without_head(observations);
     const auto labels = chosen_labels(observations);
@@ -327,7 +304,6 @@ TripLog read_rawlog(RawlogSource source, const TripNeeds& needs, const Progress&
     auto trip = streams.take();
     trip.meta = meta;
     trip.meta.other.erase(rawlog_accuracy_key);
-    trip.sha256 = content.sha256;
     return trip;
 }
 

@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// Decompressed files of one trip from an archive, in memory.
+/// Decompressed files of one trip, in memory: from an archive, or of a foreign trip.
 struct TripContents {
     struct File {
         std::string name; ///< within the trip's folder; "" for a single log

@@ -1,5 +1,9 @@
 #include "storage/trips/source/trip_source.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace macadam {
 
 TripNeeds needs_of_match() {
@@ -32,6 +36,17 @@ TripNeeds needs_of_import() {
     needs.columns.push_back({"lat_deg"});
     needs.columns.push_back({"lon_deg"});
     return needs;
+}
+
+std::string missing_columns(const TripNeeds& needs,
+                            const std::function<bool(const std::string& column)>& has) {
+    std::vector<std::string> missing;
+    for (const auto& group : needs.columns) {
+        if (std::ranges::none_of(group, has)) {
+            missing.push_back(fmt::format("{}", fmt::join(group, " or ")));
+        }
+    }
+    return fmt::format("{}", fmt::join(missing, " and "));
 }
 
 std::string TripSource::name() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,11 @@ TripNeeds needs_of_match_with_heading(); ///< including yaw rates, and gravity t
 TripNeeds needs_of_trace();
 TripNeeds needs_of_import();
 
+/// Names the required columns that a log lacks, as in "t_s and acc_z_mps2 or acc_y_mps2"; "" if it
+/// has all.
+std::string missing_columns(const TripNeeds& needs,
+                            const std::function<bool(const std::string& column)>& has);
+
 /// Origin of a trip: a file, a member of an archive, a folder or archive with the export of a
 /// phone, or a foreign file with its mapping.
 struct TripSource {
@@ -35,8 +41,8 @@ struct TripSource {
     std::vector<std::string> files{};             ///< of a foreign trip, relative to its folder
     std::shared_ptr<const TripMapping> mapping{}; ///< its tables[i] applies to files[i]
 
-    /// Contents from an archive; null for a trip on disk. A trip that could not be extracted is a
-    /// source as well: reading it throws the reason.
+    /// Contents in memory, as from an archive; null for a trip on disk. A trip that could not be
+    /// extracted is a source as well: reading it throws the reason.
     std::shared_ptr<const TripContents> contents{};
 
     std::string name() const; ///< for messages

@@ -6,7 +6,7 @@
 
 #include "mapping/alignment/alignment.hpp"
 #include "mapping/fusion/fusion.hpp"
-#include "mapping/passes/trace_cutting.hpp"
+#include "mapping/passes/trip_cutting.hpp"
 
 #include <gtest/gtest.h>
 

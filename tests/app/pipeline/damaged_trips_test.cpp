@@ -2,6 +2,7 @@
 // every row of what is left is accounted for. `./run test --all` tries a hundred times as many.
 
 #include "app/pipeline/pipeline.hpp"
+#include "estimator/motion/trip_motion.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/trips/trip_reader.hpp"
@@ -39,7 +40,7 @@ Outcome outcome_of(const std::filesystem::path& file, const std::string& text) {
     testing::write_file(file, text);
     try {
         const auto trip = read_trip({file, ""}, needs_of_import());
-        const auto trace = trace_of(trip, *built_in_vehicle("generic"), {});
+        const auto trace = trace_of(trip, motion_of(trip), *built_in_vehicle("generic"), {});
         const auto rows = account(trip, trace.use);
         EXPECT_EQ(rows.read, trip.rows.size());
         EXPECT_EQ(rows.read, rows.used + rows.rejected);

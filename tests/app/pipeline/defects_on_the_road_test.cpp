@@ -2,6 +2,8 @@
 // tests/storage/trips/foreign/defects_test.cpp for the rest.
 
 #include "app/pipeline/pipeline.hpp"
+#include "app/pipeline/trip_preparation.hpp"
+#include "estimator/motion/trip_motion.hpp"
 
 #include "estimator/common/error.hpp"
 #include "estimator/motion/make_odometer.hpp"
@@ -32,10 +34,6 @@ TripLog even_drive(const Drive& drive = {}) {
     return drive_over(patched_road([](double) { return false; }, 1), drive, car());
 }
 
-std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
-}
-
 GnssFix fix(double t_s, double north_m, float speed_mps = unknown) {
     return {t_s, {47.7 + north_m / m_per_deg_lat, 17.6}, speed_mps, unknown, 5};
 }
@@ -63,6 +61,10 @@ TripLog only(TripLog trip, Kept is_kept) {
     return rest;
 }
 
+TripTrace traced(const TripLog& trip) {
+    return trace_of(trip, motion_of(trip), car(), {});
+}
+
 double iri_between(const TripTrace& trace, double from_m, double to_m) {
     return mean_over(trace.roughness, from_m, to_m, car()).hri_mm_per_m.value_or(NAN);
 }
@@ -71,7 +73,7 @@ TEST(Defect01Holes, AreNotBridged) {
     const auto whole = even_drive();
     const auto holed =
         only(whole, [&](std::size_t i) { return whole.acc.t_s[i] < 20 || whole.acc.t_s[i] > 30; });
-    const auto trace = trace_of(holed, car(), {});
+    const auto trace = traced(holed);
     ASSERT_EQ(trace.roughness.runs.size(), 2U);
     EXPECT_TRUE(std::isnan(iri_between(trace, 420, 580))); // 20 m/s: the hole is 400 to 600 m
     EXPECT_FALSE(std::isnan(iri_between(trace, 200, 380)));
@@ -90,9 +92,9 @@ TEST(Defect05IrregularSpacing, GivesWhatEvenSpacingGives) {
         return true;
     });
     const auto even = only(fine, [](std::size_t i) { return i % 5 == 0; });
-    const double iri = iri_between(trace_of(even, car(), {}), 200, 900);
+    const double iri = iri_between(traced(even), 200, 900);
     // Cubics through such steps lose little of the waves above 2 m.
-    EXPECT_NEAR(iri_between(trace_of(irregular, car(), {}), 200, 900), iri, 0.05 * iri);
+    EXPECT_NEAR(iri_between(traced(irregular), 200, 900), iri, 0.05 * iri);
 }
 
 TEST(Defect08Latency, OfTheReceiverIsFound) {
@@ -107,8 +109,7 @@ TEST(Defect08Latency, OfTheReceiverIsFound) {
     for (int i = 3; i < 300; ++i) {
         trip.fixes.push_back(fix(i, 15.0 * i, static_cast<float>(speed(i - 1.1))));
     }
-    std::vector<std::string> warnings;
-    EXPECT_NEAR(with_latency(trip, warnings).meta.gnss_latency_s, 1.1, 0.1);
+    EXPECT_NEAR(prepared(trip).trip.meta.gnss_latency_s, 1.1, 0.1);
 }
 
 /// Half a second of positions 60 m off, as beside a high wall, while the wheels turn steadily.
@@ -122,9 +123,8 @@ TEST(Defect10PositionJumps, NeitherLengthenTheTripNorCutIt) {
         }
     }
     ASSERT_EQ(strays, 5U);
-    const auto trace = trace_of(trip, car(), {});
-    EXPECT_NEAR(
-        trace.odometer.whole_m(), trace_of(even_drive(), car(), {}).odometer.whole_m(), 0.1);
+    const auto trace = traced(trip);
+    EXPECT_NEAR(trace.odometer.whole_m(), traced(even_drive()).odometer.whole_m(), 0.1);
     EXPECT_EQ(trace.roughness.runs.size(), 1U);
 }
 
@@ -133,10 +133,10 @@ TEST(Defect10PositionJumps, OfKilometresAddNoTravelWithoutWheels) {
     for (int i = 0; i <= 60; ++i) {
         trip.fixes.push_back(fix(i, 12.0 * i + (i == 30 || i == 31 ? 2400 : 0)));
     }
-    auto use = unused(trip);
-    EXPECT_NEAR(make_odometer(trip, {}, use).whole_m(), 720, 15);
-    EXPECT_EQ(use.fixes[30], code(RowReason::implausible));
-    EXPECT_EQ(use.fixes[31], code(RowReason::implausible));
+    const auto made = make_odometer(trip, {});
+    EXPECT_NEAR(made.odometer.whole_m(), 720, 15);
+    EXPECT_EQ(made.fixes.at(30), code(RowReason::implausible));
+    EXPECT_EQ(made.fixes.at(31), code(RowReason::implausible));
 }
 
 TEST(Defect13SpeedBias, IsTakenOffByTheReceiver) {
@@ -144,7 +144,7 @@ TEST(Defect13SpeedBias, IsTakenOffByTheReceiver) {
     for (auto& speed : trip.speed.speed_mps) {
         speed *= 0.97F;
     }
-    const auto trace = trace_of(trip, car(), {});
+    const auto trace = traced(trip);
     EXPECT_NEAR(trace.odometer.scale(), 1 / 0.97, 0.003);
     // 1000 m, and the 0.2 s before the first stamp of which the late receiver tells
     EXPECT_NEAR(trace.odometer.whole_m(), 1004, 2);
@@ -162,7 +162,7 @@ TEST(Defect14StopsAndReversing, GiveNoRoughness) {
         one.at = {unknown, unknown};
         one.speed_mps = unknown;
     }
-    const auto trace = trace_of(trip, car(), {});
+    const auto trace = traced(trip);
     EXPECT_EQ(trace.roughness.runs.size(), 2U);
     for (std::size_t i = 0; i < trip.acc.t_s.size(); ++i) {
         if (trip.acc.t_s[i] > 25 && trip.acc.t_s[i] < 35) {
@@ -176,8 +176,7 @@ TEST(Defect15PositionsAlone, TellTheWayAndNoSpeedWhereTheyAreRare) {
     for (const double t_s : {0., 1., 3., 4., 6., 7., 9., 10., 71., 72., 73., 75.}) {
         trip.fixes.push_back(fix(t_s, 14 * t_s));
     }
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
     EXPECT_NEAR(odometer.whole_m(), 1050, 5);
     EXPECT_NEAR(odometer.speed_mps(5), 14, 1.5);
     EXPECT_TRUE(std::isnan(odometer.speed_mps(40)));
@@ -192,7 +191,7 @@ TEST(Defect17PhoneMoved, LosesTheTimeInWhichItHungOtherwise) {
             trip.acc.z[i] = static_cast<float>(std::cos(half_turn) * double{trip.acc.z[i]});
         }
     }
-    const auto trace = trace_of(trip, car(), {});
+    const auto trace = traced(trip);
     EXPECT_THAT(trace.warnings, Contains(HasSubstr("the sensor moved during the trip")));
     EXPECT_EQ(trace.use.acc.back(), code(RowReason::sensor_moved));
     EXPECT_EQ(trace.use.acc[5000], 0);
@@ -200,8 +199,7 @@ TEST(Defect17PhoneMoved, LosesTheTimeInWhichItHungOtherwise) {
 }
 
 TEST(Defect17PhoneMoved, IsNotSaidOfAPhoneAtRest) {
-    EXPECT_THAT(trace_of(even_drive({.length_m = 4000}), car(), {}).warnings,
-                Not(Contains(HasSubstr("moved"))));
+    EXPECT_THAT(traced(even_drive({.length_m = 4000})).warnings, Not(Contains(HasSubstr("moved"))));
 }
 
 TEST(Defect17PhoneMoved, ShowsInTheStrengthOfGravity) {
@@ -209,17 +207,17 @@ TEST(Defect17PhoneMoved, ShowsInTheStrengthOfGravity) {
     for (auto& z : trip.acc.z) {
         z *= 0.85F;
     }
-    EXPECT_THAT(trace_of(trip, car(), {}).warnings, Contains(HasSubstr("gravity measures 8.3")));
+    EXPECT_THAT(traced(trip).warnings, Contains(HasSubstr("gravity measures 8.3")));
 }
 
 TEST(Defect20LowRates, AreRefusedBelow40HzAndWarnedOfBelow80) {
     try {
-        trace_of(even_drive({.rate_hz = 10}), car(), {});
+        traced(even_drive({.rate_hz = 10}));
         FAIL() << "took 10 Hz";
     } catch (const InputError& error) {
         EXPECT_STREQ(error.what(), "acceleration was sampled at 10.0 Hz, expected at least 40");
     }
-    EXPECT_THAT(trace_of(even_drive({.rate_hz = 50}), car(), {}).warnings,
+    EXPECT_THAT(traced(even_drive({.rate_hz = 50})).warnings,
                 Contains("acceleration was sampled at 50 Hz; short waves are missed below 80 Hz"));
 }
 

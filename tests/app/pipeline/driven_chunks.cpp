@@ -3,10 +3,11 @@
 #include "app/pipeline/pipeline.hpp"
 #include "estimator/events/event_detection.hpp"
 #include "estimator/iri/iri.hpp"
+#include "estimator/motion/trip_motion.hpp"
 #include "estimator/simulation/road_surface.hpp"
 #include "estimator/simulation/simulated_car.hpp"
 #include "mapping/network/build_network.hpp"
-#include "mapping/passes/trace_cutting.hpp"
+#include "mapping/passes/trip_cutting.hpp"
 #include "storage/settings/scenario_file.hpp"
 
 #include <algorithm>
@@ -222,17 +223,18 @@ ChunkDrive driven(const FleetCarRecipe& car,
     const auto imu = simulate_imu(car.car, car.imu, road, motion, random());
     const auto vehicle = wrong_by_5_percent(car.car, random);
     const auto config = config_of(scenario.smoother);
-    const auto trace = trace_of(log_of(motion, imu, scale(random)), vehicle, config);
+    const auto log = log_of(motion, imu, scale(random));
+    const auto trace = trace_of(log, motion_of(log), vehicle, config);
     const double sd_m = phone ? scenario.phones_place_sd_m : scenario.place_sd_m;
     const double told_sd_m = scenario.phones_place_sd_m > 0 ? sd_m : 0;
     drive.place_error_m = slow_values(sd_m, scenario.place_length_m, random);
     const auto matched = matched_along(motion, trace.odometer, drive.place_error_m, told_sd_m);
-    const auto passes = driven_passes(trace.roughness, matched, roads, vehicle, config.pass);
-    for (const auto& pass : passes) {
-        drive.passes.push_back(pass.pass);
+    auto cut = cut_trip(trace.roughness, matched, roads, vehicle, config.pass);
+    for (const auto& driven : cut.passes) {
+        drive.passes.push_back(driven.pass);
     }
-    drive.events = place_events(events_in(trace.roughness), passes);
-    drive.traces = extract_traces(trace.roughness, matched, roads, vehicle, config.pass);
+    drive.events = place_events(events_in(trace.roughness), cut.passes);
+    drive.traces = std::move(cut.traces);
     return drive;
 }
 

@@ -1,6 +1,7 @@
 // Logs without the acceleration that the estimate rests on.
 
 #include "app/pipeline/pipeline.hpp"
+#include "estimator/motion/trip_motion.hpp"
 
 #include "estimator/common/error.hpp"
 #include "mapping/network/build_network.hpp"
@@ -132,7 +133,7 @@ TEST(MissingVertical, OfAPartLeavesItsRowsUnused) {
     trip.acc.t_s.erase(trip.acc.t_s.begin() + 2500, trip.acc.t_s.begin() + 2550);
     PipelineConfig config;
     config.estimator.channels = Channels::vertical;
-    const auto trace = trace_of(trip, car(), config);
+    const auto trace = trace_of(trip, motion_of(trip), car(), config);
     EXPECT_EQ(trace.roughness.runs.size(), 1U);
     for (std::size_t i = 0; i < trip.acc.z.size(); ++i) {
         EXPECT_EQ(trace.use.acc[i] == 0, !std::isnan(trip.acc.z[i])) << i;

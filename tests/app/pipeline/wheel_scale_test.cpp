@@ -57,16 +57,14 @@ double receivers_m(const TripLog& trip) {
 double wheels_m(const TripLog& trip, double scale, double from_s, double to_s) {
     auto scaled = trip;
     scaled.meta.speed_scale = scale;
-    auto use = unused(scaled);
-    const auto odometer = make_odometer(scaled, OdometerConfig{}, use);
+    const auto odometer = make_odometer(scaled, OdometerConfig{}).odometer;
     return odometer.travel_m(to_s) - odometer.travel_m(from_s);
 }
 
 TEST(WheelScale, OfTheFirstHalfOfARecordedDriveHoldsOnTheSecond) {
     const auto trip = recorded_drive();
     const auto first = part_of(trip, 0, middle_s);
-    auto use = unused(first);
-    const double scale = make_odometer(first, OdometerConfig{}, use).scale();
+    const double scale = make_odometer(first, OdometerConfig{}).odometer.scale();
 
     const auto second = part_of(trip, middle_s, end_s);
     const double latency_s = trip.meta.gnss_latency_s;

@@ -5,6 +5,7 @@
 #include "support/program/program.hpp"
 #include "support/roads/store_world.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -117,6 +118,32 @@ TEST_F(EventsProgram, DrawsThemOnlyWhenAsked) {
     const auto plain = picture("plain.png", {});
     EXPECT_NE(picture("events.png", {"--events"}), plain);
     EXPECT_EQ(picture("again.png", {}), plain);
+}
+
+/// The pothole lies at 45 m of the street, the box around its last 20 of 200 m.
+TEST_F(EventsProgram, NamesNoKindInTheLegendThatIsNotOnTheMap) {
+    const auto street =
+        Json::parse(run("query", {"--segment", "1+0009", "--format", "geojson"}).out);
+    ASSERT_EQ(street["features"].size(), 1U);
+    const auto line = street["features"][0]["geometry"]["coordinates"];
+    const auto picture = [&](const char* name, std::vector<std::string> words) {
+        constexpr double margin_deg = 2e-5; // 2 m
+        const double lat_deg = line[0][1];
+        words.insert(words.begin(),
+                     {"-o",
+                      at(name),
+                      "--size",
+                      "512x512",
+                      fmt::format("--bbox={},{},{},{}",
+                                  line.front()[0].get<double>(),
+                                  lat_deg - margin_deg,
+                                  line.back()[0].get<double>(),
+                                  lat_deg + margin_deg)});
+        const auto done = run("render", words);
+        EXPECT_EQ(done.exit_status, 0) << done.err;
+        return read_file(at(name));
+    };
+    EXPECT_EQ(picture("events.png", {"--events"}), picture("plain.png", {}));
 }
 
 TEST_F(EventsProgram, AreListedInReports) {

@@ -131,6 +131,8 @@ TEST_F(Crowd, ShowsMoreToWhoHoldsTheKey) {
     EXPECT_THAT(run({"calibrate", store_, "--dry-run"}, 1).err,
                 HasSubstr("for their operator only"));
     EXPECT_THAT(run({"publish", store_}, 1).err, HasSubstr("who holds the key publishes"));
+    EXPECT_THAT(run({"query", store_, "--events"}).err,
+                HasSubstr("of at least five cars is published there"));
     EXPECT_THAT(run({"query", store_, "--worst", "3", "--since", "2026-03-15"}, 1).err,
                 HasSubstr("given by whole months"));
     const auto info = run({"info", store_, "--json"}).out;

@@ -18,9 +18,8 @@ struct Interval {
 };
 
 MatchedTrace match(const TripLog& trip, const RoadNetwork& roads) {
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    return map_match(trip, odometer, roads, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
+    return map_match(trip, odometer, roads, {}).trace;
 }
 
 std::set<NodePair> either_way(std::span<const NodePair> arcs) {

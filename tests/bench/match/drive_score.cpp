@@ -121,8 +121,7 @@ Matched matched(TripLog trip, const RoadNetwork& roads, const MatchConfig& confi
     };
     std::optional<double> latency_s = trip.meta.gnss_latency_s;
     if (!trip.meta.gnss_latency_stated) {
-        auto unlagged = unused(trip);
-        const auto found = find_gnss_latency(trip, heading_of(make_odometer(trip, {}, unlagged)));
+        const auto found = find_gnss_latency(trip, heading_of(make_odometer(trip, {}).odometer));
         latency_s.reset();
         if (found) {
             latency_s = found->latency_s;
@@ -130,9 +129,8 @@ Matched matched(TripLog trip, const RoadNetwork& roads, const MatchConfig& confi
         trip.meta.gnss_latency_s = latency_s.value_or(0);
         trip.meta.gnss_latency_sd_s = found ? found->sd_s : 0;
     }
-    auto use = unused(trip);
-    auto odometer = make_odometer(trip, {}, use);
-    auto trace = map_match(trip, odometer, roads, config, use, heading_of(odometer));
+    auto odometer = make_odometer(trip, {}).odometer;
+    auto trace = map_match(trip, odometer, roads, config, heading_of(odometer)).trace;
     return {latency_s, std::move(odometer), std::move(trace)};
 }
 

@@ -52,9 +52,8 @@ struct Options {
 using Matcher = std::function<MatchedTrace(const TripLog&, const RoadNetwork&)>;
 
 MatchedTrace match(const TripLog& trip, const RoadNetwork& roads) {
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    return map_match(trip, odometer, roads, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
+    return map_match(trip, odometer, roads, {}).trace;
 }
 
 MatchedTrace match_plainly(const TripLog& trip, const RoadNetwork& roads) {

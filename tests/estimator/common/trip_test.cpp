@@ -5,10 +5,6 @@
 namespace macadam::testing {
 namespace {
 
-std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
-}
-
 TEST(Account, CountsEveryRowOnceWithItsFirstReason) {
     TripLog trip;
     trip.rows = {row_content::acc,

@@ -124,13 +124,12 @@ std::vector<LiveRow> told_live(const TripLog& trip,
 }
 
 OfflineTrace offline_trace(const TripLog& trip, const Vehicle& vehicle, const LiveConfig& config) {
-    auto use = unused(trip);
-    auto odometer = make_odometer(trip, config.odometer, use);
+    auto odometer = make_odometer(trip, config.odometer).odometer;
     const auto mounting = estimate_mounting(trip, odometer);
+    const auto found = find_stretches(trip, odometer, config.stretch, mounting.otherwise);
     IriTrace trace{.runs = {}, .slow = slow_parts(odometer, config.stretch.min_speed_mps)};
     std::optional<TunedCar> car;
-    for (const auto& span :
-         find_stretches(trip, odometer, config.stretch, use, mounting.otherwise)) {
+    for (const auto& span : found.spans) {
         const auto stretch = make_stretch(trip, span, odometer, mounting, config.stretch);
         if (config.estimator.method == Method::kf) {
             trace.runs.push_back(estimate_iri(stretch, vehicle, config.estimator));

@@ -49,8 +49,7 @@ Mounting found_after(double end_s) {
     meta.mount_auto = true;
     LiveMounting live{meta};
     const auto trip = felt_until(end_s);
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
     for (double now_s = 1; now_s <= end_s; now_s += 1) {
         live.add(felt_until(now_s), odometer, now_s);
     }

@@ -43,8 +43,7 @@ TEST(LiveOdometer, OfAWholeTripIsItsOdometer) {
         ruler = measured_on(std::move(ruler), lately(speeds_until(now_s, swinging)), now_s, {});
     }
     const auto trip = speeds_until(120, swinging);
-    auto use = unused(trip);
-    const auto whole = make_odometer(trip, {}, use);
+    const auto whole = make_odometer(trip, {}).odometer;
     // Both are sums of the same trapezoids; the live one begins at its first knot, too.
     EXPECT_NEAR(ruler.odometer->travel_m(120), whole.travel_m(120), 1e-6);
     EXPECT_NEAR(ruler.odometer->travel_m(80.05), whole.travel_m(80.05), 1e-6);

@@ -95,8 +95,7 @@ TripLog bends(double late_s,
 }
 
 Heading heading_of(const TripLog& trip) {
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
     return make_heading(trip, odometer, estimate_mounting(trip, odometer));
 }
 

@@ -75,8 +75,7 @@ TripLog trip_of(const Bends& bends) {
 }
 
 Heading heading_of(const TripLog& trip, const Eigen::Matrix3d& to_vehicle) {
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
     return make_heading(trip,
                         odometer,
                         {.to_vehicle = to_vehicle,

@@ -29,12 +29,7 @@ TripLog wheels_at(double speed_mps, double seconds, double rate_hz = 20) {
 }
 
 Odometer odometer_of(const TripLog& trip) {
-    auto use = unused(trip);
-    return make_odometer(trip, {}, use);
-}
-
-std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
+    return make_odometer(trip, {}).odometer;
 }
 
 TEST(Odometer, GoesOnWithAConstantGainAndBackByItsInverse) {
@@ -63,11 +58,10 @@ TEST(Odometer, FollowsTheWheelsWhereThereAreAny) {
     for (int i = 0; i <= 30; ++i) {
         trip.fixes.push_back(fix(i, 10.0 * i));
     }
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    EXPECT_NEAR(odometer.whole_m(), 300, 1e-6);
-    EXPECT_EQ(odometer.scale(), 1);
-    EXPECT_THAT(use.speed, ::testing::Each(0));
+    const auto made = make_odometer(trip, {});
+    EXPECT_NEAR(made.odometer.whole_m(), 300, 1e-6);
+    EXPECT_EQ(made.odometer.scale(), 1);
+    EXPECT_EQ(made.speed, SampleUse(trip.speed.t_s.size(), 0));
 }
 
 TEST(Odometer, ScalesTheWheelsToGnssSpeedWithoutBelievingItAll) {
@@ -155,12 +149,11 @@ TEST(Odometer, LeavesOutSpeedsThatNoCarReaches) {
     auto trip = wheels_at(10, 30);
     trip.speed.speed_mps[200] = 80;
     trip.speed.speed_mps[300] = 655.35F;
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    EXPECT_NEAR(odometer.whole_m(), 300, 1e-6);
-    EXPECT_EQ(use.speed[200], code(RowReason::implausible));
-    EXPECT_EQ(use.speed[300], code(RowReason::implausible));
-    EXPECT_EQ(use.speed[301], 0);
+    const auto made = make_odometer(trip, {});
+    EXPECT_NEAR(made.odometer.whole_m(), 300, 1e-6);
+    EXPECT_EQ(made.speed.at(200), code(RowReason::implausible));
+    EXPECT_EQ(made.speed.at(300), code(RowReason::implausible));
+    EXPECT_EQ(made.speed.at(301), 0);
 }
 
 TEST(Odometer, LeavesOutFixesThatContradictTheirNeighbours) {
@@ -172,18 +165,16 @@ TEST(Odometer, LeavesOutFixesThatContradictTheirNeighbours) {
     trip.fixes[40].accuracy_m = 419;
     trip.fixes[40].speed_mps = unknown;
     trip.fixes[51].at = trip.fixes[50].at;
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    EXPECT_NEAR(odometer.whole_m(), 720, 1e-6);
-    EXPECT_EQ(use.fixes[40], code(RowReason::inaccurate));
-    EXPECT_EQ(use.fixes[51], code(RowReason::repeated_fix));
-    EXPECT_EQ(use.fixes[30], 0); // its speed was good
+    const auto made = make_odometer(trip, {});
+    EXPECT_NEAR(made.odometer.whole_m(), 720, 1e-6);
+    EXPECT_EQ(made.fixes.at(40), code(RowReason::inaccurate));
+    EXPECT_EQ(made.fixes.at(51), code(RowReason::repeated_fix));
+    EXPECT_EQ(made.fixes.at(30), 0); // its speed was good
 
     for (auto& one : trip.fixes) {
         one.speed_mps = unknown;
     }
-    make_odometer(trip, {}, use);
-    EXPECT_EQ(use.fixes[30], code(RowReason::implausible));
+    EXPECT_EQ(make_odometer(trip, {}).fixes.at(30), code(RowReason::implausible));
 }
 
 TEST(Odometer, KnowsNoSpeedInAGapAndGoesOnByTheFixesOnBothSides) {

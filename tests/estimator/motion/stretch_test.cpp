@@ -19,10 +19,6 @@ namespace {
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-std::uint8_t code(RowReason reason) {
-    return static_cast<std::uint8_t>(reason);
-}
-
 /// A drive with one speed throughout and the specific force that `force` tells, seen by a sensor
 /// whose axes are turned by `to_sensor`.
 struct Drive {
@@ -57,14 +53,12 @@ double steady(double) {
 }
 
 Odometer odometer_of(const TripLog& trip) {
-    auto use = unused(trip);
-    return make_odometer(trip, {}, use);
+    return make_odometer(trip, {}).odometer;
 }
 
 Stretch only_stretch(const TripLog& trip, const StretchConfig& config = {}) {
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    const auto spans = find_stretches(trip, odometer, config, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
+    const auto spans = find_stretches(trip, odometer, config).spans;
     EXPECT_EQ(spans.size(), 1);
     return make_stretch(trip, spans.front(), odometer, estimate_mounting(trip, odometer), config);
 }
@@ -203,16 +197,16 @@ TEST(Stretches, AreCutAtStopsAndHolesAndUnknownSpeed) {
     acc.t_s.erase(acc.t_s.begin() + 10000, acc.t_s.begin() + 10100);
     OdometerConfig odometer_config;
     odometer_config.max_accel_mps2 = 200; // the steps of the drawn speed
-    auto use = unused(car.trip);
-    const auto odometer = make_odometer(car.trip, odometer_config, use);
-    const auto spans = find_stretches(car.trip, odometer, {}, use);
+    const auto odometer = make_odometer(car.trip, odometer_config).odometer;
+    const auto found = find_stretches(car.trip, odometer, {});
+    const auto& spans = found.spans;
     ASSERT_EQ(spans.size(), 3);
     EXPECT_NEAR(acc.t_s[spans[0].last], 36, 0.2);
     EXPECT_NEAR(acc.t_s[spans[1].first], 64, 0.2);
     EXPECT_NEAR(acc.t_s[spans[1].last], 100, 0.02);
     EXPECT_NEAR(acc.t_s[spans[2].first], 101, 0.02);
-    EXPECT_EQ(use.acc[5000], code(RowReason::too_slow));
-    EXPECT_EQ(use.acc[1000], 0);
+    EXPECT_EQ(found.acc.at(5000), code(RowReason::too_slow));
+    EXPECT_EQ(found.acc.at(1000), 0);
     const auto slow = slow_parts(odometer, 5);
     ASSERT_EQ(slow.size(), 1);
     EXPECT_NEAR(slow[0].from_m, odometer.travel_m(36), 2);
@@ -228,9 +222,8 @@ TEST(Stretches, AreCutAtHolesThatAreLongerThanAShortWave) {
         for (std::size_t i = 2000; i < trip.acc.t_s.size(); ++i) {
             trip.acc.t_s[i] += hole_s;
         }
-        auto use = unused(trip);
-        const auto odometer = make_odometer(trip, {}, use);
-        return find_stretches(trip, odometer, {}, use).size();
+        const auto odometer = make_odometer(trip, {}).odometer;
+        return find_stretches(trip, odometer, {}).spans.size();
     };
     EXPECT_EQ(holed(0.04), 1U);
     EXPECT_EQ(holed(0.1), 2U);
@@ -238,28 +231,25 @@ TEST(Stretches, AreCutAtHolesThatAreLongerThanAShortWave) {
 
 TEST(Stretches, TooShortToSettleAreLeftOut) {
     const auto car = drive(3, 100, steady, shaking, Eigen::Matrix3d::Identity());
-    auto use = unused(car.trip);
-    const auto odometer = make_odometer(car.trip, {}, use);
-    EXPECT_TRUE(find_stretches(car.trip, odometer, {}, use).empty());
-    EXPECT_THAT(use.acc, ::testing::Each(code(RowReason::short_stretch)));
+    const auto odometer = make_odometer(car.trip, {}).odometer;
+    const auto found = find_stretches(car.trip, odometer, {});
+    EXPECT_TRUE(found.spans.empty());
+    EXPECT_EQ(found.acc, SampleUse(car.trip.acc.t_s.size(), code(RowReason::short_stretch)));
 }
 
 TEST(Stretches, KnowNoVibrationWithoutASpeed) {
     auto car = drive(30, 100, steady, shaking, Eigen::Matrix3d::Identity());
     car.trip.speed.t_s.resize(100);
     car.trip.speed.speed_mps.resize(100);
-    auto use = unused(car.trip);
-    const auto odometer = make_odometer(car.trip, {}, use);
-    find_stretches(car.trip, odometer, {}, use);
-    EXPECT_EQ(use.acc[2000], code(RowReason::no_speed));
+    const auto odometer = make_odometer(car.trip, {}).odometer;
+    EXPECT_EQ(find_stretches(car.trip, odometer, {}).acc.at(2000), code(RowReason::no_speed));
 }
 
 TEST(Stretches, AreRefusedBelowFortyHertz) {
     const auto car = drive(60, 20, steady, shaking, Eigen::Matrix3d::Identity());
-    auto use = unused(car.trip);
-    const auto odometer = make_odometer(car.trip, {}, use);
+    const auto odometer = make_odometer(car.trip, {}).odometer;
     try {
-        find_stretches(car.trip, odometer, {}, use);
+        find_stretches(car.trip, odometer, {});
         FAIL() << "accepted 20 Hz";
     } catch (const InputError& error) {
         EXPECT_STREQ(error.what(), "acceleration was sampled at 20.0 Hz, expected at least 40");
@@ -268,10 +258,10 @@ TEST(Stretches, AreRefusedBelowFortyHertz) {
 
 TEST(Stretches, OfLongTripsAreCutToHoldLittle) {
     const auto car = drive(60, 100, steady, shaking, Eigen::Matrix3d::Identity());
-    auto use = unused(car.trip);
-    const auto odometer = make_odometer(car.trip, {}, use);
-    EXPECT_EQ(find_stretches(car.trip, odometer, {.longest_s = 20}, use).size(), 3);
-    EXPECT_THAT(use.acc, ::testing::Each(0));
+    const auto odometer = make_odometer(car.trip, {}).odometer;
+    const auto found = find_stretches(car.trip, odometer, {.longest_s = 20});
+    EXPECT_EQ(found.spans.size(), 3);
+    EXPECT_EQ(found.acc, SampleUse(car.trip.acc.t_s.size(), 0));
 }
 
 TEST(Stretch, HoldsTheVehiclesAxesWithoutGravity) {

@@ -155,11 +155,10 @@ TEST(TraceNetwork, CarriesTheTripThatDrewIt) {
     const auto art = block();
     auto line = line_through(art, "ABEF");
     const auto trip = testing::drive(line, {.noise_m = 2, .speeds = true});
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
     const auto roads = build_network(traced({trip}));
     double on_road_m = 0;
-    for (const auto& piece : map_match(trip, odometer, roads, {}, use)) {
+    for (const auto& piece : map_match(trip, odometer, roads, {}).trace) {
         on_road_m += piece.kind == IntervalKind::road ? piece.to_travel_m - piece.from_travel_m : 0;
     }
     EXPECT_GT(on_road_m / odometer.whole_m(), 0.97);
@@ -183,8 +182,8 @@ double drawn_m(const std::vector<Way>& ways) {
 }
 
 std::size_t holes_in(const TripLog& trip, const std::vector<Way>& ways) {
-    auto use = unused(trip);
-    const auto trace = map_match(trip, make_odometer(trip, {}, use), build_network(ways), {}, use);
+    const auto trace =
+        map_match(trip, make_odometer(trip, {}).odometer, build_network(ways), {}).trace;
     return static_cast<std::size_t>(std::count_if(
         trace.begin(), trace.end(), [](const auto& p) { return p.kind != IntervalKind::road; }));
 }

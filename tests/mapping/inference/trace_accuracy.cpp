@@ -164,9 +164,8 @@ TownDrawn town_of(std::size_t trips, double sd_m) {
     double on_road_m = 0;
     double all_m = 0;
     for (const auto& log : logs) {
-        auto use = unused(log);
-        const auto odometer = make_odometer(log, {}, use);
-        for (const auto& piece : map_match(log, odometer, roads, {}, use)) {
+        const auto odometer = make_odometer(log, {}).odometer;
+        for (const auto& piece : map_match(log, odometer, roads, {}).trace) {
             const double piece_m = piece.to_travel_m - piece.from_travel_m;
             on_road_m += piece.kind == IntervalKind::road ? piece_m : 0;
             all_m += piece_m;

@@ -208,14 +208,14 @@ TEST(MapMatch, TellsWhichFixesServed) {
     trip.fixes[9] = trip.fixes[8];           // once more
     trip.fixes[9].t_s += 0.5;
     trip.fixes[11].accuracy_m = 400;
-    auto use = unused(trip);
     const Odometer odometer{{{0, 40}, {0, 400}, {10, 10}, {0, 0}}};
-    map_match(trip, odometer, art.roads, {}, use);
-    EXPECT_EQ(use.fixes[4], 0);
-    EXPECT_EQ(use.fixes[5], static_cast<std::uint8_t>(RowReason::implausible));
-    EXPECT_EQ(use.fixes[7], static_cast<std::uint8_t>(RowReason::no_sample));
-    EXPECT_EQ(use.fixes[9], static_cast<std::uint8_t>(RowReason::repeated_fix));
-    EXPECT_EQ(use.fixes[11], static_cast<std::uint8_t>(RowReason::inaccurate));
+    const auto fixes = map_match(trip, odometer, art.roads, {}).fixes;
+    ASSERT_EQ(fixes.size(), trip.fixes.size());
+    EXPECT_EQ(fixes[4], 0);
+    EXPECT_EQ(fixes[5], code(RowReason::implausible));
+    EXPECT_EQ(fixes[7], code(RowReason::no_sample));
+    EXPECT_EQ(fixes[9], code(RowReason::repeated_fix));
+    EXPECT_EQ(fixes[11], code(RowReason::inaccurate));
 }
 
 TEST(MapMatch, CountsAStandstillAsNoWay) {

@@ -38,9 +38,8 @@ Score score_of(const Scenario& scenario) {
     for (int journeys = 0; journeys < 12; ++journeys) {
         const auto journey = testing::wander(roads, 60, random);
         const auto trip = recorded(roads, journey, scenario, random);
-        auto use = unused(trip);
-        const auto odometer = make_odometer(trip, {}, use);
-        const auto trace = map_match(trip, odometer, roads, {}, use);
+        const auto odometer = make_odometer(trip, {}).odometer;
+        const auto trace = map_match(trip, odometer, roads, {}).trace;
         std::size_t piece = 0;
         for (std::size_t k = 0; k < journey.edges.size(); ++k) {
             for (double gone_m = journey.start_m[k]; gone_m < journey.start_m[k + 1]; gone_m += 5) {

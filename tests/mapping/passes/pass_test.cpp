@@ -1,12 +1,15 @@
 #include "estimator/roughness/roughness_mean.hpp"
-#include "mapping/passes/pass.hpp"
+#include "mapping/passes/trip_cutting.hpp"
 
 #include "support/roads/road_art.hpp"
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -80,6 +83,14 @@ MatchedInterval silence(double from_travel_m, double length_m) {
     return gap;
 }
 
+std::vector<Pass>
+passes_of(const IriTrace& roughness, const MatchedTrace& matched, const testing::RoadArt& art) {
+    const auto cut = cut_trip(roughness, matched, art.roads, car(), {});
+    std::vector<Pass> passes;
+    std::ranges::transform(cut.passes, std::back_inserter(passes), &DrivenPass::pass);
+    return passes;
+}
+
 constexpr auto there = EdgeId{0};
 constexpr auto back = EdgeId{1};
 
@@ -91,7 +102,7 @@ TEST(Passes, PutTheRoughnessOfTheTripIntoTheSegmentsItDrove) {
     };
     const auto trace = trace_of(150, step, [&](double at_m) { return step(at_m) + 1; });
     const auto length = length_m(art.roads, there);
-    const auto passes = extract_passes(trace, {piece(there, 50, 0, length)}, art.roads, car(), {});
+    const auto passes = passes_of(trace, {piece(there, 50, 0, length)}, art);
     ASSERT_THAT(passes, SizeIs(5));
     for (int i = 0; i < 5; ++i) {
         const auto& pass = passes[static_cast<std::size_t>(i)];
@@ -110,8 +121,8 @@ TEST(Passes, PutTheRoughnessOfTheTripIntoTheSegmentsItDrove) {
 
 TEST(Passes, OfTheOtherDirectionCountDown) {
     const auto art = straight();
-    const auto passes = extract_passes(
-        even_trace(100, 2), {piece(back, 0, 0, length_m(art.roads, back))}, art.roads, car(), {});
+    const auto passes =
+        passes_of(even_trace(100, 2), {piece(back, 0, 0, length_m(art.roads, back))}, art);
     ASSERT_THAT(passes, SizeIs(5));
     EXPECT_EQ(passes.front().segment, (SegmentKey{1, false, 4}));
     EXPECT_EQ(passes.back().segment, (SegmentKey{1, false, 0}));
@@ -123,9 +134,8 @@ TEST(Passes, OfPiecesOfOnePassageAddUp) {
         40,
         [](double at_m) { return at_m < 25 ? 1.F : 3.F; },
         [](double at_m) { return at_m < 25 ? 1.F : 3.F; });
-    const auto whole = extract_passes(trace, {piece(there, 0, 0, 40)}, art.roads, car(), {});
-    const auto pieces = extract_passes(
-        trace, {piece(there, 0, 0, 25), piece(there, 25, 25, 15)}, art.roads, car(), {});
+    const auto whole = passes_of(trace, {piece(there, 0, 0, 40)}, art);
+    const auto pieces = passes_of(trace, {piece(there, 0, 0, 25), piece(there, 25, 25, 15)}, art);
     ASSERT_THAT(pieces, SizeIs(2));
     EXPECT_EQ(pieces[1].iri_um, whole[1].iri_um);
     EXPECT_NEAR(pieces[1].iri_um, 2500, 30); // 5 m of 1 and 15 m of 3; a cell on either side
@@ -133,12 +143,8 @@ TEST(Passes, OfPiecesOfOnePassageAddUp) {
 
 TEST(Passes, GoOnAfterAShortSilence) {
     const auto art = straight();
-    const auto passes =
-        extract_passes(even_trace(40, 2),
-                       {piece(there, 0, 0, 28), silence(28, 4), piece(there, 32, 32, 8)},
-                       art.roads,
-                       car(),
-                       {});
+    const auto passes = passes_of(
+        even_trace(40, 2), {piece(there, 0, 0, 28), silence(28, 4), piece(there, 32, 32, 8)}, art);
     ASSERT_THAT(passes, SizeIs(2));
     EXPECT_NEAR(passes[1].covered_mm, 16000, 300);
 }
@@ -146,13 +152,11 @@ TEST(Passes, GoOnAfterAShortSilence) {
 TEST(Passes, CountEachReturn) {
     const auto art = straight();
     const double length = length_m(art.roads, there);
-    const auto passes = extract_passes(even_trace(400, 2),
-                                       {piece(there, 0, 0, length),
-                                        piece(back, length, 0, length),
-                                        piece(there, 2 * length, 0, length)},
-                                       art.roads,
-                                       car(),
-                                       {});
+    const auto passes = passes_of(even_trace(400, 2),
+                                  {piece(there, 0, 0, length),
+                                   piece(back, length, 0, length),
+                                   piece(there, 2 * length, 0, length)},
+                                  art);
     ASSERT_THAT(passes, SizeIs(15));
     EXPECT_EQ(passes[2].occurrence, 0U);
     EXPECT_EQ(passes[7].occurrence, 0U); // the other direction is another segment
@@ -162,27 +166,20 @@ TEST(Passes, CountEachReturn) {
 
 TEST(Passes, AreLeftOutWhereLessThanHalfOfTheSegmentIsCovered) {
     const auto art = straight();
-    EXPECT_THAT(extract_passes(even_trace(100, 2), {piece(there, 0, 0, 29)}, art.roads, car(), {}),
-                SizeIs(1));
-    EXPECT_THAT(extract_passes(even_trace(100, 2), {piece(there, 0, 0, 31)}, art.roads, car(), {}),
-                SizeIs(2));
+    EXPECT_THAT(passes_of(even_trace(100, 2), {piece(there, 0, 0, 29)}, art), SizeIs(1));
+    EXPECT_THAT(passes_of(even_trace(100, 2), {piece(there, 0, 0, 31)}, art), SizeIs(2));
 }
 
 TEST(Passes, AreLeftOutWhereTheMatchIsInDoubt) {
     const auto art = straight();
-    EXPECT_THAT(
-        extract_passes(even_trace(100, 2), {piece(there, 0, 0, 100, 0.19)}, art.roads, car(), {}),
-        IsEmpty());
-    EXPECT_THAT(
-        extract_passes(even_trace(100, 2), {piece(there, 0, 0, 100, 0.21)}, art.roads, car(), {}),
-        SizeIs(5));
+    EXPECT_THAT(passes_of(even_trace(100, 2), {piece(there, 0, 0, 100, 0.19)}, art), IsEmpty());
+    EXPECT_THAT(passes_of(even_trace(100, 2), {piece(there, 0, 0, 100, 0.21)}, art), SizeIs(5));
 }
 
 TEST(Passes, AreLeftOutWhereNothingWasReadOfTheRoad) {
     const auto art = straight();
-    EXPECT_THAT(extract_passes({}, {piece(there, 0, 0, 100)}, art.roads, car(), {}), IsEmpty());
-    EXPECT_THAT(extract_passes(even_trace(100, 2), {silence(0, 100)}, art.roads, car(), {}),
-                IsEmpty());
+    EXPECT_THAT(passes_of({}, {piece(there, 0, 0, 100)}, art), IsEmpty());
+    EXPECT_THAT(passes_of(even_trace(100, 2), {silence(0, 100)}, art), IsEmpty());
 }
 
 TEST(Passes, SayWhatTheCentreAloneTellsOfBothTracks) {
@@ -191,7 +188,7 @@ TEST(Passes, SayWhatTheCentreAloneTellsOfBothTracks) {
     run.centre_mm_per_m.assign(400, 1.82F);
     run.speed_mps.assign(400, 15);
     const auto trace = trace_of(std::move(run));
-    const auto passes = extract_passes(trace, {piece(there, 0, 0, 99)}, art.roads, car(), {});
+    const auto passes = passes_of(trace, {piece(there, 0, 0, 99)}, art);
     ASSERT_THAT(passes, SizeIs(5));
     EXPECT_THAT(passes, Each(Field(&Pass::centre_only, true)));
     EXPECT_THAT(passes, Each(Field(&Pass::iri_left_um, std::nullopt)));

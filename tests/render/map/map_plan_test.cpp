@@ -75,14 +75,14 @@ TEST(MapPlan, NeedsRoadsFarAroundInAProjection) {
 TEST(MapPlan, KeepsItsGroundWhereTheLegendFindsACorner) {
     MapPlan plan{words(), {}, size};
     const auto ground = plan.ground();
-    plan.set_lines(one_street());
+    plan.set_roads(one_street());
     EXPECT_TRUE(is_within(plan.ground(), ground));
 }
 
 TEST(MapPlan, NeedsMoreGroundWhereTheLegendFindsNoCornerWithoutRoads) {
     MapPlan plan{words(), {}, size};
     const auto ground = plan.ground();
-    plan.set_lines(dense_streets());
+    plan.set_roads(dense_streets());
     EXPECT_FALSE(is_within(plan.ground(), ground));
 }
 
@@ -90,7 +90,7 @@ TEST(MapPlan, DrawsLinesThatItGetsLaterLikeThoseOfItsScene) {
     for (const auto& lines : {one_street(), dense_streets()}) {
         auto scene = words();
         MapPlan plan{scene, {}, size};
-        plan.set_lines(lines);
+        plan.set_roads(lines);
         scene.lines = lines;
         EXPECT_TRUE(drawn(plan) == render_map(scene, {}, size.width_px, size.height_px).rgb);
     }

@@ -222,6 +222,15 @@ TEST(Report, SaysWhyRowsEnteredNoEstimateTheMostFrequentReasonFirst) {
     EXPECT_THAT(html, HasSubstr("Not recorded by an earlier version</th><td class=\"n\">10</td>"));
 }
 
+TEST(Report, OfACrowdSaysHowManyCarsAnEventTakes) {
+    auto report = town();
+    report.events = {ReportEvent{}};
+    EXPECT_THAT(report_html(report), HasSubstr("at least two passes"));
+    report.publication = ReportPublication{.month = "2026-11"};
+    EXPECT_THAT(report_html(report),
+                AllOf(HasSubstr("passes of at least five cars"), Not(HasSubstr("two passes"))));
+}
+
 TEST(Report, OfGoodRoadsHasNoWorstStretch) {
     auto report = town();
     report.worst.clear();

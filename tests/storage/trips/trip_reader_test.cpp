@@ -17,10 +17,6 @@ using ::testing::HasSubstr;
 
 namespace {
 
-constexpr int code(RowReason reason) {
-    return static_cast<int>(reason);
-}
-
 /// A log of the given header and rows, with the right end.
 std::string log_of(const std::string& header, const std::vector<std::string>& rows) {
     std::string text = "# macadam-trip 1\n" + header + "\n";
@@ -31,6 +27,10 @@ std::string log_of(const std::string& header, const std::vector<std::string>& ro
 }
 
 const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
+
+std::string hash_of(const TripSource& source) {
+    return OpenTrip{source}.sha256();
+}
 
 TripLog read_text(std::string_view text, const TripNeeds& needs = everything) {
     return read_trip({written(test_folder(), "a.trip.csv", text), ""}, needs);
@@ -353,10 +353,44 @@ TEST(TripReader, RefusesABomb) {
 
 TEST(TripReader, HashesTheContentItself) {
     const auto file = written(test_folder(), "a.trip.csv.gz", gzipped(small));
-    EXPECT_EQ(content_sha256({file, ""}), read_trip({file, ""}, everything).sha256);
+    EXPECT_EQ(hash_of({file, ""}), read_trip({file, ""}, everything).sha256);
     // FIPS 180-2, appendix B.1
-    EXPECT_EQ(content_sha256({written(test_folder(), "abc", "abc"), ""}),
+    EXPECT_EQ(hash_of({written(test_folder(), "abc", "abc"), ""}),
               "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(OpenTrip, IsRecognisedBeforeItIsParsed) {
+    const auto file = written(test_folder(), "a.trip.csv.gz", gzipped(small));
+    OpenTrip trip{{file, ""}};
+    const auto ahead = trip.sha256_ahead();
+    ASSERT_TRUE(ahead);
+    std::filesystem::remove(file); // it is open, and is not opened again
+    EXPECT_EQ(trip.read(everything).rows.size(), 3U);
+    EXPECT_EQ(trip.sha256(), *ahead);
+}
+
+TEST(OpenTrip, ThatIsLongIsHashedWhileItIsParsed) {
+    const auto file = written(test_folder(), "a.trip.csv", small);
+    OpenTrip trip{{file, ""}};
+    EXPECT_FALSE(trip.sha256_ahead(small.size() - 1));
+    const auto log = trip.read(everything);
+    EXPECT_EQ(log.rows.size(), 3U);
+    EXPECT_EQ(log.sha256, hash_of({file, ""}));
+}
+
+TEST(OpenTrip, HasAHashEvenIfItIsNoLog) {
+    const auto file = written(test_folder(), "a.trip.csv.gz", gzipped("abc"));
+    OpenTrip trip{{file, ""}};
+    EXPECT_THAT(refusal_of([&] { trip.read(everything); }), HasSubstr("not a Macadam log"));
+    EXPECT_EQ(trip.sha256(), hash_of({written(test_folder(), "abc", "abc"), ""}));
+}
+
+TEST(OpenTrip, HasNoHashIfItCannotBeReadToItsEnd) {
+    const auto gz = gzipped("no log\n" + std::string(100'000, 'x'));
+    const auto file = written(test_folder(), "a.trip.csv.gz", gz.substr(0, gz.size() - 4));
+    OpenTrip trip{{file, ""}};
+    EXPECT_THAT(refusal_of([&] { trip.read(everything); }), ::testing::Not(""));
+    EXPECT_THAT(refusal_of([&] { trip.sha256(); }), HasSubstr("gzip data is truncated"));
 }
 
 TEST(TripReader, AccountsForEveryRowOfTwoRealTrips) {

@@ -90,7 +90,7 @@ TEST(TripWalk, FindsTheTripsInAnArchiveInItsOwnOrder) {
         EXPECT_EQ(search.first_other_file, "d/notes.txt") << format;
         for (const auto& trip : search.trips) {
             EXPECT_EQ(read_trip(trip, {}).rows.size(), 1U) << trip.name();
-            EXPECT_EQ(content_sha256(trip), read_trip(trip, {}).sha256) << trip.name();
+            EXPECT_EQ(OpenTrip{trip}.sha256(), read_trip(trip, {}).sha256) << trip.name();
         }
     }
 }

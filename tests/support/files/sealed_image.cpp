@@ -166,9 +166,8 @@ void use(const RoadNetwork& roads) {
         link_at(roads, link);
     }
     const auto& trip = trip_through_town();
-    RowAudit noted = unused(trip);
-    const auto odometer = make_odometer(trip, {}, noted);
-    const auto trace = map_match(trip, odometer, roads, {}, noted);
+    const auto odometer = make_odometer(trip, {}).odometer;
+    const auto trace = map_match(trip, odometer, roads, {}).trace;
     edge_traversals(trace);
     arcs_of(trace, roads);
     pieces_of(roads, followed(trace));

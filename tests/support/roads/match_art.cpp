@@ -7,9 +7,8 @@
 namespace macadam::testing {
 
 MatchedTrace match(const TripLog& trip, const RoadArt& art, const MatchConfig& config) {
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
-    return map_match(trip, odometer, art.roads, config, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
+    return map_match(trip, odometer, art.roads, config).trace;
 }
 
 std::string letters_of(const MatchedTrace& trace, const RoadArt& art) {

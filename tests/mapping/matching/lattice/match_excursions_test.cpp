@@ -80,11 +80,10 @@ RoadSpread spread_of_drive(double left_m) {
                               20,
                               {"AB"});
     const auto trip = drive(moved(line_through(art, "AB"), left_m), {.noise_m = 1});
-    auto use = unused(trip);
-    const auto odometer = make_odometer(trip, {}, use);
+    const auto odometer = make_odometer(trip, {}).odometer;
     const Heading no_gyro;
     const MatchConfig config;
-    const auto positions = positions_of(trip, odometer, no_gyro, config, use);
+    const auto positions = positions_of(trip, odometer, no_gyro, config);
     CandidateIndex plane{art.roads, positions.frame};
     return road_spread(positions, art.roads, plane, config);
 }

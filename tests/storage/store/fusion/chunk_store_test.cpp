@@ -1,6 +1,6 @@
 #include "storage/store/road_store.hpp"
 
-#include "mapping/passes/trace_cutting.hpp"
+#include "mapping/passes/trip_cutting.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/road_art.hpp"

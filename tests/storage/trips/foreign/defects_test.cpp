@@ -39,10 +39,6 @@ TripLog read(const std::string& name, const std::string& mapping) {
     return read_trip(find_trips(defect(name), shared).trips.at(0), everything);
 }
 
-constexpr int code(RowReason reason) {
-    return static_cast<int>(reason);
-}
-
 constexpr int late = code(RowReason::time_not_increasing);
 constexpr int acc = row_content::acc;
 constexpr int speed = row_content::speed;

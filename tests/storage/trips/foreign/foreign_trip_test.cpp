@@ -123,8 +123,8 @@ TEST(PhyphoxExport, HasOneHashAsFolderAndAsZip) {
                                          {"Linear Accelerometer.csv", acc_csv},
                                          {"Accelerometer.csv", acc_csv}}));
     const auto in_zip = find_trips(zip).trips.at(0);
-    EXPECT_EQ(content_sha256(in_folder), content_sha256(in_zip));
-    EXPECT_EQ(read_trip(in_zip, needs_of_import()).sha256, content_sha256(in_zip));
+    EXPECT_EQ(OpenTrip{in_folder}.sha256(), OpenTrip{in_zip}.sha256());
+    EXPECT_EQ(read_trip(in_zip, needs_of_import()).sha256, OpenTrip{in_zip}.sha256());
     EXPECT_EQ(read_trip(in_zip, needs_of_import()).meta.trip_id, "b");
 }
 
@@ -206,7 +206,7 @@ TEST(Mapping, TakesEveryFittingFileUnderAFolder) {
     EXPECT_EQ(search.other_files, 1U);
     EXPECT_EQ(search.first_other_file, "b_gps.csv");
     EXPECT_EQ(read_trip(search.trips[0], everything).meta.trip_id, "b_acc");
-    EXPECT_EQ(content_sha256(search.trips[0]), read_trip(search.trips[0], everything).sha256);
+    EXPECT_EQ(OpenTrip{search.trips[0]}.sha256(), read_trip(search.trips[0], everything).sha256);
 }
 
 TEST(Mapping, MissesAFileThatShouldLieBeside) {

@@ -115,9 +115,9 @@ TEST(Gpx, LeavesAPointWithABadNumberOut) {
         point(97, 8, at("2020-05-01T10:00:03Z")) + point(47.001, 8, at("2020-05-01T10:00:05Z"))));
     EXPECT_THAT(trip.fixes, SizeIs(2));
     ASSERT_THAT(trip.rows, SizeIs(5));
-    EXPECT_EQ(trip.rows[1], static_cast<std::uint8_t>(RowReason::bad_number));
-    EXPECT_EQ(trip.rows[2], static_cast<std::uint8_t>(RowReason::out_of_range));
-    EXPECT_EQ(trip.rows[3], static_cast<std::uint8_t>(RowReason::out_of_range));
+    EXPECT_EQ(trip.rows[1], code(RowReason::bad_number));
+    EXPECT_EQ(trip.rows[2], code(RowReason::out_of_range));
+    EXPECT_EQ(trip.rows[3], code(RowReason::out_of_range));
 }
 
 TEST(Gpx, DoesNotTakeWayPointsOrRoutesForATrack) {

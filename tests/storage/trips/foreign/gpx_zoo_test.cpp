@@ -61,8 +61,7 @@ std::size_t holes_in(const MatchedTrace& trace) {
 }
 
 MatchedTrace matched(const TripLog& trip, const RoadNetwork& roads) {
-    auto use = unused(trip);
-    return map_match(trip, make_odometer(trip, {}, use), roads, {}, use);
+    return map_match(trip, make_odometer(trip, {}).odometer, roads, {}).trace;
 }
 
 constexpr const char* tours[] = {"another-tour-with-loop",

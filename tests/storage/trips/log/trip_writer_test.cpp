@@ -132,7 +132,7 @@ TEST(TripWriter, CompressesTheSameText) {
     std::vector<std::string> hashes;
     for (const auto* const name : {"a.trip.csv", "a.trip.csv.gz", "a.trip.csv.zst"}) {
         write_trip(trip, folder / name);
-        hashes.push_back(content_sha256({folder / name, ""}));
+        hashes.push_back(OpenTrip{{folder / name, ""}}.sha256());
     }
     EXPECT_THAT(hashes, ElementsAre(hashes[0], hashes[0], hashes[0]));
     EXPECT_EQ(content_of(folder / "a.trip.csv.gz").substr(0, 2), "\x1f\x8b");

@@ -1,4 +1,4 @@
-#include "mapping/passes/trace_cutting.hpp"
+#include "mapping/passes/trip_cutting.hpp"
 
 #include "support/roads/road_art.hpp"
 
@@ -65,7 +65,7 @@ piece(EdgeId edge, double from_travel_m, double from_offset_m, double length_m, 
 }
 
 std::vector<RoughnessTrace> traces_of(const IriTrace& trace, const MatchedTrace& matched) {
-    return extract_traces(trace, matched, kilometre(), car(), {});
+    return cut_trip(trace, matched, kilometre(), car(), {}).traces;
 }
 
 double last_m(const RoughnessTrace& trace) {
@@ -126,10 +126,10 @@ TEST(ChunkTraces, AreOnePerDriveAndPassesSayWhichIsTheirs) {
     EXPECT_EQ(traces[0].drive, 0U);
     EXPECT_EQ(traces[1].drive, 0U); // of the other direction's chunk
     EXPECT_EQ(traces[2].drive, 1U);
-    const auto passes = extract_passes(trace, matched, kilometre(), car(), {});
+    const auto passes = cut_trip(trace, matched, kilometre(), car(), {}).passes;
     ASSERT_THAT(passes, SizeIs(60));
     for (std::size_t i = 0; i < passes.size(); ++i) {
-        EXPECT_EQ(passes[i].drive, i < 40 ? 0U : 1U);
+        EXPECT_EQ(passes[i].pass.drive, i < 40 ? 0U : 1U);
     }
 }
 

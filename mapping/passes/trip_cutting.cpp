@@ -1,8 +1,7 @@
-#include "mapping/passes/trace_cutting.hpp"
+#include "mapping/passes/trip_cutting.hpp"
 
 #include "estimator/roughness/roughness_mean.hpp"
 #include "mapping/passes/segment_overlap.hpp"
-#include "mapping/passes/trace_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,6 +101,33 @@ RoughnessTrace trace_of(std::span<const SegmentOverlap> parts,
                       cells);
 }
 
+bool is_same_drive(const SegmentOverlap& a, const SegmentOverlap& b, double segment_length_m) {
+    return a.drive == b.drive &&
+           chunk_of(a.segment, segment_length_m) == chunk_of(b.segment, segment_length_m);
+}
+
+/// \param told  readable range of travel
+std::vector<RoughnessTrace> extract_traces(std::vector<SegmentOverlap> parts,
+                                           const TravelSpan& told,
+                                           const IriTrace& roughness,
+                                           const RoadNetwork& roads,
+                                           const Vehicle& vehicle) {
+    std::vector<RoughnessTrace> traces;
+    std::erase_if(parts, [](const SegmentOverlap& part) { return !part.drive; });
+    for (auto first = parts.begin(); first != parts.end();) {
+        auto last = first + 1;
+        while (last != parts.end() && is_same_drive(*first, *last, roads.segment_length_m)) {
+            ++last;
+        }
+        auto trace = trace_of({first, last}, told, roughness, roads, vehicle);
+        if (!trace.iri.empty()) {
+            traces.push_back(std::move(trace));
+        }
+        first = last;
+    }
+    return traces;
+}
+
 /// Mean of the known cells of a range and their total length. Micrometres per metre.
 struct Mean {
     double covered_m = 0;
@@ -133,34 +159,18 @@ std::optional<IriUm> scaled(const std::optional<IriUm>& um, double factor) {
 
 } // namespace
 
-std::vector<RoughnessTrace> extract_traces(const IriTrace& roughness,
-                                           const MatchedTrace& matched,
-                                           const RoadNetwork& roads,
-                                           const Vehicle& vehicle,
-                                           const PassConfig& config) {
-    std::vector<RoughnessTrace> traces;
+TripCut cut_trip(const IriTrace& roughness,
+                 const MatchedTrace& matched,
+                 const RoadNetwork& roads,
+                 const Vehicle& vehicle,
+                 const PassConfig& config) {
     if (matched.empty()) {
-        return traces;
+        return {};
     }
     auto parts = driven_parts(matched, roads, config.min_confidence);
-    std::erase_if(parts, [](const SegmentOverlap& part) { return !part.drive; });
+    auto passes = driven_passes(parts, roughness, vehicle, config);
     const TravelSpan told{matched.front().from_travel_m, matched.back().to_travel_m};
-    const auto goes_on = [&](const SegmentOverlap& a, const SegmentOverlap& b) {
-        return a.drive == b.drive && chunk_of(a.segment, roads.segment_length_m) ==
-                                         chunk_of(b.segment, roads.segment_length_m);
-    };
-    for (auto first = parts.begin(); first != parts.end();) {
-        auto last = first + 1;
-        while (last != parts.end() && goes_on(*first, *last)) {
-            ++last;
-        }
-        auto trace = trace_of({first, last}, told, roughness, roads, vehicle);
-        if (!trace.iri.empty()) {
-            traces.push_back(std::move(trace));
-        }
-        first = last;
-    }
-    return traces;
+    return {std::move(passes), extract_traces(std::move(parts), told, roughness, roads, vehicle)};
 }
 
 Pass moved(const Pass& pass,

@@ -1,4 +1,4 @@
-#include "app/import/trip_outcome_output.hpp"
+#include "app/import/trip_report_output.hpp"
 
 #include "app/cli/console.hpp"
 #include "app/cli/terminal_escape.hpp"
@@ -23,25 +23,24 @@ std::string reasons_json(const RowCount& rows) {
     return reasons.text();
 }
 
-std::string json_line(const TripOutcome& outcome) {
+std::string json_line(const TripReport& trip) {
     const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-    const auto& trip = outcome.trip;
     JsonObject line;
-    line.add("file", outcome.file)
-        .add("trip_id", outcome.trip_id)
-        .add("sha256", outcome.sha256)
-        .add("result", std::string{name_of(outcome.result)})
+    line.add("file", trip.file)
+        .add("trip_id", trip.trip_id)
+        .add("sha256", trip.sha256)
+        .add("result", std::string{name_of(trip.result)})
         .add("rows_read", whole(trip.rows.read))
         .add("rows_used", whole(trip.rows.used))
         .add("rows_rejected", whole(trip.rows.rejected))
         .add("reasons", JsonRaw{reasons_json(trip.rows)})
         .add("distance_m", JsonNumber{trip.distance_m, 1})
         .add("matched_m", JsonNumber{trip.matched_m, 1})
-        .add("passes", whole(trip.passes.size()))
-        .add("vehicle", outcome.vehicle)
+        .add("passes", whole(trip.passes))
+        .add("vehicle", trip.vehicle)
         .add("warnings", JsonRaw{json_string_array(trip.warnings)});
-    if (!outcome.error.empty()) {
-        line.add("error", outcome.error);
+    if (!trip.error.empty()) {
+        line.add("error", trip.error);
     }
     return line.text() + "\n";
 }
@@ -79,18 +78,16 @@ std::string notes(const std::vector<std::string>& warnings) {
     return lines;
 }
 
-std::string text_lines(const TripOutcome& outcome) {
-    const auto result = name_of(outcome.result);
-    if (outcome.result == TripOutcome::Result::rejected) {
-        return fmt::format("{:<9} {}\n", result, printable_name(outcome.error));
+std::string text_lines(const TripReport& trip) {
+    const auto result = name_of(trip.result);
+    if (trip.result == TripReport::Result::rejected) {
+        return fmt::format("{:<9} {}\n", result, printable_name(trip.error));
     }
-    const auto& trip = outcome.trip;
-    if (outcome.result == TripOutcome::Result::known ||
-        outcome.result == TripOutcome::Result::unknown) {
+    if (trip.result == TripReport::Result::known || trip.result == TripReport::Result::unknown) {
         const bool is_explained =
-            outcome.result == TripOutcome::Result::unknown || !trip.warnings.empty();
+            trip.result == TripReport::Result::unknown || !trip.warnings.empty();
         return fmt::format("skipped   {}{}\n",
-                           printable_name(outcome.file),
+                           printable_name(trip.file),
                            is_explained ? "" : ": already imported") +
                notes(trip.warnings);
     }
@@ -98,22 +95,22 @@ std::string text_lines(const TripOutcome& outcome) {
         fmt::format("{:<9} {}: {}; {:.2f} km driven, {:.2f} km on the network; car '{}'\n"
                     "          {}\n",
                     result,
-                    printable_name(outcome.file),
-                    counted(trip.passes.size(), "pass"),
+                    printable_name(trip.file),
+                    counted(trip.passes, "pass"),
                     trip.distance_m / 1000,
                     trip.matched_m / 1000,
-                    printable_name(outcome.vehicle),
+                    printable_name(trip.vehicle),
                     spoken(trip.rows));
     return lines + notes(trip.warnings);
 }
 
 } // namespace
 
-void print_outcome(const TripOutcome& outcome, bool json) {
+void print_report(const TripReport& trip, bool json) {
     if (json) {
-        print(json_line(outcome));
+        print(json_line(trip));
     } else {
-        print_words(text_lines(outcome));
+        print_words(text_lines(trip));
     }
     flush_results();
 }
