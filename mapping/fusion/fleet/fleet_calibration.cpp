@@ -106,6 +106,7 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                            .trip_sd = fit.trip_sd,
                            .rest_sd = fit.rest_sd,
                            .anchor_sd = 0,
+                           .middle_um = fit.middle_um(),
                            .local_error_variance = 0,
                            .local_error_places = 0,
                            .places = fit.place_count()};

@@ -41,6 +41,7 @@ struct FleetCalibration {
     double trip_sd;              ///< spread between trips of a car, relative
     double rest_sd;              ///< of a pass, relative, in addition to FleetPrior::rest_sd_um
     double anchor_sd;            ///< common to all cars, relative
+    double middle_um;            ///< median level of the shared places
 
     /// Relative variance of what all cars misread locally, seen where known sources passed.
     double local_error_variance;

@@ -165,6 +165,41 @@ TEST(ChangingFleet, FindsTwoChangesOfOneCar) {
     EXPECT_LT(found.cars[2][2].change->level, -0.07);
 }
 
+TEST(ChangingFleet, StatesEachChangeOfAStaircaseRelativeToThePeriodBefore) {
+    Fleet fleet{.trips_of_car = 36};
+    fleet.level = [](auto car, auto trip) {
+        return car != 2 || trip < 12 ? 1 : trip < 24 ? 1.1 : 1.21;
+    };
+    const auto found = calibrated(fleet, drives_of(fleet, 10));
+    ASSERT_EQ(found.cars[2].size(), 3U);
+    for (const std::size_t period : {1U, 2U}) {
+        const auto& change = *found.cars[2][period].change;
+        // Twelve trips on either side that differ by 2 %: 0.8 %; three times as much.
+        EXPECT_NEAR(change.level, 0.1, 0.025) << period;
+        EXPECT_GT(change.level_sd, 0.002) << period;
+        EXPECT_LT(change.level_sd, 0.015) << period;
+    }
+}
+
+TEST(ChangingFleet, WeighsACarThatChangedAsOneCar) {
+    // Car 0 reads 20 % more than the others, and from its eleventh trip on 15 % more than before.
+    // If its two periods counted as two cars, the mean of the fleet would move.
+    Fleet fleet{.cars = 4};
+    fleet.level = [](auto car, auto trip) { return car != 0 ? 1 : trip < 10 ? 1.2 : 1.2 * 1.15; };
+    const auto drives = drives_of(fleet, 11);
+    const auto found = calibrated(fleet, drives);
+    ASSERT_EQ(found.cars[0].size(), 2U);
+    const std::vector<double> stated_sd(fleet.cars, 0.05);
+    const auto stated = calibrate_changing_fleet(drives.readings,
+                                                 drives.trips,
+                                                 std::vector<std::optional<double>>(fleet.cars),
+                                                 {},
+                                                 stated_sd);
+    for (std::size_t car = 0; car < fleet.cars; ++car) {
+        EXPECT_EQ(stated.cars[car], found.cars[car]) << car; // equal sds say as much as none
+    }
+}
+
 TEST(ChangingFleet, LeavesUndatedTripsOfACarThatChangedInNoPeriod) {
     Fleet fleet;
     fleet.level = [](auto car, auto trip) { return car == 3 && trip >= 10 ? 1.2 : 1; };
