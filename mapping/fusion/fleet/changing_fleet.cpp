@@ -150,8 +150,9 @@ CarChange change_between(const PartPeriod& before,
     };
     if (change.level_sd > 0) {
         const double ratio = read(second) / read(first);
-        const double variance = square(first.relative_sd) + square(second.relative_sd) -
-                                2 * square(prior.min_car_sd); // a floor, not seen in the fit
+        const double floors = 2 * square(prior.min_car_sd); // in both sds, not of the change
+        const double variance =
+            std::max(0.0, square(first.relative_sd) + square(second.relative_sd) - floors);
         change.level = ratio - 1;
         change.level_sd = ratio * std::sqrt(variance);
     }

@@ -70,11 +70,11 @@ TEST(Fusion, ShrinksTheSdWhereCarsAgreeButNotWherePassesOfOneCarDo) {
     const double factor = std::sqrt((6 + strangeness) / (6 + 4));
     EXPECT_NEAR(fuse(passes, {}).sd_um,
                 std::hypot(factor * of_car / std::sqrt(5), 300 * std::sqrt(0.5)),
-                2); // the t distribution weighs them a little
+                3); // the t distribution weighs them a little
     for (auto& input : passes) {
         input.vehicle = 1;
     }
-    EXPECT_NEAR(fuse(passes, {}).sd_um, std::hypot(300, between_um(2000) / std::sqrt(5)), 2);
+    EXPECT_NEAR(fuse(passes, {}).sd_um, std::hypot(300, between_um(2000) / std::sqrt(5)), 3);
 }
 
 TEST(Fusion, OfManyUnknownCarsShrinksToWhatUnknownCarsShare) {

@@ -265,6 +265,9 @@ TEST(Calibrate, FindsTheCarThatReadsTooHighAndFusesByIt) {
     const auto report = store.calibrate(true);
     EXPECT_EQ(report.generation, 2);
     EXPECT_EQ(store.info().generation, 2);
+    EXPECT_GT(report.left_out_readings, 0U);
+    EXPECT_LE(report.left_out_readings, report.readings);
+    EXPECT_LE(report.left_out_held, report.left_out_readings);
     const auto cars = store.calibrated_cars();
     ASSERT_THAT(cars, SizeIs(3));
     std::vector<double> at_2000;
@@ -299,6 +302,12 @@ TEST(Calibrate, TakesWhatASurveySaysForRight) {
     const auto report = store.calibrate(true);
     EXPECT_EQ(report.surveys, 1U);
     EXPECT_NEAR(report.components.anchor_relative_sd, 0.02, 0.01);
+    // Cars that differ from the survey by the same everywhere misread no place alike; what is
+    // stated counts as much as 40 places.
+    const FusionConfig stated;
+    EXPECT_LT(report.components.max_common_relative_sd, stated.max_common_relative_sd);
+    EXPECT_GT(report.components.max_common_relative_sd, 0);
+    EXPECT_GE(report.components.common_share, stated.common_share);
     ASSERT_THAT(report.cars, SizeIs(3));
     std::vector<double> at_2000;
     for (const auto& car : report.cars) {

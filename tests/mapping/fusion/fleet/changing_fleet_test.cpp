@@ -166,15 +166,16 @@ TEST(ChangingFleet, FindsTwoChangesOfOneCar) {
 }
 
 TEST(ChangingFleet, StatesEachChangeOfAStaircaseRelativeToThePeriodBefore) {
-    Fleet fleet{.trips_of_car = 36};
+    Fleet fleet{.trips_of_car = 60, .places = 300, .places_of_trip = 100};
     fleet.level = [](auto car, auto trip) {
-        return car != 2 || trip < 12 ? 1 : trip < 24 ? 1.1 : 1.21;
+        return car != 2 || trip < 20 ? 1 : trip < 40 ? 1.1 : 1.21;
     };
     const auto found = calibrated(fleet, drives_of(fleet, 10));
     ASSERT_EQ(found.cars[2].size(), 3U);
     for (const std::size_t period : {1U, 2U}) {
         const auto& change = *found.cars[2][period].change;
-        // Twelve trips on either side that differ by 2 %: 0.8 %; three times as much.
+        // Twenty trips on either side that differ by 2 %: 0.6 %, and some more; three times as
+        // much.
         EXPECT_NEAR(change.level, 0.1, 0.025) << period;
         EXPECT_GT(change.level_sd, 0.002) << period;
         EXPECT_LT(change.level_sd, 0.015) << period;
