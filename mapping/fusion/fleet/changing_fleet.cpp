@@ -105,12 +105,15 @@ FleetCalibration calibrate_parts(const std::vector<FleetReading>& readings,
     const auto driven = driven_parts(readings, parts, known.size());
     std::vector<std::optional<double>> known_parts;
     std::vector<double> stated_parts;
+    std::vector<double> shares;
     for (const auto& part : parts.all()) {
         known_parts.push_back(known[part.car]);
-        const double stated = stated_sd.empty() ? prior.car_sd : stated_sd[part.car];
-        stated_parts.push_back(stated * std::sqrt(static_cast<double>(driven[part.car])));
+        shares.push_back(1 / static_cast<double>(driven[part.car]));
+        if (!stated_sd.empty()) {
+            stated_parts.push_back(stated_sd[part.car]);
+        }
     }
-    return calibrate_fleet(readings, known_parts, prior, stated_parts, scatter);
+    return calibrate_fleet(readings, known_parts, prior, stated_parts, scatter, shares);
 }
 
 /// Factors on the sd of the passes of parts that are out of line.
