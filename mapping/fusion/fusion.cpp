@@ -252,16 +252,17 @@ excess(const FusionObservations& readings, const RoughnessTrend& level, const Ve
 /// better than they state; 1 for one car, however often it passed.
 double agreement(const FusionObservations& readings, const VectorXd& off) {
     double strangeness = 0;
+    auto trip = readings.trips.begin();
     for (const auto& [first, count] : readings.cars) {
         const VectorXd precision =
             readings.rest_sd.segment(first, count).cwiseAbs2().cwiseInverse();
         const double whole = precision.sum();
         const double mean = precision.dot(off.segment(first, count)) / whole;
-        const auto trips = std::ranges::count_if(readings.trips, [&](const auto& trip) {
-            return trip.first >= first && trip.first < first + count;
-        });
-        const double of_trips = readings.trip_sd * readings.trip_sd /
-                                static_cast<double>(std::max<std::ptrdiff_t>(1, trips));
+        double trips = 0;
+        for (; trip != readings.trips.end() && trip->first < first + count; ++trip) {
+            ++trips;
+        }
+        const double of_trips = readings.trip_sd * readings.trip_sd / std::max(1.0, trips);
         const double own = precision.dot(readings.car_sd.segment(first, count).cwiseAbs2()) / whole;
         strangeness += mean * mean / (own + of_trips + 1 / whole);
     }

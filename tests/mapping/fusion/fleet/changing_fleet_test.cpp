@@ -215,6 +215,29 @@ TEST(ChangingFleet, LeavesUndatedTripsOfACarThatChangedInNoPeriod) {
     EXPECT_EQ(period_at(found.cars[2], std::nullopt), 0U); // a car that did not change
 }
 
+TEST(CarDays, LeaveOutReadingsThatNoOtherCarMadeWithinTheYear) {
+    Drives drives;
+    for (std::uint32_t car = 0; car < 3; ++car) { // the third ten years after the others
+        drives.trips.car.push_back(car);
+        drives.trips.utc_ms.push_back(begin_ms + (car == 2 ? 3650 : car) * day_ms);
+    }
+    for (std::uint32_t place = 0; place < 30; ++place) {
+        for (std::uint32_t car = 0; car < 3; ++car) {
+            drives.readings.push_back({place, car, car, 2000.0 + place});
+        }
+    }
+    FleetCalibration fleet{};
+    fleet.cars.assign(3, CarCalibration{});
+    fleet.is_known.assign(3, false);
+    fleet.trip_sd = 0.02;
+    fleet.rest_sd = 0.07;
+    const auto days = car_days(drives.readings, drives.trips, fleet);
+    ASSERT_EQ(days.size(), 3U);
+    EXPECT_EQ(days[0].size(), 1U);
+    EXPECT_EQ(days[1].size(), 1U);
+    EXPECT_TRUE(days[2].empty());
+}
+
 TEST(ChangingFleet, CountsTripsOfOneDayOnce) {
     Fleet fleet;
     fleet.level = [](auto car, auto trip) { return car == 3 && trip >= 10 ? 1.2 : 1; };
