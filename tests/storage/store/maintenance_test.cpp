@@ -255,6 +255,36 @@ RoadStore fleet_store(const std::filesystem::path& file, const std::vector<int>&
     return store;
 }
 
+TEST(FusedChunks, LimitWhatUnknownCarsShareUnlessTheFilterReadIt) {
+    const auto sds_by = [](const char* method) {
+        auto store = new_store(test_folder() / (std::string{method} + ".gpkg"));
+        for (int number = 0; number < 6; ++number) {
+            auto trip = trip_record(number);
+            trip.method = method;
+            auto passes = passes_of_fleet(number);
+            for (auto& pass : passes) {
+                pass.sd_um = pass.iri_um * 4 / 10;
+            }
+            store.add_trip(trip, passes);
+        }
+        store.refresh();
+        std::vector<double> sds;
+        store.visit({}, [&](const SegmentRecord& record) {
+            if (record.state && record.state->vehicles > 1) {
+                sds.push_back(double(record.state->sd_um) / record.state->iri_um);
+            }
+        });
+        return sds;
+    };
+    const auto smoothed = sds_by("smoother"), filtered = sds_by("kf");
+    ASSERT_EQ(smoothed.size(), filtered.size());
+    ASSERT_FALSE(smoothed.empty());
+    for (std::size_t i = 0; i < smoothed.size(); ++i) {
+        EXPECT_GT(filtered[i], 0.28) << i; // half of (40 %)^2
+        EXPECT_LT(smoothed[i], filtered[i]) << i;
+    }
+}
+
 std::vector<int> without(std::vector<int> numbers, int number) {
     std::erase(numbers, number);
     return numbers;
