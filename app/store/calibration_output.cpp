@@ -24,6 +24,23 @@ std::string sd_words(const CalibratedCar& car) {
     return car.calibration ? fmt::format("{:.1f} %", 100 * car.calibration->relative_sd) : "";
 }
 
+/// Share of passes of cars left out that are inside their intervals.
+std::optional<double> left_out_coverage(const CalibrationReport& report) {
+    return report.left_out_readings > 0
+               ? std::optional{static_cast<double>(report.left_out_held) /
+                               static_cast<double>(report.left_out_readings)}
+               : std::nullopt;
+}
+
+std::string left_out_text(const CalibrationReport& report) {
+    const auto coverage = left_out_coverage(report);
+    return coverage ? fmt::format("cars left out       90 % intervals from the other cars held "
+                                  "{:.0f} % of {}\n",
+                                  100 * *coverage,
+                                  counted(report.left_out_readings, "pass"))
+                    : "";
+}
+
 // clang-format off
 const Columns<CalibratedCar> car_columns{
     {"vehicle", as::text, [](auto& r) { return r.vehicle; }, {"car", "{:<34}"}},
@@ -50,6 +67,8 @@ const Columns<CalibrationReport> report_columns{
     {"anchor_relative_sd", as::real(4), [](auto& r) { return r.components.anchor_relative_sd; }},
     {"passes", as::integer, [](auto& r) { return r.readings; }},
     {"shared_places", as::integer, [](auto& r) { return r.places; }},
+    {"left_out_passes", as::integer, [](auto& r) { return r.left_out_readings; }},
+    {"left_out_coverage", as::real(4), [](auto& r) { return left_out_coverage(r); }},
     {"reference_surveys", as::integer, [](auto& r) { return r.surveys; }},
 };
 // clang-format on
@@ -65,20 +84,22 @@ std::string text_of(const CalibrationReport& report) {
         return text;
     }
     const auto& components = report.components;
-    return text + fmt::format("\n"
-                              "between cars        {:.1f} %\n"
-                              "between trips       {:.1f} %\n"
-                              "between passes      {:.1f} % and {:.2f} mm/m\n"
-                              "common to all cars  {:.1f} % (possible bias of {})\n"
-                              "from {} at {} where two or more cars passed within a year\n",
-                              100 * report.car_relative_sd,
-                              100 * components.trip_relative_sd,
-                              100 * components.rest_relative_sd,
-                              components.rest_sd_mm_per_m,
-                              100 * components.anchor_relative_sd,
-                              report.surveys > 0 ? "the surveys" : "their mean",
-                              counted(report.readings, "pass"),
-                              counted(report.places, "place"));
+    const auto components_text =
+        fmt::format("\n"
+                    "between cars        {:.1f} %\n"
+                    "between trips       {:.1f} %\n"
+                    "between passes      {:.1f} % and {:.2f} mm/m\n"
+                    "common to all cars  {:.1f} % (possible bias of {})\n"
+                    "from {} at {} where two or more cars passed within a year\n",
+                    100 * report.car_relative_sd,
+                    100 * components.trip_relative_sd,
+                    100 * components.rest_relative_sd,
+                    components.rest_sd_mm_per_m,
+                    100 * components.anchor_relative_sd,
+                    report.surveys > 0 ? "the surveys" : "their mean",
+                    counted(report.readings, "pass"),
+                    counted(report.places, "place"));
+    return text + components_text + left_out_text(report);
 }
 
 std::string json_of(const CalibrationReport& report) {

@@ -138,17 +138,36 @@ VectorXd of_cars_alone(const std::vector<const FusionInput*>& passes, VectorXd v
     return values;
 }
 
-/// Shares of the stated variance in the car's part of a reading.
-struct Shares {
-    double car;    ///< for a car that is not calibrated
-    double common; ///< for a calibrated car, in addition to the calibration's own sd
+/// Stated sds in two parts: common to all cars, and of the car.
+struct StatedParts {
+    VectorXd common; ///< 0 for references
+    VectorXd car;    ///< of a car that is not calibrated
 };
 
+StatedParts parts_of(const std::vector<const FusionInput*>& passes,
+                     const VectorXd& stated,
+                     double level_um,
+                     const FusionConfig& config) {
+    StatedParts parts{VectorXd::Zero(stated.size()), VectorXd::Zero(stated.size())};
+    for (Index i = 0; i < stated.size(); ++i) {
+        const auto& input = *passes[static_cast<std::size_t>(i)];
+        const double share = config.common_share * stated[i] * stated[i];
+        const bool is_lateral = (input.pass.validity & validity::lateral_alone) != 0;
+        const double common =
+            is_lateral ? share : std::min(share, max_common_variance_um2(level_um, config));
+        parts.common[i] = input.reference ? 0 : std::sqrt(common);
+        parts.car[i] = std::sqrt(share - common + config.car_share * stated[i] * stated[i]);
+    }
+    return parts;
+}
+
+/// \param beside_car  sds that count as part of the car's error, in addition to its own.
 FusionObservations readings_of(const std::vector<const FusionInput*>& passes,
                                const VectorXd& values,
                                const VectorXd& stated,
+                               const VectorXd& of_car,
+                               const VectorXd& beside_car,
                                double level_um,
-                               const Shares& shares,
                                const FusionConfig& config) {
     const auto same_car = [](const FusionInput& a, const FusionInput& b) {
         return a.vehicle == b.vehicle && a.period == b.period;
@@ -159,7 +178,7 @@ FusionObservations readings_of(const std::vector<const FusionInput*>& passes,
     const double rest =
         std::hypot(config.rest_relative_sd * level_um, config.rest_sd_mm_per_m * um_per_mm);
     FusionObservations readings{.values = values,
-                                .car_sd = std::sqrt(shares.car) * stated,
+                                .car_sd = of_car,
                                 .rest_sd = VectorXd::Constant(values.size(), rest),
                                 .trip_sd = config.trip_relative_sd * level_um,
                                 .cars = runs_of(passes, same_car),
@@ -167,10 +186,10 @@ FusionObservations readings_of(const std::vector<const FusionInput*>& passes,
     const auto input = [&](Index i) { return passes[static_cast<std::size_t>(i)]; };
     for (Index i = 0; i < values.size(); ++i) {
         if (const auto& calibration = input(i)->calibration) {
-            readings.car_sd[i] = std::hypot(calibration->relative_sd * level_um,
-                                            std::sqrt(shares.common) * stated[i]);
+            readings.car_sd[i] = calibration->relative_sd * level_um;
             readings.rest_sd[i] *= calibration->scatter;
         }
+        readings.car_sd[i] = std::hypot(readings.car_sd[i], beside_car[i]);
         if (input(i)->reference) {
             readings.car_sd[i] = std::sqrt(survey_share) * stated[i];
             readings.rest_sd[i] = std::sqrt(1 - survey_share) * stated[i];
@@ -227,6 +246,28 @@ excess(const FusionObservations& readings, const RoughnessTrend& level, const Ve
         (trust.array() * off.array().square() / variances.array()).sum() / trust.maxCoeff();
     const auto others = static_cast<double>(readings.values.size() - 1);
     return std::sqrt(std::max(1.0, (claims + strangeness) / (claims + others)));
+}
+
+/// Returns the factor, <= 1, on the errors that cars do not share, if the means of the cars agree
+/// better than they state; 1 for one car, however often it passed.
+double agreement(const FusionObservations& readings, const VectorXd& off) {
+    double strangeness = 0;
+    auto trip = readings.trips.begin();
+    for (const auto& [first, count] : readings.cars) {
+        const VectorXd precision =
+            readings.rest_sd.segment(first, count).cwiseAbs2().cwiseInverse();
+        const double whole = precision.sum();
+        const double mean = precision.dot(off.segment(first, count)) / whole;
+        double trips = 0;
+        for (; trip != readings.trips.end() && trip->first < first + count; ++trip) {
+            ++trips;
+        }
+        const double of_trips = readings.trip_sd * readings.trip_sd / std::max(1.0, trips);
+        const double own = precision.dot(readings.car_sd.segment(first, count).cwiseAbs2()) / whole;
+        strangeness += mean * mean / (own + of_trips + 1 / whole);
+    }
+    const auto others = static_cast<double>(readings.cars.size() - 1);
+    return std::sqrt(std::min(1.0, (claims + strangeness) / (claims + others)));
 }
 
 /// Averages the distance of one side from the headline over the passes since `from_ms`.
@@ -291,13 +332,10 @@ SegmentState with_level(SegmentState state, const RoughnessTrend& level, double 
     return state;
 }
 
-/// Returns the sd of the error common to all cars for each reading. \param stated  0 for
-/// references.
-VectorXd common_sd(const VectorXd& stated, double level_um, const FusionConfig& config) {
-    return stated.unaryExpr([&](double stated_um) {
-        return stated_um > 0 ? std::hypot(std::sqrt(config.common_share) * stated_um,
-                                          config.anchor_relative_sd * level_um)
-                             : 0.0;
+/// Returns the sd of the error common to all cars for each reading.
+VectorXd common_sd(const VectorXd& of_cars, double level_um, const FusionConfig& config) {
+    return of_cars.unaryExpr([&](double common_um) {
+        return common_um > 0 ? std::hypot(common_um, config.anchor_relative_sd * level_um) : 0.0;
     });
 }
 
@@ -328,32 +366,35 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const VectorXd values = values_of(sorted);
     const double middle_um = level_um(values);
     const VectorXd stated = stated_um(sorted, middle_um);
+    const auto parts = parts_of(sorted, stated, middle_um, config);
     const VectorXd of_cars = of_cars_alone(sorted, stated);
     const bool beside_references = of_cars.maxCoeff() > 0 && of_cars.minCoeff() <= 0;
     // The error common to all cars cannot be reduced by weighting, yet it makes a pass worth less;
     // next to references it is estimated.
-    auto weighed = readings_of(
-        sorted,
-        values,
-        stated,
-        middle_um,
-        beside_references ? Shares{config.car_share, 0}
-                          : Shares{config.common_share + config.car_share, config.common_share},
-        config);
+    const VectorXd none = VectorXd::Zero(values.size());
+    auto weighed = beside_references
+                       ? readings_of(sorted, values, stated, parts.car, none, middle_um, config)
+                       : readings_of(sorted,
+                                     values,
+                                     stated,
+                                     std::sqrt(config.car_share) * stated,
+                                     std::sqrt(config.common_share) * stated,
+                                     middle_um,
+                                     config);
     if (beside_references) {
-        weighed.common_sd = common_sd(of_cars, middle_um, config);
+        weighed.common_sd = common_sd(parts.common, middle_um, config);
     }
     auto tail = config.tail;
     tail.scatter_sd = scatter_um(values, variances_of(weighed));
     const auto level = roughness_level(weighed, times_of(sorted), middle_um, tail, config.change);
 
     const auto weights = weights_of(weighed, level.trust);
-    const auto apart =
-        readings_of(sorted, values, stated, middle_um, {config.car_share, 0}, config);
+    const auto apart = readings_of(sorted, values, stated, parts.car, none, middle_um, config);
     const VectorXd cars_part = of_cars_alone(sorted, level.influence);
-    const double apart_um = std::sqrt(variance_of(apart, cars_part) + level.change_variance_um2);
-    const double common_um =
-        beside_references ? 0 : std::sqrt(config.common_share) * of_cars.dot(level.influence);
+    const double agreed = beside_references ? 1 : agreement(apart, values - level.expected_um);
+    const double apart_um =
+        std::sqrt(agreed * agreed * variance_of(apart, cars_part) + level.change_variance_um2);
+    const double common_um = beside_references ? 0 : parts.common.dot(level.influence);
     const double anchor_um = of_cars.minCoeff() > 0 ? config.anchor_relative_sd * level.um : 0;
     const double factor = excess(weighed, level, weights);
     const double cars_um = std::hypot(factor * apart_um, factor * common_um, anchor_um);

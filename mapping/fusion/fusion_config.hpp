@@ -26,6 +26,13 @@ struct FusionConfig {
     double common_share = 0.5; ///< of the stated variance, common to all cars: same model, same
                                ///< road between the tracks (docs/method/fusion.md)
     double car_share = 0.5;    ///< of the stated variance, common to all passes of a car
+
+    /// Limits of the common part; what is beyond them is the car's. A car of which little is known
+    /// states much, but not all unknown cars are wrong alike (docs/method/fusion.md). Lateral
+    /// acceleration alone has no limit: its ratio to the vertical one is common to all cars.
+    double max_common_relative_sd = 0.13;
+    double max_common_sd_mm_per_m = 0.15;
+
     double trip_relative_sd = 0.02;    ///< common to all passes of a trip: load, tyres, weather
     double rest_relative_sd = 0.07746; ///< of each pass: wander, speed; 0.08 including trips
     double rest_sd_mm_per_m = 0.05;
@@ -33,5 +40,13 @@ struct FusionConfig {
     TailModel tail{};
     ChangeModel change{};
 };
+
+/// Returns the largest variance common to all cars, um^2/m^2, unless they have lateral acceleration
+/// alone.
+inline double max_common_variance_um2(double level_um, const FusionConfig& config) {
+    const double relative_um = config.max_common_relative_sd * level_um;
+    const double absolute_um = 1000 * config.max_common_sd_mm_per_m;
+    return relative_um * relative_um + absolute_um * absolute_um;
+}
 
 } // namespace macadam

@@ -13,12 +13,13 @@ namespace macadam {
 namespace {
 
 constexpr double ms_per_day = 86'400'000;
-constexpr double days_alike = 60;       // over which the comparison with others fades
-constexpr std::size_t min_cars = 3;     // at a place
-constexpr std::size_t block = 25;       // readings: 500 m
-constexpr std::size_t min_of_day = 10;  // readings
-constexpr double blocks_of_prior = 4;   // certainty of the prior variance of block means
-constexpr double block_share = 0.25;    // of a reading's variance that is left in a block's mean
+constexpr double days_alike = 60;      // over which the comparison with others fades
+constexpr std::size_t min_cars = 3;    // at a place
+constexpr double min_weight = 1e-3;    // of others, after 400 days; below, sums are rounding errors
+constexpr std::size_t block = 25;      // readings: 500 m
+constexpr std::size_t min_of_day = 10; // readings
+constexpr double blocks_of_prior = 4;  // certainty of the prior variance of block means
+constexpr double block_share = 0.25;   // of a reading's variance that is left in a block's mean
 constexpr double scatter_day_sd = 0.15; // of the logarithm of scatter, from day to day
 constexpr double mad_variance = 1.36;   // of its logarithm, normal distribution, times readings
 constexpr double min_share_of_largest = 0.7; // of three cars, one that changes moves two by half
@@ -135,7 +136,7 @@ void add_place(std::span<const FleetReading> readings,
     }
     const auto others = sums_of_others(dated, cars);
     for (std::size_t i = 0; i < dated.size(); ++i) {
-        if (others[i].weight > 0) {
+        if (others[i].weight >= min_weight) {
             of_cars[dated[i].period].push_back(
                 {static_cast<std::int64_t>(std::floor(dated[i].days)),
                  dated[i].trip,

@@ -56,9 +56,6 @@ public:
         return best;
     }
 
-    /// Number of parts of the car of a part.
-    std::size_t siblings(std::size_t part) const { return of_car_[parts_[part].car].size(); }
-
 private:
     void add(const Part& part) {
         of_car_[part.car].push_back(static_cast<std::uint32_t>(parts_.size()));
@@ -81,6 +78,23 @@ void assign_parts(std::vector<FleetReading>& readings,
     }
 }
 
+/// Number of parts of each car that have readings, at least 1.
+std::vector<std::size_t>
+driven_parts(const std::vector<FleetReading>& readings, const Parts& parts, std::size_t cars) {
+    std::vector<bool> is_driven(parts.all().size());
+    for (const auto& reading : readings) {
+        is_driven[reading.car] = true;
+    }
+    std::vector<std::size_t> driven(cars, 0);
+    for (std::size_t i = 0; i < is_driven.size(); ++i) {
+        driven[parts.all()[i].car] += is_driven[i] ? 1 : 0;
+    }
+    for (auto& count : driven) {
+        count = std::max<std::size_t>(1, count);
+    }
+    return driven;
+}
+
 /// Calibrates the parts as cars. The parts of a car together have the weight of one car.
 FleetCalibration calibrate_parts(const std::vector<FleetReading>& readings,
                                  const Parts& parts,
@@ -88,17 +102,18 @@ FleetCalibration calibrate_parts(const std::vector<FleetReading>& readings,
                                  const FleetPrior& prior,
                                  const std::vector<double>& stated_sd,
                                  const std::vector<double>& scatter) {
+    const auto driven = driven_parts(readings, parts, known.size());
     std::vector<std::optional<double>> known_parts;
     std::vector<double> stated_parts;
-    for (std::size_t i = 0; i < parts.all().size(); ++i) {
-        const auto car = parts.all()[i].car;
-        known_parts.push_back(known[car]);
+    std::vector<double> shares;
+    for (const auto& part : parts.all()) {
+        known_parts.push_back(known[part.car]);
+        shares.push_back(1 / static_cast<double>(driven[part.car]));
         if (!stated_sd.empty()) {
-            stated_parts.push_back(stated_sd[car] *
-                                   std::sqrt(static_cast<double>(parts.siblings(i))));
+            stated_parts.push_back(stated_sd[part.car]);
         }
     }
-    return calibrate_fleet(readings, known_parts, prior, stated_parts, scatter);
+    return calibrate_fleet(readings, known_parts, prior, stated_parts, scatter, shares);
 }
 
 /// Factors on the sd of the passes of parts that are out of line.
@@ -114,16 +129,67 @@ bool is_any_large(const std::vector<double>& factors) {
     return std::ranges::any_of(factors, [](double factor) { return factor > 1; });
 }
 
-std::vector<std::vector<CarPeriod>>
-periods_of(const Parts& parts, const FleetCalibration& found, std::size_t cars) {
-    std::vector<std::vector<CarPeriod>> periods(cars);
+/// A period with the part that it is.
+struct PartPeriod {
+    std::size_t part;
+    CarPeriod period;
+};
+
+double square(double x) {
+    return x * x;
+}
+
+/// Change of a car between two calibrated periods; what was found by a search decides whether
+/// level or scatter changed.
+CarChange change_between(const PartPeriod& before,
+                         const PartPeriod& after,
+                         const FleetCalibration& found,
+                         const FleetPrior& prior) {
+    CarChange change = *after.period.change;
+    const auto& first = *before.period.calibration;
+    const auto& second = *after.period.calibration;
+    const auto read = [&](const CarCalibration& car) {
+        return car.gain + car.offset_um / found.middle_um;
+    };
+    if (change.level_sd > 0) {
+        const double ratio = read(second) / read(first);
+        const double floors = 2 * square(prior.min_car_sd); // in both sds, not of the change
+        const double variance =
+            std::max(0.0, square(first.relative_sd) + square(second.relative_sd) - floors);
+        change.level = ratio - 1;
+        change.level_sd = ratio * std::sqrt(variance);
+    }
+    if (change.scatter != 1) {
+        change.scatter = found.scatter[after.part] / found.scatter[before.part];
+    }
+    return change;
+}
+
+/// Periods of the cars, in the order of time.
+std::vector<std::vector<CarPeriod>> periods_of(const Parts& parts,
+                                               const FleetCalibration& found,
+                                               std::size_t cars,
+                                               const FleetPrior& prior) {
+    std::vector<std::vector<PartPeriod>> of_cars(cars);
     for (std::size_t i = 0; i < parts.all().size(); ++i) {
         if (const auto& [car, from_ms, change, undated] = parts.all()[i]; !undated) {
-            periods[car].push_back({from_ms, change, found.cars[i], found.shared[i]});
+            of_cars[car].push_back({i, {from_ms, change, found.cars[i], found.shared[i]}});
         }
     }
-    for (auto& of_car : periods) {
-        std::ranges::sort(of_car, {}, &CarPeriod::from_ms); // std::nullopt is first
+    std::vector<std::vector<CarPeriod>> periods;
+    for (auto& of_car : of_cars) {
+        std::ranges::sort(of_car, {}, [](const PartPeriod& part) { // std::nullopt is first
+            return part.period.from_ms;
+        });
+        periods.emplace_back();
+        for (std::size_t i = 0; i < of_car.size(); ++i) {
+            periods.back().push_back(of_car[i].period);
+            if (i > 0 && of_car.size() > 2 && of_car[i].period.calibration &&
+                of_car[i - 1].period.calibration) {
+                periods.back().back().change =
+                    change_between(of_car[i - 1], of_car[i], found, prior);
+            }
+        }
     }
     return periods;
 }
@@ -152,8 +218,9 @@ ChangingFleet calibrate_changing_fleet(std::vector<FleetReading> readings,
     if (const auto scatter = scatter_factors(found, search.min_scatter); is_any_large(scatter)) {
         found = calibrate_parts(readings, parts, known, prior, stated_sd, scatter);
     }
-    auto periods = periods_of(parts, found, known.size());
-    return {std::move(found), std::move(periods)};
+    auto periods = periods_of(parts, found, known.size(), prior);
+    const auto left_out = leave_cars_out(readings, trips, found, prior);
+    return {std::move(found), std::move(periods), left_out};
 }
 
 } // namespace macadam

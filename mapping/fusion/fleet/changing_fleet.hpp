@@ -3,6 +3,7 @@
 #include "mapping/fusion/car_period.hpp"
 #include "mapping/fusion/fleet/car_changes.hpp"
 #include "mapping/fusion/fleet/fleet_calibration.hpp"
+#include "mapping/fusion/fleet/left_out_cars.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,12 +15,17 @@ namespace macadam {
 struct ChangingFleet {
     FleetCalibration parts; ///< of cars as they are told apart here: periods, undated trips
     std::vector<std::vector<CarPeriod>> cars; ///< periods of each car, at least one
+    LeftOutReadings left_out;                 ///< check of the components
 };
 
 /// Calibrates a fleet (calibrate_fleet) in which cars may change: finds the changes
 /// (find_car_changes), treats the periods between them as cars, and repeats until no further change
 /// is found. The passes of a car, or a period, that scatters at least 1.5 times as much as the
 /// others have an sd that is larger by its own factor.
+///
+/// All periods of a car together weigh as much as one car in the mean that is taken as correct. The
+/// changes of a car that changed more than once are those between its calibrated periods: what a
+/// search found is relative to a time that a later one has split.
 ///
 /// \param readings   in the order of places.
 /// \param known      as for calibrate_fleet, of each car

@@ -53,9 +53,10 @@ double square(double x) {
 }
 
 /// Returns the weight of each car in the mean that is taken as correct: inverse to the variance
-/// that its readings state, 1 for the median car.
+/// that its readings state, 1 for the median car, times its share.
 std::vector<double> anchor_weights(const std::vector<std::optional<double>>& known,
-                                   const std::vector<double>& stated_sd) {
+                                   const std::vector<double>& stated_sd,
+                                   const std::vector<double>& share) {
     std::vector<double> of_cars;
     for (std::size_t car = 0; car < stated_sd.size(); ++car) {
         if (!known[car] && stated_sd[car] > 0) {
@@ -63,10 +64,10 @@ std::vector<double> anchor_weights(const std::vector<std::optional<double>>& kno
         }
     }
     const double median_sd = median_of(std::move(of_cars));
-    std::vector<double> weights(known.size(), 1);
+    auto weights = share.empty() ? std::vector<double>(known.size(), 1) : share;
     for (std::size_t car = 0; car < stated_sd.size(); ++car) {
         if (!known[car] && stated_sd[car] > 0) {
-            weights[car] = square(median_sd / stated_sd[car]);
+            weights[car] *= square(median_sd / stated_sd[car]);
         }
     }
     return weights;
@@ -78,10 +79,11 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                  const std::vector<std::optional<double>>& known,
                                  const FleetPrior& prior,
                                  const std::vector<double>& stated_sd,
-                                 const std::vector<double>& scatter) {
+                                 const std::vector<double>& scatter,
+                                 const std::vector<double>& share) {
     const auto shared = shared_readings(readings);
     const auto places = shared_places(shared, known.size());
-    const auto weights = anchor_weights(known, stated_sd);
+    const auto weights = anchor_weights(known, stated_sd, share);
     FleetFit fit{shared, known, prior, weights, scatter};
     for (int round = 0; round < max_rounds; ++round) {
         const double moved = fit.settle();
@@ -106,6 +108,7 @@ FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                            .trip_sd = fit.trip_sd,
                            .rest_sd = fit.rest_sd,
                            .anchor_sd = 0,
+                           .middle_um = fit.middle_um(),
                            .local_error_variance = 0,
                            .local_error_places = 0,
                            .places = fit.place_count()};

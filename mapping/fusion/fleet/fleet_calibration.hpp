@@ -41,6 +41,7 @@ struct FleetCalibration {
     double trip_sd;              ///< spread between trips of a car, relative
     double rest_sd;              ///< of a pass, relative, in addition to FleetPrior::rest_sd_um
     double anchor_sd;            ///< common to all cars, relative
+    double middle_um;            ///< median level of the shared places
 
     /// Relative variance of what all cars misread locally, seen where known sources passed.
     double local_error_variance;
@@ -71,10 +72,13 @@ struct FleetCalibration {
 /// \param stated_sd  for each car: relative sd that its readings state; only their ratios count.
 ///                   Empty: all are alike.
 /// \param scatter    for each car: factor on the sd of its passes. Empty: all are 1.
+/// \param share      for each car: its share of the weight that one car has in the mean, > 0 and
+///                   <= 1; less than 1 for a period of a car. Empty: all are 1.
 FleetCalibration calibrate_fleet(const std::vector<FleetReading>& readings,
                                  const std::vector<std::optional<double>>& known,
                                  const FleetPrior& prior,
                                  const std::vector<double>& stated_sd = {},
-                                 const std::vector<double>& scatter = {});
+                                 const std::vector<double>& scatter = {},
+                                 const std::vector<double>& share = {});
 
 } // namespace macadam

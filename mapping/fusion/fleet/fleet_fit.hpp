@@ -53,6 +53,8 @@ public:
 
     std::size_t place_count() const { return first_of_place_.size() - 1; }
 
+    double middle_um() const { return middle_um_; } ///< median level of the places
+
     std::vector<Car> cars;
     /// Local error that the cars share, seen where a known source passed.
     struct LocalError {

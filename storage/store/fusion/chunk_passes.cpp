@@ -13,7 +13,7 @@
 namespace macadam {
 
 ChunkPasses::ChunkPasses(Database& database)
-    : select_trip_{database.prepare("SELECT sha256, vehicle, t0_utc_ms, reference_ppm"
+    : select_trip_{database.prepare("SELECT sha256, vehicle, t0_utc_ms, reference_ppm, method"
                                     " FROM trip WHERE id = ?")},
       // The rows of a chunk's segments are consecutive.
       select_places_{
@@ -71,7 +71,8 @@ std::optional<ChunkPass> ChunkPasses::pass_at(const Place& place) {
     ChunkPass pass{place.fid,
                    {pass_in(select_passes_, 2, place.key), of->sha256, of->vehicle, {}},
                    place.from_m,
-                   place.to_m};
+                   place.to_m,
+                   of->by_filter};
     pass.input.utc_ms = utc_ms_of(of->t0_utc_ms, pass.input.pass);
     pass.input.reference = of->reference;
     return pass;
@@ -89,7 +90,8 @@ const ChunkPasses::Trip* ChunkPasses::trip(std::int64_t row) {
                               Trip{select_trip_.text(0),
                                    reference ? -row : select_trip_.integer(1),
                                    known_utc_ms(select_trip_, 2),
-                                   reference})
+                                   reference,
+                                   select_trip_.text(4) == "kf"})
                      .first->second;
     }
     select_trip_.reset();

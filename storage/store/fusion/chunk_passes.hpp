@@ -17,6 +17,7 @@ struct ChunkPass {
     FusionInput input;
     double from_m; ///< station along the way, rising in driving direction
     double to_m;
+    bool by_filter; ///< estimated by the published filter (Method::kf)
 };
 
 /// Reads the passes of chunks within one transaction, because it caches trips.
@@ -35,6 +36,7 @@ private:
         std::int64_t vehicle; ///< negative for references, unlike any car
         std::optional<std::int64_t> t0_utc_ms;
         bool reference;
+        bool by_filter;
     };
     struct Place {
         std::int64_t fid;

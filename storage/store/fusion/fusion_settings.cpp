@@ -22,6 +22,8 @@ struct Setting {
 constexpr std::array settings{
     Setting{"common_share_ppm", &FusionConfig::common_share, millionths},
     Setting{"car_share_ppm", &FusionConfig::car_share, millionths},
+    Setting{"max_common_sd_ppm", &FusionConfig::max_common_relative_sd, millionths},
+    Setting{"max_common_sd_um", &FusionConfig::max_common_sd_mm_per_m, um_per_mm},
     Setting{"trip_sd_ppm", &FusionConfig::trip_relative_sd, millionths},
     Setting{"rest_sd_ppm", &FusionConfig::rest_relative_sd, millionths},
     Setting{"rest_sd_um", &FusionConfig::rest_sd_mm_per_m, um_per_mm},

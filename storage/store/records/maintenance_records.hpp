@@ -79,6 +79,8 @@ struct CalibrationReport {
     std::size_t readings;            ///< passes of cars that were used
     std::size_t surveys; ///< reference surveys that set the level; 0: the mean of the cars does
     std::size_t places;  ///< with passes of two or more cars
+    std::size_t left_out_readings; ///< predicted from other cars (left_out_cars.hpp)
+    std::size_t left_out_held;     ///< of these, inside their 90 % prediction interval
 };
 
 /// Segment whose passes count only from a certain day on.

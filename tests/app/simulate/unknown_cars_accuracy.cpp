@@ -184,7 +184,7 @@ TEST(UnknownCars, AreRightAfterTwoKilometresOfSurvey) {
     // the level to about 2 %: two sds of it.
     EXPECT_NEAR(last.bias, 0, 0.04);
     EXPECT_LE(last.rmse_100m, 0.08); // wanted: 0.05
-    EXPECT_GE(last.coverage, 0.8);   // wanted: 0.85
+    EXPECT_GE(last.coverage, 0.85);
     EXPECT_LE(last.coverage, 0.95);
 }
 

@@ -99,10 +99,15 @@ TEST_F(UpkeepProgram, CalibratesTheCarsAndTellsThem) {
     EXPECT_EQ(asked.exit_status, 0) << asked.err;
     EXPECT_EQ(Json::parse(asked.out)["generation"], 1);
     EXPECT_EQ(digest(), before);
+    EXPECT_THAT(run("calibrate", {"--dry-run"}).out,
+                HasSubstr("cars left out       90 % intervals from the other cars held "));
 
     const auto done = run("calibrate", {"--json"});
     const auto json = Json::parse(done.out);
     EXPECT_EQ(json["generation"], 2);
+    EXPECT_GT(json["left_out_passes"], 0);
+    EXPECT_GE(json["left_out_coverage"], 0.0);
+    EXPECT_LE(json["left_out_coverage"], 1.0);
     ASSERT_THAT(json["cars"], SizeIs(3));
     EXPECT_EQ(json["cars"][0]["trips"], 4);
     EXPECT_GT(json["cars"][0]["gain"], 0.5);

@@ -138,6 +138,13 @@ TEST(ChangeSince, TakesWhatAllCarsShareOutOfTheNoise) {
     EXPECT_LT(difference_of(record, record, {}).sd, 0.06); // not 0.3 sqrt(2) = 0.42
 }
 
+TEST(ChangeSince, TakesNoMoreOutOfUnknownCarsThanTheyShare) {
+    auto state = reading(2, 0.6);
+    state.passes = state.vehicles = 100;
+    const double shared = std::hypot(0.13 * 2, 0.15); // the limits of FusionConfig
+    EXPECT_NEAR(std::sqrt(common_variance(state, {})), shared, 1e-9);
+}
+
 TEST(ChangeSince, TakesNothingOutOfReferences) {
     auto state = reading(2, 0.3);
     state.passes = state.vehicles = 0;

@@ -35,6 +35,11 @@ double between_um(double level_um) {
     return std::hypot(0.08 * level_um, 50);
 }
 
+/// Factor on the errors that cars do not share, of cars that read the same.
+double agreed(int cars) {
+    return std::sqrt(6.0 / (6 + cars - 1));
+}
+
 TEST(Fusion, OfOnePassIsThatPassWithTheScatterBetweenPasses) {
     const auto state = fuse(of_many_cars({2000}, 300), {});
     const double sd_um = std::hypot(300, between_um(2000));
@@ -49,9 +54,46 @@ TEST(Fusion, OfOnePassIsThatPassWithTheScatterBetweenPasses) {
 TEST(Fusion, OfEqualPassesOfManyCarsShrinksToWhatAllCarsShare) {
     const auto state = fuse(of_many_cars(std::vector<IriUm>(9, 2000), 300), {});
     EXPECT_EQ(state.iri_um, 2000);
-    const double of_each = std::hypot(300 * std::sqrt(0.5), between_um(2000));
+    const double of_each = agreed(9) * std::hypot(300 * std::sqrt(0.5), between_um(2000));
     EXPECT_NEAR(state.sd_um, std::hypot(of_each / 3, 300 * std::sqrt(0.5)), 0.5);
     EXPECT_EQ(state.vehicles, 9);
+}
+
+TEST(Fusion, ShrinksTheSdWhereCarsAgreeButNotWherePassesOfOneCarDo) {
+    const std::vector<IriUm> readings{1900, 1950, 2000, 2050, 2100};
+    auto passes = of_many_cars(readings, 300);
+    const double of_car = std::hypot(300 * std::sqrt(0.5), between_um(2000));
+    double strangeness = 0;
+    for (const auto iri_um : readings) {
+        strangeness += std::pow((iri_um - 2000) / of_car, 2);
+    }
+    const double factor = std::sqrt((6 + strangeness) / (6 + 4));
+    EXPECT_NEAR(fuse(passes, {}).sd_um,
+                std::hypot(factor * of_car / std::sqrt(5), 300 * std::sqrt(0.5)),
+                3); // the t distribution weighs them a little
+    for (auto& input : passes) {
+        input.vehicle = 1;
+    }
+    EXPECT_NEAR(fuse(passes, {}).sd_um, std::hypot(300, between_um(2000) / std::sqrt(5)), 3);
+}
+
+TEST(Fusion, OfManyUnknownCarsShrinksToWhatUnknownCarsShare) {
+    // Half of (35 %)^2 would be (25 %)^2, but all unknown cars together err by 13 % and 0.15 mm/m.
+    const auto state = fuse(of_many_cars(std::vector<IriUm>(400, 2000), 700), {});
+    const double common_um = std::hypot(0.13 * 2000, 150);
+    const double of_each =
+        agreed(400) * std::hypot(std::sqrt(700 * 700 - common_um * common_um), between_um(2000));
+    EXPECT_NEAR(state.sd_um, std::hypot(common_um, of_each / 20), 0.5);
+    EXPECT_NEAR(fuse(of_many_cars({2000}, 700), {}).sd_um, std::hypot(700, between_um(2000)), 0.5);
+}
+
+TEST(Fusion, OfManyCarsByLateralVibrationAloneIsOffByHalfTheirVariance) {
+    auto passes = of_many_cars(std::vector<IriUm>(400, 2000), 700);
+    for (auto& input : passes) {
+        input.pass.validity = validity::indicative | validity::lateral_alone;
+    }
+    const double of_each = agreed(400) * std::hypot(700 * std::sqrt(0.5), between_um(2000));
+    EXPECT_NEAR(fuse(passes, {}).sd_um, std::hypot(700 * std::sqrt(0.5), of_each / 20), 0.5);
 }
 
 TEST(Fusion, OfOneCarNeverKnowsMoreThanThatCar) {

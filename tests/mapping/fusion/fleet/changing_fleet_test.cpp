@@ -165,6 +165,42 @@ TEST(ChangingFleet, FindsTwoChangesOfOneCar) {
     EXPECT_LT(found.cars[2][2].change->level, -0.07);
 }
 
+TEST(ChangingFleet, StatesEachChangeOfAStaircaseRelativeToThePeriodBefore) {
+    Fleet fleet{.trips_of_car = 60, .places = 300, .places_of_trip = 100};
+    fleet.level = [](auto car, auto trip) {
+        return car != 2 || trip < 20 ? 1 : trip < 40 ? 1.1 : 1.21;
+    };
+    const auto found = calibrated(fleet, drives_of(fleet, 10));
+    ASSERT_EQ(found.cars[2].size(), 3U);
+    for (const std::size_t period : {1U, 2U}) {
+        const auto& change = *found.cars[2][period].change;
+        // Twenty trips on either side that differ by 2 %: 0.6 %, and some more; three times as
+        // much.
+        EXPECT_NEAR(change.level, 0.1, 0.025) << period;
+        EXPECT_GT(change.level_sd, 0.002) << period;
+        EXPECT_LT(change.level_sd, 0.015) << period;
+    }
+}
+
+TEST(ChangingFleet, WeighsACarThatChangedAsOneCar) {
+    // Car 0 reads 20 % more than the others, and from its eleventh trip on 15 % more than before.
+    // If its two periods counted as two cars, the mean of the fleet would move.
+    Fleet fleet{.cars = 4};
+    fleet.level = [](auto car, auto trip) { return car != 0 ? 1 : trip < 10 ? 1.2 : 1.2 * 1.15; };
+    const auto drives = drives_of(fleet, 11);
+    const auto found = calibrated(fleet, drives);
+    ASSERT_EQ(found.cars[0].size(), 2U);
+    const std::vector<double> stated_sd(fleet.cars, 0.05);
+    const auto stated = calibrate_changing_fleet(drives.readings,
+                                                 drives.trips,
+                                                 std::vector<std::optional<double>>(fleet.cars),
+                                                 {},
+                                                 stated_sd);
+    for (std::size_t car = 0; car < fleet.cars; ++car) {
+        EXPECT_EQ(stated.cars[car], found.cars[car]) << car; // equal sds say as much as none
+    }
+}
+
 TEST(ChangingFleet, LeavesUndatedTripsOfACarThatChangedInNoPeriod) {
     Fleet fleet;
     fleet.level = [](auto car, auto trip) { return car == 3 && trip >= 10 ? 1.2 : 1; };
@@ -177,6 +213,29 @@ TEST(ChangingFleet, LeavesUndatedTripsOfACarThatChangedInNoPeriod) {
     EXPECT_EQ(period_at(found.cars[3], begin_ms), 0U);
     EXPECT_EQ(period_at(found.cars[3], found.cars[3][1].from_ms), 1U);
     EXPECT_EQ(period_at(found.cars[2], std::nullopt), 0U); // a car that did not change
+}
+
+TEST(CarDays, LeaveOutReadingsThatNoOtherCarMadeWithinTheYear) {
+    Drives drives;
+    for (std::uint32_t car = 0; car < 3; ++car) { // the third ten years after the others
+        drives.trips.car.push_back(car);
+        drives.trips.utc_ms.push_back(begin_ms + (car == 2 ? 3650 : car) * day_ms);
+    }
+    for (std::uint32_t place = 0; place < 30; ++place) {
+        for (std::uint32_t car = 0; car < 3; ++car) {
+            drives.readings.push_back({place, car, car, 2000.0 + place});
+        }
+    }
+    FleetCalibration fleet{};
+    fleet.cars.assign(3, CarCalibration{});
+    fleet.is_known.assign(3, false);
+    fleet.trip_sd = 0.02;
+    fleet.rest_sd = 0.07;
+    const auto days = car_days(drives.readings, drives.trips, fleet);
+    ASSERT_EQ(days.size(), 3U);
+    EXPECT_EQ(days[0].size(), 1U);
+    EXPECT_EQ(days[1].size(), 1U);
+    EXPECT_TRUE(days[2].empty());
 }
 
 TEST(ChangingFleet, CountsTripsOfOneDayOnce) {

@@ -258,6 +258,36 @@ RoadStore fleet_store(const std::filesystem::path& file, const std::vector<int>&
     return store;
 }
 
+TEST(FusedChunks, LimitWhatUnknownCarsShareUnlessTheFilterReadIt) {
+    const auto sds_by = [](const char* method) {
+        auto store = new_store(test_folder() / (std::string{method} + ".gpkg"));
+        for (int number = 0; number < 6; ++number) {
+            auto trip = trip_record(number);
+            trip.method = method;
+            auto passes = passes_of_fleet(number);
+            for (auto& pass : passes) {
+                pass.sd_um = pass.iri_um * 4 / 10;
+            }
+            add_trip(store, trip, passes);
+        }
+        store.importer.refresh();
+        std::vector<double> sds;
+        store.visit({}, [&](const SegmentRecord& record) {
+            if (record.state && record.state->vehicles > 1) {
+                sds.push_back(double(record.state->sd_um) / record.state->iri_um);
+            }
+        });
+        return sds;
+    };
+    const auto smoothed = sds_by("smoother"), filtered = sds_by("kf");
+    ASSERT_EQ(smoothed.size(), filtered.size());
+    ASSERT_FALSE(smoothed.empty());
+    for (std::size_t i = 0; i < smoothed.size(); ++i) {
+        EXPECT_GT(filtered[i], 0.28) << i; // half of (40 %)^2
+        EXPECT_LT(smoothed[i], filtered[i]) << i;
+    }
+}
+
 std::vector<int> without(std::vector<int> numbers, int number) {
     std::erase(numbers, number);
     return numbers;
@@ -269,6 +299,9 @@ TEST(Calibrate, FindsTheCarThatReadsTooHighAndFusesByIt) {
     EXPECT_EQ(report.generation, 2);
     EXPECT_EQ(store.info().generation, 2);
     const auto cars = store.usage().calibrated_cars;
+    EXPECT_GT(report.left_out_readings, 0U);
+    EXPECT_LE(report.left_out_readings, report.readings);
+    EXPECT_LE(report.left_out_held, report.left_out_readings);
     ASSERT_THAT(cars, SizeIs(3));
     std::vector<double> at_2000;
     for (const auto& car : cars) {
@@ -302,6 +335,12 @@ TEST(Calibrate, TakesWhatASurveySaysForRight) {
     const auto report = store.maintenance.calibrate();
     EXPECT_EQ(report.surveys, 1U);
     EXPECT_NEAR(report.components.anchor_relative_sd, 0.02, 0.01);
+    // Cars that differ from the survey by the same everywhere misread no place alike; what is
+    // stated counts as much as 40 places.
+    const FusionConfig stated;
+    EXPECT_LT(report.components.max_common_relative_sd, stated.max_common_relative_sd);
+    EXPECT_GT(report.components.max_common_relative_sd, 0);
+    EXPECT_GE(report.components.common_share, stated.common_share);
     ASSERT_THAT(report.cars, SizeIs(3));
     std::vector<double> at_2000;
     for (const auto& car : report.cars) {
