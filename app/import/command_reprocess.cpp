@@ -39,7 +39,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
                      {.mapping = mapping_of(arguments), .max_files = max_members_of(arguments)},
                      console};
     const bool json = arguments.flag("--json");
-    const auto tell = [&](const TripOutcome& outcome) { print_outcome(outcome, json); };
+    const auto tell = [&](const TripOutcome& outcome) { print_outcome(outcome, json, console); };
 
     const auto working = console.progress("reprocessing");
     const auto totals = reprocess_trips(store, trips, vehicles, config, jobs, working, tell);

@@ -1,6 +1,5 @@
 #include "app/import/trip_outcome_output.hpp"
 
-#include "app/cli/console.hpp"
 #include "app/cli/terminal_escape.hpp"
 #include "storage/text/json.hpp"
 
@@ -109,9 +108,13 @@ std::string text_lines(const TripOutcome& outcome) {
 
 } // namespace
 
-void print_outcome(const TripOutcome& outcome, bool json) {
+void print_outcome(const TripOutcome& outcome, bool json, const Console& console) {
     if (json) {
         print(json_line(outcome));
+    } else if (console.is_quiet() && outcome.result != TripOutcome::Result::rejected) {
+        for (const auto& warning : outcome.trip.warnings) {
+            console.warn(fmt::format("{}: {}", outcome.file, warning));
+        }
     } else {
         print_words(text_lines(outcome));
     }
