@@ -33,7 +33,7 @@ struct MatchOptions {
     std::optional<std::filesystem::path> output;
     LayerColumns columns;
     bool arcs;
-    bool geojson;
+    std::string format;
 };
 
 MatchOptions parse_match(const Arguments& arguments) {
@@ -50,17 +50,17 @@ MatchOptions parse_match(const Arguments& arguments) {
                                      .highway = "",
                                      .oneway = arguments.value("--oneway-column").value_or("")},
                          .arcs = arguments.flag("--arcs"),
-                         .geojson = row_format_of(arguments) == "geojson"};
+                         .format = row_format_of(arguments)};
     if (options.output && !arguments.value("--format")) {
         const auto suffix = options.output->extension();
-        if (suffix != ".csv" && (suffix != ".geojson" || options.arcs)) {
-            throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv{}",
+        if (suffix != ".csv" && suffix != ".json" && (suffix != ".geojson" || options.arcs)) {
+            throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv, .json{}",
                                          options.output->string(),
                                          options.arcs ? "" : " or .geojson")};
         }
     }
-    if (options.arcs && options.geojson) {
-        throw UsageError{"--arcs has no --format geojson, expected csv"};
+    if (options.arcs && options.format == "geojson") {
+        throw UsageError{"--arcs has no --format geojson, expected csv or json"};
     }
     return options;
 }
@@ -117,9 +117,8 @@ void run_match(const Arguments& arguments, const Console& console) {
     }
     console.say(summary);
 
-    const auto text = options.arcs      ? arcs_csv(trace, roads)
-                      : options.geojson ? passages_geojson(edge_traversals(trace), roads)
-                                        : passages_csv(edge_traversals(trace), roads);
+    const auto text = options.arcs ? arcs_text(trace, roads, options.format)
+                                   : passages_text(edge_traversals(trace), roads, options.format);
     RowOutput output{options.output};
     print(text);
     output.commit();
@@ -134,9 +133,11 @@ constexpr std::array options{
            "layer that GDAL reads."},
     mapping_option,
     Option{"--arcs", "", "List every pair of consecutive nodes instead of parts of edges."},
-    one_of("csv|geojson",
-           {"--format", "NAME", "csv or geojson.", "by the suffix of -o; otherwise csv"}),
-    Option{"-o,--output", "FILE", "Write a .csv or .geojson file instead of standard output."},
+    one_of("csv|json|geojson",
+           {"--format", "NAME", "csv, json or geojson.", "by the suffix of -o; otherwise csv"}),
+    Option{
+        "-o,--output", "FILE", "Write a .csv, .json or .geojson file instead of standard output."},
+    json_option,
     rare(in_group("line layers",
                   {"--layer", "NAME", "Line layers: name of the layer.", "the first with lines"})),
     rare(in_group("line layers",

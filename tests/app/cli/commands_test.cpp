@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 
 TEST(Commands, AreFoundByTheirNames) {
     for (const auto& command : commands()) {
@@ -36,9 +37,9 @@ TEST(Help, OfEveryCommandNamesEachOptionAndGivesAnExampleOfIt) {
 TEST(Help, LeavesRareOptionsToHelpAllAndSaysHowMany) {
     const auto usual = help_of(init_command);
     EXPECT_THAT(usual, HasSubstr("--network"));
-    EXPECT_THAT(usual, Not(HasSubstr("--oneway-column")));
+    EXPECT_THAT(usual, Not(HasSubstr("--highway-column")));
     EXPECT_THAT(usual, HasSubstr("6 more options are rarely needed: macadam init --help-all"));
-    EXPECT_THAT(help_of(init_command, HelpDetail::all), HasSubstr("--oneway-column"));
+    EXPECT_THAT(help_of(init_command, HelpDetail::all), HasSubstr("--highway-column"));
 }
 
 TEST(Help, SetsOptionsOfOneKindUnderOneHeading) {
@@ -64,6 +65,20 @@ TEST(Options, WithChoicesNameThemInTheirHelpAndHaveTheFirstByDefault) {
         }
     }
     EXPECT_GT(count, 20U);
+}
+
+TEST(Commands, ThatPrintRowsHaveAFormatAFileAndTheShortFormOfJson) {
+    std::vector<std::string_view> found;
+    for (const auto& command : commands()) {
+        const auto has = [&](std::string_view name) {
+            return std::ranges::count(command.options, name, &Option::name) == 1;
+        };
+        if (has("--format") && command.name != convert_command.name) { // formats of logs
+            EXPECT_TRUE(has("-o,--output") && has("--json")) << command.name;
+            found.push_back(command.name);
+        }
+    }
+    EXPECT_THAT(found, UnorderedElementsAre("query", "trace", "match", "iri", "valid-from"));
 }
 
 TEST(Commands, ThatAreMisspelledAreAnsweredWithTheNearestOne) {

@@ -305,7 +305,7 @@ TEST(Program, SaysIriOfASineAsTheClosedFormDoes) {
     // 2.7241 mm/m is the closed form for 1 mm at 2.4 m; the 0.05 m grid reads 2.7223.
     const auto out =
         expect_done(
-            {"iri", (folder / "sine.csv").string(), "--from", "100", "--to", "388", "--json"})
+            {"iri", (folder / "sine.csv").string(), "--from-m", "100", "--to-m", "388", "--json"})
             .out;
     EXPECT_THAT(out, HasSubstr("\"mri\":2.722"));
     EXPECT_THAT(out, HasSubstr("\"envelope_samples\":5"));

@@ -221,7 +221,7 @@ TEST(IriProgram, WritesWhatItReadAsErd) {
     const auto of_csv = column(expect_done({file, "-o", erd}), "mri").front();
     EXPECT_NEAR(column(expect_done({erd}), "mri").front(), of_csv, 1e-3 * of_csv);
     EXPECT_THAT(refused({uneven, "-o", erd}).err, HasSubstr("has uneven stations"));
-    EXPECT_EQ(refused({file, "-o", "a.csv"}).exit_status, 2);
+    EXPECT_EQ(refused({file, "-o", "a.txt"}).exit_status, 2);
     EXPECT_THAT(refused({erd, "-o", erd}).err, HasSubstr("a.erd"));
 }
 
