@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include <malloc.h>
 
@@ -25,6 +26,20 @@ enum ExitStatus { done = 0, failed = 1, misused = 2 };
 int tell(const std::string& words) {
     const bool written = std::fputs(words.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
     return written ? done : failed;
+}
+
+int refuse_command(std::string_view name) {
+    say(fmt::format("macadam: {}\n", macadam::refusal_of_command(name)));
+    return misused;
+}
+
+/// Answers `macadam help [COMMAND]`.
+int help_on(const std::vector<std::string>& words) {
+    if (words.empty() || words.front().starts_with('-')) {
+        return tell(macadam::help_of_all());
+    }
+    const auto* const command = macadam::command_named(words.front());
+    return command == nullptr ? refuse_command(words.front()) : tell(macadam::help_of(*command));
 }
 
 /// Runs a command and converts exceptions to a message and an exit status; the only place to do so.
@@ -67,20 +82,23 @@ int main(int argc, char** argv) {
     const auto name = words.front();
     words.erase(words.begin());
 
-    if (name == "--version") {
+    if (name == "--version" || name == "-V") {
         return tell(fmt::format("macadam {}\n", MACADAM_VERSION));
     }
-    if (name == "--help" || name == "-h" || name == "help") {
-        return tell(macadam::help_of_all());
+    if (name == "--help" || name == "-h" || name == "--help-all" || name == "help") {
+        return help_on(words);
     }
     const auto* const command = macadam::command_named(name);
     if (command == nullptr) {
-        say(fmt::format("macadam: unknown command '{}'; macadam --help lists all commands\n",
-                        name));
-        return misused;
+        return refuse_command(name);
     }
-    if (std::ranges::find(words, "--help") != words.end() ||
-        std::ranges::find(words, "-h") != words.end()) {
+    const auto given = [&](std::string_view word) {
+        return std::ranges::find(words, word) != words.end();
+    };
+    if (given("--help-all")) {
+        return tell(macadam::help_of(*command, macadam::HelpDetail::all));
+    }
+    if (given("--help") || given("-h")) {
         return tell(macadam::help_of(*command));
     }
     macadam::bear_memory_limit(name);

@@ -1,20 +1,19 @@
 #include "app/cli/arguments.hpp"
 
+#include "storage/text/spelling.hpp"
+
+#include "estimator/common/ascii.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
+#include <iterator>
 #include <utility>
 
 namespace macadam {
 namespace {
-
-/// Returns "--output" for "-o,--output".
-std::string long_name(std::string_view name) {
-    return std::string{name.substr(name.rfind(',') + 1)};
-}
 
 double number_in(std::string_view name, std::string_view word) {
     double number = 0;
@@ -30,7 +29,7 @@ void add_options(CLI::App& parser,
                  std::span<const Option> options,
                  std::map<std::string, std::vector<std::string>, std::less<>>& words) {
     for (const auto& option : options) {
-        auto& values = words[long_name(option.name)];
+        auto& values = words[long_name(option)];
         if (option.value.empty()) {
             parser
                 .add_flag_function(std::string{option.name},
@@ -49,39 +48,10 @@ void add_options(CLI::App& parser,
     }
 }
 
-/// Counts the edits between two words: insertions, deletions, substitutions and transpositions
-/// (optimal string alignment distance).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before_last;
-    std::vector<std::size_t> last(b.size() + 1);
-    std::iota(last.begin(), last.end(), 0U);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::vector<std::size_t> row{i};
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            row.push_back(std::min({changed, last[j] + 1, row[j - 1] + 1}));
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-                row[j] = std::min(row[j], before_last[j - 2] + 1);
-            }
-        }
-        before_last = std::exchange(last, std::move(row));
-    }
-    return last.back();
-}
-
-/// Suggests an option of similar spelling: "; did you mean --vehicle?"
-std::string suggestion(std::span<const Option> options, std::string_view word) {
-    const std::size_t max_edits = word.size() > 6 ? 2 : 1;
-    std::size_t fewest = max_edits + 1;
-    std::string nearest;
-    for (const auto& option : options) {
-        auto name = long_name(option.name);
-        if (const auto edits = edit_distance(word, name); edits < fewest) {
-            fewest = edits;
-            nearest = std::move(name);
-        }
-    }
-    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+std::vector<std::string> names_of(std::span<const Option> options) {
+    std::vector<std::string> names;
+    std::ranges::transform(options, std::back_inserter(names), long_name);
+    return names;
 }
 
 /// Returns the option with one value whose value directly precedes a word; nullptr if there is
@@ -95,7 +65,7 @@ const Option* option_before(std::span<const Option> options,
     const auto found = std::ranges::find_if(options, [&](const Option& option) {
         const auto end = option.name.find(',');
         return !option.value.empty() && !option.value.starts_with('[') && !option.many &&
-               (words[word - 2] == long_name(option.name) ||
+               (words[word - 2] == long_name(option) ||
                 words[word - 2] == option.name.substr(0, end));
     });
     return found == options.end() ? nullptr : &*found;
@@ -114,7 +84,7 @@ const Option* option_before(std::span<const Option> options,
         if (splits_list || (option != nullptr && words[i] == surplus)) {
             throw UsageError{fmt::format("unexpected '{}'; {} takes one value, {}",
                                          words[i],
-                                         long_name(option->name),
+                                         long_name(*option),
                                          option->value)};
         }
     }
@@ -128,7 +98,8 @@ const Option* option_before(std::span<const Option> options,
     for (const auto& extra : extras) {
         if (extra.size() > 1 && extra.front() == '-') {
             const auto name = std::string_view{extra}.substr(0, extra.find('='));
-            throw UsageError{fmt::format("unknown option {}{}", name, suggestion(options, name))};
+            throw UsageError{
+                fmt::format("unknown option {}{}", name, suggestion(name, names_of(options)))};
         }
     }
     refuse_surplus(options, words, extras.empty() ? "" : extras.front());
@@ -168,7 +139,7 @@ void expect_flags_alone(std::span<const Option> options, const std::vector<std::
     for (const auto& word : words) {
         const auto name = word.substr(0, word.find('='));
         const bool is_flag = std::ranges::any_of(options, [&](const Option& option) {
-            return option.value.empty() && long_name(option.name) == name;
+            return option.value.empty() && long_name(option) == name;
         });
         if (is_flag && name.size() < word.size()) {
             throw UsageError{fmt::format("{} takes no value, but '{}' is given", name, word)};
@@ -176,11 +147,70 @@ void expect_flags_alone(std::span<const Option> options, const std::vector<std::
     }
 }
 
+/// Replaces earlier spellings of options by the present ones, with a note for each.
+/// \throws UsageError  for an earlier spelling whose meaning has changed.
+std::vector<std::string> in_present_spelling(std::span<const Option> options,
+                                             std::vector<std::string> words,
+                                             std::vector<std::string>& notes) {
+    for (auto& word : words) {
+        const auto given = word.substr(0, word.find('='));
+        const auto found = std::ranges::find_if(options, [&](const Option& option) {
+            return !option.former.empty() && option.former == given;
+        });
+        if (found == options.end()) {
+            continue;
+        }
+        if (found->former_is_refused) {
+            throw UsageError{fmt::format("{} is called {} here now", given, long_name(*found))};
+        }
+        notes.push_back(fmt::format("{} is called {} now", given, long_name(*found)));
+        word.replace(0, given.size(), long_name(*found));
+    }
+    return words;
+}
+
+/// Replaces the values of options with choices by the choices themselves, whatever their case.
+void adopt_choices(std::span<const Option> options,
+                   std::map<std::string, std::vector<std::string>, std::less<>>& words) {
+    for (const auto& option : options) {
+        if (option.choices.empty()) {
+            continue;
+        }
+        const auto choices = choices_in(option.choices);
+        for (auto& word : words.at(long_name(option))) {
+            const auto found = std::ranges::find_if(
+                choices, [&](auto choice) { return in_lower_case(choice) == in_lower_case(word); });
+            if (found == choices.end()) {
+                throw UsageError{fmt::format("{} is '{}', expected {}",
+                                             long_name(option),
+                                             word,
+                                             fmt::join(choices, " or "))};
+            }
+            word = *found;
+        }
+    }
+}
+
 } // namespace
+
+std::string long_name(const Option& option) {
+    return std::string{option.name.substr(option.name.rfind(',') + 1)};
+}
+
+std::vector<std::string_view> choices_in(std::string_view choices) {
+    std::vector<std::string_view> words;
+    for (auto rest = choices; !rest.empty();) {
+        const auto end = std::min(rest.find('|'), rest.size());
+        words.push_back(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return words;
+}
 
 Arguments::Arguments(std::span<const Option> options,
                      std::span<const Operand> operands,
                      std::vector<std::string> words) {
+    words = in_present_spelling(options, std::move(words), notes_);
     expect_flags_alone(options, words);
     CLI::App parser;
     parser.set_help_flag();
@@ -201,6 +231,12 @@ Arguments::Arguments(std::span<const Option> options,
         throw UsageError{error.what()};
     }
     distribute(options, operands, words, given, words_);
+    adopt_choices(options, words_);
+    for (const auto& option : options) {
+        if (const auto choices = choices_in(option.choices); !choices.empty()) {
+            choices_.emplace(long_name(option), choices);
+        }
+    }
 }
 
 bool Arguments::flag(std::string_view name) const {
@@ -258,14 +294,16 @@ std::optional<std::vector<double>> Arguments::numbers(std::string_view name,
     return numbers;
 }
 
-std::string Arguments::choice(std::string_view name,
-                              std::span<const std::string_view> words) const {
-    auto word = value(name).value_or(std::string{words.front()});
-    if (std::ranges::find(words, word) == words.end()) {
-        throw UsageError{
-            fmt::format("{} is '{}', expected {}", name, word, fmt::join(words, " or "))};
+std::string Arguments::choice(std::string_view name) const {
+    return value(name).value_or(std::string{choices(name).front()});
+}
+
+const std::vector<std::string_view>& Arguments::choices(std::string_view name) const {
+    const auto found = choices_.find(name);
+    if (found == choices_.end()) {
+        throw std::logic_error{fmt::format("the command's table has no choices for {}", name)};
     }
-    return word;
+    return found->second;
 }
 
 const std::string& Arguments::operand(std::string_view name) const {

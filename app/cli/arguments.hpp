@@ -16,14 +16,51 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Option in a command's table, with all that the parser and the help need.
+/// Option in a command's table, with all that the parser, the help, the manual pages and the
+/// completion of shells need.
 struct Option {
-    std::string_view name;       ///< "--length", or "-o,--output"
-    std::string_view value;      ///< "METRES", "[METRES]" if it may be left out, "" for a flag
-    std::string_view help;       ///< one sentence
-    std::string_view fallback{}; ///< value without the option, as help shows it; "" = none
-    bool many = false;           ///< takes all words up to the next option
+    std::string_view name;          ///< "--length", or "-o,--output"
+    std::string_view value;         ///< "METRES", "[METRES]" if it may be left out, "" for a flag
+    std::string_view help;          ///< one sentence
+    std::string_view fallback{};    ///< value without the option, as help shows it; "" = none
+    bool many = false;              ///< takes all words up to the next option
+    std::string_view choices{};     ///< "light|dark|print": the only values; "" = any
+    std::string_view group{};       ///< heading in the help; "" = "options"
+    bool rare = false;              ///< shown by --help-all and in the manual page only
+    std::string_view former{};      ///< earlier spelling: an alias that is answered with a note
+    bool former_is_refused = false; ///< the earlier spelling meant something else: a UsageError
 };
+
+/// \name Words of the tables: `rare(one_of("csv|json", {"--format", ...}))`
+/// @{
+constexpr Option one_of(std::string_view choices, Option option) {
+    option.choices = choices;
+    return option;
+}
+constexpr Option in_group(std::string_view group, Option option) {
+    option.group = group;
+    return option;
+}
+constexpr Option rare(Option option) {
+    option.rare = true;
+    return option;
+}
+constexpr Option formerly(std::string_view name, Option option) {
+    option.former = name;
+    return option;
+}
+constexpr Option instead_of(std::string_view refused, Option option) {
+    option.former = refused;
+    option.former_is_refused = true;
+    return option;
+}
+/// @}
+
+/// Returns "--output" for "-o,--output".
+std::string long_name(const Option& option);
+
+/// Returns {"light", "dark", "print"} for "light|dark|print".
+std::vector<std::string_view> choices_in(std::string_view choices);
 
 /// Positional argument.
 struct Operand {
@@ -32,13 +69,15 @@ struct Operand {
     bool many = false;           ///< one or more; only the last operand may be
     std::string_view fallback{}; ///< value if omitted; last operand only
     bool optional = false;       ///< may be omitted; there is no value then
+    std::string_view choices{};  ///< "own|crowd": values that shells complete; "" = any
 };
 
 /// Words after the command's name, parsed by the command's tables. Values stay text until the
 /// command asks for a type; a word that does not fit causes a UsageError that quotes it.
 class Arguments {
 public:
-    /// \throws UsageError  for an unknown option, a missing value or operand, or a surplus word.
+    /// \throws UsageError  for an unknown option, a missing value or operand, a value that is none
+    ///                     of the option's choices, or a surplus word.
     Arguments(std::span<const Option> options,
               std::span<const Operand> operands,
               std::vector<std::string> words);
@@ -54,14 +93,21 @@ public:
     /// \throws UsageError  if there are not `count`.
     std::optional<std::vector<double>> numbers(std::string_view name, std::size_t count) const;
 
-    /// Parses a value from a list of words; the first is the default.
-    std::string choice(std::string_view name, std::span<const std::string_view> words) const;
+    /// Returns the value of an option with choices; the first choice is the default.
+    std::string choice(std::string_view name) const;
+    /// Returns the choices of an option that has some.
+    const std::vector<std::string_view>& choices(std::string_view name) const;
 
     const std::string& operand(std::string_view name) const;
     const std::vector<std::string>& operands(std::string_view name) const;
 
+    /// Returns a sentence for each option that was given in an earlier spelling.
+    const std::vector<std::string>& notes() const { return notes_; }
+
 private:
     std::map<std::string, std::vector<std::string>, std::less<>> words_;
+    std::map<std::string, std::vector<std::string_view>, std::less<>> choices_;
+    std::vector<std::string> notes_;
 };
 
 } // namespace macadam

@@ -2,11 +2,13 @@
 
 #include "app/cli/interrupt_handler.hpp"
 #include "storage/atomic/temporary_folder.hpp"
+#include "storage/text/spelling.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace macadam {
 namespace {
@@ -28,16 +30,11 @@ std::string described(std::string_view term, std::string_view text) {
 }
 
 std::string described(const Option& option) {
-    auto term = std::string{option.name};
-    std::replace(term.begin(), term.end(), ',', ' ');
-    if (!option.value.empty()) {
-        term += fmt::format(" {}{}", option.value, option.many ? "..." : "");
-    }
     auto text = std::string{option.help};
     if (!option.fallback.empty()) {
         text += fmt::format(" [{}]", option.fallback);
     }
-    return described(term, text);
+    return described(term_of(option), text);
 }
 
 /// Reports unfinished files that killed programs left beside their outputs.
@@ -78,6 +75,17 @@ const Command* command_named(std::string_view name) {
     return found == commands().end() ? nullptr : &*found;
 }
 
+std::string refusal_of_command(std::string_view name) {
+    std::vector<std::string> names{"help"};
+    std::ranges::transform(commands(), std::back_inserter(names), [](const Command& command) {
+        return std::string{command.name};
+    });
+    const auto nearest = suggestion(name, names);
+    return fmt::format("unknown command '{}'{}",
+                       name,
+                       nearest.empty() ? "; macadam --help lists all commands" : nearest);
+}
+
 std::string usage_of(const Command& command) {
     auto usage = fmt::format("macadam {}", command.name);
     for (const auto& operand : command.operands) {
@@ -87,7 +95,29 @@ std::string usage_of(const Command& command) {
     return usage + " [OPTION...]";
 }
 
-std::string help_of(const Command& command) {
+std::vector<OptionGroup> option_groups_of(const Command& command) {
+    std::vector<OptionGroup> groups{{"options", {}}};
+    for (const auto& option : command.options) {
+        const auto title = option.group.empty() ? groups.front().title : option.group;
+        auto group = std::ranges::find(groups, title, &OptionGroup::title);
+        if (group == groups.end()) {
+            group = groups.insert(group, {title, {}});
+        }
+        group->options.push_back(option);
+    }
+    groups.front().options.push_back(quiet);
+    return groups;
+}
+
+std::string term_of(const Option& option) {
+    auto term = std::string{option.name};
+    std::ranges::replace(term, ',', ' ');
+    return option.value.empty()
+               ? term
+               : fmt::format("{} {}{}", term, option.value, option.many ? "..." : "");
+}
+
+std::string help_of(const Command& command, HelpDetail detail) {
     auto help =
         fmt::format("{}\n\nusage: {}\n\n{}\n", command.summary, usage_of(command), command.about);
     if (!command.operands.empty()) {
@@ -96,9 +126,21 @@ std::string help_of(const Command& command) {
             help += described(operand.name, operand.help);
         }
     }
-    help += "\noptions\n";
-    for (const auto& option : options_of(command)) {
-        help += described(option);
+    std::size_t hidden = 0;
+    for (const auto& [title, options] : option_groups_of(command)) {
+        std::string lines;
+        for (const auto& option : options) {
+            const bool shown = detail == HelpDetail::all || !option.rare;
+            lines += shown ? described(option) : "";
+            hidden += shown ? 0U : 1U;
+        }
+        help += lines.empty() ? "" : fmt::format("\n{}\n{}", title, lines);
+    }
+    if (hidden > 0) {
+        help += fmt::format("\n{} rarely needed: macadam {} --help-all\n",
+                            hidden == 1 ? "One more option is"
+                                        : fmt::format("{} more options are", hidden),
+                            command.name);
     }
     return help + fmt::format("\nexample\n{}\n", command.example);
 }
@@ -106,7 +148,7 @@ std::string help_of(const Command& command) {
 std::string help_of_all() {
     std::string help =
         "Macadam: road roughness maps from the sensors that ordinary cars already have\n\n"
-        "usage: macadam COMMAND ...    macadam COMMAND --help    macadam --version\n\n";
+        "usage: macadam COMMAND ...    macadam help COMMAND    macadam --version\n\n";
     for (const auto& command : commands()) {
         help += described(command.name, command.summary);
     }
@@ -125,6 +167,9 @@ void run(const Command& command, std::vector<std::string> words) {
     const Arguments arguments{options, command.operands, std::move(words)};
     const InterruptHandler interruption{command.name};
     const Console console{arguments.flag("--quiet"), interruption.stop()};
+    for (const auto& note : arguments.notes()) {
+        console.say(fmt::format("macadam: note: {}", note));
+    }
     say_what_was_left(command, arguments, console);
     command.run(arguments, console);
     flush_results();

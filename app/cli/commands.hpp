@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace macadam {
 
@@ -26,11 +27,28 @@ std::span<const Command> commands();
 /// Returns the command of that name; null if there is none.
 const Command* command_named(std::string_view name);
 
+/// Returns "unknown command 'imprt'; did you mean import?"
+std::string refusal_of_command(std::string_view name);
+
 /// Returns the usage line: "macadam iri PROFILE [OPTION...]".
 std::string usage_of(const Command& command);
 
-/// Returns the output of `macadam COMMAND --help`.
-std::string help_of(const Command& command);
+/// Options of a command under one heading of its help, in the order of the table.
+struct OptionGroup {
+    std::string_view title;
+    std::vector<Option> options;
+};
+
+/// Returns the options of a command by group, in the order in which groups first appear in its
+/// table; "options", which all commands have, comes first and ends with --quiet.
+std::vector<OptionGroup> option_groups_of(const Command& command);
+
+/// Returns "-o --output FILE", "--trip TRIP...": an option as help shows it.
+std::string term_of(const Option& option);
+
+/// Returns the output of `macadam COMMAND --help`, or of --help-all with the rare options.
+enum class HelpDetail { usual, all };
+std::string help_of(const Command& command, HelpDetail detail = HelpDetail::usual);
 
 /// Returns the output of `macadam --help`.
 std::string help_of_all();

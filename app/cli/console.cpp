@@ -1,5 +1,6 @@
 #include "app/cli/console.hpp"
 
+#include "app/cli/row_output.hpp"
 #include "app/cli/terminal_escape.hpp"
 
 #include "estimator/common/error.hpp"
@@ -94,6 +95,9 @@ void print_words(std::string_view text) {
 }
 
 void print(std::string_view text) {
+    if (RowOutput::write(text)) {
+        return;
+    }
     require_written(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
 }
 

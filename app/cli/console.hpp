@@ -25,6 +25,7 @@ public:
     Progress progress(std::string label) const;
 
     const std::stop_token& stop() const { return stop_; }
+    bool is_quiet() const { return quiet_; }
 
 private:
     std::stop_token stop_;

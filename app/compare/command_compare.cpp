@@ -51,7 +51,7 @@ SegmentFilter parse_selection(const Arguments& arguments) {
         filter.box = box_of(*degrees);
     }
     filter.way_id = arguments.integer("--way");
-    filter.name_part = arguments.value("--name").value_or("");
+    filter.name_part = arguments.value("--road").value_or("");
     filter.highway = arguments.value("--highway").value_or("");
     filter.period = parse_period(arguments);
     return filter;
@@ -93,7 +93,7 @@ void expect_effect(const Arguments& arguments, const CompareOptions& options) {
     };
     if (count(SourceKind::profile) == 2) {
         expect_none_of(arguments,
-                       {"--bbox", "--way", "--name", "--highway", "--since", "--until"},
+                       {"--bbox", "--way", "--road", "--highway", "--since", "--until"},
                        "selects roads or passes, but A and B are profiles, which have neither");
     }
     if (count(SourceKind::survey) == 2) {
@@ -112,17 +112,15 @@ void expect_effect(const Arguments& arguments, const CompareOptions& options) {
 }
 
 CompareOptions parse_compare(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
     constexpr double max_interval_m = 1000, max_lag_m = 100;
-    CompareOptions options{.a = parse_source(arguments, "A", "--car-a"),
-                           .b = parse_source(arguments, "B", "--car-b"),
-                           .filter = parse_selection(arguments),
-                           .roads = arguments.value("--roads"),
-                           .mm_per_m_of_one = arguments.choice("--unit", units) == "in/mi"
-                                                  ? 1 / in_per_mi_of_mm_per_m
-                                                  : 1,
-                           .step_m = arguments.number("--step"),
-                           .profiles = {}};
+    CompareOptions options{
+        .a = parse_source(arguments, "A", "--car-a"),
+        .b = parse_source(arguments, "B", "--car-b"),
+        .filter = parse_selection(arguments),
+        .roads = arguments.value("--roads"),
+        .mm_per_m_of_one = arguments.choice("--unit") == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1,
+        .step_m = arguments.number("--step"),
+        .profiles = {}};
     options.profiles.max_lag_m =
         parse_length(arguments, "--max-lag", options.profiles.max_lag_m, max_lag_m);
     options.profiles.interval_m =
@@ -186,12 +184,12 @@ constexpr std::array options{
     Option{"--car-b", "ID", "Only this car of database B."},
     bbox_option,
     way_option,
-    name_option,
+    road_option,
     highway_option,
     since_option,
     until_option,
     Option{"--roads", "STORE", "Road database on whose roads two surveys are compared."},
-    Option{"--unit", "UNIT", "IRI unit of surveys: mm/m or in/mi.", "mm/m"},
+    one_of("mm/m|in/mi", {"--unit", "UNIT", "IRI unit of surveys: mm/m or in/mi.", "mm/m"}),
     Option{"--step", "METRES", "Spacing of the points of profiles, as in 'macadam iri'."},
     Option{"--length", "METRES", "Interval of profiles whose IRI is compared.", "20"},
     Option{"--max-lag", "METRES", "Largest shift of one profile along the other.", "5"}};

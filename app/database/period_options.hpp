@@ -9,12 +9,14 @@
 
 namespace macadam {
 
-inline constexpr Option since_option{
-    "--since",
-    "TIME",
-    "Use only passes from this time on: 2026-03-01, 2026-03 or 2026-03-01T06:00:00Z."};
-inline constexpr Option until_option{
-    "--until", "TIME", "Use only passes up to this time; a day or month is included to its end."};
+inline constexpr Option since_option =
+    in_group("selection",
+             {"--since",
+              "TIME",
+              "Use only passes from this time on: 2026-03-01, 2026-03 or 2026-03-01T06:00:00Z."});
+inline constexpr Option until_option = in_group(
+    "selection",
+    {"--until", "TIME", "Use only passes up to this time; a day or month is included to its end."});
 
 /// Parses --since and --until; returns `std::nullopt` if neither is given.
 /// \throws UsageError  for an invalid time, and for an end that is not after the beginning.

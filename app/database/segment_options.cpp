@@ -54,7 +54,7 @@ SegmentFilter parse_filter(const Arguments& arguments) {
         filter.box = box_of(*degrees);
     }
     filter.way_id = arguments.integer("--way");
-    filter.name_part = arguments.value("--name").value_or("");
+    filter.name_part = arguments.value("--road").value_or("");
     filter.with_state_only = !arguments.flag("--all");
     filter.highway = arguments.value("--highway").value_or("");
     filter.class_name = arguments.value("--class").value_or("");

@@ -11,14 +11,19 @@ namespace macadam {
 // Operands and options shared by commands that read a database.
 inline constexpr Operand store_operand{"STORE",
                                        "The road database, a .gpkg file made by 'macadam init'."};
-inline constexpr Option bbox_option{"--bbox", "W,S,E,N", "Only segments in this box, in degrees."};
-inline constexpr Option way_option{"--way", "ID", "Only segments of this way."};
-inline constexpr Option name_option{
-    "--name",
-    "TEXT",
-    "Only roads whose name contains this text; upper and lower case are the "
-    "same."};
-inline constexpr Option all_option{"--all", "", "Also segments without any pass."};
+inline constexpr Option bbox_option =
+    in_group("selection", {"--bbox", "W,S,E,N", "Only segments in this box, in degrees."});
+inline constexpr Option way_option =
+    in_group("selection", {"--way", "ID", "Only segments of this way."});
+inline constexpr Option road_option =
+    formerly("--name",
+             in_group("selection",
+                      {"--road",
+                       "TEXT",
+                       "Only roads whose name contains this text; upper and lower case are the "
+                       "same."}));
+inline constexpr Option all_option =
+    in_group("selection", {"--all", "", "Also segments without any pass."});
 
 /// Returns the STORE operand.
 /// \throws UsageError  for the address of a server: a database is a file.
@@ -28,14 +33,15 @@ std::filesystem::path store_file(const Arguments& arguments);
 /// \throws UsageError  if they form no box.
 GeoBox box_of(const std::vector<double>& degrees);
 
-inline constexpr Option highway_option{
-    "--highway", "CLASS", "Only roads of this OpenStreetMap class, such as residential."};
-inline constexpr Option class_option{
-    "--class", "NAME", "Only segments in this roughness class, such as poor."};
-inline constexpr Option min_passes_option{
-    "--min-passes", "N", "Only segments with at least this many passes."};
+inline constexpr Option highway_option = in_group(
+    "selection",
+    {"--highway", "CLASS", "Only roads of this OpenStreetMap class, such as residential."});
+inline constexpr Option class_option = in_group(
+    "selection", {"--class", "NAME", "Only segments in this roughness class, such as poor."});
+inline constexpr Option min_passes_option =
+    in_group("selection", {"--min-passes", "N", "Only segments with at least this many passes."});
 
-/// Parses --bbox, --way, --name, --highway, --class, --min-passes, --since, --until and --all.
+/// Parses --bbox, --way, --road, --highway, --class, --min-passes, --since, --until and --all.
 /// \throws UsageError  for invalid values.
 SegmentFilter parse_filter(const Arguments& arguments);
 

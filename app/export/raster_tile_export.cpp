@@ -18,40 +18,38 @@
 namespace macadam {
 namespace {
 
-constexpr std::array<std::string_view, 2> tile_kinds{"vector", "picture"};
-constexpr std::array<std::string_view, 2> tile_sizes{"256", "512"};
-constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
-
 void expect_whole_network(const SegmentFilter& filter) {
+    if (filter.min_passes > 0) {
+        throw UsageError{"--min-passes selects segments; --tiles picture shows all roads, with "
+                         "--grey-below N those of fewer passes in grey"};
+    }
     if (filter.way_id || !filter.name_part.empty() || !filter.highway.empty() ||
         !filter.class_name.empty() || filter.period || !filter.with_state_only) {
         throw UsageError{"--tiles picture shows all roads of a box: combine it with --bbox and "
-                         "--min-passes only, not with options that select segments"};
+                         "--grey-below only, not with options that select segments"};
     }
 }
 
 void expect_no_picture_looks(const Arguments& arguments) {
     if (arguments.value("--tile-size") || arguments.value("--theme") ||
         arguments.value("--style") || arguments.flag("--left-hand") ||
-        arguments.flag("--no-labels")) {
-        throw UsageError{"--tile-size, --theme, --style, --left-hand and --no-labels require "
-                         "--tiles picture"};
+        arguments.flag("--no-labels") || arguments.value("--grey-below")) {
+        throw UsageError{"--tile-size, --theme, --style, --grey-below, --left-hand and "
+                         "--no-labels require --tiles picture"};
     }
 }
 
-MapStyle style_of(const Arguments& arguments, const SegmentFilter& filter) {
+MapStyle style_of(const Arguments& arguments) {
     auto style = parse_style_file(arguments);
     if (arguments.value("--theme")) {
-        const auto theme = arguments.choice("--theme", themes);
+        const auto theme = arguments.choice("--theme");
         style.theme = theme == "dark"    ? MapStyle::Theme::dark
                       : theme == "print" ? MapStyle::Theme::print
                                          : MapStyle::Theme::light;
     }
     style.left_hand_traffic = arguments.flag("--left-hand");
     style.labels = !arguments.flag("--no-labels");
-    if (filter.min_passes > 0) {
-        style.min_passes = filter.min_passes;
-    }
+    style.min_passes = grey_below(arguments).value_or(style.min_passes);
     return style;
 }
 
@@ -86,17 +84,17 @@ StoreInfo info_of(const std::filesystem::path& file, const Console& console) {
 
 std::optional<PicturePlan>
 parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const SegmentFilter& filter) {
-    if (arguments.choice("--tiles", tile_kinds) != "picture") {
+    if (arguments.choice("--tiles") != "picture") {
         expect_no_picture_looks(arguments);
         return std::nullopt;
     }
     expect_whole_network(filter);
     return PicturePlan{.min_zoom = tiles.min_zoom,
                        .max_zoom = tiles.max_zoom,
-                       .tile_px = arguments.choice("--tile-size", tile_sizes) == "512" ? 512 : 256,
+                       .tile_px = arguments.choice("--tile-size") == "512" ? 512 : 256,
                        .jobs = tiles.jobs,
                        .box = {},
-                       .style = style_of(arguments, filter)};
+                       .style = style_of(arguments)};
 }
 
 void expect_no_picture_options(const Arguments& arguments) {

@@ -10,15 +10,19 @@
 
 namespace macadam {
 
-inline constexpr Option tiles_option{
-    "--tiles", "WHAT", "Kind of tiles: vector or picture (PNG).", "vector"};
-inline constexpr Option tile_size_option{
-    "--tile-size", "PX", "Picture tiles: 256 or 512 pixels per side.", "256"};
-inline constexpr Option tile_theme_option{
-    "--theme", "NAME", "Picture tiles: light, dark or print.", "light"};
-inline constexpr Option tile_left_hand_option{
-    "--left-hand", "", "Picture tiles: traffic keeps left."};
-inline constexpr Option tile_no_labels_option{"--no-labels", "", "Picture tiles: omit road names."};
+inline constexpr Option tiles_option = one_of(
+    "vector|picture",
+    in_group("tiles", {"--tiles", "WHAT", "Kind of tiles: vector or picture (PNG).", "vector"}));
+inline constexpr Option tile_size_option = rare(one_of(
+    "256|512",
+    in_group("tiles", {"--tile-size", "PX", "Picture tiles: 256 or 512 pixels per side.", "256"})));
+inline constexpr Option tile_theme_option = rare(one_of(
+    "light|dark|print",
+    in_group("tiles", {"--theme", "NAME", "Picture tiles: light, dark or print.", "light"})));
+inline constexpr Option tile_left_hand_option =
+    rare(in_group("tiles", {"--left-hand", "", "Picture tiles: traffic keeps left."}));
+inline constexpr Option tile_no_labels_option =
+    rare(in_group("tiles", {"--no-labels", "", "Picture tiles: omit road names."}));
 
 /// Parses the plan of picture tiles if --tiles asks for them; the box is set later.
 ///

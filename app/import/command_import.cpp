@@ -98,8 +98,12 @@ void import_known(RoadStore& store, const ImportOptions& options, const Console&
         const auto outcome = import_survey(store, roads, known);
         if (options.json) {
             print(json_line(outcome));
-        } else {
+        } else if (!console.is_quiet()) {
             print_words(text_lines(outcome));
+        } else {
+            for (const auto& warning : outcome.warnings) {
+                console.warn(fmt::format("{}: {}", outcome.file, warning));
+            }
         }
         flush_results();
     }
@@ -165,7 +169,7 @@ void run_import(const Arguments& arguments, const Console& console) {
         console.say(spoken(*earlier));
     }
 
-    const auto tell = [&](const TripReport& trip) { print_report(trip, options.json); };
+    const auto tell = [&](const TripReport& trip) { print_report(trip, options.json, console); };
     const auto importing = console.progress("importing");
     const auto totals =
         import_trips(store,

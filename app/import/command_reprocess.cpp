@@ -29,7 +29,7 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
                      {.mapping = mapping_of(arguments), .max_files = max_members_of(arguments)},
                      console};
     const bool json = arguments.flag("--json");
-    const auto tell = [&](const TripReport& trip) { print_report(trip, json); };
+    const auto tell = [&](const TripReport& trip) { print_report(trip, json, console); };
 
     const auto working = console.progress("reprocessing");
     const ImportWork work{.pipeline = config, .jobs = jobs, .reprocess = true};

@@ -21,7 +21,7 @@ constexpr double min_accuracy_percent = 0.1;
 constexpr double max_accuracy_percent = 50;
 
 void expect_its_file(const Arguments& arguments) {
-    for (const auto* const option : {"--accuracy", "--date", "--name"}) {
+    for (const auto* const option : {"--accuracy", "--date", "--survey-name"}) {
         if (!arguments.value("--reference") && arguments.value(option)) {
             throw UsageError{fmt::format("{} requires --reference FILE.csv", option)};
         }
@@ -84,17 +84,15 @@ TripRecord record_of(const SurveyOutcome& outcome) {
 } // namespace
 
 KnownRoughness parse_known_roughness(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
     expect_its_file(arguments);
     KnownRoughness known;
     known.survey = arguments.value("--reference");
     known.control = arguments.value("--control");
     known.relative_sd = parse_accuracy(arguments);
     known.utc_ms = parse_day(arguments);
-    known.name = arguments.value("--name").value_or(known.survey ? known.survey->stem().string()
-                                                                 : std::string{});
-    known.mm_per_m_of_one =
-        arguments.choice("--unit", units) == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1;
+    known.name = arguments.value("--survey-name")
+                     .value_or(known.survey ? known.survey->stem().string() : std::string{});
+    known.mm_per_m_of_one = arguments.choice("--unit") == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1;
     known.readmit = arguments.flag("--take-back");
     return known;
 }

@@ -12,18 +12,29 @@
 
 namespace macadam {
 
-inline constexpr Option reference_option{
-    "--reference", "FILE.csv", "Import a survey by a better instrument as a reference."};
-inline constexpr Option accuracy_option{
-    "--accuracy", "PERCENT", "With --reference: standard deviation of its values.", "3"};
-inline constexpr Option reference_date_option{
-    "--date", "YYYY-MM-DD", "With --reference: date of the measurement."};
-inline constexpr Option reference_name_option{
-    "--name", "TEXT", "With --reference: its name.", "the file's name"};
-inline constexpr Option control_option{
-    "--control", "FILE.csv", "Control sections of known IRI, to monitor the cars."};
-inline constexpr Option known_unit_option{
-    "--unit", "UNIT", "IRI unit of the --reference and --control files: mm/m or in/mi.", "mm/m"};
+inline constexpr Option reference_option =
+    in_group("reference measurements",
+             {"--reference", "FILE.csv", "Import a survey by a better instrument as a reference."});
+inline constexpr Option accuracy_option = rare(in_group(
+    "reference measurements",
+    {"--accuracy", "PERCENT", "With --reference: standard deviation of its values.", "3"}));
+inline constexpr Option reference_date_option =
+    rare(in_group("reference measurements",
+                  {"--date", "YYYY-MM-DD", "With --reference: date of the measurement."}));
+inline constexpr Option reference_name_option = formerly(
+    "--name",
+    rare(in_group("reference measurements",
+                  {"--survey-name", "TEXT", "With --reference: its name.", "the file's name"})));
+inline constexpr Option control_option = rare(
+    in_group("reference measurements",
+             {"--control", "FILE.csv", "Control sections of known IRI, to monitor the cars."}));
+inline constexpr Option known_unit_option =
+    rare(one_of("mm/m|in/mi",
+                in_group("reference measurements",
+                         {"--unit",
+                          "UNIT",
+                          "IRI unit of the --reference and --control files: mm/m or in/mi.",
+                          "mm/m"})));
 
 /// Files of known roughness to import.
 struct KnownRoughness {

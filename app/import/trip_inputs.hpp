@@ -13,8 +13,8 @@
 namespace macadam {
 
 /// Option for commands that read many trips.
-inline constexpr Option max_members_option{
-    "--max-members", "N", "Maximum number of files in an archive.", "1000"};
+inline constexpr Option max_members_option =
+    rare({"--max-members", "N", "Maximum number of files in an archive.", "1000"});
 
 /// Parses --max-members.
 /// \throws UsageError  for an invalid number.

@@ -1,6 +1,5 @@
 #include "app/import/trip_report_output.hpp"
 
-#include "app/cli/console.hpp"
 #include "app/cli/terminal_escape.hpp"
 #include "storage/text/json.hpp"
 
@@ -106,9 +105,13 @@ std::string text_lines(const TripReport& trip) {
 
 } // namespace
 
-void print_report(const TripReport& trip, bool json) {
+void print_report(const TripReport& trip, bool json, const Console& console) {
     if (json) {
         print(json_line(trip));
+    } else if (console.is_quiet() && trip.result != TripReport::Result::rejected) {
+        for (const auto& warning : trip.warnings) {
+            console.warn(fmt::format("{}: {}", trip.file, warning));
+        }
     } else {
         print_words(text_lines(trip));
     }

@@ -9,10 +9,11 @@ namespace macadam {
 struct TripMapping;
 
 /// Option for commands that read trips.
-inline constexpr Option mapping_option{
-    "--mapping",
-    "NAME|FILE",
-    "Column mapping for files of another logger: racechrono, trackaddict or a TOML file."};
+inline constexpr Option mapping_option = in_group(
+    "car and log",
+    {"--mapping",
+     "NAME|FILE",
+     "Column mapping for files of another logger: racechrono, trackaddict or a TOML file."});
 
 /// Returns the mapping of --mapping; null without it.
 ///

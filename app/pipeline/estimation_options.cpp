@@ -63,10 +63,8 @@ void choose_channels(EstimatorConfig& estimator, const std::string& list) {
 } // namespace
 
 PipelineConfig pipeline_config_of(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 2> methods{"smoother", "kf"};
-
     PipelineConfig config;
-    const bool smoother = arguments.choice("--method", methods) != "kf";
+    const bool smoother = arguments.choice("--method") != "kf";
     config.estimator.method = smoother ? Method::smoother : Method::kf;
     config.stretch.samples_a_metre = smoother ? smoother_samples_a_metre : 0;
     choose_channels(config.estimator, arguments.value("--channels").value_or("automatic"));

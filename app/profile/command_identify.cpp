@@ -40,7 +40,6 @@ struct IdentifyOptions {
 };
 
 IdentifyOptions parse_identify(const Arguments& arguments) {
-    constexpr std::array methods{likelihood, spectrum};
     const auto profile = arguments.value("--profile");
     if (!profile) {
         throw UsageError{"--profile FILE is missing: the measured profile of the road"};
@@ -50,7 +49,7 @@ IdentifyOptions parse_identify(const Arguments& arguments) {
                             .at_m = arguments.number("--at"),
                             .step_m = arguments.number("--step"),
                             .outputs = {},
-                            .method = arguments.choice("--method", methods),
+                            .method = arguments.choice("--method"),
                             .is_method_given = arguments.value("--method").has_value(),
                             .json = arguments.flag("--json")};
     for (const auto& output : arguments.values("--output")) {
@@ -270,10 +269,11 @@ constexpr std::array options{
            "Elevations of the wheel tracks, in any format that 'macadam iri' "
            "reads."},
     Option{"--step", "METRES", "Distance between rows, for a profile without stations."},
-    Option{"--method",
-           "METHOD",
-           "likelihood: both axles, all sensors; spectrum: one axle, as in the paper.",
-           "likelihood"},
+    one_of("likelihood|spectrum",
+           {"--method",
+            "METHOD",
+            "likelihood: both axles, all sensors; spectrum: one axle, as in the paper.",
+            "likelihood"}),
     vehicle_option,
     vehicles_option,
     mapping_option,

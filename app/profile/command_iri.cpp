@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/profile/iri_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -8,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <optional>
 
 namespace macadam {
 namespace {
@@ -38,27 +41,29 @@ std::optional<double> base_in(const Arguments& arguments) {
 }
 
 IriOptions parse_iri(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
     IriOptions options{.question = {.profile = arguments.operand("PROFILE"),
                                     .step_m = length_in(arguments, "--step"),
-                                    .from_m = arguments.number("--from"),
-                                    .to_m = arguments.number("--to"),
+                                    .from_m = arguments.number("--from-m"),
+                                    .to_m = arguments.number("--to-m"),
                                     .envelope = !arguments.flag("--no-envelope")},
                        .length_m = length_in(arguments, "--length"),
                        .base_m = base_in(arguments),
                        .threshold = arguments.number("--threshold"),
                        .output = arguments.value("--output"),
-                       .words = {.in_per_mi = arguments.choice("--unit", units) == "in/mi",
-                                 .json = arguments.flag("--json")}};
+                       .words = {.in_per_mi = arguments.choice("--unit") == "in/mi",
+                                 .json = row_format_of(arguments) == "json"}};
     if (options.threshold && !options.base_m) {
         throw UsageError{"--threshold applies to a moving mean and requires --continuous"};
     }
     if (options.length_m && options.base_m) {
         throw UsageError{"--length and --continuous cannot be combined"};
     }
-    if (options.output && options.output->extension() != ".erd") {
-        throw UsageError{
-            fmt::format("-o is '{}', expected a file in .erd", options.output->string())};
+    constexpr std::array<std::string_view, 3> suffixes{".erd", ".csv", ".json"};
+    if (options.output &&
+        std::ranges::find(suffixes, options.output->extension().string()) == suffixes.end()) {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in {}",
+                                     options.output->string(),
+                                     fmt::join(suffixes, ", "))};
     }
     return options;
 }
@@ -82,14 +87,19 @@ void write_as_erd(const IriQuestion& question, const std::filesystem::path& outp
 
 void run_iri(const Arguments& arguments, const Console&) {
     const auto options = parse_iri(arguments);
-    if (options.output) {
+    const bool as_erd = options.output && options.output->extension() == ".erd";
+    if (as_erd) {
         write_as_erd(options.question, *options.output);
+    } else if (options.output) {
+        refuse_to_replace(*options.output, {options.question.profile});
     }
+    RowOutput output{as_erd ? std::nullopt : options.output};
     if (options.base_m) {
         print_moving_iri(options.question, *options.base_m, options.threshold, options.words);
     } else {
         print(text_of(iri_of_pieces(options.question, options.length_m), options.words));
     }
+    output.commit();
 }
 
 constexpr std::array operands{
@@ -102,8 +112,9 @@ constexpr std::array options{
            "METRES",
            "Distance between points. A .csv or .txt file then has no stations: all columns are "
            "tracks."},
-    Option{"--from", "METRES", "Station at which the report begins.", "the first"},
-    Option{"--to", "METRES", "Station at which the report ends.", "the last"},
+    instead_of("--from",
+               {"--from-m", "METRES", "Station at which the report begins.", "the first"}),
+    instead_of("--to", {"--to-m", "METRES", "Station at which the report ends.", "the last"}),
     Option{"--length", "METRES", "Report segments of this length.", "one segment"},
     Option{"--continuous",
            "[METRES]",
@@ -112,13 +123,18 @@ constexpr std::array options{
     Option{"--threshold",
            "IRI",
            "With --continuous: list the locations where the moving mean exceeds this."},
-    Option{"--unit", "UNIT", "mm/m (equal to m/km) or in/mi.", "mm/m"},
+    one_of("mm/m|in/mi", {"--unit", "UNIT", "mm/m (equal to m/km) or in/mi.", "mm/m"}),
     Option{"--no-envelope",
            "",
            "Skip the 250 mm moving average: the profile is already "
            "smoothed."},
-    Option{"-o,--output", "FILE.erd", "Also write the whole profile as ERD 2.00."},
-    Option{"--json", "", "One JSON object instead of CSV."}};
+    one_of("csv|json",
+           {"--format", "NAME", "csv, or one JSON object.", "by the suffix of -o; otherwise csv"}),
+    Option{"-o,--output",
+           "FILE",
+           "Write the values to a .csv or .json file; or, as .erd, also the whole profile as ERD "
+           "2.00."},
+    json_option};
 
 } // namespace
 
@@ -133,9 +149,9 @@ const Command iri_command{
              "(IRI of the mean\n"
              "profile). lead_in marks segments that begin within 60 m of the start of the "
              "profile, where the initial\n"
-             "state of the car may still matter. With --from, the profile before it serves as "
+             "state of the car may still matter. With --from-m, the profile before it serves as "
              "lead-in; if that is\n"
-             "shorter than 11 m, the simulation starts at --from.",
+             "shorter than 11 m, the simulation starts at --from-m.",
     .example = "  macadam iri profile.csv --length 100          station_m,left_m,right_m\n"
                "  macadam iri run1.erd --length 160.9344 --unit in/mi --json\n"
                "  macadam iri run1.pro --continuous --threshold 160 --unit in/mi",

@@ -182,13 +182,13 @@ Course course_of(const IriQuestion& question) {
     course.to_m = std::min(question.to_m.value_or(end_m), end_m);
     course.covered_to_m = std::min(question.to_m.value_or(extent.last_m), extent.last_m);
     if (!(course.from_m >= course.start_m && course.from_m < course.to_m)) {
-        throw InputError{fmt::format(
-            "{}: --from {:g} --to {:g} contains no part of the profile, expected {:g} to {:g} m",
-            file,
-            course.from_m,
-            question.to_m.value_or(end_m),
-            extent.first_m,
-            end_m)};
+        throw InputError{fmt::format("{}: --from-m {:g} --to-m {:g} contains no part of the "
+                                     "profile, expected {:g} to {:g} m",
+                                     file,
+                                     course.from_m,
+                                     question.to_m.value_or(end_m),
+                                     extent.first_m,
+                                     end_m)};
     }
     return course;
 }

@@ -1,4 +1,6 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
@@ -181,11 +183,15 @@ void print_sections(const StoreReader& store, const QueryOptions& options, const
 
 void run_query(const Arguments& arguments, const Console& console) {
     const auto options = parse_query(arguments);
+    if (options.output) {
+        refuse_to_replace(*options.output, {options.store});
+    }
     const auto store = open_for_operator(options.store, console);
     expect_known_class(options.filter, store);
     warn_of_waiting(store, options.store, console);
     expect_segment(store, options);
 
+    RowOutput output{options.output};
     if (options.sections) {
         print_sections(store, options, console);
     } else if (options.events) {
@@ -205,40 +211,48 @@ void run_query(const Arguments& arguments, const Console& console) {
         print_segments(store, options, console);
     }
     store.expect_in_place();
+    output.commit();
 }
 
 constexpr std::array operands{store_operand};
 constexpr std::array options{
-    Option{"--near", "LAT,LON", "Segments near a point, nearest first."},
-    Option{"--radius", "METRES", "Search radius around --near.", "50"},
-    Option{"--heading",
-           "DEG",
-           "With --near: only segments with this driving direction, within 45 degrees; "
-           "clockwise from north."},
+    in_group("selection", {"--near", "LAT,LON", "Segments near a point, nearest first."}),
+    in_group("selection", {"--radius", "METRES", "Search radius around --near.", "50"}),
+    in_group("selection",
+             {"--heading",
+              "DEG",
+              "With --near: only segments with this driving direction, within 45 degrees; "
+              "clockwise from north."}),
     bbox_option,
     way_option,
-    Option{"--segment", "KEY", "One segment, such as 123456+0007."},
-    name_option,
+    in_group("selection", {"--segment", "KEY", "One segment, such as 123456+0007."}),
+    road_option,
     highway_option,
     class_option,
     min_passes_option,
     since_option,
     until_option,
-    Option{"--worst", "N", "The N roughest sections among the selected segments, roughest first."},
-    Option{"--min-length", "METRES", "With --worst: minimum length of a section.", "100"},
-    Option{"--above",
-           "IRI",
-           "With --worst: roughness threshold in mm/m.",
-           "lower limit of class "
-           "poor"},
-    Option{"--segments", "", "With --worst: single segments instead of sections."},
-    Option{"--route",
-           "LAT,LON LAT,LON",
-           "Sections along the fastest route by car between two points.",
-           "",
-           true},
-    Option{"--shortest", "", "With --route: the shortest route instead."},
-    Option{"--along", "FILE", "Sections along a GPX track or a layer of lines."},
+    in_group(
+        "worst sections",
+        {"--worst", "N", "The N roughest sections among the selected segments, roughest first."}),
+    in_group("worst sections",
+             {"--min-length", "METRES", "With --worst: minimum length of a section.", "100"}),
+    in_group("worst sections",
+             {"--above",
+              "IRI",
+              "With --worst: roughness threshold in mm/m.",
+              "lower limit of class "
+              "poor"}),
+    in_group("worst sections",
+             {"--segments", "", "With --worst: single segments instead of sections."}),
+    in_group("sections",
+             {"--route",
+              "LAT,LON LAT,LON",
+              "Sections along the fastest route by car between two points.",
+              "",
+              true}),
+    in_group("sections", {"--shortest", "", "With --route: the shortest route instead."}),
+    in_group("sections", {"--along", "FILE", "Sections along a GPX track or a layer of lines."}),
     sections_option,
     section_length_option,
     homogeneous_option,
@@ -249,8 +263,9 @@ constexpr std::array options{
     Option{"--passes", "", "With --segment: list every pass over it."},
     Option{"--changes", "", "With --segment: when and why its value changed."},
     Option{"--events", "", "Potholes, bumps, joints and rails instead of segments."},
-    Option{"--format", "NAME", "table, json, csv or geojson.", "table"},
-    Option{"--json", "", "The same as --format json."}};
+    one_of("table|json|csv|geojson", {"--format", "NAME", "table, json, csv or geojson.", "table"}),
+    row_output_option,
+    json_option};
 
 } // namespace
 
@@ -270,11 +285,11 @@ const Command query_command{
         "  macadam query roads.gpkg --worst 10\n"
         "  macadam query roads.gpkg --near 37.7258,-122.4720 --radius 100\n"
         "  macadam query roads.gpkg --way 123456 --format csv\n"
-        "  macadam query roads.gpkg --name haupt --history         is it getting worse?\n"
+        "  macadam query roads.gpkg --road haupt --history         is it getting worse?\n"
         "  macadam query roads.gpkg --route 47.6863,17.6799 47.6901,17.7012\n"
         "  macadam query roads.gpkg --sections routes.csv --section-length 0.1mi --format csv\n"
         "  macadam query roads.gpkg --segment 123456+0007 --passes\n"
-        "  macadam query roads.gpkg --events --name haupt --format csv",
+        "  macadam query roads.gpkg --events --road haupt --format csv",
     .operands = operands,
     .options = options,
     .run = run_query};

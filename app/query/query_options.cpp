@@ -1,5 +1,6 @@
 #include "app/query/query_options.hpp"
 
+#include "app/cli/row_output.hpp"
 #include "app/database/segment_options.hpp"
 
 #include "mapping/analysis/worst_sections.hpp"
@@ -88,7 +89,7 @@ void expect_sense(const QueryOptions& options) {
                          "--worst or --all"};
     }
     if (!asks_for_segments(options) && !options.events) {
-        throw UsageError{"expected a selection: --near, --bbox, --way, --segment, --name, "
+        throw UsageError{"expected a selection: --near, --bbox, --way, --segment, --road, "
                          "--highway, --class, --worst, --route, --along or --sections"};
     }
     if (options.passes && !options.filter.key) {
@@ -127,20 +128,17 @@ GeoPoint parse_place(std::string_view name, const std::vector<double>& degrees) 
 }
 
 QueryOptions parse_query(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 4> formats{"table", "json", "csv", "geojson"};
     QueryOptions options{.store = store_file(arguments),
                          .filter = parse_filter(arguments),
                          .near = parse_near(arguments),
                          .sections = parse_sections(arguments, true),
-                         .format = arguments.choice("--format", formats),
+                         .format = row_format_of(arguments),
+                         .output = arguments.value("--output"),
                          .history = arguments.flag("--history"),
                          .passes = arguments.flag("--passes"),
                          .changes = arguments.flag("--changes"),
                          .events = arguments.flag("--events"),
                          .worst = parse_worst(arguments)};
-    if (arguments.flag("--json")) {
-        options.format = "json";
-    }
     options.filter.key = parse_key(arguments);
     expect_sense(options);
     if (options.worst.single_segments) {

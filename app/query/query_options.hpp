@@ -33,10 +33,11 @@ struct QueryOptions {
     std::optional<NearOptions> near;
     std::optional<SectionOptions> sections;
     std::string format;
-    bool history; ///< by month
-    bool passes;  ///< passes of one segment
-    bool changes; ///< changes of one segment's value
-    bool events;  ///< potholes and others instead of segments
+    std::optional<std::filesystem::path> output; ///< instead of standard output
+    bool history;                                ///< by month
+    bool passes;                                 ///< passes of one segment
+    bool changes;                                ///< changes of one segment's value
+    bool events;                                 ///< potholes and others instead of segments
     WorstOptions worst;
 };
 

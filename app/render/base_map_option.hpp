@@ -33,12 +33,13 @@ WatchedBaseMap opened_base_map(const std::filesystem::path& file);
 /// Combines the attribution of the roads with that of the base map, if it states one.
 std::string attribution_with(const std::string& of_roads, const BaseMap& base);
 
-inline constexpr Option base_option{
-    "--base",
-    "FILE",
-    "Raster base map under the roads: GeoTIFF, MBTiles with pictures, or another format that "
-    "GDAL reads."};
-inline constexpr Option base_opacity_option{
-    "--base-opacity", "SHARE", "Opacity of the base map, 0 to 1.", "0.5"};
+inline constexpr Option base_option = in_group(
+    "appearance",
+    {"--base",
+     "FILE",
+     "Raster base map under the roads: GeoTIFF, MBTiles with pictures, or another format that "
+     "GDAL reads."});
+inline constexpr Option base_opacity_option =
+    in_group("appearance", {"--base-opacity", "SHARE", "Opacity of the base map, 0 to 1.", "0.5"});
 
 } // namespace macadam

@@ -32,37 +32,26 @@ struct RenderOptions {
     bool events;
 };
 
-std::vector<std::string_view> ramp_names() {
-    std::vector<std::string_view> names;
-    for (const auto& ramp : colour_ramps()) {
-        names.push_back(ramp.name);
-    }
-    return names;
-}
-
 MapStyle style_of(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
-    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
-
     auto style = parse_style_file(arguments);
     if (arguments.value("--theme")) {
-        const auto theme = arguments.choice("--theme", themes);
+        const auto theme = arguments.choice("--theme");
         style.theme = theme == "dark"    ? MapStyle::Theme::dark
                       : theme == "print" ? MapStyle::Theme::print
                                          : MapStyle::Theme::light;
     }
     if (arguments.value("--ramp")) {
-        style.ramp = arguments.choice("--ramp", ramp_names());
+        style.ramp = arguments.choice("--ramp");
         style.own_ramp.clear();
     }
     if (arguments.value("--unit")) {
-        style.in_per_mi = arguments.choice("--unit", units) == "in/mi";
+        style.in_per_mi = arguments.choice("--unit") == "in/mi";
     }
     style.left_hand_traffic = arguments.flag("--left-hand");
     style.labels = !arguments.flag("--no-labels");
     style.min_passes = grey_below(arguments).value_or(style.min_passes);
     if (const auto name = arguments.value("--classes")) {
-        style.classes = class_table_option(*name);
+        style.classes = class_table(*name);
     }
     return style;
 }
@@ -147,21 +136,32 @@ constexpr std::array options{
     bare_option,
     paper_option,
     landscape_option,
-    Option{"--title", "TEXT", "Title above the map.", "Road roughness"},
-    Option{"--classes", "NAME", "fhwa (good, fair, poor) or five.", "as in the database"},
-    Option{"--ramp",
-           "NAME",
-           "Colour ramp: rdylbu, cividis or viridis; all are suitable for colour-blind readers.",
-           "rdylbu"},
-    Option{"--theme", "NAME", "light, dark or print.", "light"},
-    Option{"--unit", "UNIT", "Unit in the legend: mm/m or in/mi.", "mm/m"},
+    in_group("page", {"--title", "TEXT", "Title above the map.", "Road roughness"}),
+    one_of(
+        "fhwa|five",
+        in_group("appearance",
+                 {"--classes", "NAME", "fhwa (good, fair, poor) or five.", "as in the database"})),
+    one_of(
+        "rdylbu|cividis|viridis",
+        in_group(
+            "appearance",
+            {"--ramp",
+             "NAME",
+             "Colour ramp: rdylbu, cividis or viridis; all are suitable for colour-blind readers.",
+             "rdylbu"})),
+    one_of("light|dark|print",
+           in_group("appearance", {"--theme", "NAME", "light, dark or print.", "light"})),
+    one_of(
+        "mm/m|in/mi",
+        in_group("appearance", {"--unit", "UNIT", "Unit in the legend: mm/m or in/mi.", "mm/m"})),
     style_option,
     base_option,
     base_opacity_option,
-    grey_below_option,
-    Option{"--events", "", "Also potholes, bumps, joints and rails, as symbols."},
-    Option{"--no-labels", "", "Omit road names."},
-    Option{"--left-hand", "", "Traffic keeps left: draw each direction on the left side."}};
+    instead_of("--min-passes", grey_below_option),
+    in_group("appearance", {"--events", "", "Also potholes, bumps, joints and rails, as symbols."}),
+    in_group("appearance", {"--no-labels", "", "Omit road names."}),
+    in_group("appearance",
+             {"--left-hand", "", "Traffic keeps left: draw each direction on the left side."})};
 
 } // namespace
 

@@ -35,23 +35,32 @@ inline constexpr Option picture_output_option{
     "-o,--output",
     "FILE",
     "The map: .png, .tif (Cloud Optimized GeoTIFF) or .pdf (vector graphics)."};
-inline constexpr Option picture_size_option{
-    "--size",
-    "WxH",
-    "Pixels, 256 to 32768 per side; lines and text scale with it.",
-    default_picture_size};
-inline constexpr Option world_file_option{
-    "--world-file", "", "Write .pgw and .png.aux.xml beside a .png, to georeference it."};
-inline constexpr Option bare_option{
-    "--bare", "", "Map only, without title, legend and scale bar, at most --size."};
-inline constexpr Option crs_option{
-    "--crs",
-    "CRS",
-    "Map projection, as known to PROJ: EPSG:3006, a PROJ string or WKT.",
-    "EPSG:3857"};
-inline constexpr Option paper_option{
-    "--paper", "NAME", "Paper size of a .pdf: A0 to A5, letter, legal or tabloid.", default_paper};
-inline constexpr Option landscape_option{"--landscape", "", "Landscape paper."};
+inline constexpr Option picture_size_option =
+    in_group("page",
+             {"--size",
+              "WxH",
+              "Pixels, 256 to 32768 per side; lines and text scale with it.",
+              default_picture_size});
+inline constexpr Option world_file_option = rare(in_group(
+    "page",
+    {"--world-file", "", "Write .pgw and .png.aux.xml beside a .png, to georeference it."}));
+inline constexpr Option bare_option = rare(in_group(
+    "page", {"--bare", "", "Map only, without title, legend and scale bar, at most --size."}));
+inline constexpr Option crs_option =
+    rare(in_group("page",
+                  {"--crs",
+                   "CRS",
+                   "Map projection, as known to PROJ: EPSG:3006, a PROJ string or WKT.",
+                   "EPSG:3857"}));
+inline constexpr Option paper_option =
+    one_of("A4|A0|A1|A2|A3|A5|letter|legal|tabloid",
+           in_group("page",
+                    {"--paper",
+                     "NAME",
+                     "Paper size of a .pdf: A0 to A5, letter, legal or tabloid.",
+                     default_paper}));
+inline constexpr Option landscape_option =
+    in_group("page", {"--landscape", "", "Landscape paper."});
 
 /// Returns the requested projection; null: spherical Mercator.
 std::shared_ptr<const PlaneProjection> projection_of(const PictureOutput& output);

@@ -45,19 +45,11 @@ MapStyle parse_style_file(const Arguments& arguments) {
 
 std::optional<int> grey_below(const Arguments& arguments) {
     constexpr std::int64_t most = 1'000'000;
-    const auto passes = arguments.integer("--min-passes");
+    const auto passes = arguments.integer("--grey-below");
     if (passes && (*passes < 1 || *passes > most)) {
-        throw UsageError{fmt::format("--min-passes is {}, expected 1 to {}", *passes, most)};
+        throw UsageError{fmt::format("--grey-below is {}, expected 1 to {}", *passes, most)};
     }
     return passes ? std::optional{static_cast<int>(*passes)} : std::nullopt;
-}
-
-const ClassTable* class_table_option(std::string_view name) {
-    const auto* const table = class_table(name);
-    if (table == nullptr) {
-        throw UsageError{fmt::format("--classes is '{}', expected fhwa or five", name)};
-    }
-    return table;
 }
 
 void warn_of_look(const MapStyle& style, const Console& console) {

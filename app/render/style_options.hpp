@@ -9,26 +9,24 @@
 
 namespace macadam {
 
-inline constexpr Option style_option{"--style",
-                                     "FILE",
-                                     "TOML file with classes, colours, widths and texts "
-                                     "(docs/reference/pictures.md)."};
+inline constexpr Option style_option =
+    in_group("appearance",
+             {"--style",
+              "FILE",
+              "TOML file with classes, colours, widths and texts "
+              "(docs/reference/pictures.md)."});
 
-inline constexpr Option grey_below_option{
-    "--min-passes", "N", "Draw roads with fewer passes of cars in grey.", "1"};
+inline constexpr Option grey_below_option = in_group(
+    "appearance", {"--grey-below", "N", "Draw roads with fewer passes of cars in grey.", "1"});
 
 /// Reads the style of --style, or returns the default one. Other options override it.
 ///
 /// \throws InputError  for a file that is no style.
 MapStyle parse_style_file(const Arguments& arguments);
 
-/// Parses --min-passes.
+/// Parses --grey-below.
 /// \throws UsageError  for less than 1.
 std::optional<int> grey_below(const Arguments& arguments);
-
-/// Returns the class table of that name.
-/// \throws UsageError  with --classes in its message, if there is none.
-const ClassTable* class_table_option(std::string_view name);
 
 /// Warns if readers could misinterpret the look of a map.
 void warn_of_look(const MapStyle& style, const Console& console);

@@ -25,9 +25,9 @@ std::string json_of(const Forgotten& forgotten) {
 void run_forget(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     const ForgetRequest request{.trips = arguments.values("--trip"),
-                                .vehicles = arguments.values("--vehicle")};
+                                .vehicles = arguments.values("--vehicle-id")};
     if (request.trips.empty() && request.vehicles.empty()) {
-        throw UsageError{"expected --trip or --vehicle: what to delete"};
+        throw UsageError{"expected --trip or --vehicle-id: what to delete"};
     }
     auto store = opened_store(file, console);
     const auto progress = console.progress("deleting");
@@ -53,11 +53,12 @@ void run_forget(const Arguments& arguments, const Console& console) {
 constexpr std::array operands{store_operand};
 constexpr std::array options{
     Option{"--trip", "TRIP", "Trips by trip_id, file name or SHA-256 of the content.", "", true},
-    Option{"--vehicle",
-           "ID",
-           "All trips of these cars, by vehicle_id or by pseudonym ('macadam info').",
-           "",
-           true},
+    formerly("--vehicle",
+             {"--vehicle-id",
+              "ID",
+              "All trips of these cars, by vehicle_id or by pseudonym ('macadam info').",
+              "",
+              true}),
     Option{"--json", "", "Print the result as one JSON object."}};
 
 } // namespace
@@ -75,7 +76,7 @@ const Command forget_command{
              "made before are not\n"
              "affected.",
     .example = "  macadam forget roads.gpkg --trip 2026-03-01-0815\n"
-               "  macadam forget roads.gpkg --vehicle van-7 van-9",
+               "  macadam forget roads.gpkg --vehicle-id van-7 van-9",
     .operands = operands,
     .options = options,
     .run = run_forget};

@@ -44,7 +44,8 @@ void run_privacy(const Arguments& arguments, const Console& console) {
     }
 }
 
-constexpr std::array operands{store_operand, Operand{"PROFILE", "crowd."}};
+constexpr std::array operands{store_operand,
+                              Operand{.name = "PROFILE", .help = "crowd.", .choices = "crowd"}};
 
 } // namespace
 

@@ -1,10 +1,13 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
+#include "app/cli/row_writer.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/segment_options.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/text/json.hpp"
+#include "storage/text/columns.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
@@ -14,25 +17,20 @@
 namespace macadam {
 namespace {
 
-std::string text_of(const std::vector<ValidSince>& all) {
-    if (all.empty()) {
-        return "no segment has a start date: all passes count\n";
-    }
-    std::string text;
-    for (const auto& [segment, from_ms] : all) {
-        text += fmt::format("{:<24} {}\n", name_of(segment), utc_text(from_ms));
-    }
-    return text;
-}
+// clang-format off
+const Columns<ValidSince> list_columns{
+    {"segment", as::text, [](auto& r) { return name_of(r.segment); }, {"segment", "{:<24}"}},
+    {"valid_from", as::text, [](auto& r) { return utc_text(r.from_ms); }, {"valid from", " {}"}},
+};
+// clang-format on
 
-std::string json_of(const std::vector<ValidSince>& all) {
-    std::vector<std::string> entries;
-    for (const auto& [segment, from_ms] : all) {
-        JsonObject entry;
-        entry.add("segment", name_of(segment)).add("valid_from", utc_text(from_ms));
-        entries.push_back(entry.text());
-    }
-    return json_array(entries) + "\n";
+void print_list(const StoreReader& store, const Arguments& arguments) {
+    const auto all = store.valid_since();
+    const auto format = row_format_of(arguments);
+    RowOutput output{arguments.value("--output")};
+    print(all.empty() && format == "table" ? "no segment has a start date: all passes count\n"
+                                           : rows_text(list_columns, all, format));
+    output.commit();
 }
 
 /// Returns all segments that the options name, driven or not.
@@ -41,14 +39,14 @@ std::vector<SegmentKey> segments_named(const StoreReader& store, const Arguments
     filter.with_state_only = false;
     filter.key = parse_key(arguments);
     filter.way_id = arguments.integer("--way");
-    filter.name_part = arguments.value("--name").value_or("");
+    filter.name_part = arguments.value("--road").value_or("");
     filter.highway = arguments.value("--highway").value_or("");
     if (const auto degrees = arguments.numbers("--bbox", 4)) {
         filter.box = box_of(*degrees);
     }
     if (!filter.key && !filter.way_id && !filter.box && filter.name_part.empty() &&
         filter.highway.empty()) {
-        throw UsageError{"expected a selection of roads: --segment, --way, --name, --highway "
+        throw UsageError{"expected a selection of roads: --segment, --way, --road, --highway "
                          "or --bbox"};
     }
     std::vector<SegmentKey> keys;
@@ -62,15 +60,16 @@ std::vector<SegmentKey> segments_named(const StoreReader& store, const Arguments
 
 void run_valid_from(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
-    const auto from_ms = parse_begin(arguments, "--from");
+    if (const auto output = arguments.value("--output")) {
+        refuse_to_replace(*output, {file});
+    }
+    const auto from_ms = parse_begin(arguments, "--since");
     const bool readmit = arguments.flag("--any-day");
     if (from_ms && readmit) {
-        throw UsageError{"--from and --any-day cannot be combined"};
+        throw UsageError{"--since and --any-day cannot be combined"};
     }
     if (!from_ms && !readmit) {
-        const auto store = opened_reader(file, console);
-        const auto all = store.valid_since();
-        print(arguments.flag("--json") ? json_of(all) : text_of(all));
+        print_list(opened_reader(file, console), arguments);
         return;
     }
     auto store = opened_store(file, console);
@@ -86,15 +85,17 @@ void run_valid_from(const Arguments& arguments, const Console& console) {
 
 constexpr std::array operands{store_operand};
 constexpr std::array options{
-    Option{"--from", "TIME", "Start date: 2026-05-01, or a time in UTC."},
+    formerly("--from", {"--since", "TIME", "Start date: 2026-05-01, or a time in UTC."}),
     Option{"--any-day", "", "Clear the start date."},
-    Option{"--segment", "KEY", "One segment, such as 123456+0007."},
+    in_group("selection", {"--segment", "KEY", "One segment, such as 123456+0007."}),
     way_option,
-    name_option,
+    road_option,
     highway_option,
     bbox_option,
     Option{"--reason", "TEXT", "Reason for the audit: 'resurfaced, contract 17'."},
-    Option{"--json", "", "Without --from: print the list as JSON."}};
+    one_of("table|csv|json", {"--format", "NAME", "Of the list: table, csv or json.", "table"}),
+    row_output_option,
+    json_option};
 
 } // namespace
 
@@ -105,10 +106,10 @@ const Command valid_from_command{
              "segments; they stay in the\n"
              "database, and --any-day re-admits them. Both directions are selected unless "
              "--segment names one. Without\n"
-             "--from and --any-day: lists the segments with a start date. Most resurfacings "
+             "--since and --any-day: lists the segments with a start date. Most resurfacings "
              "are detected automatically\n"
              "(column 'changed'), but only after some passes.",
-    .example = "  macadam valid-from roads.gpkg --from 2026-05-01 --way 123456 --reason "
+    .example = "  macadam valid-from roads.gpkg --since 2026-05-01 --way 123456 --reason "
                "'resurfaced'\n"
                "  macadam valid-from roads.gpkg --any-day --way 123456\n"
                "  macadam valid-from roads.gpkg",

@@ -61,14 +61,14 @@ ConvertOptions parse_convert(const Arguments& arguments) {
     if (level < 1 || level > 9) {
         throw UsageError{fmt::format("--level is {}, expected 1 to 9", level)};
     }
-    if (arguments.value("--to") && names_a_file(*output)) {
-        throw UsageError{fmt::format("--to requires a folder, but -o is '{}'", *output)};
+    if (arguments.value("--format") && names_a_file(*output)) {
+        throw UsageError{fmt::format("--format requires a folder, but -o is '{}'", *output)};
     }
     expect_file_or_folder(*output);
     const auto& trips = arguments.operands("TRIP");
     return {.trips = {trips.begin(), trips.end()},
             .output = *output,
-            .suffix = arguments.choice("--to", suffixes),
+            .suffix = arguments.choice("--format"),
             .level = static_cast<int>(level),
             .walk = {.mapping = mapping_of(arguments),
                      .tracks = true,
@@ -355,7 +355,10 @@ constexpr std::array options{
            "FILE|DIR",
            "Output file (.trip.csv, .trip.csv.gz, .trip.csv.zst, .rawlog), or a folder for "
            "several trips."},
-    Option{"--to", "SUFFIX", "Format of files in an output folder.", ".trip.csv.gz"},
+    formerly(
+        "--to",
+        one_of(".trip.csv.gz|.trip.csv|.trip.csv.zst|.rawlog",
+               {"--format", "SUFFIX", "Format of files in an output folder.", ".trip.csv.gz"})),
     Option{"--level", "N", "Compression level: 1 is fast, 9 small.", "6"},
     max_members_option,
     mapping_option};
@@ -373,7 +376,7 @@ const Command convert_command{
     .example =
         "  macadam convert phone_export.zip -o drive.trip.csv.gz\n"
         "  macadam convert drive.rawlog -o drive.trip.csv        to look at\n"
-        "  macadam convert trips/ -o rawlogs/ --to .rawlog       for RawLogViewer and others",
+        "  macadam convert trips/ -o rawlogs/ --format .rawlog   for RawLogViewer and others",
     .operands = operands,
     .options = options,
     .run = run_convert};

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/single_trip.hpp"
@@ -10,7 +11,6 @@
 #include "mapping/matching/edge_traversals.hpp"
 #include "mapping/matching/map_match.hpp"
 #include "mapping/network/build_network.hpp"
-#include "storage/atomic/atomic_file.hpp"
 #include "storage/networks/network_file.hpp"
 #include "storage/networks/network_reader.hpp"
 #include "storage/store/schema/store_marker.hpp"
@@ -31,6 +31,7 @@ struct MatchOptions {
     std::optional<std::filesystem::path> output;
     LayerColumns columns;
     bool arcs;
+    std::string format;
 };
 
 MatchOptions parse_match(const Arguments& arguments) {
@@ -46,14 +47,18 @@ MatchOptions parse_match(const Arguments& arguments) {
                                      .name = "",
                                      .highway = "",
                                      .oneway = arguments.value("--oneway-column").value_or("")},
-                         .arcs = arguments.flag("--arcs")};
-    if (options.output) {
+                         .arcs = arguments.flag("--arcs"),
+                         .format = row_format_of(arguments)};
+    if (options.output && !arguments.value("--format")) {
         const auto suffix = options.output->extension();
-        if (suffix != ".csv" && (suffix != ".geojson" || options.arcs)) {
-            throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv{}",
+        if (suffix != ".csv" && suffix != ".json" && (suffix != ".geojson" || options.arcs)) {
+            throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv, .json{}",
                                          options.output->string(),
                                          options.arcs ? "" : " or .geojson")};
         }
+    }
+    if (options.arcs && options.format == "geojson") {
+        throw UsageError{"--arcs has no --format geojson, expected csv or json"};
     }
     return options;
 }
@@ -105,17 +110,11 @@ void run_match(const Arguments& arguments, const Console& console) {
     }
     console.say(matched_words(trace, trip.motion.odometer));
 
-    const bool geojson = options.output && options.output->extension() == ".geojson";
-    const auto text = options.arcs ? arcs_csv(trace, roads)
-                      : geojson    ? passages_geojson(edge_traversals(trace), roads)
-                                   : passages_csv(edge_traversals(trace), roads);
-    if (!options.output) {
-        print(text);
-        return;
-    }
-    AtomicFile file{*options.output};
-    file.write(text);
-    file.commit();
+    const auto text = options.arcs ? arcs_text(trace, roads, options.format)
+                                   : passages_text(edge_traversals(trace), roads, options.format);
+    RowOutput output{options.output};
+    print(text);
+    output.commit();
 }
 
 constexpr std::array operands{
@@ -127,14 +126,20 @@ constexpr std::array options{
            "layer that GDAL reads."},
     mapping_option,
     Option{"--arcs", "", "List every pair of consecutive nodes instead of parts of edges."},
-    Option{"-o,--output",
-           "FILE",
-           "Write a .csv or .geojson file instead of CSV on standard "
-           "output."},
-    Option{"--layer", "NAME", "Line layers: name of the layer.", "the first with lines"},
+    one_of("csv|json|geojson",
+           {"--format", "NAME", "csv, json or geojson.", "by the suffix of -o; otherwise csv"}),
     Option{
-        "--id-column", "NAME", "Line layers: column with an integer road id.", "the feature's id"},
-    Option{"--oneway-column", "NAME", "Line layers: column with yes, no or -1."}};
+        "-o,--output", "FILE", "Write a .csv, .json or .geojson file instead of standard output."},
+    json_option,
+    rare(in_group("line layers",
+                  {"--layer", "NAME", "Line layers: name of the layer.", "the first with lines"})),
+    rare(in_group("line layers",
+                  {"--id-column",
+                   "NAME",
+                   "Line layers: column with an integer road id.",
+                   "the feature's id"})),
+    rare(in_group("line layers",
+                  {"--oneway-column", "NAME", "Line layers: column with yes, no or -1."}))};
 
 } // namespace
 

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/cli/row_writer.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
@@ -24,6 +25,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -39,6 +42,7 @@ struct TraceOptions {
     std::optional<std::filesystem::path> events;  ///< file to write
     std::optional<std::filesystem::path> survey;  ///< reference for the trip
     std::optional<std::filesystem::path> figure;  ///< chart of both, to write
+    std::optional<std::filesystem::path> output;  ///< rows, instead of standard output
     double mm_per_m_of_one;                       ///< mm/m of a survey IRI of 1
     SurveyMatchConfig match;
     PipelineConfig pipeline;
@@ -64,6 +68,17 @@ std::optional<std::filesystem::path> events_file(const Arguments& arguments) {
     return file;
 }
 
+std::optional<std::filesystem::path> output_file(const Arguments& arguments) {
+    const auto file = arguments.value("--output");
+    constexpr std::array<std::string_view, 3> suffixes{".csv", ".json", ".svg"};
+    if (file && std::ranges::find(suffixes, std::filesystem::path{*file}.extension().string()) ==
+                    suffixes.end()) {
+        throw UsageError{fmt::format(
+            "-o is '{}', expected a name that ends in {}", *file, fmt::join(suffixes, ", "))};
+    }
+    return file;
+}
+
 double number_within(
     const Arguments& arguments, std::string_view name, double fallback, double least, double most) {
     const double value = arguments.number(name, fallback);
@@ -75,9 +90,8 @@ double number_within(
 
 /// Parses the options of --against and rejects them without it.
 TraceOptions with_survey(TraceOptions options, const Arguments& arguments) {
-    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
     options.survey = arguments.value("--against");
-    for (const auto* const option : {"--max-distance", "--max-angle", "--unit", "--output"}) {
+    for (const auto* const option : {"--max-distance", "--max-angle", "--unit"}) {
         if (!options.survey && arguments.value(option)) {
             throw UsageError{fmt::format("{} requires --against SURVEY.csv", option)};
         }
@@ -86,28 +100,29 @@ TraceOptions with_survey(TraceOptions options, const Arguments& arguments) {
         throw UsageError{"--length and --against cannot be combined: the survey sets the "
                          "lengths"};
     }
-    options.figure = arguments.value("--output");
-    if (options.figure && options.figure->extension() != ".svg") {
-        throw UsageError{
-            fmt::format("-o is '{}', expected a name that ends in .svg", options.figure->string())};
+    if (options.output && options.output->extension() == ".svg") {
+        if (!options.survey) {
+            throw UsageError{"-o FILE.svg requires --against SURVEY.csv"};
+        }
+        options.figure = std::exchange(options.output, std::nullopt);
     }
     auto& match = options.match;
     match.max_distance_m =
         number_within(arguments, "--max-distance", match.max_distance_m, 0.5, 100);
     match.max_angle_deg = number_within(arguments, "--max-angle", match.max_angle_deg, 1, 180);
-    options.mm_per_m_of_one =
-        arguments.choice("--unit", units) == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1;
+    options.mm_per_m_of_one = arguments.choice("--unit") == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1;
     return options;
 }
 
 TraceOptions parse_trace(const Arguments& arguments) {
     TraceOptions options{.trip = arguments.operand("TRIP"),
                          .length_m = arguments.number("--length", default_length_m),
-                         .json = arguments.flag("--json"),
+                         .json = row_format_of(arguments) == "json",
                          .profile = profile_file(arguments),
                          .events = events_file(arguments),
                          .survey = {},
                          .figure = {},
+                         .output = output_file(arguments),
                          .mm_per_m_of_one = 1,
                          .match = {},
                          .pipeline = pipeline_config_of(arguments)};
@@ -177,7 +192,8 @@ void print_rows(const TripLog& trip,
 
 /// Rejects options that need the whole trip or another reader.
 void expect_live(const Arguments& arguments) {
-    for (const auto* const option : {"--mapping", "--profile", "--events", "--against"}) {
+    for (const auto* const option :
+         {"--mapping", "--profile", "--events", "--against", "--output"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("--live and {} cannot be combined", option)};
         }
@@ -196,7 +212,7 @@ void run_trace(const Arguments& arguments, const Console& console) {
         throw UsageError{"TRIP is missing; only --live reads standard input"};
     }
     VehicleChoice vehicles{arguments};
-    for (const auto& output : {options.profile, options.events, options.figure}) {
+    for (const auto& output : {options.profile, options.events, options.figure, options.output}) {
         if (output) {
             refuse_to_replace(*output, {options.trip, options.survey.value_or(options.trip)});
         }
@@ -234,11 +250,13 @@ void run_trace(const Arguments& arguments, const Console& console) {
         });
         console.say(fmt::format("{}: {}", options.events->string(), counted(count, "event")));
     }
+    RowOutput output{options.output};
     if (options.survey) {
         print_against(survey, trip, trace, chosen.vehicle, options, console);
-        return;
+    } else {
+        print_rows(trip, trace, chosen.vehicle, options);
     }
-    print_rows(trip, trace, chosen.vehicle, options);
+    output.commit();
 }
 
 constexpr std::array operands{
@@ -262,14 +280,24 @@ constexpr std::array options{
     Option{"--events",
            "FILE",
            "Also write potholes, bumps, joints and rails: .csv, .json or .geojson."},
-    Option{"--against",
-           "SURVEY.csv",
-           "Compare the trip with a survey, for each row of the survey that was driven."},
-    Option{"--max-distance", "METRES", "Maximum distance of the trip from the survey line.", "8"},
-    Option{"--max-angle", "DEGREES", "Maximum angle between the two driving directions.", "30"},
-    Option{"--unit", "UNIT", "IRI unit of the survey: mm/m or in/mi.", "mm/m"},
-    Option{"-o,--output", "FILE.svg", "Plot survey and trip."},
-    Option{"--json", "", "JSON array of objects instead of CSV, with the same names."}};
+    in_group("comparison with a survey",
+             {"--against",
+              "SURVEY.csv",
+              "Compare the trip with a survey, for each row of the survey that was driven."}),
+    in_group(
+        "comparison with a survey",
+        {"--max-distance", "METRES", "Maximum distance of the trip from the survey line.", "8"}),
+    in_group("comparison with a survey",
+             {"--max-angle", "DEGREES", "Maximum angle between the two driving directions.", "30"}),
+    one_of("mm/m|in/mi",
+           in_group("comparison with a survey",
+                    {"--unit", "UNIT", "IRI unit of the survey: mm/m or in/mi.", "mm/m"})),
+    one_of("csv|json",
+           {"--format", "NAME", "csv, or a JSON array.", "by the suffix of -o; otherwise csv"}),
+    Option{"-o,--output",
+           "FILE",
+           "Write the rows to a .csv or .json file; with --against, .svg: plot survey and trip."},
+    json_option};
 
 } // namespace
 

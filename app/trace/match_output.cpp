@@ -145,16 +145,14 @@ double paused_within_m(const MatchedInterval& piece, const Odometer& odometer) {
 
 } // namespace
 
-std::string passages_csv(const MatchedTrace& passages, const RoadNetwork& roads) {
-    return rows_text(all_columns(), rows_of(passages, roads), "csv");
+std::string
+passages_text(const MatchedTrace& passages, const RoadNetwork& roads, std::string_view format) {
+    return rows_text(all_columns(), rows_of(passages, roads), format, feature_of);
 }
 
-std::string passages_geojson(const MatchedTrace& passages, const RoadNetwork& roads) {
-    return rows_text(all_columns(), rows_of(passages, roads), "geojson", feature_of);
-}
-
-std::string arcs_csv(const MatchedTrace& trace, const RoadNetwork& roads) {
-    return rows_text(arc_columns, arcs_of(trace, roads), "csv");
+std::string
+arcs_text(const MatchedTrace& trace, const RoadNetwork& roads, std::string_view format) {
+    return rows_text(arc_columns, arcs_of(trace, roads), format);
 }
 
 std::string matched_words(const MatchedTrace& trace, const Odometer& odometer) {

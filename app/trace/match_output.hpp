@@ -3,19 +3,20 @@
 #include "mapping/matching/map_match.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace macadam {
 
 /// Formats a matched trip as the rows of `match`: one for each traversal of an edge, each part off
 /// the network and each gap.
 /// \param passages  result of edge_traversals
-std::string passages_csv(const MatchedTrace& passages, const RoadNetwork& roads);
-
-/// Formats a matched trip as features: a line for each traversal, no geometry for the rest.
-std::string passages_geojson(const MatchedTrace& passages, const RoadNetwork& roads);
+/// \param format    csv, json or geojson: a line for each traversal, no geometry for the rest
+std::string
+passages_text(const MatchedTrace& passages, const RoadNetwork& roads, std::string_view format);
 
 /// Lists every pair of consecutive nodes as driven, for `match --arcs`.
-std::string arcs_csv(const MatchedTrace& trace, const RoadNetwork& roads);
+/// \param format  csv or json
+std::string arcs_text(const MatchedTrace& trace, const RoadNetwork& roads, std::string_view format);
 
 /// Summarises a match: "12.30 km on roads (confidence 0.98), 0.40 km off the network, 0.00 km in
 /// gaps".

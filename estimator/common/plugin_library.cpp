@@ -14,25 +14,33 @@
 namespace macadam {
 namespace {
 
-/// Returns the path of a library. The project's own libraries are in lib/ beside the program;
-/// neither a search path nor an environment variable leads to others of the same name.
+/// Returns the absolute path of a file without links; "" if there is none.
+std::string resolved(const char* path) {
+    struct Free {
+        void operator()(char* text) const { std::free(text); } // NOLINT(*-no-malloc)
+    };
+    const std::unique_ptr<char, Free> found{::realpath(path, nullptr)};
+    return found ? std::string{found.get()} : std::string{};
+}
+
+/// Returns the path of a library. The project's own libraries are in lib/ beside the program in a
+/// build folder, in ../lib/macadam/plugins/ where it is installed; neither a search path nor an
+/// environment variable leads to others of the same name.
 std::string path_of(std::string_view library) {
     constexpr std::string_view our_prefix = "macadam_";
     if (!library.starts_with(our_prefix)) {
         return std::string{library};
     }
-    struct Free {
-        void operator()(char* text) const { std::free(text); } // NOLINT(*-no-malloc)
-    };
-    const std::unique_ptr<char, Free> program{::realpath("/proc/self/exe", nullptr)};
-    if (!program) {
+    const auto program = resolved("/proc/self/exe");
+    if (program.empty()) {
         throw InputError{
             fmt::format("cannot find the program folder with lib/{}, expected /proc to be "
                         "mounted",
                         library)};
     }
-    const std::string path{program.get()};
-    return fmt::format("{}/lib/{}", path.substr(0, path.rfind('/')), library);
+    const auto folder = program.substr(0, program.rfind('/'));
+    const auto beside = resolved(fmt::format("{}/lib/{}", folder, library).c_str());
+    return beside.empty() ? fmt::format("{}/../lib/macadam/plugins/{}", folder, library) : beside;
 }
 
 } // namespace

@@ -14,7 +14,6 @@
 #include "support/roads/store_world.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -36,14 +35,18 @@ std::vector<std::string> lines_of(std::string_view text) {
 
 /// Every value read in every way in which a command could ask for it.
 void ask_for_everything(const Command& command, const Arguments& arguments) {
-    constexpr std::array<std::string_view, 2> words{"kf", "table"};
     for (const auto& option : command.options) {
         const auto name = option.name.substr(option.name.rfind(',') + 1);
         arguments.flag(name);
         arguments.values(name);
         may_refuse<UsageError>([&] { arguments.number(name); });
         may_refuse<UsageError>([&] { arguments.integer(name); });
-        may_refuse<UsageError>([&] { arguments.choice(name, words); });
+        if (!option.choices.empty()) {
+            const auto choice = arguments.choice(name);
+            expect(std::ranges::find(arguments.choices(name), choice) !=
+                       arguments.choices(name).end(),
+                   "a choice is one of the table's");
+        }
         may_refuse<UsageError>([&] {
             if (const auto degrees = arguments.numbers(name, 4)) {
                 const auto box = box_of(*degrees);

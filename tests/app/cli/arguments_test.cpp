@@ -128,15 +128,50 @@ TEST(Arguments, RefuseABoxOfThreeNumbers) {
     EXPECT_THROW(arguments.numbers("--bbox", 4), UsageError);
 }
 
-TEST(Arguments, RefuseAWordThatIsNoneOfTheChoices) {
-    constexpr std::array<std::string_view, 2> choices{"here", "there"};
-    const auto arguments = parse({"a.gpkg", "--output", "nowhere"});
+constexpr std::array renamed{
+    one_of("light|dark", {"--theme", "NAME", "Look."}),
+    formerly("--name", {"--road", "TEXT", "Which road."}),
+    instead_of("--min-passes", {"--grey-below", "N", "What is grey."}),
+};
+
+Arguments parse_renamed(std::vector<std::string> words) {
+    return {renamed, operands, std::move(words)};
+}
+
+std::string refusal_of_renamed(std::vector<std::string> words) {
     try {
-        arguments.choice("--output", choices);
-        FAIL() << "took 'nowhere'";
+        parse_renamed(std::move(words));
     } catch (const UsageError& error) {
-        EXPECT_STREQ(error.what(), "--output is 'nowhere', expected here or there");
+        return error.what();
     }
+    return "";
+}
+
+TEST(Arguments, RefuseAWordThatIsNoneOfTheChoices) {
+    EXPECT_EQ(refusal_of_renamed({"a.gpkg", "--theme", "blue"}),
+              "--theme is 'blue', expected light or dark");
+}
+
+TEST(Arguments, TakeChoicesWhateverTheirCaseAndTheFirstByDefault) {
+    EXPECT_EQ(parse_renamed({"a.gpkg", "--theme", "Dark"}).choice("--theme"), "dark");
+    EXPECT_EQ(parse_renamed({"a.gpkg"}).choice("--theme"), "light");
+    EXPECT_THAT(parse_renamed({"a.gpkg"}).choices("--theme"), ElementsAre("light", "dark"));
+    EXPECT_THROW(parse_renamed({"a.gpkg"}).choice("--road"), std::logic_error);
+}
+
+TEST(Arguments, TakeAnEarlierSpellingWithANote) {
+    for (const auto& words : {std::vector<std::string>{"a.gpkg", "--name", "Ring"},
+                              std::vector<std::string>{"--name=Ring", "a.gpkg"}}) {
+        const auto arguments = parse_renamed(words);
+        EXPECT_EQ(arguments.value("--road"), "Ring");
+        EXPECT_THAT(arguments.notes(), ElementsAre("--name is called --road now"));
+    }
+    EXPECT_THAT(parse_renamed({"a.gpkg", "--road", "Ring"}).notes(), ElementsAre());
+}
+
+TEST(Arguments, RefuseAnEarlierSpellingThatMeantSomethingElse) {
+    EXPECT_EQ(refusal_of_renamed({"a.gpkg", "--min-passes", "3"}),
+              "--min-passes is called --grey-below here now");
 }
 
 } // namespace

@@ -98,7 +98,7 @@ std::vector<CommandCase> commands() {
             {"import", {"import", "STORE", "STORE"}},
             {"calibrate", {"calibrate", "STORE"}},
             {"forget", {"forget", "STORE", "--trip", "trip-1"}},
-            {"valid_from", {"valid-from", "STORE", "--from", "2026-01-01", "--way", "1"}}};
+            {"valid_from", {"valid-from", "STORE", "--since", "2026-01-01", "--way", "1"}}};
 }
 
 std::vector<std::string>

@@ -48,6 +48,7 @@ fs::path store_of_rav4(const fs::path& folder) {
 
 TEST(Program, SaysItsVersion) {
     EXPECT_THAT(expect_done({"--version"}).out, MatchesRegex("macadam [0-9.]+\n"));
+    EXPECT_EQ(expect_done({"-V"}).out, expect_done({"--version"}).out);
 }
 
 TEST(Program, ExplainsEveryCommand) {
@@ -63,6 +64,62 @@ TEST(Program, ExplainsEveryCommand) {
                              "match"}) {
         EXPECT_THAT(expect_done({name, "--help"}).out, HasSubstr("example"));
     }
+}
+
+TEST(Program, HelpsWithACommand) {
+    EXPECT_EQ(expect_done({"help", "render"}).out, expect_done({"render", "--help"}).out);
+    EXPECT_EQ(expect_done({"help"}).out, expect_done({"--help"}).out);
+    EXPECT_THAT(expect_done({"init", "--help-all"}).out, HasSubstr("--oneway-column"));
+    const auto unknown = run_macadam({"help", "rendr"});
+    EXPECT_EQ(unknown.exit_status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("unknown command 'rendr'; did you mean render?"));
+}
+
+TEST(Program, TakesEarlierSpellingsOfOptionsWithANoteAndRefusesThoseThatMeantSomethingElse) {
+    const auto store = store_of_rav4(fresh_folder()).string();
+    const auto present = expect_done({"query", store, "--road", "none", "--json"});
+    const auto earlier = expect_done({"query", store, "--name", "none", "--json"});
+    EXPECT_EQ(earlier.out, present.out);
+    EXPECT_EQ(earlier.err, "macadam: note: --name is called --road now\n" + present.err);
+    EXPECT_EQ(expect_done({"query", store, "--name", "none", "--json", "--quiet"}).err, "");
+    const auto refused = run_macadam({"render", store, "-o", "a.png", "--min-passes", "2"});
+    EXPECT_EQ(refused.exit_status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--min-passes is called --grey-below here now"));
+}
+
+TEST(Program, WritesRowsToAFileInTheFormatOfItsSuffix) {
+    const auto folder = fresh_folder();
+    const auto store = store_of_rav4(folder).string();
+    const auto file = folder / "worst.csv";
+    const auto into =
+        expect_done({"query", store, "--worst", "3", "--segments", "-o", file.string()});
+    EXPECT_EQ(into.out, "");
+    EXPECT_EQ(read_file(file),
+              expect_done({"query", store, "--worst", "3", "--segments", "--format", "csv"}).out);
+    EXPECT_EQ(run_macadam({"query", store, "--worst", "3", "-o", store}).exit_status, 1);
+    EXPECT_EQ(
+        run_macadam({"query", store, "--worst", "3", "--json", "--format", "csv"}).exit_status, 2);
+}
+
+TEST(Program, LeavesNoFileOfRowsWhenACommandFails) {
+    const auto folder = fresh_folder();
+    const auto file = folder / "rows.csv";
+    EXPECT_EQ(run_macadam({"trace", rav4, "--length", "90000", "-o", file.string()}).exit_status,
+              1);
+    EXPECT_TRUE(fs::is_empty(folder));
+    expect_done({"trace", rav4, "--method", "kf", "-o", file.string()});
+    EXPECT_THAT(read_file(file), StartsWith("from_m,to_m,"));
+}
+
+TEST(Program, PrintsNothingOfAcceptedTripsWhenQuiet) {
+    const auto folder = fresh_folder();
+    const auto store = (folder / "roads.gpkg").string();
+    expect_done({"init", store, "--trace", rav4});
+    EXPECT_EQ(expect_done({"import", store, rav4, "--method", "kf", "--quiet"}).out, "");
+    write_file(folder / "broken.trip.csv", "# macadam-trip 1\n");
+    const auto broken =
+        run_macadam({"import", store, (folder / "broken.trip.csv").string(), "--quiet"});
+    EXPECT_THAT(broken.out, StartsWith("rejected"));
 }
 
 TEST(Program, IsMisusedByWhatItDoesNotKnow) {
@@ -248,7 +305,7 @@ TEST(Program, SaysIriOfASineAsTheClosedFormDoes) {
     // 2.7241 mm/m is the closed form for 1 mm at 2.4 m; the 0.05 m grid reads 2.7223.
     const auto out =
         expect_done(
-            {"iri", (folder / "sine.csv").string(), "--from", "100", "--to", "388", "--json"})
+            {"iri", (folder / "sine.csv").string(), "--from-m", "100", "--to-m", "388", "--json"})
             .out;
     EXPECT_THAT(out, HasSubstr("\"mri\":2.722"));
     EXPECT_THAT(out, HasSubstr("\"envelope_samples\":5"));

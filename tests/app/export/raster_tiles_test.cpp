@@ -268,9 +268,9 @@ TEST(PictureTiles, RefuseOptionsThatDoNotFit) {
     EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.mbtiles", "--theme", "dark"}),
               "--tile-size, --theme, --style, --left-hand and --no-labels require --tiles "
               "picture");
-    EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.mbtiles", "--tiles", "picture", "--name", "Ring"}),
+    EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.mbtiles", "--tiles", "picture", "--road", "Ring"}),
               "--tiles picture shows all roads of a box: combine it with --bbox and "
-              "--min-passes only, not with options that select segments");
+              "--grey-below only, not with options that select segments");
 }
 
 } // namespace macadam::testing

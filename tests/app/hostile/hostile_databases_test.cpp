@@ -41,7 +41,7 @@ const std::vector<Words> commands{
     {"import", "a.gpkg", "a.trip.csv"},
     {"calibrate", "a.gpkg"},
     {"reprocess", "a.gpkg", "a.trip.csv"},
-    {"valid-from", "a.gpkg", "--from", "2026-05-01", "--way", "1"},
+    {"valid-from", "a.gpkg", "--since", "2026-05-01", "--way", "1"},
     {"forget", "a.gpkg", "--trip", "trip-1"},
     {"info", "a.gpkg", "--digest"},
 };

@@ -121,7 +121,7 @@ TEST(HostileNetwork, OfOtherRoadsUnderTheStoresNameEndsInWordsAtMost) {
          {std::vector<std::string>{"match", trip, "--network", store},
           {"import", store, trip},
           {"info", store},
-          {"query", store, "--name", "High Street"},
+          {"query", store, "--road", "High Street"},
           {"query", store, "--along", trip},
           {"query", store, "--worst", "3"},
           {"report", store, "-o", (folder / "report.html").string()}}) {

@@ -27,7 +27,7 @@ inline std::vector<CommandCase> commands() {
             {"import", {"import", "STORE", "TRIP"}},
             {"calibrate", {"calibrate", "STORE"}},
             {"reprocess", {"reprocess", "STORE", "TRIP"}},
-            {"valid_from", {"valid-from", "STORE", "--from", "2026-01-01", "--way", "1"}},
+            {"valid_from", {"valid-from", "STORE", "--since", "2026-01-01", "--way", "1"}},
             {"forget", {"forget", "STORE", "--trip", "trip-1"}},
             {"query", {"query", "STORE", "--worst", "3"}},
             {"export_geojson", {"export", "STORE", "--all", "-o", "OUT/a.geojson"}},

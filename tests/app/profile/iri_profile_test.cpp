@@ -115,8 +115,9 @@ std::string written(const std::string& name, const std::string& text) {
 }
 
 TEST(IriProgram, MeetsThePublishedSegmentsOfAMeasuredRoad) {
-    const auto iri = column(
-        expect_done({even, "--from", "478.5", "--to", "1018.5", "--length", "20"}), "iri_profile");
+    const auto iri =
+        column(expect_done({even, "--from-m", "478.5", "--to-m", "1018.5", "--length", "20"}),
+               "iri_profile");
     const auto reference = published("A_init_11m_correct");
     ASSERT_EQ(iri.size(), 27U);
     for (std::size_t i = 0; i < iri.size(); ++i) {
@@ -129,7 +130,7 @@ TEST(IriProgram, MeetsThePublishedSegmentsOfAMeasuredRoad) {
 TEST(IriProgram, MeetsThePublishedSegmentsOfUnevenStations) {
     const auto iri = column(
         expect_done(
-            {uneven, "--from", "478.5", "--to", "1018.5", "--length", "20", "--no-envelope"}),
+            {uneven, "--from-m", "478.5", "--to-m", "1018.5", "--length", "20", "--no-envelope"}),
         "iri_profile");
     const auto reference = published("published_code_semianalytical_on_profile_2_irregular");
     ASSERT_EQ(iri.size(), 27U);
@@ -220,7 +221,7 @@ TEST(IriProgram, WritesWhatItReadAsErd) {
     const auto of_csv = column(expect_done({file, "-o", erd}), "mri").front();
     EXPECT_NEAR(column(expect_done({erd}), "mri").front(), of_csv, 1e-3 * of_csv);
     EXPECT_THAT(refused({uneven, "-o", erd}).err, HasSubstr("has uneven stations"));
-    EXPECT_EQ(refused({file, "-o", "a.csv"}).exit_status, 2);
+    EXPECT_EQ(refused({file, "-o", "a.txt"}).exit_status, 2);
     EXPECT_THAT(refused({erd, "-o", erd}).err, HasSubstr("a.erd"));
 }
 
@@ -235,7 +236,7 @@ TEST(IriProgram, FlagsThePiecesOfTheFirst60Metres) {
     flags.resize(6);
     EXPECT_THAT(flags, ElementsAre("lead_in", "yes", "yes", "yes", "no", "no"));
     // With 100 m of it before, nothing shows.
-    EXPECT_THAT(expect_done({even, "--from", "578", "--length", "20"}),
+    EXPECT_THAT(expect_done({even, "--from-m", "578", "--length", "20"}),
                 ::testing::Not(HasSubstr("yes")));
 }
 
@@ -302,7 +303,7 @@ TEST(IriProgram, MovesAnyBaseOnUnevenStationsToo) {
     EXPECT_NEAR(at_m[1] - at_m[0], 1, 2e-3); // a thirtieth
     const auto moved = column(csv, "iri_profile");
     const auto pieces =
-        column(expect_done({uneven, "--from", "478", "--length", "30"}), "iri_profile");
+        column(expect_done({uneven, "--from-m", "478", "--length", "30"}), "iri_profile");
     EXPECT_NEAR(moved[0], pieces[0], 1e-3);
     EXPECT_NEAR(moved[30], pieces[1], 1e-3);
     EXPECT_NEAR(moved[60], pieces[2], 1e-3);
@@ -325,9 +326,9 @@ TEST(IriProgram, RefusesWhatIsAskedForWrongly) {
     EXPECT_THAT(refused({coarse}).err,
                 HasSubstr("a.txt: has a point every 0.5 m, expected 0 to 0.3"));
     EXPECT_EQ(refused({coarse}).exit_status, 1);
-    EXPECT_THAT(refused({even, "--from", "2000"}).err,
+    EXPECT_THAT(refused({even, "--from-m", "2000"}).err,
                 HasSubstr("contains no part of the profile, expected 478 to 1022 m"));
-    EXPECT_THAT(refused({even, "--from", "100"}).err, HasSubstr("expected 478 to 1022 m"));
+    EXPECT_THAT(refused({even, "--from-m", "100"}).err, HasSubstr("expected 478 to 1022 m"));
     EXPECT_THAT(refused({even, "--length", "600"}).err, HasSubstr("are shorter than --length 600"));
     EXPECT_THAT(refused({even, "--continuous", "600"}).err,
                 HasSubstr("are shorter than the base, 600 m"));

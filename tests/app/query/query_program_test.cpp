@@ -108,7 +108,7 @@ TEST_F(QueryProgram, FindsNothingInWordsOnStandardErrorAlone) {
              {"table", ""},
              {"json", "[]\n"},
              {"geojson", "{\"type\":\"FeatureCollection\",\"features\":[]}\n"}}) {
-        const auto run = query({"--name", "nowhere", "--format", format});
+        const auto run = query({"--road", "nowhere", "--format", format});
         EXPECT_EQ(run.exit_status, 0);
         EXPECT_EQ(run.out, out);
         EXPECT_THAT(run.err, HasSubstr("no segment with a pass meets these conditions"));

@@ -97,8 +97,8 @@ TEST_F(MapStyleProgram, KnowsTheShippedTableAsAFileOfItsOwn) {
 
 TEST_F(MapStyleProgram, DrawsRoadsWithFewPassesInGrey) {
     const auto plain = picture({});
-    EXPECT_TRUE(picture({"--min-passes", "1"}) == plain);
-    const auto grey = picture({"--min-passes", "3"});
+    EXPECT_TRUE(picture({"--grey-below", "1"}) == plain);
+    const auto grey = picture({"--grey-below", "3"});
     EXPECT_FALSE(grey == plain);
     EXPECT_TRUE(picture({"--style", style("min_passes = 3\n")}) == grey);
 }
@@ -156,13 +156,13 @@ TEST_F(MapStyleProgram, ReportsWithColoursOfAThemeOnPagesOfThatKindAlone) {
 TEST_F(MapStyleProgram, ReportsRoadsWithFewPassesInGreyAndSaysSo) {
     const auto plain = report({});
     EXPECT_THAT(plain, Not(HasSubstr("are grey here")));
-    EXPECT_TRUE(report({"--min-passes", "1"}) == plain);
-    const auto grey = report({"--min-passes", "3"});
+    EXPECT_TRUE(report({"--grey-below", "1"}) == plain);
+    const auto grey = report({"--grey-below", "3"});
     EXPECT_THAT(grey, HasSubstr("Fewer than 3 passes"));
     EXPECT_THAT(grey, HasSubstr("Roads with few passes are grey here; all figures count them."));
     EXPECT_FALSE(picture_in(grey, "light") == picture_in(plain, "light"));
     EXPECT_TRUE(report({"--style", style("min_passes = 3\n")}) == grey);
-    EXPECT_THAT(report({"--min-passes", "3", "--language", "de"}),
+    EXPECT_THAT(report({"--grey-below", "3", "--language", "de"}),
                 HasSubstr("Weniger als 3 Überfahrten"));
 }
 
@@ -172,9 +172,9 @@ TEST_F(MapStyleProgram, ReportsNothingByAFileThatIsNoStyle) {
         run_macadam({"report", store_, "-o", file, "--style", style("colors = 3\n")}).exit_status,
         1);
     EXPECT_FALSE(fs::exists(file));
-    const auto run = run_macadam({"report", store_, "--against-reference", "--min-passes", "3"});
+    const auto run = run_macadam({"report", store_, "--against-reference", "--grey-below", "3"});
     EXPECT_EQ(run.exit_status, 2);
-    EXPECT_THAT(run.err, HasSubstr("--min-passes and --against-reference cannot be combined"));
+    EXPECT_THAT(run.err, HasSubstr("--grey-below and --against-reference cannot be combined"));
 }
 
 TEST_F(MapStyleProgram, WarnsOfColoursThatSomeEyesConfuse) {
@@ -196,9 +196,9 @@ TEST_F(MapStyleProgram, RefusesAFileThatIsNoStyle) {
 }
 
 TEST_F(MapStyleProgram, RefusesNumbersOfPassesThatAreNone) {
-    const auto run = render({"--min-passes", "0"});
+    const auto run = render({"--grey-below", "0"});
     EXPECT_EQ(run.exit_status, 2);
-    EXPECT_THAT(run.err, HasSubstr("--min-passes is 0, expected 1 to 1000000"));
+    EXPECT_THAT(run.err, HasSubstr("--grey-below is 0, expected 1 to 1000000"));
 }
 
 } // namespace macadam::testing

@@ -139,7 +139,7 @@ TEST_F(Reference, ToldTheTruthTheComparisonSaysWhatTheTruthSays) {
 
 TEST_F(Reference, BringsTheMapToTheTruthAndShowsTheSurveyApart) {
     const auto before = info();
-    ran({"import", store_, "--reference", truth_, "--name", "laser", "--accuracy", "1"});
+    ran({"import", store_, "--reference", truth_, "--survey-name", "laser", "--accuracy", "1"});
     const auto after = info();
     for (const auto* const key : {"trips", "passes", "vehicles", "cars", "passes_per_day"}) {
         EXPECT_EQ(after[key], before[key]) << key;

@@ -182,7 +182,8 @@ TEST_F(PrivacyProgram, WarnsOfAKeyThatOthersCanRead) {
 }
 
 TEST_F(PrivacyProgram, ForgetsACarByItsIdAndATripByItsFullName) {
-    EXPECT_THAT(out_of({"forget", "--vehicle", ids[0]}), HasSubstr("1 trip permanently deleted"));
+    EXPECT_THAT(out_of({"forget", "--vehicle-id", ids[0]}),
+                HasSubstr("1 trip permanently deleted"));
     EXPECT_THAT(out_of({"forget", "--trip", ids[1] + "-0001.trip.csv"}),
                 HasSubstr("1 trip permanently deleted"));
 }

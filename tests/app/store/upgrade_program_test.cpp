@@ -47,7 +47,7 @@ TEST_F(UpgradeProgram, IsWhatEveryOtherCommandAsksFor) {
              {"info", {}},
              {"query", {"--worst", "1"}},
              {"export", {"-o", (folder_ / "a.geojson").string()}},
-             {"forget", {"--vehicle", "van-7"}},
+             {"forget", {"--vehicle-id", "van-7"}},
              {"calibrate", {}}}) {
         const auto refused = run(command, words);
         EXPECT_EQ(refused.exit_status, 1) << command;
@@ -78,7 +78,7 @@ TEST_F(UpgradeProgram, KeepsTheDigestAndNamesTheCarsUnderAKey) {
     EXPECT_EQ(info["vehicles"][1], key.pseudonym("van-8"));
     EXPECT_THAT(run("info", {"--audit"}).out, HasSubstr("from version 2 to 4"));
     EXPECT_EQ(run("forget", {"--trip", "van-7-0002"}).exit_status, 0);
-    EXPECT_EQ(run("forget", {"--vehicle", "van-8"}).exit_status, 0);
+    EXPECT_EQ(run("forget", {"--vehicle-id", "van-8"}).exit_status, 0);
 }
 
 TEST_F(UpgradeProgram, LeavesNoByteOfOldNamesOrTimes) {

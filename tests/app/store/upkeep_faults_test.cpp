@@ -113,7 +113,7 @@ std::vector<CommandCase> commands() {
             {"valid_from",
              country,
              [](const World&) {
-                 return Words{"valid-from", "--from", "2026-05-01", "--way", "1"};
+                 return Words{"valid-from", "--since", "2026-05-01", "--way", "1"};
              }},
             {"reprocess",
              gyor,

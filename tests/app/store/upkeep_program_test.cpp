@@ -46,7 +46,7 @@ TEST_F(UpkeepProgram, ForgetsATripAndSaysWhatItTookOut) {
     EXPECT_EQ(json["segments"], 20);
     EXPECT_EQ(json["calibrated_anew"], false);
     EXPECT_EQ(json["log_is_clean"], true);
-    EXPECT_EQ(run("forget", {"--vehicle", "car-1"}).out,
+    EXPECT_EQ(run("forget", {"--vehicle-id", "car-1"}).out,
               "4 trips permanently deleted: 80 passes over 20 segments\n");
 }
 
@@ -61,7 +61,7 @@ TEST_F(UpkeepProgram, RefusesToForgetNobodyOrWhomItDoesNotKnow) {
 
 TEST_F(UpkeepProgram, SetsListsAndTakesBackADayFromWhichOnPassesCount) {
     const auto before = digest();
-    const auto set = run("valid-from", {"--from", "2026-05-01", "--way", "1", "--reason", "new"});
+    const auto set = run("valid-from", {"--since", "2026-05-01", "--way", "1", "--reason", "new"});
     EXPECT_EQ(set.exit_status, 0) << set.err;
     EXPECT_THAT(set.err, HasSubstr("20 segments: only passes from 2026-05-01T00:00:00Z on count"));
     EXPECT_NE(digest(), before);
@@ -82,14 +82,14 @@ TEST_F(UpkeepProgram, RefusesADayThatIsNoneAndARoadThatIsNone) {
         EXPECT_EQ(done.exit_status, status);
         return done.err;
     };
-    EXPECT_THAT(words_of({"--from", "tomorrow", "--way", "1"}, 2),
-                HasSubstr("--from is 'tomorrow', expected a time such as 2026-03"));
-    EXPECT_THAT(words_of({"--from", "2026-05-01"}, 2),
+    EXPECT_THAT(words_of({"--since", "tomorrow", "--way", "1"}, 2),
+                HasSubstr("--since is 'tomorrow', expected a time such as 2026-03"));
+    EXPECT_THAT(words_of({"--since", "2026-05-01"}, 2),
                 HasSubstr("expected a selection of roads: --segment, --way, --name, --highway "
                           "or --bbox"));
-    EXPECT_THAT(words_of({"--from", "2026-05-01", "--any-day", "--way", "1"}, 2),
-                HasSubstr("--from and --any-day cannot be combined"));
-    EXPECT_THAT(words_of({"--from", "2026-05-01", "--way", "77"}, 1),
+    EXPECT_THAT(words_of({"--since", "2026-05-01", "--any-day", "--way", "1"}, 2),
+                HasSubstr("--since and --any-day cannot be combined"));
+    EXPECT_THAT(words_of({"--since", "2026-05-01", "--way", "77"}, 1),
                 HasSubstr("roads.gpkg: has no segment that meets these conditions"));
 }
 
@@ -120,7 +120,7 @@ TEST_F(UpkeepProgram, CalibratesTheCarsAndTellsThem) {
 }
 
 TEST_F(UpkeepProgram, LeavesAStoreAsItWasWhereNoCarCanBeCalibrated) {
-    run("forget", {"--vehicle", "car-1", "car-2"});
+    run("forget", {"--vehicle-id", "car-1", "car-2"});
     const auto before = digest();
     const auto done = run("calibrate", {});
     EXPECT_EQ(done.exit_status, 1);
@@ -132,7 +132,7 @@ TEST_F(UpkeepProgram, LeavesAStoreAsItWasWhereNoCarCanBeCalibrated) {
 }
 
 TEST_F(UpkeepProgram, TellsWhatWasDoneAndWhatItDidToANumber) {
-    run("valid-from", {"--from", "2026-05", "--segment", "1+0003", "--reason", "resurfaced"});
+    run("valid-from", {"--since", "2026-05", "--segment", "1+0003", "--reason", "resurfaced"});
     EXPECT_THAT(run("info", {"--audit"}).out,
                 HasSubstr("1  valid-from: 1 segments from 2026-05-01T00:00:00.000Z: resurfaced"));
     const auto audit = Json::parse(run("info", {"--audit", "--json"}).out);

@@ -66,7 +66,7 @@ TEST(Convert, PutsSeveralTripsIntoAFolder) {
                                   rtk,
                                   "-o",
                                   output.string(),
-                                  "--to",
+                                  "--format",
                                   ".trip.csv.zst"});
     EXPECT_EQ(run.exit_status, 0) << run.err;
     EXPECT_EQ(read_trip({output / "tiny.trip.csv.zst", ""}, {}).rows.size(), 2U);
@@ -206,7 +206,7 @@ TEST(Convert, LeavesNothingOfAFileThatDoesNotFit) {
 
 TEST(Convert, ExplainsItsOptions) {
     EXPECT_EQ(run_macadam({"convert", rav4}).exit_status, 2);
-    const auto run = run_macadam({"convert", rav4, "-o", "x", "--to", ".doc"});
+    const auto run = run_macadam({"convert", rav4, "-o", "x", "--format", ".doc"});
     EXPECT_EQ(run.exit_status, 2);
     EXPECT_THAT(run.err, HasSubstr("'.doc'"));
     EXPECT_EQ(run_macadam({"convert", rav4, "-o", "x", "--level", "0"}).exit_status, 2);

@@ -127,7 +127,7 @@ TEST_F(TraceOutputs, AProfileIsAsRoughForIriAsTheTraceSays) {
                                       file});
         ASSERT_EQ(run.exit_status, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr(".erd: mean of both tracks from "));
-        const auto iri = run_macadam({"iri", file, "--from", "200", "--to", "400"});
+        const auto iri = run_macadam({"iri", file, "--from-m", "200", "--to-m", "400"});
         ASSERT_EQ(iri.exit_status, 0) << iri.err;
         const double of_trace = std::stod(column(run.out, "iri").at(1));
         const double of_profile = std::stod(column(iri.out, "iri_centre").at(0));

@@ -1,0 +1,36 @@
+# cmake -D build=BUILD -D folder=DIR -P installed.cmake
+# Installs into DIR/first, moves the tree to DIR/moved, and maps a recorded trip with what is there:
+# the program finds its libraries wherever the tree stands, and nothing of the build folder is in it.
+file(REMOVE_RECURSE "${folder}")
+file(MAKE_DIRECTORY "${folder}/maps")
+
+function(run_checked)
+    execute_process(COMMAND ${ARGV} OUTPUT_VARIABLE out ERROR_VARIABLE error RESULT_VARIABLE status)
+    if(NOT status EQUAL 0)
+        list(JOIN ARGV " " words)
+        message(FATAL_ERROR "${words}: ${status}\n${out}${error}")
+    endif()
+endfunction()
+
+run_checked("${CMAKE_COMMAND}" --install "${build}" --prefix "${folder}/first" --strip)
+file(RENAME "${folder}/first" "${folder}/moved")
+set(program "${folder}/moved/bin/macadam")
+set(trip "${folder}/moved/share/doc/macadam/examples/comma2k19/comma2k19_rav4.trip.csv")
+run_checked("${program}" init "${folder}/maps/roads.gpkg" --trace "${trip}")
+run_checked("${program}" import "${folder}/maps/roads.gpkg" "${trip}")
+run_checked("${program}" render "${folder}/maps/roads.gpkg" -o "${folder}/maps/map.png" --size 512x512)
+run_checked("${program}" export "${folder}/maps/roads.gpkg" -o "${folder}/maps/roads.fgb")
+foreach(made maps/map.png maps/roads.fgb moved/share/man/man1/macadam-import.1.gz
+        moved/share/doc/macadam/copyright moved/share/doc/macadam/LICENSE)
+    if(NOT EXISTS "${folder}/${made}")
+        message(FATAL_ERROR "${folder}/${made}: is missing")
+    endif()
+endforeach()
+
+file(GLOB elf_files "${program}" "${folder}/moved/lib/macadam/plugins/*.so")
+foreach(file IN LISTS elf_files)
+    file(STRINGS "${file}" traces REGEX "${build}")
+    if(traces)
+        message(FATAL_ERROR "${file}: names the build folder: ${traces}")
+    endif()
+endforeach()
