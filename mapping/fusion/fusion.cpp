@@ -14,7 +14,9 @@ namespace macadam {
 namespace {
 
 constexpr double um_per_mm = 1000;
-constexpr double claims = 6;         // pseudo-observations that scatter as claimed
+constexpr double claims = 6; // pseudo-observations that scatter as claimed
+constexpr double claims_of_cars =
+    12;                              // cars that differ as claimed, against chance agreement of few
 constexpr double survey_share = 0.5; // of a reference's variance: common to all its rows on a road
 
 using Eigen::Index;
@@ -267,7 +269,7 @@ double agreement(const FusionObservations& readings, const VectorXd& off) {
         strangeness += mean * mean / (own + of_trips + 1 / whole);
     }
     const auto others = static_cast<double>(readings.cars.size() - 1);
-    return std::sqrt(std::min(1.0, (claims + strangeness) / (claims + others)));
+    return std::sqrt(std::min(1.0, (claims_of_cars + strangeness) / (claims_of_cars + others)));
 }
 
 /// Averages the distance of one side from the headline over the passes since `from_ms`.

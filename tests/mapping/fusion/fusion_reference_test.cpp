@@ -134,7 +134,7 @@ TEST(FusionOfReferences, LeavesCarsAloneWhereThereIsNone) {
     // The same numbers, whatever a reference elsewhere does: the shares only matter beside one.
     const auto alone = fuse(cars(5, 2300, 250), {});
     EXPECT_EQ(alone.iri_um, 2300);
-    const double agreed = std::sqrt(6.0 / (6 + 4)); // five cars that read the same
+    const double agreed = std::sqrt(12.0 / (12 + 4)); // five cars that read the same
     const double of_each = agreed * std::hypot(250 * std::sqrt(0.5), 0.08 * 2300, 50.0);
     EXPECT_NEAR(alone.sd_um, std::hypot(of_each / std::sqrt(5.0), 250 * std::sqrt(0.5)), 1);
 }

@@ -37,7 +37,7 @@ double between_um(double level_um) {
 
 /// Factor on the errors that cars do not share, of cars that read the same.
 double agreed(int cars) {
-    return std::sqrt(6.0 / (6 + cars - 1));
+    return std::sqrt(12.0 / (12 + cars - 1));
 }
 
 TEST(Fusion, OfOnePassIsThatPassWithTheScatterBetweenPasses) {
@@ -67,7 +67,7 @@ TEST(Fusion, ShrinksTheSdWhereCarsAgreeButNotWherePassesOfOneCarDo) {
     for (const auto iri_um : readings) {
         strangeness += std::pow((iri_um - 2000) / of_car, 2);
     }
-    const double factor = std::sqrt((6 + strangeness) / (6 + 4));
+    const double factor = std::sqrt((12 + strangeness) / (12 + 4));
     EXPECT_NEAR(fuse(passes, {}).sd_um,
                 std::hypot(factor * of_car / std::sqrt(5), 300 * std::sqrt(0.5)),
                 3); // the t distribution weighs them a little
