@@ -265,9 +265,10 @@ TEST(PictureTiles, AreTheSameInAFolder) {
 TEST(PictureTiles, RefuseOptionsThatDoNotFit) {
     EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.csv", "--tiles", "picture"}),
               "--tiles is for tile output, expected -o to end in .mbtiles, .pmtiles or /");
-    EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.mbtiles", "--theme", "dark"}),
-              "--tile-size, --theme, --style, --left-hand and --no-labels require --tiles "
-              "picture");
+    EXPECT_EQ(
+        misuse_of({"a.gpkg", "-o", "a.mbtiles", "--theme", "dark"}),
+        "--tile-size, --theme, --style, --grey-below, --left-hand and --no-labels require --tiles "
+        "picture");
     EXPECT_EQ(misuse_of({"a.gpkg", "-o", "a.mbtiles", "--tiles", "picture", "--road", "Ring"}),
               "--tiles picture shows all roads of a box: combine it with --bbox and "
               "--grey-below only, not with options that select segments");

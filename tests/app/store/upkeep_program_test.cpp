@@ -53,7 +53,7 @@ TEST_F(UpkeepProgram, ForgetsATripAndSaysWhatItTookOut) {
 TEST_F(UpkeepProgram, RefusesToForgetNobodyOrWhomItDoesNotKnow) {
     const auto nobody = run("forget", {});
     EXPECT_EQ(nobody.exit_status, 2);
-    EXPECT_THAT(nobody.err, HasSubstr("expected --trip or --vehicle: what to delete"));
+    EXPECT_THAT(nobody.err, HasSubstr("expected --trip or --vehicle-id: what to delete"));
     const auto stranger = run("forget", {"--trip", "trip-99"});
     EXPECT_EQ(stranger.exit_status, 1);
     EXPECT_THAT(stranger.err, HasSubstr("roads.gpkg: has no trip 'trip-99', expected a trip_id"));
@@ -65,7 +65,7 @@ TEST_F(UpkeepProgram, SetsListsAndTakesBackADayFromWhichOnPassesCount) {
     EXPECT_EQ(set.exit_status, 0) << set.err;
     EXPECT_THAT(set.err, HasSubstr("20 segments: only passes from 2026-05-01T00:00:00Z on count"));
     EXPECT_NE(digest(), before);
-    EXPECT_THAT(run("valid-from", {}).out, StartsWith("1+0000                   2026-05-01T00:"));
+    EXPECT_THAT(run("valid-from", {}).out, HasSubstr("\n1+0000                   2026-05-01T00:"));
     const auto list = Json::parse(run("valid-from", {"--json"}).out);
     ASSERT_THAT(list, SizeIs(20));
     EXPECT_EQ(list[0]["segment"], "1+0000");
@@ -85,7 +85,7 @@ TEST_F(UpkeepProgram, RefusesADayThatIsNoneAndARoadThatIsNone) {
     EXPECT_THAT(words_of({"--since", "tomorrow", "--way", "1"}, 2),
                 HasSubstr("--since is 'tomorrow', expected a time such as 2026-03"));
     EXPECT_THAT(words_of({"--since", "2026-05-01"}, 2),
-                HasSubstr("expected a selection of roads: --segment, --way, --name, --highway "
+                HasSubstr("expected a selection of roads: --segment, --way, --road, --highway "
                           "or --bbox"));
     EXPECT_THAT(words_of({"--since", "2026-05-01", "--any-day", "--way", "1"}, 2),
                 HasSubstr("--since and --any-day cannot be combined"));
