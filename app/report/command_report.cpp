@@ -91,7 +91,7 @@ ReportOptions parse_report(const Arguments& arguments) {
             .report = {.title = arguments.value("--title").value_or(wording("title")),
                        .worst = parse_worst(arguments),
                        .sections = parse_sections(arguments, false),
-                       .since_ms = parse_begin(arguments, "--changes-since"),
+                       .since_ms = parse_begin(arguments, "--compare-since"),
                        .wording = wording,
                        .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
                        .style = style},
@@ -101,7 +101,7 @@ ReportOptions parse_report(const Arguments& arguments) {
 /// Rejects options that the reference report does not support.
 void refuse_beside_references(const Arguments& arguments) {
     for (const auto* const option :
-         {"--worst", "--sections", "--classes", "--changes-since", "--style", "--grey-below"}) {
+         {"--worst", "--sections", "--classes", "--compare-since", "--style", "--grey-below"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("{} and --against-reference cannot be combined", option)};
         }
@@ -193,7 +193,7 @@ constexpr std::array options{
     Option{"--title", "TEXT", "Title of the report.", "Road roughness"},
     instead_of(
         "--since",
-        {"--changes-since", "DATE", "Report changes since this day: 2026-03-01 or 2026-03."}),
+        {"--compare-since", "DATE", "Report changes since this day: 2026-03-01 or 2026-03."}),
     one_of("mm/m|in/mi",
            in_group("appearance", {"--unit", "UNIT", "Unit of roughness: mm/m or in/mi.", "mm/m"})),
     one_of("en|de", in_group("appearance", {"--language", "CODE", "en or de.", "en"})),
@@ -224,7 +224,7 @@ const Command report_command{
     .about = "Writes one self-contained HTML file that opens in any browser, also on a phone; or a "
              "PDF for printing.\nThe same database gives the same bytes.",
     .example = "  macadam report roads.gpkg -o report.html --title \"Spring survey 2026\"\n"
-               "  macadam report roads.gpkg -o report.pdf --changes-since 2026-04-01 --language de\n"
+               "  macadam report roads.gpkg -o report.pdf --compare-since 2026-04-01 --language de\n"
                "  macadam report roads.gpkg -o report.html --worst 50 --classes five\n"
                "  macadam report roads.gpkg --against-reference -o reference.html",
     .operands = operands,

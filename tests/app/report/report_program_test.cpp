@@ -113,7 +113,7 @@ TEST_F(ReportProgram, WritesAPdfWithTheSameBytesForTheSameStore) {
 
 TEST_F(ReportProgram, SaysWhatCannotBeCompared) {
     const auto run =
-        run_macadam({"report", store_, "-o", out("s.html"), "--changes-since", "2026-03"});
+        run_macadam({"report", store_, "-o", out("s.html"), "--compare-since", "2026-03"});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     EXPECT_THAT(read_file(out("s.html")),
                 HasSubstr("No segment has dated passes both before and since 2026-03-01"));
@@ -160,8 +160,8 @@ TEST_F(ReportProgram, IsMisusedByAnotherNameANumberOrAClassTableThatIsNone) {
              {{"-o", "a.pdf", "--paper", "A3"}, "--paper is 'A3', expected A4 or letter"},
              {{"-o", "a.pdf", "--unit", "m/km"}, "--unit is 'm/km', expected mm/m or in/mi"},
              {{"-o", "a.pdf", "--language", "xx"}, "--language is 'xx', expected en or de"},
-             {{"-o", "a.pdf", "--changes-since", "spring"},
-              "--changes-since is 'spring', expected a time such as"},
+             {{"-o", "a.pdf", "--compare-since", "spring"},
+              "--compare-since is 'spring', expected a time such as"},
              {{"-o", "a.html", "--worst", "-1"}, "--worst is -1, expected 0 to 200"},
              {{"-o", "a.html", "--classes", "six"}, "--classes is 'six', expected fhwa or five"}}) {
         std::vector<std::string> call{"report", store_};
