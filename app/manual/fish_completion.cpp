@@ -67,18 +67,17 @@ std::string line_of(const Command& command, const Operand& operand) {
 } // namespace
 
 std::string fish_completion() {
-    std::string text =
-        "# fish completion of macadam, made from its table of commands\n\n"
-        "# Files of these suffixes, and folders.\n"
-        "function __macadam_files\n"
-        "    __fish_complete_directories\n"
-        "    for suffix in $argv\n"
-        "        for file in (commandline -ct)*$suffix\n"
-        "            echo $file\n"
-        "        end\n"
-        "    end\n"
-        "end\n\n"
-        "complete -c macadam -f\n";
+    std::string text = "# fish completion of macadam, made from its table of commands\n\n"
+                       "# Files of these suffixes, and folders.\n"
+                       "function __macadam_files\n"
+                       "    __fish_complete_directories\n"
+                       "    for suffix in $argv\n"
+                       "        for file in (commandline -ct)*$suffix\n"
+                       "            echo $file\n"
+                       "        end\n"
+                       "    end\n"
+                       "end\n\n"
+                       "complete -c macadam -f\n";
     std::string names;
     for (const auto& command : commands()) {
         names += fmt::format("{} ", command.name);
