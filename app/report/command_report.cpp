@@ -223,10 +223,11 @@ const Command report_command{
     .summary = "Create a condition report: condition, worst sections, coverage, data",
     .about = "Writes one self-contained HTML file that opens in any browser, also on a phone; or a "
              "PDF for printing.\nThe same database gives the same bytes.",
-    .example = "  macadam report roads.gpkg -o report.html --title \"Spring survey 2026\"\n"
-               "  macadam report roads.gpkg -o report.pdf --compare-since 2026-04-01 --language de\n"
-               "  macadam report roads.gpkg -o report.html --worst 50 --classes five\n"
-               "  macadam report roads.gpkg --against-reference -o reference.html",
+    .example =
+        "  macadam report roads.gpkg -o report.html --title \"Spring survey 2026\"\n"
+        "  macadam report roads.gpkg -o report.pdf --compare-since 2026-04-01 --language de\n"
+        "  macadam report roads.gpkg -o report.html --worst 50 --classes five\n"
+        "  macadam report roads.gpkg --against-reference -o reference.html",
     .operands = operands,
     .options = options,
     .run = run_report};

@@ -4,8 +4,8 @@ namespace macadam {
 
 /// Returns the function `symbol` of the shared object `library`, which is opened on first use and
 /// stays open. "macadam_NAME.so" is opened in lib/ beside the running program or, where that is
-/// installed, in ../lib/macadam/plugins/ from it, by its absolute path; any other name is looked up in the
-/// system's library path.
+/// installed, in ../lib/macadam/plugins/ from it, by its absolute path; any other name is looked up
+/// in the system's library path.
 ///
 /// MRPT and GDAL load more than a hundred shared objects each, and OSMesa loads a compiler.
 /// Commands that need none of them should not wait for them.

@@ -5,11 +5,11 @@
 #include "faulty_disk.hpp"
 #include "mapping/conflation/network_conflation.hpp"
 #include "mapping/network/build_network.hpp"
-#include "support/roads/fleet_passes.hpp"
 #include "storage/store/road_store.hpp"
 #include "store_import.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/edited_network.hpp"
+#include "support/roads/fleet_passes.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
 // Who works on a store and who comes in between: nobody waits for longer than another one writes,
 // and nobody loses what he did.
 
-#include "support/roads/fleet_passes.hpp"
 #include "storage/sqlite/lock_wait.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/files/files.hpp"
 #include "support/program/fork.hpp"
+#include "support/roads/fleet_passes.hpp"
 #include "support/roads/store_world.hpp"
 
 #include <gmock/gmock.h>

@@ -1,8 +1,8 @@
 // Profile and key of a store: whose cars it holds, and under what names.
 
-#include "support/roads/fleet_passes.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/files/files.hpp"
+#include "support/roads/fleet_passes.hpp"
 #include "support/roads/store_world.hpp"
 
 #include <gmock/gmock.h>
