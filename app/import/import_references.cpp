@@ -131,7 +131,7 @@ import_survey(RoadStore& store, const RoadNetwork& roads, const KnownRoughness& 
         outcome.warnings.emplace_back("no --date: the survey is undated");
     }
     const auto record = record_of(outcome);
-    const NewTrip trip{&record, outcome.found.passes, {}, true};
+    const NewTrip trip{&record, outcome.found.passes, {}, known.readmit};
     outcome.known = !store.importer.add_trips({&trip, 1}).front();
     return outcome;
 }

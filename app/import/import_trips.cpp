@@ -194,7 +194,7 @@ bool has_passes(const TripReport& report) {
            report.result == TripReport::Result::reprocessed;
 }
 
-/// Writes the trips that have passes. A call may repeat a trip; then its result changes.
+/// Writes the trips that have passes. The same trip may occur twice; the second one is then known.
 void put(const Intake& intake, std::vector<ProcessedTrip>& trips) {
     using Result = TripReport::Result;
     std::vector<ProcessedTrip*> made;

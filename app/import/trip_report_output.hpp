@@ -5,8 +5,8 @@
 
 namespace macadam {
 
-/// Prints the report of a trip on standard output at once, as a line of JSON or as text. Of the
-/// text, a quiet console leaves rejected trips, and warnings on standard error.
+/// Prints the report of a trip on standard output at once, as a line of JSON or as text. In text, a
+/// quiet console is told only rejected trips, and warnings on standard error.
 void print_report(const TripReport& trip, bool json, const Console& console);
 
 } // namespace macadam

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -60,10 +61,7 @@ std::pair<int, int> size_of(const std::string& text) {
 std::pair<int, int> paper_size(const std::string& name, bool landscape) {
     const auto* const paper = std::ranges::find_if(
         papers, [&](const Paper& each) { return in_lower_case(each.name) == in_lower_case(name); });
-    if (paper == papers.end()) {
-        throw UsageError{
-            fmt::format("--paper is '{}', expected A0 to A5, letter, legal or tabloid", name)};
-    }
+    assert(paper != papers.end()); // paper_option checks its words
     const auto px = [](double mm) { return int(std::lround(mm / mm_per_inch * px_per_inch)); };
     const std::pair size{px(paper->width_mm), px(paper->height_mm)};
     return landscape ? std::pair{size.second, size.first} : size;

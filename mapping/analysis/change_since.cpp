@@ -151,9 +151,12 @@ double common_variance(const SegmentState& state, const FusionConfig& config) {
         config.rest_relative_sd * level, config.trip_relative_sd * level, config.rest_sd_mm_per_m);
     const double of_cars = sd * sd - rest * rest / state.passes;
     const double stated = of_cars / (config.common_share + config.car_share / state.vehicles);
-    const double max_common =
-        max_common_variance_um2(state.iri_um, config) / (um_per_mm * um_per_mm);
-    return std::clamp(config.common_share * stated, 0.0, max_common);
+    const double common = std::max(0.0, config.common_share * stated);
+    if ((state.validity & validity::lateral_alone) != 0) {
+        return common;
+    }
+    return std::min(common,
+                    max_common_variance_um2(state.iri_um, config) / (um_per_mm * um_per_mm));
 }
 
 Difference

@@ -14,9 +14,9 @@ namespace macadam {
 namespace {
 
 constexpr double um_per_mm = 1000;
-constexpr double claims = 6; // pseudo-observations that scatter as claimed
-constexpr double claims_of_cars =
-    12;                              // cars that differ as claimed, against chance agreement of few
+constexpr double stated_passes = 6; // pseudo-observations that scatter as stated
+constexpr double stated_cars = 12; // pseudo-observations of cars that differ as stated, so that few
+                                   // cars that agree by chance are not taken for sure
 constexpr double survey_share = 0.5; // of a reference's variance: common to all its rows on a road
 
 using Eigen::Index;
@@ -154,9 +154,10 @@ StatedParts parts_of(const std::vector<const FusionInput*>& passes,
     for (Index i = 0; i < stated.size(); ++i) {
         const auto& input = *passes[static_cast<std::size_t>(i)];
         const double share = config.common_share * stated[i] * stated[i];
-        const bool is_lateral = (input.pass.validity & validity::lateral_alone) != 0;
+        const bool is_limited =
+            !input.by_filter && (input.pass.validity & validity::lateral_alone) == 0;
         const double common =
-            is_lateral ? share : std::min(share, max_common_variance_um2(level_um, config));
+            is_limited ? std::min(share, max_common_variance_um2(level_um, config)) : share;
         parts.common[i] = input.reference ? 0 : std::sqrt(common);
         parts.car[i] = std::sqrt(share - common + config.car_share * stated[i] * stated[i]);
     }
@@ -238,7 +239,7 @@ VectorXd weights_of(const FusionObservations& readings, const RobustWeights& tru
     return variances.cwiseInverse();
 }
 
-/// Returns the excess of the scatter of the passes over their claims, >= 1.
+/// Returns the excess of the scatter of the passes over what they state, >= 1.
 double
 excess(const FusionObservations& readings, const RoughnessTrend& level, const VectorXd& weights) {
     const VectorXd variances = variances_of(readings);
@@ -247,11 +248,11 @@ excess(const FusionObservations& readings, const RoughnessTrend& level, const Ve
     const double strangeness =
         (trust.array() * off.array().square() / variances.array()).sum() / trust.maxCoeff();
     const auto others = static_cast<double>(readings.values.size() - 1);
-    return std::sqrt(std::max(1.0, (claims + strangeness) / (claims + others)));
+    return std::sqrt(std::max(1.0, (stated_passes + strangeness) / (stated_passes + others)));
 }
 
-/// Returns the factor, <= 1, on the errors that cars do not share, if the means of the cars agree
-/// better than they state; 1 for one car, however often it passed.
+/// Returns the factor, <= 1, on the errors that cars do not share, if the means of two or more cars
+/// (of their periods, if they changed) agree better than they state.
 double agreement(const FusionObservations& readings, const VectorXd& off) {
     double strangeness = 0;
     auto trip = readings.trips.begin();
@@ -269,7 +270,7 @@ double agreement(const FusionObservations& readings, const VectorXd& off) {
         strangeness += mean * mean / (own + of_trips + 1 / whole);
     }
     const auto others = static_cast<double>(readings.cars.size() - 1);
-    return std::sqrt(std::min(1.0, (claims_of_cars + strangeness) / (claims_of_cars + others)));
+    return std::sqrt(std::min(1.0, (stated_cars + strangeness) / (stated_cars + others)));
 }
 
 /// Averages the distance of one side from the headline over the passes since `from_ms`.
@@ -393,7 +394,9 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const auto weights = weights_of(weighed, level.trust);
     const auto apart = readings_of(sorted, values, stated, parts.car, none, middle_um, config);
     const VectorXd cars_part = of_cars_alone(sorted, level.influence);
-    const double agreed = beside_references ? 1 : agreement(apart, values - level.expected_um);
+    const auto cars = cars_in(sorted);
+    const double agreed =
+        beside_references || cars < 2 ? 1 : agreement(apart, values - level.expected_um);
     const double apart_um =
         std::sqrt(agreed * agreed * variance_of(apart, cars_part) + level.change_variance_um2);
     const double common_um = beside_references ? 0 : parts.common.dot(level.influence);
@@ -403,7 +406,7 @@ SegmentState fuse(std::span<const FusionInput> passes, const FusionConfig& confi
     const double references_um =
         std::sqrt(variance_of(apart, VectorXd{level.influence - cars_part}));
     auto state = with_level(gathered(passes), level, std::hypot(cars_um, references_um));
-    state.vehicles = cars_in(sorted);
+    state.vehicles = cars;
     state.left_um =
         side_um(level.um, side_off_um(sorted, weights, &Pass::iri_left_um, state.change));
     state.right_um =

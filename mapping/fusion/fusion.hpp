@@ -32,6 +32,8 @@ struct FusionInput {
                               ///< error, shared with no car
     std::uint32_t period = 0; ///< of the vehicle, between its changes: each has a car error of its
                               ///< own
+    bool by_filter = false;   ///< estimated by the published filter (Method::kf), whose band and
+                              ///< single axle err alike in all cars
 };
 
 /// Fuses the passes of one segment into its state: the level, on the day of the newest pass, of a

@@ -28,8 +28,9 @@ struct FusionConfig {
     double car_share = 0.5;    ///< of the stated variance, common to all passes of a car
 
     /// Limits of the common part; what is beyond them is the car's. A car of which little is known
-    /// states much, but not all unknown cars are wrong alike (docs/method/fusion.md). Lateral
-    /// acceleration alone has no limit: its ratio to the vertical one is common to all cars.
+    /// states much, but not all unknown cars are wrong alike (docs/method/fusion.md). Passes with
+    /// lateral acceleration alone have no limit, because its ratio to the vertical one is common to
+    /// all cars; nor have those of the published filter (FusionInput::by_filter).
     double max_common_relative_sd = 0.13;
     double max_common_sd_mm_per_m = 0.15;
 
@@ -41,8 +42,7 @@ struct FusionConfig {
     ChangeModel change{};
 };
 
-/// Returns the largest variance common to all cars, um^2/m^2, unless they have lateral acceleration
-/// alone.
+/// Returns the largest variance common to all cars, um^2/m^2, of passes that have a limit.
 inline double max_common_variance_um2(double level_um, const FusionConfig& config) {
     const double relative_um = config.max_common_relative_sd * level_um;
     const double absolute_um = 1000 * config.max_common_sd_mm_per_m;

@@ -31,10 +31,13 @@ std::size_t HashedBytes::fetch(std::span<char> into) {
     if (failure_) {
         std::rethrow_exception(failure_);
     }
+    if (ended_) { // also if the file has grown since
+        return 0;
+    }
     try {
         const auto count = from_->read(into);
         hash_.add({into.data(), count});
-        ended_ = ended_ || (count == 0 && !into.empty());
+        ended_ = count == 0 && !into.empty();
         return count;
     } catch (...) {
         failure_ = std::current_exception();

@@ -18,7 +18,7 @@ struct LeftOutReadings {
 /// Predicts each reading of a car from the calibrated readings of the other cars at its place, as
 /// if nothing were known of this car, and counts the readings inside their 90 % interval. Its
 /// variance is that of a car beside the median of the others, of a trip, of a pass, and of the
-/// level by the others. What all cars misread alike is not seen. Surveys are left aside.
+/// level by the others. What all cars misread alike is not seen. Surveys are not predicted.
 ///
 /// \param readings     in the order of places; `car` numbers the cars of `calibration`
 /// \param trips        `car` tells which cars of `calibration` are periods of one car

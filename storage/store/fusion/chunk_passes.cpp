@@ -71,10 +71,10 @@ std::optional<ChunkPass> ChunkPasses::pass_at(const Place& place) {
     ChunkPass pass{place.fid,
                    {pass_in(select_passes_, 2, place.key), of->sha256, of->vehicle, {}},
                    place.from_m,
-                   place.to_m,
-                   of->by_filter};
+                   place.to_m};
     pass.input.utc_ms = utc_ms_of(of->t0_utc_ms, pass.input.pass);
     pass.input.reference = of->reference;
+    pass.input.by_filter = of->by_filter;
     return pass;
 }
 

@@ -17,7 +17,6 @@ struct ChunkPass {
     FusionInput input;
     double from_m; ///< station along the way, rising in driving direction
     double to_m;
-    bool by_filter; ///< estimated by the published filter (Method::kf)
 };
 
 /// Reads the passes of chunks within one transaction, because it caches trips.

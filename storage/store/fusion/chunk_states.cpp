@@ -44,14 +44,6 @@ void set_calibration(FusionInput& input, const CarRecord& car) {
     }
 }
 
-/// Returns the configuration of a segment with passes by the published filter: what its band and
-/// its single axle misread has no limit, and is common to all cars.
-FusionConfig without_limit(FusionConfig config) {
-    constexpr double unlimited = 10; // of the level; no pass states as much
-    config.max_common_relative_sd = unlimited;
-    return config;
-}
-
 std::vector<FusedSegment> fused(std::vector<ChunkPass> passes,
                                 std::span<const PlacedTrace> traces,
                                 const FusionConfig& config) {
@@ -60,13 +52,11 @@ std::vector<FusedSegment> fused(std::vector<ChunkPass> passes,
     for (std::size_t i = 0; i < passes.size();) {
         const auto fid = passes[i].fid;
         inputs.clear();
-        bool by_filter = false;
         for (; i < passes.size() && passes[i].fid == fid; ++i) {
             put_in_its_place(passes[i], traces);
-            by_filter = by_filter || passes[i].by_filter;
             inputs.push_back(std::move(passes[i].input));
         }
-        segments.push_back({fid, fuse(inputs, by_filter ? without_limit(config) : config)});
+        segments.push_back({fid, fuse(inputs, config)});
     }
     return segments;
 }
@@ -75,7 +65,7 @@ std::vector<FusedSegment> fused(std::vector<ChunkPass> passes,
 
 DriveSet drives_of(std::span<const ChunkPass> passes) {
     DriveSet drives;
-    for (const auto& [fid, input, from_m, to_m, by_filter] : passes) {
+    for (const auto& [fid, input, from_m, to_m] : passes) {
         if (input.pass.drive) {
             drives.emplace(input.trip_sha256, *input.pass.drive);
         }

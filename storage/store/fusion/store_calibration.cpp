@@ -145,7 +145,7 @@ void add(Readings& readings,
         FleetReading reading;
     };
     std::vector<Placed> placed;
-    for (const auto& [fid, input, from_m, to_m, by_filter] : passes) {
+    for (const auto& [fid, input, from_m, to_m] : passes) {
         if ((input.pass.validity & unsure) != 0 || input.pass.iri_um <= 0) {
             continue;
         }

@@ -118,6 +118,12 @@ constexpr const char* drop_lost_trips =
 
 /// Shows the new results of the trips to this connection.
 constexpr const char* see_swapped_trips = R"(
+CREATE TEMP VIEW trip AS
+    SELECT id, sha256, trip_id, vehicle, file_name, t0_utc_ms, vehicle_model,
+        coalesce((SELECT method FROM temp.staged_trip AS staged WHERE staged.trip = old.id),
+                 old.method) AS method,
+        distance_mm, matched_mm, rows_read, rows_used, calibrates, reference_ppm, reference_row_mm
+    FROM main.trip AS old;
 CREATE TEMP VIEW pass AS
     SELECT * FROM main.pass WHERE trip NOT IN (SELECT trip FROM temp.staged_trip)
     UNION ALL
@@ -128,7 +134,7 @@ CREATE TEMP VIEW trace AS
     SELECT * FROM temp.staged_trace WHERE trip IN (SELECT trip FROM temp.staged_trip);
 )";
 constexpr const char* drop_shadow_trips =
-    "DROP VIEW IF EXISTS temp.pass; DROP VIEW IF EXISTS temp.trace;";
+    "DROP VIEW IF EXISTS temp.trip; DROP VIEW IF EXISTS temp.pass; DROP VIEW IF EXISTS temp.trace;";
 
 /// Chunks with old or new passes of the trips.
 std::vector<std::int64_t> chunks_to_swap(Database& database) {

@@ -316,13 +316,13 @@ void each_record(StoreConnection& store,
     }
 }
 
-SegmentSummary glance_of(const SegmentRecord& record) {
-    SegmentSummary visit_summaries{
+SegmentSummary summary_of(const SegmentRecord& record) {
+    SegmentSummary summary{
         record.segment.key, record.segment.line, record.name, record.highway, std::nullopt};
     if (const auto& state = record.state) {
-        visit_summaries.roughness = {state->iri_um, state->sd_um, state->passes};
+        summary.roughness = {state->iri_um, state->sd_um, state->passes};
     }
-    return visit_summaries;
+    return summary;
 }
 
 } // namespace
@@ -342,7 +342,7 @@ void StoreReader::visit_summaries(const SegmentFilter& filter,
     each_record(*store_,
                 {summary_columns, put_summary_in},
                 filter,
-                [&](const SegmentRecord& record) { visitor(glance_of(record)); });
+                [&](const SegmentRecord& record) { visitor(summary_of(record)); });
 }
 
 } // namespace macadam

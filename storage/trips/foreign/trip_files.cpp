@@ -47,10 +47,14 @@ TripSource with_contents(TripSource source) {
     std::vector<char> block(1 << 20);
     for (const auto& file : source.files) {
         const auto path = place_of(source).file / file;
-        const auto bytes = decompressed(file_bytes(path), path.string());
-        auto& kept = contents.files.emplace_back(file).bytes;
-        while (const auto count = bytes->read(block)) {
-            kept.append(block.data(), count);
+        auto& kept = contents.files.emplace_back(file);
+        try { // a file that nobody uses may be unreadable
+            const auto bytes = decompressed(file_bytes(path), path.string());
+            while (const auto count = bytes->read(block)) {
+                kept.bytes.append(block.data(), count);
+            }
+        } catch (const InputError& error) {
+            kept = {file, {}, error.what()};
         }
     }
     source.contents = std::make_shared<const TripContents>(std::move(contents));

@@ -96,6 +96,27 @@ TEST(Fusion, OfManyCarsByLateralVibrationAloneIsOffByHalfTheirVariance) {
     EXPECT_NEAR(fuse(passes, {}).sd_um, std::hypot(700 * std::sqrt(0.5), of_each / 20), 0.5);
 }
 
+TEST(Fusion, LetsOnePassOfThePublishedFilterWidenNoOther) {
+    auto passes = of_many_cars(std::vector<IriUm>(100, 2000), 700);
+    const auto limited_um = fuse(passes, {}).sd_um;
+    passes.front().by_filter = true;
+    EXPECT_LT(fuse(passes, {}).sd_um, 1.02 * limited_um); // one of a hundred, by 495 against 300 um
+    for (auto& input : passes) {
+        input.by_filter = true;
+    }
+    EXPECT_GT(fuse(passes, {}).sd_um, 700 * std::sqrt(0.5));
+}
+
+TEST(Fusion, OfOneCarThatChangedDoesNotAgreeWithItself) {
+    auto passes = of_many_cars(std::vector<IriUm>(40, 2000), 300);
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        passes[i].vehicle = 7;
+        passes[i].period = static_cast<std::uint32_t>(i % 2);
+    }
+    const double of_periods = std::hypot(300 * std::sqrt(0.5), 300 * std::sqrt(0.5) / std::sqrt(2));
+    EXPECT_NEAR(fuse(passes, {}).sd_um, of_periods, 0.05 * of_periods);
+}
+
 TEST(Fusion, OfOneCarNeverKnowsMoreThanThatCar) {
     auto passes = of_many_cars(std::vector<IriUm>(10000, 2000), 300);
     for (auto& pass : passes) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,6 +75,24 @@ TEST(HashedBytes, ThatWereReadAheadComeAgainInTheirOrder) {
     EXPECT_FALSE(some.read_ahead(12));
     EXPECT_EQ(rest_of(some), longer);
     EXPECT_EQ(some.sha256(), sha256_of_longer);
+}
+
+TEST(HashedBytes, EndWhereTheyFirstEndedThoughTheFileGrows) {
+    class Growing final : public ByteStream {
+    public:
+        std::size_t read(std::span<char> into) override {
+            constexpr std::array<std::string_view, 3> reads{"abc", "", "d"};
+            return next_ < reads.size() ? reads[next_++].copy(into.data(), into.size()) : 0;
+        }
+        std::uint64_t consumed() const override { return 0; }
+
+    private:
+        std::size_t next_ = 0;
+    };
+    HashedBytes bytes{std::make_unique<Growing>()};
+    EXPECT_EQ(rest_of(bytes), "abc");
+    EXPECT_EQ(bytes.sha256(), sha256_of_abc);
+    EXPECT_EQ(rest_of(bytes), "");
 }
 
 TEST(HashedBytes, OfNothingHaveAHash) {

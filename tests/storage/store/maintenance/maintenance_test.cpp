@@ -258,19 +258,33 @@ RoadStore fleet_store(const std::filesystem::path& file, const std::vector<int>&
     return store;
 }
 
+TripRecord trip_by(const char* method, int number) {
+    auto trip = trip_record(number);
+    trip.method = method;
+    return trip;
+}
+
+/// Passes that state 40 %.
+std::vector<Pass> unsure_passes(int number) {
+    auto passes = passes_of_fleet(number);
+    for (auto& pass : passes) {
+        pass.sd_um = pass.iri_um * 4 / 10;
+    }
+    return passes;
+}
+
+RoadStore unsure_store(const std::filesystem::path& file, const char* method) {
+    auto store = new_store(file);
+    for (const int number : up_to(6)) {
+        add_trip(store, trip_by(method, number), unsure_passes(number));
+    }
+    store.importer.refresh();
+    return store;
+}
+
 TEST(FusedChunks, LimitWhatUnknownCarsShareUnlessTheFilterReadIt) {
     const auto sds_by = [](const char* method) {
-        auto store = new_store(test_folder() / (std::string{method} + ".gpkg"));
-        for (int number = 0; number < 6; ++number) {
-            auto trip = trip_record(number);
-            trip.method = method;
-            auto passes = passes_of_fleet(number);
-            for (auto& pass : passes) {
-                pass.sd_um = pass.iri_um * 4 / 10;
-            }
-            add_trip(store, trip, passes);
-        }
-        store.importer.refresh();
+        const auto store = unsure_store(test_folder() / (std::string{method} + ".gpkg"), method);
         std::vector<double> sds;
         store.visit({}, [&](const SegmentRecord& record) {
             if (record.state && record.state->vehicles > 1) {
@@ -446,7 +460,7 @@ TEST(Reprocess, PutsWhatTripsSayNowInPlaceOfWhatTheySaid) {
     auto expected = new_store(folder / "expected.gpkg");
     for (const int number : up_to(6)) {
         const int says = number == 2 || number == 3 ? 100 + number : number;
-        add_trip(expected, trip_record(number), passes_of(says));
+        add_trip(expected, number == 2 ? anew : trip_record(number), passes_of(says));
     }
     expected.importer.refresh();
     EXPECT_EQ(store.digest(), expected.digest());
@@ -454,6 +468,22 @@ TEST(Reprocess, PutsWhatTripsSayNowInPlaceOfWhatTheySaid) {
               "method smoother; trips: 2 worked out anew, 4 as they were");
     const auto uses = store.usage().vehicles;
     EXPECT_EQ(std::ranges::count(uses, std::string{"smoother"}, &VehicleUse::method), 1);
+}
+
+/// The limit of the error common to all cars depends on the method.
+TEST(Reprocess, FusesByTheNewMethodOfATrip) {
+    const auto folder = test_folder();
+    for (const auto& [before, after] : {std::pair{"kf", "smoother"}, {"smoother", "kf"}}) {
+        auto store = unsure_store(folder / (std::string{before} + "-old.gpkg"), before);
+        const auto old = store.digest();
+        for (const int number : up_to(6)) {
+            EXPECT_TRUE(stage_trip(store, trip_by(after, number), unsure_passes(number), {}));
+        }
+        store.maintenance.commit_staged(after);
+        EXPECT_NE(store.digest(), old);
+        const auto fresh = unsure_store(folder / (std::string{after} + "-new.gpkg"), after);
+        EXPECT_EQ(store.digest(), fresh.digest()) << after;
+    }
 }
 
 TEST(Reprocess, LeavesOutATripThatWasForgottenMeanwhile) {

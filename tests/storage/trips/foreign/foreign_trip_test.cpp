@@ -113,6 +113,14 @@ TEST(PhyphoxExport, IsATripWithEveryRowOfItsFiles) {
     EXPECT_TRUE(std::isnan(trip.fixes[0].course_deg));
 }
 
+TEST(PhyphoxExport, IsReadBesideADamagedFileThatItDoesNotNeed) {
+    const auto folder = phyphox_folder(test_folder() / "phone");
+    written(folder, "Pressure.csv", "\x1f\x8b\x08 is not gzip");
+    const auto found = find_trips(folder);
+    ASSERT_THAT(found.trips, SizeIs(1));
+    EXPECT_THAT(read_trip(found.trips[0], everything).acc.t_s, SizeIs(2));
+}
+
 TEST(PhyphoxExport, HasOneHashAsFolderAndAsZip) {
     const auto folder = test_folder();
     const auto in_folder = find_trips(phyphox_folder(folder / "a")).trips.at(0);
