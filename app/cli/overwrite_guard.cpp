@@ -18,6 +18,11 @@ void refuse_to_replace(const fs::path& output, const std::vector<fs::path>& inpu
                                          output.string())};
         }
     }
+    const auto target = fs::status(output, none);
+    if (fs::exists(target) && !fs::is_regular_file(target) && !fs::is_directory(target)) {
+        throw InputError{
+            fmt::format("{}: is a device or pipe, expected a file to write to", output.string())};
+    }
     if (output.extension() == ".gpkg" && fs::exists(output, none) && is_store(output)) {
         throw InputError{fmt::format("{}: is a road database, expected another file to write to",
                                      output.string())};

@@ -1,6 +1,9 @@
 #include "app/cli/row_output.hpp"
 
+#include "estimator/common/ascii.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -9,6 +12,11 @@ namespace {
 
 /// File to which print() writes, as standard output is one for the whole program; null: there.
 AtomicFile* current_file = nullptr; // NOLINT(*-avoid-non-const-global-variables)
+
+/// Returns "csv" of "roads.CSV"; "" of a name without suffix.
+std::string suffix_of(const std::filesystem::path& file) {
+    return file.has_extension() ? in_lower_case(file.extension().string().substr(1)) : "";
+}
 
 } // namespace
 
@@ -23,13 +31,25 @@ std::string row_format_of(const Arguments& arguments) {
     if (format) {
         return *format;
     }
-    const auto suffix =
-        std::filesystem::path{arguments.value("--output").value_or("")}.extension().string();
+    const auto suffix = suffix_of(arguments.value("--output").value_or(""));
     const auto choices = arguments.choices("--format");
-    const auto named = suffix.empty()
-                           ? choices.end()
-                           : std::ranges::find(choices, std::string_view{suffix}.substr(1));
+    const auto named = std::ranges::find(choices, suffix);
     return std::string{named == choices.end() ? choices.front() : *named};
+}
+
+std::optional<std::filesystem::path> row_file_of(const Arguments& arguments) {
+    const auto file = arguments.value("--output");
+    if (!file || arguments.value("--format") || arguments.flag("--json")) {
+        return file;
+    }
+    const auto suffix = suffix_of(*file);
+    const auto choices = arguments.choices("--format");
+    if (!suffix.empty() && suffix != "txt" && std::ranges::find(choices, suffix) == choices.end()) {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .{}, or --format",
+                                     *file,
+                                     fmt::join(choices.begin() + 1, choices.end(), ", ."))};
+    }
+    return file;
 }
 
 RowOutput::RowOutput(const std::optional<std::filesystem::path>& file) {

@@ -23,6 +23,10 @@ inline constexpr Option json_option{"--json", "", "The same as --format json."};
 /// \throws UsageError  if --json contradicts --format.
 std::string row_format_of(const Arguments& arguments);
 
+/// Returns the file of -o of a command whose first format is a table.
+/// \throws UsageError  if only its suffix can tell the format, and it names none; .txt is a table.
+std::optional<std::filesystem::path> row_file_of(const Arguments& arguments);
+
 /// Directs print() to a file while this object exists. The file appears complete with commit(), or
 /// not at all. Without a file, print() goes to standard output as ever. One object at a time.
 class RowOutput {

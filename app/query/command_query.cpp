@@ -184,7 +184,13 @@ void print_sections(const StoreReader& store, const QueryOptions& options, const
 void run_query(const Arguments& arguments, const Console& console) {
     const auto options = parse_query(arguments);
     if (options.output) {
-        refuse_to_replace(*options.output, {options.store});
+        std::vector<std::filesystem::path> inputs{options.store};
+        if (const auto& of = options.sections) {
+            for (const auto& file : {of->along, of->sections, of->exclude}) {
+                inputs.insert(inputs.end(), file.value_or(options.store));
+            }
+        }
+        refuse_to_replace(*options.output, inputs);
     }
     const auto store = open_for_operator(options.store, console);
     expect_known_class(options.filter, store);

@@ -133,7 +133,7 @@ QueryOptions parse_query(const Arguments& arguments) {
                          .near = parse_near(arguments),
                          .sections = parse_sections(arguments, true),
                          .format = row_format_of(arguments),
-                         .output = arguments.value("--output"),
+                         .output = row_file_of(arguments),
                          .history = arguments.flag("--history"),
                          .passes = arguments.flag("--passes"),
                          .changes = arguments.flag("--changes"),

@@ -60,13 +60,21 @@ std::vector<SegmentKey> segments_named(const StoreReader& store, const Arguments
 
 void run_valid_from(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
-    if (const auto output = arguments.value("--output")) {
+    if (const auto output = row_file_of(arguments)) {
         refuse_to_replace(*output, {file});
     }
     const auto from_ms = parse_begin(arguments, "--since");
     const bool readmit = arguments.flag("--any-day");
     if (from_ms && readmit) {
         throw UsageError{"--since and --any-day cannot be combined"};
+    }
+    for (const auto* const option : {"--output", "--format"}) {
+        if ((from_ms || readmit) && arguments.value(option)) {
+            throw UsageError{
+                fmt::format("{} belongs to the list of start dates, which is printed without "
+                            "--since and --any-day",
+                            option)};
+        }
     }
     if (!from_ms && !readmit) {
         print_list(opened_reader(file, console), arguments);

@@ -95,7 +95,10 @@ PreparedTrip prepared_or_untimed(TripLog trip) {
 void run_match(const Arguments& arguments, const Console& console) {
     const auto options = parse_match(arguments);
     if (options.output) {
-        refuse_to_replace(*options.output, {options.trip, options.network});
+        refuse_to_replace(*options.output,
+                          {options.trip,
+                           options.network,
+                           arguments.value(mapping_option.name).value_or(options.trip.string())});
     }
     const auto roads = roads_of(options, console);
     const auto source = one_trip(options.trip, mapping_of(arguments));

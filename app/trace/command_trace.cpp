@@ -200,6 +200,23 @@ void expect_live(const Arguments& arguments) {
     }
 }
 
+/// Expects that no output is an input, or another output.
+void expect_separate_outputs(const TraceOptions& options) {
+    std::vector<std::filesystem::path> outputs;
+    for (const auto& output : {options.profile, options.events, options.figure, options.output}) {
+        if (!output) {
+            continue;
+        }
+        refuse_to_replace(*output, {options.trip, options.survey.value_or(options.trip)});
+        const auto path = std::filesystem::absolute(*output).lexically_normal();
+        if (std::ranges::find(outputs, path) != outputs.end()) {
+            throw UsageError{fmt::format("{} is given for two outputs, expected a file for each",
+                                         std::filesystem::path{*output}.string())};
+        }
+        outputs.push_back(path);
+    }
+}
+
 void run_trace(const Arguments& arguments, const Console& console) {
     const auto options = parse_trace(arguments);
     if (arguments.flag("--live")) {
@@ -212,11 +229,7 @@ void run_trace(const Arguments& arguments, const Console& console) {
         throw UsageError{"TRIP is missing; only --live reads standard input"};
     }
     VehicleChoice vehicles{arguments};
-    for (const auto& output : {options.profile, options.events, options.figure, options.output}) {
-        if (output) {
-            refuse_to_replace(*output, {options.trip, options.survey.value_or(options.trip)});
-        }
-    }
+    expect_separate_outputs(options);
     const auto survey = options.survey ? read_survey(*options.survey, options.mm_per_m_of_one)
                                        : std::vector<SurveyRow>{};
     const auto source = one_trip(options.trip, mapping_of(arguments));

@@ -215,7 +215,7 @@ TEST(Program, TakesATownOfOpenStreetMapAsItsNetworkAndNamesWhoseItIs) {
     expect_done({"export", store, "-o", all, "--all", "--bbox", "-76.82,40.26,-76.80,40.27"});
     EXPECT_THAT(read_file(all), HasSubstr("OpenStreetMap contributors"));
     EXPECT_THAT(read_file(all), HasSubstr("\"iri\":null"));
-    EXPECT_THAT(expect_done({"query", store, "--name", "derry", "--all"}).out,
+    EXPECT_THAT(expect_done({"query", store, "--road", "derry", "--all"}).out,
                 HasSubstr("Derry Street"));
 }
 

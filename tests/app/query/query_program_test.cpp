@@ -287,7 +287,12 @@ TEST_F(QueryProgram, RefusesSectionsInWords) {
         HasSubstr("x.csv:2: has no position"));
     EXPECT_THAT(run_macadam({"export", store_, "-o", table, "--sections", table}).err,
                 HasSubstr("t.csv"));
+    const auto over = query({"--sections", table, "-o", table});
+    EXPECT_EQ(over.exit_status, 1);
+    EXPECT_THAT(over.err, HasSubstr("t.csv: is also an input"));
     EXPECT_EQ(read_file(table), "way_id\n1\n"); // and it is still there
+    EXPECT_THAT(query({"--way", "1", "-o", "/dev/null"}).err,
+                HasSubstr("/dev/null: is a device or pipe"));
 }
 
 TEST_F(QueryProgram, SaysWhatDoesNotGoTogether) {
@@ -303,6 +308,8 @@ TEST_F(QueryProgram, SaysWhatDoesNotGoTogether) {
              {{"--way", "1", "--since", "2026-03", "--until", "2026-02"},
               "expected a time after --since"},
              {{"--way", "1", "--passes"}, "--passes requires --segment KEY"},
+             {{"--way", "1", "-o", "a.geojsn"},
+              "-o is 'a.geojsn', expected a name that ends in .csv, .json, .geojson, or --format"},
              {{"--way", "1", "--history", "--format", "geojson"},
               "--history has no --format geojson"},
              {{"--worst", "1", "--history"}, "--history cannot be combined with --worst"},

@@ -71,6 +71,9 @@ TEST_F(UpkeepProgram, SetsListsAndTakesBackADayFromWhichOnPassesCount) {
     EXPECT_EQ(list[0]["segment"], "1+0000");
     EXPECT_EQ(list[0]["valid_from"], "2026-05-01T00:00:00Z");
 
+    const auto listed = run("valid-from", {"--any-day", "--way", "1", "-o", "list.csv"});
+    EXPECT_EQ(listed.exit_status, 2);
+    EXPECT_THAT(listed.err, HasSubstr("--output belongs to the list of start dates"));
     EXPECT_EQ(run("valid-from", {"--any-day", "--way", "1"}).exit_status, 0);
     EXPECT_EQ(digest(), before);
     EXPECT_EQ(run("valid-from", {}).out, "no segment has a start date: all passes count\n");

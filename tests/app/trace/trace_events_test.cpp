@@ -103,6 +103,9 @@ TEST_F(TraceEvents, RefusesWhatCannotBe) {
     const auto lateral = trace({"--channels", "lateral", "--events", at("events.csv")});
     EXPECT_EQ(lateral.exit_status, 1);
     EXPECT_THAT(lateral.err, HasSubstr("expected vertical acceleration for --events"));
+    const auto twice = trace({"--events", at("events.csv"), "-o", at("events.csv")});
+    EXPECT_EQ(twice.exit_status, 2);
+    EXPECT_THAT(twice.err, HasSubstr("events.csv is given for two outputs"));
     EXPECT_FALSE(fs::exists(at("events.csv")));
 }
 
