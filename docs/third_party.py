@@ -114,15 +114,23 @@ def licence_of(package):
     sys.exit(f"{package}: its copyright file names no licence for 'Files: *'; add it to PROSE")
 
 
+def words_of(licence, stanzas):
+    """The words of a licence from the paragraph that states them, or from any that has some."""
+    named = [f for f in stanzas if f.get("License", "").split("\n")[0].strip() == licence]
+    texts = [f["License"].partition("\n")[2] for f in sorted(named, key=lambda f: "Files" in f)]
+    return next((text for text in texts if text.strip()), "")
+
+
 def text_of(package):
     """Whose it is, and the words of its licence."""
     stanzas = list(stanzas_of(copyright_of(package)))
     main = next(f for f in stanzas if f.get("Files", "").strip().split("\n")[0].split(" ")[0] == "*")
     owners = [line.strip() for line in main.get("Copyright", "").splitlines() if line.strip()]
     name, _, words = main["License"].strip().partition("\n")
-    if not words:
-        words = next((f["License"].partition("\n")[2] for f in stanzas
-                      if "Files" not in f and f.get("License", "").split("\n")[0].strip() == name.strip()), "")
+    if not words.strip():
+        words = "\n\n".join(words_of(each, stanzas) for each in re.split(r" and(?:/or)? | or ", name.strip()))
+    if not words.strip():
+        sys.exit(f"{package}: its copyright file has no words of {name}; add it to PROSE")
     plain = [re.sub(r"^ ?\.?$", "", line.rstrip()).removeprefix(" ") for line in words.splitlines()]
     return "\n".join([*(f"Copyright {owner}" for owner in owners), "", *plain]).rstrip()
 
