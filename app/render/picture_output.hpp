@@ -53,7 +53,7 @@ inline constexpr Option crs_option =
                    "Map projection, as known to PROJ: EPSG:3006, a PROJ string or WKT.",
                    "EPSG:3857"}));
 inline constexpr Option paper_option =
-    one_of("A0|A1|A2|A3|A4|A5|letter|legal|tabloid",
+    one_of("A4|A0|A1|A2|A3|A5|letter|legal|tabloid",
            in_group("page",
                     {"--paper",
                      "NAME",

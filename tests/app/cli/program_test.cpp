@@ -96,7 +96,7 @@ TEST(Program, WritesRowsToAFileInTheFormatOfItsSuffix) {
     EXPECT_EQ(into.out, "");
     EXPECT_EQ(read_file(file),
               expect_done({"query", store, "--worst", "3", "--segments", "--format", "csv"}).out);
-    EXPECT_EQ(run_macadam({"query", store, "--worst", "3", "-o", store}).exit_status, 1);
+    EXPECT_EQ(run_macadam({"query", store, "--worst", "3", "--json", "-o", store}).exit_status, 1);
     EXPECT_EQ(
         run_macadam({"query", store, "--worst", "3", "--json", "--format", "csv"}).exit_status, 2);
 }

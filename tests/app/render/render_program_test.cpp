@@ -185,7 +185,7 @@ TEST_F(RenderProgram, SaysWhatIsWrongAndLeavesNothing) {
         {{"-o", "OUT/a.png", "--landscape"}, 2, "--paper and --landscape are for a .pdf"},
         {{"-o", "OUT/a.pdf", "--paper", "A9"},
          2,
-         "--paper is 'A9', expected A0 or A1 or A2 or A3 or A4 or A5 or letter or legal or "
+         "--paper is 'A9', expected A4 or A0 or A1 or A2 or A3 or A5 or letter or legal or "
          "tabloid"},
         {{"-o", "OUT/a.png", "--crs", ""}, 2, "--crs is '', expected a projection such as"},
         {{"-o", "OUT/a.tif", "--world-file"}, 2, "--world-file is for a .png"},
