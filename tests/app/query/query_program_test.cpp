@@ -309,7 +309,7 @@ TEST_F(QueryProgram, SaysWhatDoesNotGoTogether) {
               "expected a time after --since"},
              {{"--way", "1", "--passes"}, "--passes requires --segment KEY"},
              {{"--way", "1", "-o", "a.geojsn"},
-              "-o is 'a.geojsn', expected a name that ends in .csv, .json, .geojson, or --format"},
+              "-o is 'a.geojsn', expected a name that ends in .json, .csv, .geojson, or --format"},
              {{"--way", "1", "--history", "--format", "geojson"},
               "--history has no --format geojson"},
              {{"--worst", "1", "--history"}, "--history cannot be combined with --worst"},
