@@ -13,7 +13,7 @@
 
 namespace macadam {
 
-/// What is told about one trip of an import.
+/// Report on one trip of an import: its result, counts and warnings.
 struct TripReport {
     enum class Result { imported, known, rejected, reprocessed, unknown };
     Result result = Result::rejected;
@@ -41,7 +41,7 @@ struct ImportTotals {
     std::size_t looked_at() const { return imported + known + rejected; }
 };
 
-/// How trips enter a database.
+/// Options of an import: how trips are estimated, and which of them are stored.
 struct ImportWork {
     PipelineConfig pipeline;
     std::size_t jobs = 1;   ///< threads that read and estimate

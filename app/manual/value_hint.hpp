@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// What a shell offers to complete the value of an option or an operand.
+/// Completion that a shell offers for the value of an option or an operand.
 struct ValueHint {
     enum class Kind { none, words, folders, files };
     Kind kind = Kind::none;

@@ -7,7 +7,8 @@
 
 namespace macadam {
 
-/// How a car and the sensor in it moved during a trip: what roughness and position are found with.
+/// Motion of the car during a trip and mounting of its sensor, from which roughness and position are
+/// estimated.
 struct TripMotion {
     Odometer odometer;
     Mounting mounting;
