@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// Motion of the car during a trip and mounting of its sensor, from which roughness and position are
-/// estimated.
+/// Motion of the car during a trip and mounting of its sensor, from which roughness and position
+/// are estimated.
 struct TripMotion {
     Odometer odometer;
     Mounting mounting;
