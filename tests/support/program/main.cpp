@@ -1,4 +1,5 @@
-// Main function of every test program: GoogleTest, and a limit of time that leaves a stack.
+// Main function of every test program: GoogleTest, and a limit of time for each test that leaves a
+// stack.
 
 #include <gmock/gmock.h>
 
@@ -24,25 +25,40 @@ void end_with_stack(int /*signal*/) {
     ::_exit(124); // as the command timeout
 }
 
-/// Takes `--time-limit=SECONDS` from the command line.
-void set_time_limit(int& argc, char** argv) {
+/// Gives each test of the process the same time.
+class TimeLimit : public ::testing::EmptyTestEventListener {
+public:
+    explicit TimeLimit(unsigned limit_s) : limit_s_{limit_s} {
+        std::array<void*, 1> frame{};
+        ::backtrace(frame.data(), 1); // loads its library now, not in the handler
+        std::signal(SIGALRM, end_with_stack);
+    }
+
+    void OnTestStart(const ::testing::TestInfo& /*test*/) override { ::alarm(limit_s_); }
+    void OnTestProgramEnd(const ::testing::UnitTest& /*tests*/) override {
+        ::alarm(limit_s_); // for what is destroyed, and for the search for leaks
+    }
+
+private:
+    unsigned limit_s_;
+};
+
+/// Takes `--time-limit=SECONDS`, of each test, from the command line.
+void set_time_limit(int argc, char** argv) {
     constexpr std::string_view name{"--time-limit="};
     if (argc < 2 || !std::string_view{argv[argc - 1]}.starts_with(name)) {
         return;
     }
-    const std::string_view text = std::string_view{argv[--argc]}.substr(name.size());
+    const std::string_view text = std::string_view{argv[argc - 1]}.substr(name.size());
     unsigned limit_s = 0;
     std::from_chars(text.data(), text.data() + text.size(), limit_s);
-    std::array<void*, 1> frame{};
-    ::backtrace(frame.data(), 1); // loads its library now, not in the handler
-    std::signal(SIGALRM, end_with_stack);
-    ::alarm(limit_s);
+    ::testing::UnitTest::GetInstance()->listeners().Append(new TimeLimit{limit_s}); // which owns it
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    set_time_limit(argc, argv);
     ::testing::InitGoogleMock(&argc, argv);
+    set_time_limit(argc, argv);
     return RUN_ALL_TESTS();
 }
