@@ -187,7 +187,7 @@ def import_tables(trips, importing):
     text = f"### Importing {hours:.1f} h of driving ({mb:.0f} MB)\n\n" + table(
         ["what", "trips", "wall s", "CPU s", "peak MB", "x real time per CPU", "times faster than --jobs 1"], rows)
     rows = []
-    for part in (8, 4, 2, 1):
+    for part in (8, 1):
         some = trips[: len(trips) // part]
         (used,) = in_turns(1, importing(some, 1))
         rows.append([str(len(some)), f"{used.cpu_s:.2f}", f"{used.cpu_s / len(some) * 1e3:.0f}", f"{used.peak_mb:.0f}"])
@@ -240,22 +240,27 @@ def ratio_to_peer(name, times):
 
 
 def part(build, name, note):
-    """One program of Google Benchmark as a table of CPU times, memory, ratios and counters."""
+    """One program of Google Benchmark as a table of CPU times, memory, ratios and counters; of several sizes the first and last."""
     say(f"{name}_bench")
     program = build / "tests" / "bench" / f"{name}_bench"
     done = subprocess.run([program, "--benchmark_format=json"], capture_output=True, check=True)
     found = json.loads(done.stdout)["benchmarks"]
     times = {one["name"]: one["cpu_time"] for one in found if one["run_type"] == "iteration"}
+    growth = {one["run_name"]: one["big_o"] for one in found if one.get("aggregate_name") == "BigO"}
+    sizes = {}
+    for case in times:
+        sizes.setdefault(case.partition("/")[0], []).append(case)
+    shown = {case for names in sizes.values() for case in (names[0], names[-1])}
     rows = []
     for one in found:
-        if one.get("aggregate_name") == "RMS":
-            continue
-        if one.get("aggregate_name") == "BigO":
-            rows.append([one["run_name"], f"grows as {one['big_o']}", "", "", ""])
+        if one["run_type"] != "iteration" or one["name"] not in shown:
             continue
         counters = ", ".join(f"{key} {one[key]:,.1f}" if key.endswith("_ms") else f"{key} {one[key]:,.0f}" for key in
                              ("samples/s", "x_real_time", "fixes/s", "edges", "found", "segments", "segments/s", "bytes/segment",
                               "passes/s", "p50_ms", "p99_ms", "worst_ms", "lines") if key in one)
+        family = one["name"].partition("/")[0]
+        if family in growth and one["name"] == sizes[family][-1]:
+            counters += f"; grows as {growth[family]}"
         rows.append([one["name"], f"{one['cpu_time']:.2f} {one['time_unit']}", f"{peak_mb(program, one['name']):.0f}",
                      ratio_to_peer(one["name"], times), counters])
     return f"{note}\n\n" + table(["what", "CPU", "peak MB", "CPU of the peer, times ours", "of it"], rows)
@@ -336,7 +341,7 @@ def tile_jobs(work, macadam, store):
 def vector_tiles(build, work):
     """Vector tiles asked of stores by their places."""
     head = table(["tile", "query", "encode", "gzip", "all, ms of CPU"], [])
-    rows = "".join(tile_bench(build, "vectors", tile_store(build, work, side)) for side in (56, 112, 223))
+    rows = "".join(tile_bench(build, "vectors", tile_store(build, work, side)) for side in (56, 223))
     return "\n### Vector tiles out of stores, by their places\n\n" + \
         "Medians over 64 tiles, three rounds, milliseconds of CPU: the box is asked of the store, the segments become a tile, the tile is " + \
         "gzipped as in files.\n\n" + head + rows
