@@ -260,7 +260,7 @@ def part(build, name, note):
                               "passes/s", "p50_ms", "p99_ms", "worst_ms", "lines") if key in one)
         family = one["name"].partition("/")[0]
         if family in growth and one["name"] == sizes[family][-1]:
-            counters += f"; grows as {growth[family]}"
+            counters = ", ".join(filter(None, [counters, f"grows as {growth[family]}"]))
         rows.append([one["name"], f"{one['cpu_time']:.2f} {one['time_unit']}", f"{peak_mb(program, one['name']):.0f}",
                      beside_peer(one["name"], times, one["time_unit"]), counters])
     return f"{note}\n\n" + table(["what", "CPU", "peak MB", "CPU of the peer, times ours", "of it"], rows)
