@@ -6,7 +6,9 @@ usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [--c
 BUILD_DIR      a release build with the target `benches`
 WORK_DIR       where the measured data is made and kept between runs
 --keep DOC.md  also puts what was measured in the place of those sections of a document
---kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
+--kubicka DIR  recorded trips for `match`: three files per track, made from those of the record: NAME.osm.pbf (the roads,
+               with the record's node numbers), NAME.trip.csv (t_s,lat_deg,lon_deg), NAME.truth.csv
+               (from_node,to_node, one row per arc)
 --cars N       largest fleet for `calibration`, 2,500 unless given; each car has 1,000 passes
 NAME           start process estimation match store calibration render vector_tile; all when none is named
 
@@ -338,10 +340,10 @@ def tile_jobs(work, macadam, store):
 
 
 def vector_tiles(build, work):
-    """Vector tiles asked of stores by their places."""
+    """Vector tiles out of a million segments, by their places."""
     head = table(["tile", "query", "encode", "gzip", "all, ms of CPU"], [])
-    rows = "".join(tile_bench(build, "vectors", tile_store(build, work, side)) for side in (56, 223))
-    return "\n### Vector tiles out of stores, by their places\n\n" + \
+    rows = tile_bench(build, "vectors", tile_store(build, work, 223))
+    return "\n### Vector tiles out of a million segments\n\n" + \
         "Medians over 64 tiles, three rounds, milliseconds of CPU.\n\n" + head + rows
 
 
