@@ -8,22 +8,17 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parents[2]
 NETWORKS = SOURCE / "sample_data" / "networks"
 
-NOTE = """Drives over the eight networks of sample_data/networks, whose truth is known to the metre: a lane 1.5 to 3.5 m
-beside the map's line (by driver; on oneway roads up to 1.5 m to either side), corners cut more or less, stops; position errors forgotten over 30 s (standard deviation
-of an axis *sigma*) and a tenth of it new at every fix; latency of 0 to 2.5 s; odometer at 10 Hz wrong by 0.5 %
-(standard deviation); gyro at 50 Hz with a wandering bias.
+NOTE = """Drives over sample_data/networks with known truth: a lane 1.5 to 3.5 m beside the map's line, corners cut, stops; position errors
+forgotten over 30 s (standard deviation of an axis *sigma*) and a tenth of it new at every fix; latency of 0 to 2.5 s; odometer at
+10 Hz wrong by 0.5 %; gyro at 50 Hz with a wandering bias.
 
-* A metre of the route is *right* if the matched place lies on the true edge in the true direction, or elsewhere on
-  the true route no more than 10 m (twice sigma, if that is more) from the truth: an error of place that leads over a
-  junction. *The same edge* leaves that out.
-* *Along it* is the error of the place along the map's line. Where a car cuts a corner or swings out, places
-  between the nearest one of the line and the even progress along it are all true. *Middle* is signed.
-* *RMF* is missed and wrong length over true length, edge by edge, without regard to time.
-* *ECE* is the mean difference of confidence and share of right length in tenths of confidence; *sure* is the length
-  at 0.95 or more.
-* *Deleted edges*: whole edges, both directions, are taken out of the map until they make 5 % of what a drive drove.
-  Metres within 10 m of where the map begins to lack the road are not counted. A *neighbour* is a road
-  of the map abreast of the car, within 30 m and 30 degrees.
+* A metre of the route is *right* if the matched place lies on the true edge in the true direction, or elsewhere on the true route within
+  10 m (twice sigma, if that is more). *The same edge* leaves that out.
+* *Along it* is the error of the place along the map's line; *middle* is signed.
+* *RMF* is missed and wrong length over true length, edge by edge.
+* *ECE* is the mean difference of confidence and share of right length in tenths of confidence; *sure* is the length at 0.95 or more.
+* *Deleted edges* make 5 % of what a drive drove; 10 m at their ends are not counted. A *neighbour* is a road of the map abreast of the
+  car, within 30 m and 30 degrees.
 """
 
 

@@ -53,13 +53,14 @@ std::string name_of(std::size_t band) {
                : fmt::format("{:g} to {:g}", bands.front().from_mm_per_m, bands.back().to_mm_per_m);
 }
 
-std::string
-row_of(const char* name, const Spread& ours, const Spread* paper, const std::string& more) {
-    const auto numbers = [](const Spread& s) {
-        return fmt::format("{:+.2f} | {:.2f} | {:.2f}", s.mean, s.sd, s.rmse);
-    };
-    return fmt::format(
-        "| {} | {} | {} | {} |\n", name, numbers(ours), paper ? numbers(*paper) : " | | ", more);
+std::string mean_sd_rmse(const Spread& s) {
+    return fmt::format("{:+.2f}, {:.2f}, {:.2f}", s.mean, s.sd, s.rmse);
+}
+
+/// Errors of a method, with the place that satellites give.
+Spread errors_of(const std::vector<Reading>& readings, std::size_t band, std::size_t row) {
+    return spread_of(
+        readings, band, [=](const Reading& r) { return r.estimate[row] - r.reference; });
 }
 
 double covered(const std::vector<Reading>& readings, std::size_t row) {
@@ -73,30 +74,56 @@ double covered(const std::vector<Reading>& readings, std::size_t row) {
     return static_cast<double>(inside) / static_cast<double>(readings.size());
 }
 
-std::string results_of(const std::vector<Reading>& readings) {
-    std::string text;
+/// Errors of the published filter by band, beside those of the paper.
+std::string paper_table(const std::vector<Reading>& readings) {
+    std::string text = "| IRI | km | kf, vertical | paper | kf, lateral | paper |\n"
+                       "|---|---|---|---|---|---|\n";
     for (std::size_t band = 0; band <= bands.size(); ++band) {
-        const auto floor =
-            spread_of(readings, band, [](const Reading& r) { return r.matched - r.reference; });
-        text += fmt::format("\n**IRI {} mm/m, {:.1f} km**\n\n",
+        const auto vertical = errors_of(readings, band, 0);
+        text += fmt::format("| {} | {:.1f} | {} | {} | {} | {} |\n",
                             name_of(band),
-                            segment_m * static_cast<double>(floor.count) / 1000);
-        text += "| method | mean | std dev | RMSE | paper: mean | std dev | RMSE | RMSE of the "
-                "method alone |\n"
-                "|---|---|---|---|---|---|---|---|\n";
-        for (std::size_t row = 0; row < methods.size(); ++row) {
-            const auto ours = spread_of(
-                readings, band, [=](const Reading& r) { return r.estimate[row] - r.reference; });
-            const auto alone = spread_of(
-                readings, band, [=](const Reading& r) { return r.at_true_place[row] - r.driven; });
-            text += row_of(methods[row].name,
-                           ours,
-                           row < 2 ? &published[row][band] : nullptr,
-                           fmt::format("{:.2f}", alone.rmse));
-        }
-        text += row_of("a method without error", floor, nullptr, "0");
+                            segment_m * static_cast<double>(vertical.count) / 1000,
+                            mean_sd_rmse(vertical),
+                            mean_sd_rmse(published[0][band]),
+                            mean_sd_rmse(errors_of(readings, band, 1)),
+                            mean_sd_rmse(published[1][band]));
     }
     return text;
+}
+
+/// A row of mean and RMSE by band, and two more cells.
+std::string method_row(const std::string& name,
+                       const std::function<Spread(std::size_t band)>& errors,
+                       const std::string& factor,
+                       const std::string& coverage) {
+    std::string text = fmt::format("| {} |", name);
+    for (std::size_t band = 0; band <= bands.size(); ++band) {
+        const auto spread = errors(band);
+        text += fmt::format(" {:+.2f}, {:.2f} |", spread.mean, spread.rmse);
+    }
+    return text + fmt::format(" {} | {} |\n", factor, coverage);
+}
+
+std::string method_table(const Fitted& test) {
+    std::string text = "| method |";
+    std::string line = "|---|";
+    for (std::size_t band = 0; band <= bands.size(); ++band) {
+        text += fmt::format(" {} |", name_of(band));
+        line += "---|";
+    }
+    text += " factor fitted | 90 % interval covers, % |\n" + line + "---|---|\n";
+    for (std::size_t row = 0; row < methods.size(); ++row) {
+        text += method_row(
+            methods[row].name,
+            [&](std::size_t band) { return errors_of(test.readings, band, row); },
+            methods[row].fitted ? fmt::format("{:.2f}", test.factor[row]) : "",
+            fmt::format("{:.0f}", 100 * covered(test.readings, row)));
+    }
+    const auto floor = [&](std::size_t band) {
+        return spread_of(
+            test.readings, band, [](const Reading& r) { return r.matched - r.reference; });
+    };
+    return text + method_row("a method without error", floor, "", "");
 }
 
 std::string sources_of(const std::vector<Reading>& readings) {
@@ -117,22 +144,16 @@ std::string sources_of(const std::vector<Reading>& readings) {
 } // namespace
 
 std::string tables_of(const Fitted& test, double share) {
-    std::string text = fmt::format("{} pieces of {:g} m, {:.1f} km{}; errors are estimate minus "
+    std::string text = fmt::format("{} intervals of {:g} m, {:.1f} km{}; errors are estimate minus "
                                    "reference in mm/m.\n",
                                    test.readings.size(),
                                    segment_m,
                                    segment_m * static_cast<double>(test.readings.size()) / 1000,
                                    share < 1 ? fmt::format(" ({:g} of the paper's)", share) : "");
-    text += "\n## Beside the paper\n" + results_of(test.readings);
+    text +=
+        "\n## Beside the paper: mean, standard deviation, RMSE\n\n" + paper_table(test.readings);
+    text += "\n## All methods: mean, RMSE\n\n" + method_table(test);
     text += "\n## What the world adds to every method (RMSE, mm/m)\n" + sources_of(test.readings);
-    text += "\n## Factors and intervals\n\n| method | factor fitted | 90 % interval covers "
-            "|\n|---|---|---|\n";
-    for (std::size_t row = 0; row < methods.size(); ++row) {
-        text += fmt::format("| {} | {} | {:.0f} % |\n",
-                            methods[row].name,
-                            methods[row].fitted ? fmt::format("{:.2f}", test.factor[row]) : "none",
-                            100 * covered(test.readings, row));
-    }
     return text;
 }
 
