@@ -6,9 +6,7 @@ usage: measure.py BUILD_DIR WORK_DIR OUT.md [--keep DOC.md] [--kubicka DIR] [--c
 BUILD_DIR      a release build with the target `benches`
 WORK_DIR       where the measured data is made and kept between runs
 --keep DOC.md  also puts what was measured in the place of those sections of a document
---kubicka DIR  recorded trips for `match`: three files per track, made from those of the record: NAME.osm.pbf (the roads,
-               with the record's node numbers), NAME.trip.csv (t_s,lat_deg,lon_deg), NAME.truth.csv
-               (from_node,to_node, one row per arc)
+--kubicka DIR  recorded trips for `match` (docs/benchmarks.md)
 --cars N       largest fleet for `calibration`, 2,500 unless given; each car has 1,000 passes
 NAME           start process estimation match store calibration render vector_tile; all when none is named
 
@@ -131,8 +129,11 @@ def process(macadam, work):
     text += output_tables(macadam, work, store)
     simulated = json.loads((folder / "simulated.json").read_text())
     hours, mb = hours_and_mb(trips)
-    text += f"`simulate` of these {hours:.1f} h ({mb:.0f} MB): {simulated['wall_s']:.0f} s, CPU {simulated['cpu_s']:.0f} s, " + \
-        f"{hours * 3600 / simulated['cpu_s']:,.0f} x real time per CPU.\n\n" + profile_table(macadam, work)
+    text += "### Simulating\n\n" + table(
+        ["what", "trips", "hours of driving", "MB of .gz", "wall s", "CPU s", "x real time per CPU"],
+        [["simulate", str(TRIPS), f"{hours:.1f}", f"{mb:.0f}", f"{simulated['wall_s']:.0f}", f"{simulated['cpu_s']:.0f}",
+          f"{hours * 3600 / simulated['cpu_s']:.0f}"]])
+    text += "\n" + profile_table(macadam, work)
     return text
 
 
@@ -185,12 +186,13 @@ def import_tables(trips, importing):
             for name, used in (("import --jobs 1", one), ("import --jobs 2", two), ("gzip -dc of the same logs", unpack))]
     text = f"### Importing {hours:.1f} h of driving ({mb:.0f} MB)\n\n" + table(
         ["what", "trips", "wall s", "CPU s", "peak MB", "x real time per CPU", "times faster than --jobs 1"], rows)
-    growth = []
-    for part in (8, 1):
+    rows = []
+    for part in (8, 4, 2, 1):
         some = trips[: len(trips) // part]
         (used,) = in_turns(1, importing(some, 1))
-        growth.append(f"{used.cpu_s / len(some) * 1e3:.0f} ms and {used.peak_mb:.0f} MB for {len(some)} trips")
-    return text + f"\nCPU a trip and peak, one job: {', '.join(growth)}.\n\n"
+        rows.append([str(len(some)), f"{used.cpu_s:.2f}", f"{used.cpu_s / len(some) * 1e3:.0f}", f"{used.peak_mb:.0f}"])
+    return text + "\nGrowth with the number of trips, one job:\n\n" + table(
+        ["trips", "CPU s", "CPU ms a trip", "peak MB"], rows) + "\n"
 
 
 def output_tables(macadam, work, store):
@@ -230,55 +232,46 @@ def peak_mb(program, name):
     return run([program, f"--benchmark_filter=^{re.escape(name)}$", "--benchmark_min_time=0.01"]).peak_mb
 
 
-def peer_of(name):
+def ratio_to_peer(name, times):
+    """CPU of the peer over ours, for the same size; empty where there is no peer."""
     own, _, size = name.partition("/")
-    return f"{PEERS.get(own)}/{size}"
-
-
-def beside_peer(name, times, unit):
-    """CPU of the peer for the same size, and over ours; empty where there is no peer."""
-    peer = peer_of(name)
-    return f"{times[peer]:.2f} {unit}, {times[peer] / times[name]:.1f}" if peer in times else ""
+    peer = f"{PEERS.get(own)}/{size}"
+    return f"{times[peer] / times[name]:.1f}" if peer in times else ""
 
 
 def part(build, name, note):
-    """One program of Google Benchmark as a table of CPU times, memory, ratios and counters; of several sizes the first and last."""
+    """One program of Google Benchmark as a table of CPU times, memory, ratios and counters."""
     say(f"{name}_bench")
     program = build / "tests" / "bench" / f"{name}_bench"
     done = subprocess.run([program, "--benchmark_format=json"], capture_output=True, check=True)
     found = json.loads(done.stdout)["benchmarks"]
     times = {one["name"]: one["cpu_time"] for one in found if one["run_type"] == "iteration"}
-    growth = {one["run_name"]: one["big_o"] for one in found if one.get("aggregate_name") == "BigO"}
-    sizes = {}
-    for case in times:
-        sizes.setdefault(case.partition("/")[0], []).append(case)
-    shown = {case for names in sizes.values() for case in (names[0], names[-1])} - {peer_of(case) for case in times}
     rows = []
     for one in found:
-        if one["run_type"] != "iteration" or one["name"] not in shown:
+        if one.get("aggregate_name") == "RMS":
+            continue
+        if one.get("aggregate_name") == "BigO":
+            rows.append([one["run_name"], f"grows as {one['big_o']}", "", "", ""])
             continue
         counters = ", ".join(f"{key} {one[key]:,.1f}" if key.endswith("_ms") else f"{key} {one[key]:,.0f}" for key in
                              ("samples/s", "x_real_time", "fixes/s", "edges", "found", "segments", "segments/s", "bytes/segment",
                               "passes/s", "p50_ms", "p99_ms", "worst_ms", "lines") if key in one)
-        family = one["name"].partition("/")[0]
-        if family in growth and one["name"] == sizes[family][-1]:
-            counters = ", ".join(filter(None, [counters, f"grows as {growth[family]}"]))
         rows.append([one["name"], f"{one['cpu_time']:.2f} {one['time_unit']}", f"{peak_mb(program, one['name']):.0f}",
-                     beside_peer(one["name"], times, one["time_unit"]), counters])
+                     ratio_to_peer(one["name"], times), counters])
     return f"{note}\n\n" + table(["what", "CPU", "peak MB", "CPU of the peer, times ours", "of it"], rows)
 
 
 PARTS = {
-    "estimation": "The filter as the paper writes it beside ours, and the whole way from vibration to IRI, on 15 minutes to 2 hours "
-                  "at 100 Hz.",
+    "estimation": "The filter as the paper writes it (matrices of any size, covariance at every sample) beside ours, "
+                  "and the whole way from vibration to IRI, on 15 minutes to 2 hours at 100 Hz.",
     "store": "Stores made, beside the same rows inserted under the triggers that keep a GeoPackage's R-tree; about 1,400 segments "
              "out of stores of growing size; trips of 500 passes added and fused one by one, and many at once: `<true>` lays each "
              "pass on the others (docs/method/fusion.md), `<false>` has no traces to. `add_batch` is 1,000 trips at once, `<true>` with "
              "traces and states, `<false>` the rows of passes alone, beside SQLite's own insertion of such rows into a bare table.",
-    "render": "The streets of towns at 2048 x 2048, beside Cairo with casing and round joins. "
-              "Starting the software renderer costs small towns most.",
-    "vector_tile": "A gzipped vector tile by its place and from memory; then all tiles of a zoom of a town, beside GDAL's driver on a "
-                   "GeoPackage of the same segments.",
+    "render": "The streets of towns of growing size at 2048 x 2048, beside Cairo with casing and round joins. "
+              "Ours begins by waking the software renderer, which costs the small towns most.",
+    "vector_tile": "A gzipped vector tile from the store by its place and from memory; then all tiles of a zoom of a town, beside GDAL's "
+                   "driver that makes them from a GeoPackage of the same segments, which holds them ready.",
 }
 TITLES = {"start": "Start", "process": "Whole commands", "estimation": "Estimation", "match": "Matching", "store": "Store",
           "calibration": "Calibration", "render": "Picture", "vector_tile": "Vector tiles"}
@@ -295,7 +288,7 @@ def kept(document, sections):
 
 def machine():
     model = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "unknown processor")
-    return f"{model}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}"
+    return f"{model}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} when it began"
 
 
 @functools.cache
@@ -318,8 +311,8 @@ def picture_tiles(build, work, macadam):
     """Picture tiles out of a million segments, beside Mapnik with its OGR plugin and Cairo."""
     store = tile_store(build, work, 223)
     return "\n### Picture tiles out of a million segments\n\n" + \
-        "Medians over 64 tiles, three rounds, milliseconds of CPU. Mapnik reads the same GeoPackage and draws both directions on each " + \
-        "other; Cairo draws the lines that ours did.\n\n" + \
+        "Medians over 64 tiles, three rounds, milliseconds of CPU. Mapnik reads the same GeoPackage by its OGR plugin and draws " + \
+        "casing and core, both directions on each other; ours draws each at its side; Cairo draws the lines that ours did.\n\n" + \
         table(["tile", "query", "draw", "PNG", "all, ms of CPU", "Mapnik + OGR", "its png8", "both", "times ours",
                "Cairo, drawing alone", "times ours"], []) + \
         tile_bench(build, "pictures", store) + "\n" + tile_bench(build, "map", store) + "\n" + tile_jobs(work, macadam, store)
@@ -334,17 +327,19 @@ def tile_jobs(work, macadam, store):
         return lambda: out.unlink(missing_ok=True), [*words, "--jobs", jobs, "--quiet"]
 
     one, two = in_turns(3, export(1), export(2))
-    return "`export --tiles picture` of zooms 15 and 16 of a third of the town: " + \
-        f"{one.wall_s:.2f} s (CPU {one.cpu_s:.2f}), with `--jobs 2` {two.wall_s:.2f} s (CPU {two.cpu_s:.2f}, " + \
-        f"{2 * one.cpu_s / two.cpu_s:.2f} times as fast if shared evenly).\n"
+    return "`export --tiles picture` of zooms 15 and 16 of a third of the town:\n\n" + table(
+        ["--jobs", "wall s", "CPU s of all", "wall, times as fast", "CPU s, two shared evenly, times as fast"],
+        [["1", f"{one.wall_s:.2f}", f"{one.cpu_s:.2f}", "", ""],
+         ["2", f"{two.wall_s:.2f}", f"{two.cpu_s:.2f}", f"{one.wall_s / two.wall_s:.2f}", f"{2 * one.cpu_s / two.cpu_s:.2f}"]])
 
 
 def vector_tiles(build, work):
-    """Vector tiles out of a million segments, by their places."""
+    """Vector tiles asked of stores by their places."""
     head = table(["tile", "query", "encode", "gzip", "all, ms of CPU"], [])
-    rows = tile_bench(build, "vectors", tile_store(build, work, 223))
-    return "\n### Vector tiles out of a million segments\n\n" + \
-        "Medians over 64 tiles, three rounds, milliseconds of CPU.\n\n" + head + rows
+    rows = "".join(tile_bench(build, "vectors", tile_store(build, work, side)) for side in (56, 112, 223))
+    return "\n### Vector tiles out of stores, by their places\n\n" + \
+        "Medians over 64 tiles, three rounds, milliseconds of CPU: the box is asked of the store, the segments become a tile, the tile is " + \
+        "gzipped as in files.\n\n" + head + rows
 
 
 def calibration(build, work, macadam, cars):
