@@ -78,7 +78,8 @@ TEST(Commands, ThatPrintRowsHaveAFormatAFileAndTheShortFormOfJson) {
             found.push_back(command.name);
         }
     }
-    EXPECT_THAT(found, UnorderedElementsAre("query", "trace", "match", "iri", "valid-from"));
+    EXPECT_THAT(found,
+                UnorderedElementsAre("query", "trace", "match", "iri", "valid-from", "vehicles"));
 }
 
 TEST(Commands, ThatAreMisspelledAreAnsweredWithTheNearestOne) {
