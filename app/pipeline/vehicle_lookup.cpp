@@ -55,8 +55,9 @@ std::vector<fs::path> vehicle_folders(const fs::path& trip_folder) {
             parent.parent_path().parent_path() / "vehicles"};
 }
 
-/// Parses --vehicle-id.
-std::optional<std::string> car_name(const Arguments& arguments) {
+} // namespace
+
+std::optional<std::string> parse_vehicle_id(const Arguments& arguments) {
     const auto given = arguments.value("--vehicle-id");
     if (!given) {
         return {};
@@ -71,8 +72,6 @@ std::optional<std::string> car_name(const Arguments& arguments) {
     }
     return name;
 }
-
-} // namespace
 
 std::map<std::string, Vehicle> vehicles_in(const fs::path& folder) {
     std::map<std::string, Vehicle> found;
@@ -91,7 +90,7 @@ std::map<std::string, Vehicle> vehicles_in(const fs::path& folder) {
     return found;
 }
 
-VehicleChoice::VehicleChoice(const Arguments& arguments) : named_car_{car_name(arguments)} {
+VehicleChoice::VehicleChoice(const Arguments& arguments) : named_car_{parse_vehicle_id(arguments)} {
     const auto name = arguments.value("--vehicle");
     const auto folder = arguments.value("--vehicles");
     if (name && folder) {

@@ -37,6 +37,10 @@ struct ChosenVehicle {
     std::string warning; ///< "", or that the car is unknown
 };
 
+/// Parses --vehicle-id.
+/// \throws UsageError  if it is no name: empty, longer than 100 bytes, or of several lines.
+std::optional<std::string> parse_vehicle_id(const Arguments& arguments);
+
 /// Reads the vehicle files of a folder, by their names; none if it is no folder.
 /// \throws InputError  for a file that is no vehicle, or two of one name.
 std::map<std::string, Vehicle> vehicles_in(const std::filesystem::path& folder);

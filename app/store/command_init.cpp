@@ -147,11 +147,10 @@ void tell_of_size(const RoadNetwork& roads, const InitOptions& options, const Co
         segments += link_at(roads, edge).segments;
     }
     if (segments > many_segments && options.network && options.around.paths.empty()) {
-        console.say(fmt::format("{}: large map of {} segments, at most {} are usual; --around "
-                                "TRIPS takes only the roads near your trips",
+        console.say(fmt::format("{}: large map of {} segments; --around TRIPS takes only the roads "
+                                "near your trips",
                                 options.network->string(),
-                                segments,
-                                many_segments));
+                                segments));
     }
 }
 

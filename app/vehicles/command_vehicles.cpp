@@ -26,6 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view add_word = "add";
 constexpr std::string_view of_add = "of 'vehicles add'";
+constexpr std::array<std::string_view, 7> owner_options{
+    "--mass", "--wheelbase", "--body", "--tyres", "--front-share", "--sensor", "--mount"};
 
 /// Returns the built-in cars, or those of --vehicles.
 std::vector<ListedVehicle> asked_vehicles(const Arguments& arguments) {
@@ -132,9 +134,10 @@ OwnersData parse_owners_data(const Arguments& arguments) {
 }
 
 std::string name_of_new(const Arguments& arguments, const std::optional<fs::path>& output) {
-    const auto name =
-        arguments.value("--vehicle-id").value_or(output ? output->stem().string() : "");
-    if (trimmed(name).empty()) {
+    const auto stem = output ? output->stem().string() : "";
+    const bool is_plain = std::ranges::none_of(stem, [](unsigned char c) { return c < 0x20; });
+    const auto name = parse_vehicle_id(arguments).value_or(is_plain ? stem : "");
+    if (name.empty()) {
         throw UsageError{"expected -o FILE.toml or --vehicle-id NAME: what the car is called"};
     }
     if (built_in_vehicle(name) != nullptr) {
@@ -148,8 +151,7 @@ std::string name_of_new(const Arguments& arguments, const std::optional<fs::path
 /// Returns what the owner said, as the first line of the file.
 std::string origin_of(const Arguments& arguments) {
     std::string words;
-    for (const auto* const option :
-         {"--mass", "--wheelbase", "--body", "--tyres", "--front-share", "--sensor", "--mount"}) {
+    for (const auto option : owner_options) {
         if (const auto value = arguments.value(option)) {
             words += fmt::format(" {} {}", option, *value);
         }
@@ -189,14 +191,9 @@ void add_vehicle(const Arguments& arguments, const Console& console) {
 }
 
 void expect_no_data_of_owner(const Arguments& arguments) {
-    for (const auto* const option : {"--mass",
-                                     "--wheelbase",
-                                     "--body",
-                                     "--tyres",
-                                     "--front-share",
-                                     "--sensor",
-                                     "--mount",
-                                     "--vehicle-id"}) {
+    std::vector<std::string_view> names{owner_options.begin(), owner_options.end()};
+    names.emplace_back("--vehicle-id");
+    for (const auto option : names) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("{} requires 'macadam vehicles add'", option)};
         }
