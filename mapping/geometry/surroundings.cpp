@@ -11,11 +11,14 @@ namespace {
 // shorter than this times the cosine of the latitude.
 constexpr double m_per_deg = 110'574;
 
+constexpr std::int64_t cells_per_reach = 3;
+
 } // namespace
 
-Surroundings::Surroundings(double reach_m) : reach_m_{reach_m}, row_deg_{reach_m / m_per_deg} {}
+Surroundings::Surroundings(double reach_m)
+    : reach_m_{reach_m}, row_deg_{reach_m / m_per_deg / cells_per_reach} {}
 
-/// Width of the cells of a row: the reach, at the row's end nearer to the pole.
+/// Width of the cells of a row: their height, at the row's end nearer to the pole.
 double Surroundings::lon_step_deg(std::int64_t row) const {
     const double end_deg =
         std::max(std::abs(static_cast<double>(row)), std::abs(static_cast<double>(row + 1))) *
@@ -41,9 +44,14 @@ void Surroundings::add(const GeoPoint& position) {
     const auto column_in = [&](std::int64_t of_row) {
         return static_cast<std::int64_t>(std::floor(position.lon_deg / lon_step_deg(of_row)));
     };
-    for (auto near_row = row - 1; near_row <= row + 1; ++near_row) {
+    if (!occupied_.insert(cell_of(row, column_in(row))).second) {
+        return;
+    }
+    // One column more, as another position in this cell may lie in another column of other rows.
+    constexpr auto columns = cells_per_reach + 1;
+    for (auto near_row = row - cells_per_reach; near_row <= row + cells_per_reach; ++near_row) {
         const auto column = column_in(near_row);
-        for (auto near_column = column - 1; near_column <= column + 1; ++near_column) {
+        for (auto near_column = column - columns; near_column <= column + columns; ++near_column) {
             cells_.insert(cell_of(near_row, near_column));
         }
     }

@@ -12,7 +12,7 @@ namespace macadam {
 class Surroundings {
 public:
     /// \param reach_m  distance within which a place belongs to the surroundings, above 0; of
-    ///                 places up to three times as far, some do.
+    ///                 places up to 2.5 times as far, some do.
     explicit Surroundings(double reach_m);
 
     /// Adds the surroundings of a position; none for a position that is not on the globe.
@@ -29,8 +29,9 @@ private:
     static std::uint64_t cell_of(std::int64_t row, std::int64_t column);
 
     double reach_m_;
-    double row_deg_;
+    double row_deg_; ///< height of a cell
     GeoBox box_;
+    std::unordered_set<std::uint64_t> occupied_; ///< cells of the positions
     std::unordered_set<std::uint64_t> cells_;
 };
 

@@ -68,7 +68,7 @@ struct WaysInCut {
     NodeIds nodes; ///< in rising order
 
     bool hold(std::span<const std::int64_t> way) const {
-        ++cut.ways;
+        cut.ways += way.size() < 2 ? 0 : 1;
         return std::any_of(way.begin(), way.end(), [&](std::int64_t id) {
             return std::binary_search(nodes.begin(), nodes.end(), id);
         });

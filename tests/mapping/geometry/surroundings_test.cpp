@@ -28,7 +28,7 @@ TEST(Surroundings, HoldAllThatIsWithinReachAndNothingFarBeyondItAtAnyLatitude) {
                         EXPECT_TRUE(around.contains(place))
                             << lat_deg << ' ' << east << ' ' << north;
                     }
-                    if (off_m > 3000) {
+                    if (off_m > 2500) {
                         EXPECT_FALSE(around.contains(place))
                             << lat_deg << ' ' << east << ' ' << north;
                     }

@@ -335,8 +335,10 @@ TEST(NetworkReader, RefusesAMapThatIsCutOffOrSomethingElse) {
 }
 
 TEST(NetworkReader, RefusesAMapWithoutRoads) {
-    EXPECT_THAT(refusal_of([] { read_osm_of(tag("highway", "footway")); }),
-                EndsWith("a.osm: contains no drivable road"));
+    EXPECT_THAT(
+        refusal_of([] { read_osm_of(tag("highway", "footway")); }),
+        EndsWith("a.osm: contains no drivable road: its ways are not open to cars (highway = "
+                 "'footway')"));
     EXPECT_THAT(refusal_of([] { read_network("/nowhere/a.osm.pbf"); }),
                 EndsWith("/nowhere/a.osm.pbf: cannot be read: No such file or directory"));
 }
