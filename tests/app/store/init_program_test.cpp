@@ -1,5 +1,6 @@
 // Road databases made from maps: which part of them, and which maps are refused.
 
+#include "storage/networks/network_reader.hpp"
 #include "support/program/program.hpp"
 
 #include <fmt/format.h>
@@ -19,18 +20,40 @@ using ::testing::Not;
 
 const std::string krems = MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf";
 
-/// A track of 300 m to the north.
-std::string gpx_at(double lat_deg, double lon_deg) {
+/// A track of 11 m a second between two positions.
+std::string gpx_between(const GeoPoint& from, const GeoPoint& to) {
     std::string text =
         "<gpx version=\"1.1\" xmlns=\"http://www.topografix.com/GPX/1/1\"><trk><trkseg>";
-    for (int i = 0; i <= 30; ++i) {
+    const auto count = static_cast<int>(distance_m(from, to) / 11);
+    for (int i = 0; i <= count; ++i) {
+        const auto at = between(from, to, static_cast<double>(i) / count);
         text += fmt::format(
-            "<trkpt lat=\"{:.6f}\" lon=\"{:.6f}\"><time>2026-05-01T08:00:{:02}Z</time></trkpt>",
-            lat_deg + 1e-4 * i,
-            lon_deg,
-            i);
+            "<trkpt lat=\"{:.6f}\" lon=\"{:.6f}\"><time>2026-05-01T08:{:02}:{:02}Z</time></trkpt>",
+            at.lat_deg,
+            at.lon_deg,
+            i / 60,
+            i % 60);
     }
     return text + "</trkseg></trk></gpx>";
+}
+
+/// A track of 300 m to the north.
+std::string gpx_at(double lat_deg, double lon_deg) {
+    return gpx_between({lat_deg, lon_deg}, {lat_deg + 0.003, lon_deg});
+}
+
+/// The longest straight step of a road of Krems.
+std::pair<GeoPoint, GeoPoint> straight_road() {
+    std::pair<GeoPoint, GeoPoint> longest{};
+    for (const auto& way : read_network(krems)) {
+        for (std::size_t i = 1; i < way.line.size(); ++i) {
+            if (distance_m(way.line[i - 1], way.line[i]) >
+                distance_m(longest.first, longest.second)) {
+                longest = {way.line[i - 1], way.line[i]};
+            }
+        }
+    }
+    return longest;
 }
 
 std::string osm_of_way(const std::string& tags) {
@@ -44,7 +67,7 @@ class Init : public ::testing::Test {
 protected:
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
-    Run init(const std::vector<std::string>& more) const {
+    macadam::testing::Run init(const std::vector<std::string>& more) const {
         std::vector<std::string> words{"init", store_};
         words.insert(words.end(), more.begin(), more.end());
         return run_macadam(words);
@@ -68,8 +91,9 @@ protected:
 
 TEST_F(Init, TakesOnlyTheRoadsAroundTripsAndSaysHowMany) {
     fs::create_directory(at("trips"));
-    write_file(at("trips/a.gpx"), gpx_at(48.410, 15.610));
-    write_file(at("trips/b.gpx"), gpx_at(48.411, 15.612));
+    const auto [from, to] = straight_road();
+    write_file(at("trips/a.gpx"), gpx_between(from, to));
+    write_file(at("trips/b.gpx"), gpx_between(to, from));
     write_file(at("trips/readme.txt"), "no trip");
     const auto cut = init({"--network", krems, "--around", at("trips")});
     EXPECT_EQ(cut.exit_status, 0) << cut.err;
