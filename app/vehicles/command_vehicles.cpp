@@ -239,9 +239,9 @@ constexpr std::array options{
     in_group(of_add,
              {"--mass", "KG", "Kerb mass, as in the registration papers; add a usual load."}),
     in_group(of_add, {"--wheelbase", "METRES", "Distance between the axles."}),
-    in_group(
-        of_add,
-        one_of("small|compact|saloon|estate|suv|van|pickup", {"--body", "BODY", "Kind of car."})),
+    in_group(of_add,
+             one_of("small|compact|saloon|estate|suv|van|pickup",
+                    {"--body", "BODY", "small, compact, saloon, estate, suv, van or pickup."})),
     in_group(of_add, {"--tyres", "SIZE", "Size as on the tyre, such as 205/55R16."}),
     in_group(of_add,
              {"--front-share", "PERCENT", "Share of the mass on the front axle.", "by --body"}),
@@ -272,7 +272,7 @@ const Command vehicles_command{
              "uncertainty, from mass, wheelbase\n"
              "and body, and writes a vehicle file: better than an average car, worse than "
              "'macadam identify'.",
-    .example = "  macadam vehicles\n"
+    .example = "  macadam vehicles --format csv\n"
                "  macadam vehicles generic\n"
                "  macadam vehicles add --mass 1430 --wheelbase 2.62 --body compact -o golf.toml\n"
                "  macadam import roads.gpkg trips/ --vehicle golf.toml --vehicle-id golf",
