@@ -218,11 +218,14 @@ Arguments::Arguments(std::span<const Option> options,
     // A single list holds all operands: CLI11 would let the first of several take every word.
     std::vector<std::string> given;
     if (!operands.empty()) {
-        parser.add_option("operands", given)->expected(1, -1); // distribute() reports missing ones
+        const bool is_required = !std::ranges::all_of(operands, &Operand::optional);
+        parser.add_option("operands", given)->required(is_required)->expected(1, -1);
     }
     try {
         parser.parse(std::vector<std::string>{words.rbegin(),
                                               words.rend()}); // CLI11 takes words from the back
+    } catch (const CLI::RequiredError&) {
+        given.clear(); // distribute() reports the missing operand
     } catch (const CLI::ExtrasError&) {
         refuse_extras(options, words, parser.remaining());
     } catch (const CLI::ParseError& error) {
