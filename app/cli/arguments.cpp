@@ -218,7 +218,8 @@ Arguments::Arguments(std::span<const Option> options,
     // A single list holds all operands: CLI11 would let the first of several take every word.
     std::vector<std::string> given;
     if (!operands.empty()) {
-        parser.add_option("operands", given)->required()->expected(1, -1);
+        const bool is_required = !std::ranges::all_of(operands, &Operand::optional);
+        parser.add_option("operands", given)->required(is_required)->expected(1, -1);
     }
     try {
         parser.parse(std::vector<std::string>{words.rbegin(),

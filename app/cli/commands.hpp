@@ -76,6 +76,7 @@ extern const Command iri_command;        // app/profile/command_iri.cpp
 extern const Command trace_command;      // app/trace/command_trace.cpp
 extern const Command match_command;      // app/trace/command_match.cpp
 extern const Command convert_command;    // app/trace/command_convert.cpp
+extern const Command vehicles_command;   // app/vehicles/command_vehicles.cpp
 extern const Command simulate_command;   // app/simulate/command_simulate.cpp
 
 } // namespace macadam

@@ -4,6 +4,8 @@
 
 #include "estimator/common/error.hpp"
 #include "mapping/style/iri_class.hpp"
+#include "storage/networks/osm_tags.hpp"
+#include "storage/text/spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -69,6 +71,19 @@ std::optional<SegmentKey> parse_key(const Arguments& arguments) {
         return key ? std::optional{parse_segment_key(*key)} : std::nullopt;
     } catch (const InputError& error) {
         throw UsageError{fmt::format("--segment: {}", error.what())};
+    }
+}
+
+void expect_known_highway(const SegmentFilter& filter, const StoreReader& store) {
+    if (filter.highway.empty() || is_car_class(filter.highway)) {
+        return;
+    }
+    const auto known = store.highways();
+    if (std::ranges::find(known, filter.highway) == known.end()) {
+        throw UsageError{fmt::format("--highway is '{}', expected {}{}",
+                                     filter.highway,
+                                     fmt::join(known, " or "),
+                                     suggestion(filter.highway, known))};
     }
 }
 

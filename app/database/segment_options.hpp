@@ -49,6 +49,10 @@ SegmentFilter parse_filter(const Arguments& arguments);
 /// \throws UsageError  for an invalid key.
 std::optional<SegmentKey> parse_key(const Arguments& arguments);
 
+/// Checks the class of roads of a filter.
+/// \throws UsageError  if it is no class of OSM for cars, and no road of the database has it.
+void expect_known_highway(const SegmentFilter& filter, const StoreReader& store);
+
 /// Checks the class name of a filter.
 /// \throws UsageError  if the database's class table has no such class.
 void expect_known_class(const SegmentFilter& filter, const StoreReader& store);

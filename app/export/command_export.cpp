@@ -141,6 +141,7 @@ void run_export(const Arguments& arguments, const Console& console) {
     }
     const auto store = opened_reader(options.store, console);
     expect_known_class(options.filter, store);
+    expect_known_highway(options.filter, store);
     warn_of_waiting(store, options.store, console);
     tell_publication(store, console);
     if (options.sections) {

@@ -227,6 +227,7 @@ constexpr std::array operands{
 constexpr std::array options{
     vehicle_option,
     vehicles_option,
+    vehicle_id_option,
     mapping_option,
     Option{
         "--trim", "METRES", "Remove the first and last N metres of each trip, for privacy.", "0"},

@@ -65,6 +65,7 @@ constexpr std::array operands{
 constexpr std::array options{
     vehicle_option,
     vehicles_option,
+    vehicle_id_option,
     mapping_option,
     jobs_option,
     max_members_option,

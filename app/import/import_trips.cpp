@@ -7,10 +7,13 @@
 #include "storage/networks/network_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -75,6 +78,17 @@ std::vector<std::string> known_text(const TrimRule& trim) {
     return {};
 }
 
+/// Returns a message if the car of --vehicle-id is not that with which a trip is stored.
+std::vector<std::string> unchanged_car_text(const Intake& intake, const std::string& sha256) {
+    const auto& car = intake.vehicles.named_car();
+    if (!car || intake.store.is_trip_of(sha256, *car)) {
+        return {};
+    }
+    return {fmt::format("is in the database with another car or none, which stays: to change it, "
+                        "'macadam forget --trip {}', then import it with --take-back",
+                        sha256)};
+}
+
 /// Looks up a trip by the hash of its content. Returns whether to skip it; the report says why.
 bool is_skipped(const Intake& intake, const std::string& sha256, TripReport& report) {
     using Result = TripReport::Result;
@@ -92,7 +106,9 @@ bool is_skipped(const Intake& intake, const std::string& sha256, TripReport& rep
                skip(Result::unknown, {"is not in the database: import it with 'macadam import'"});
     }
     if (is_known) {
-        return skip(Result::known, known_text(intake.work.pipeline.trim));
+        auto warnings = known_text(intake.work.pipeline.trim);
+        std::ranges::move(unchanged_car_text(intake, sha256), std::back_inserter(warnings));
+        return skip(Result::known, std::move(warnings));
     }
     return !intake.work.readmit && intake.store.has_forgotten(sha256) &&
            skip(Result::known, {"was permanently deleted on request; --take-back re-admits it"});
@@ -137,6 +153,7 @@ read_once(const Intake& intake, const TripSource& source, TripReport& report) {
 /// Estimates and matches a trip.
 void add_passes(ProcessedTrip& trip, const Intake& intake, const TripSource& source, TripLog log) {
     auto& report = trip.report;
+    with_trip_name(report.file, [&] { intake.vehicles.name_car(log.meta); });
     const auto meta = log.meta;
     report.trip_id = meta.trip_id;
     const auto chosen = intake.vehicles(source.file, meta.vehicle_id);
@@ -209,10 +226,14 @@ void put(const Intake& intake, std::vector<ProcessedTrip>& trips) {
     const std::scoped_lock lock{intake.store_in_use};
     if (intake.work.reprocess) {
         for (auto* const trip : made) {
+            auto& report = trip->report;
             if (!intake.store.maintenance.stage_trip(
                     {&trip->record, trip->passes, trip->traces, false, trip->events})) {
-                trip->report.result = Result::unknown;
+                report.result = Result::unknown;
+                continue;
             }
+            std::ranges::move(unchanged_car_text(intake, report.sha256),
+                              std::back_inserter(report.warnings));
         }
         return;
     }

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/settings/vehicle_file.hpp"
+#include "storage/text/text.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@ namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t max_car_name_bytes = 100;
 
 std::string built_in_names() {
     std::vector<std::string> names;
@@ -54,7 +57,40 @@ std::vector<fs::path> vehicle_folders(const fs::path& trip_folder) {
 
 } // namespace
 
-VehicleChoice::VehicleChoice(const Arguments& arguments) {
+std::optional<std::string> parse_vehicle_id(const Arguments& arguments) {
+    const auto given = arguments.value("--vehicle-id");
+    if (!given) {
+        return {};
+    }
+    auto name = std::string{trimmed(*given)};
+    const bool is_printable =
+        std::ranges::none_of(name, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    if (name.empty() || name.size() > max_car_name_bytes || !is_printable) {
+        throw UsageError{fmt::format("--vehicle-id is {}, expected a name of 1 to {} characters",
+                                     in_quotes(*given),
+                                     max_car_name_bytes)};
+    }
+    return name;
+}
+
+std::map<std::string, Vehicle> vehicles_in(const fs::path& folder) {
+    std::map<std::string, Vehicle> found;
+    if (!fs::is_directory(folder)) {
+        return found;
+    }
+    for (const auto& file : toml_files(folder)) {
+        auto vehicle = read_vehicle(file);
+        if (found.contains(vehicle.name)) {
+            throw InputError{fmt::format("{}: the name '{}' is also in another file of this folder",
+                                         file.string(),
+                                         vehicle.name)};
+        }
+        found.emplace(vehicle.name, std::move(vehicle));
+    }
+    return found;
+}
+
+VehicleChoice::VehicleChoice(const Arguments& arguments) : named_car_{parse_vehicle_id(arguments)} {
     const auto name = arguments.value("--vehicle");
     const auto folder = arguments.value("--vehicles");
     if (name && folder) {
@@ -78,20 +114,20 @@ const VehicleChoice::ByName& VehicleChoice::in_folder(const fs::path& folder) {
     if (const auto known = read_.find(folder); known != read_.end()) {
         return known->second;
     }
-    ByName found;
-    if (fs::is_directory(folder)) {
-        for (const auto& file : toml_files(folder)) {
-            auto vehicle = read_vehicle(file);
-            if (found.contains(vehicle.name)) {
-                throw InputError{
-                    fmt::format("{}: the name '{}' is also in another file of this folder",
-                                file.string(),
-                                vehicle.name)};
-            }
-            found.emplace(vehicle.name, std::move(vehicle));
-        }
+    return read_.emplace(folder, vehicles_in(folder)).first->second;
+}
+
+void VehicleChoice::name_car(TripMeta& meta) const {
+    if (!named_car_) {
+        return;
     }
-    return read_.emplace(folder, std::move(found)).first->second;
+    if (!meta.vehicle_id.empty() && meta.vehicle_id != *named_car_) {
+        throw InputError{fmt::format("its vehicle_id is {}, not {}: --vehicle-id names the car of "
+                                     "logs that name none; import this one without it",
+                                     in_quotes(meta.vehicle_id),
+                                     in_quotes(*named_car_))};
+    }
+    meta.vehicle_id = *named_car_;
 }
 
 ChosenVehicle VehicleChoice::operator()(const fs::path& trip_file, const std::string& vehicle_id) {

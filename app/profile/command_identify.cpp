@@ -235,7 +235,8 @@ void run_identify(const Arguments& arguments, const Console& console) {
     }
     const auto road = road_of(read_profile(options.profile, options.step_m), options.profile);
     const auto source = one_trip(options.trip, mapping_of(arguments));
-    const auto trip = read_trip(source, needs_of_trace(), console.progress("reading"));
+    auto trip = read_trip(source, needs_of_trace(), console.progress("reading"));
+    with_trip_name(source.name(), [&] { vehicles.name_car(trip.meta); });
     const auto chosen = vehicles(options.trip, trip.meta.vehicle_id);
     if (!chosen.warning.empty()) {
         console.warn(chosen.warning);
@@ -276,6 +277,7 @@ constexpr std::array options{
             "likelihood"}),
     vehicle_option,
     vehicles_option,
+    vehicle_id_option,
     mapping_option,
     Option{"--at",
            "METRES",

@@ -194,6 +194,7 @@ void run_query(const Arguments& arguments, const Console& console) {
     }
     const auto store = open_for_operator(options.store, console);
     expect_known_class(options.filter, store);
+    expect_known_highway(options.filter, store);
     warn_of_waiting(store, options.store, console);
     expect_segment(store, options);
 

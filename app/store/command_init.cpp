@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/import/trip_inputs.hpp"
+#include "app/store/network_around_trips.hpp"
 #include "app/store/network_update_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -14,7 +15,6 @@
 #include "storage/store/schema/store_marker.hpp"
 #include "storage/text/text.hpp"
 #include "storage/trips/trip_reader.hpp"
-#include "storage/trips/trip_search.hpp"
 
 #include <fmt/format.h>
 
@@ -31,12 +31,12 @@ struct InitOptions {
     std::filesystem::path store;
     std::optional<std::filesystem::path> network;
     std::optional<std::filesystem::path> update; ///< newer network for an existing database
-    std::vector<std::filesystem::path> trips;    ///< source of a network
+    TripPaths trips;                             ///< source of a network
+    TripPaths around;                            ///< trips whose surroundings to take of a map
     LayerColumns columns;
     std::string attribution;
     double segment_length_m;
     PrivacyProfile privacy;
-    std::size_t max_members; ///< limit for archives of trips
     bool json;
 };
 
@@ -49,6 +49,11 @@ PrivacyProfile privacy_in(const Arguments& arguments) {
     return *profile;
 }
 
+TripPaths trips_in(const Arguments& arguments, std::string_view option) {
+    const auto paths = arguments.values(option);
+    return {{paths.begin(), paths.end()}, max_members_of(arguments)};
+}
+
 InitOptions parse_init(const Arguments& arguments) {
     InitOptions options;
     options.store = arguments.operand("STORE");
@@ -57,12 +62,17 @@ InitOptions parse_init(const Arguments& arguments) {
                                      options.store.string())};
     }
     options.network = arguments.value("--network");
-    const auto trips = arguments.values("--trace");
-    options.trips.assign(trips.begin(), trips.end());
+    options.trips = trips_in(arguments, "--trace");
+    options.around = trips_in(arguments, "--around");
     options.update = arguments.value("--update");
-    const int sources = (options.network ? 1 : 0) + (options.update ? 1 : 0) + !trips.empty();
+    const bool is_traced = !options.trips.paths.empty();
+    const int sources = (options.network ? 1 : 0) + (options.update ? 1 : 0) + is_traced;
     if (sources != 1) {
-        throw UsageError{"expected either --network FILE, --trace TRIP... or --update FILE"};
+        throw UsageError{"expected either --network FILE, --trace TRIP... or --update FILE; where "
+                         "to get a FILE of roads: macadam help init"};
+    }
+    if (is_traced && !options.around.paths.empty()) {
+        throw UsageError{"--around cannot be combined with --trace: there is no map to cut"};
     }
     options.json = arguments.flag("--json");
     if (options.json && !options.update) {
@@ -75,7 +85,7 @@ InitOptions parse_init(const Arguments& arguments) {
         throw UsageError{"--privacy cannot be changed by --update"};
     }
     options.privacy = privacy_in(arguments);
-    if (options.privacy == PrivacyProfile::crowd && !trips.empty()) {
+    if (options.privacy == PrivacyProfile::crowd && is_traced) {
         throw UsageError{
             "--trace cannot be combined with --privacy crowd: roads traced from trips end "
             "where the trips end; expected --network"};
@@ -93,7 +103,6 @@ InitOptions parse_init(const Arguments& arguments) {
                        .highway = arguments.value("--highway-column").value_or(""),
                        .oneway = arguments.value("--oneway-column").value_or("")};
     options.attribution = arguments.value("--attribution").value_or("");
-    options.max_members = max_members_of(arguments);
     return options;
 }
 
@@ -106,15 +115,9 @@ bool is_osm(const std::filesystem::path& file) {
 std::vector<Way> traced_ways(const InitOptions& options, const Console& console) {
     const TraceConfig config;
     std::vector<TripDrawing> trips;
-    for (const auto& path : options.trips) {
-        TripWalk walk{path, {.tracks = true, .max_files = options.max_members}};
-        const auto reading = console.progress("reading trips");
-        while (const auto trip = walk.next()) {
-            reading(walk.given() - 1, walk.count().value_or(walk.given() + 1));
-            trips.push_back(trip_drawing(read_trip(*trip, needs_of_match()), config));
-        }
-        reading(1, 1);
-    }
+    visit_trips(options.trips, console, [&](const TripSource& trip) {
+        trips.push_back(trip_drawing(read_trip(trip, needs_of_match()), config));
+    });
     auto ways = trace_network(trips, config, console.progress("tracing roads"));
     if (ways.empty()) {
         throw InputError{fmt::format("no road could be traced from {} trips, expected "
@@ -124,6 +127,31 @@ std::vector<Way> traced_ways(const InitOptions& options, const Console& console)
                                      config.longest_gap_s)};
     }
     return ways;
+}
+
+/// Reads the roads of a map, with --around those near trips.
+std::vector<Way>
+ways_of(const std::filesystem::path& map, const InitOptions& options, const Console& console) {
+    if (!options.around.paths.empty()) {
+        return read_network_around(options.around, map, options.columns, console);
+    }
+    const auto warn = [&](const std::string& words) { console.say(words); };
+    return read_network(map, options.columns, console.progress("reading roads"), warn);
+}
+
+/// Tells how to make do with less if a network is far larger than a town.
+void tell_of_size(const RoadNetwork& roads, const InitOptions& options, const Console& console) {
+    constexpr std::size_t many_segments = 2'000'000; // 20,000 km of road in both directions
+    std::size_t segments = 0;
+    for (const auto edge : drivable_edges(roads)) {
+        segments += link_at(roads, edge).segments;
+    }
+    if (segments > many_segments && options.network && options.around.paths.empty()) {
+        console.say(fmt::format("{}: large map of {} segments; --around TRIPS takes only the roads "
+                                "near your trips",
+                                options.network->string(),
+                                segments));
+    }
 }
 
 void refuse_store(const std::filesystem::path& network) {
@@ -141,12 +169,8 @@ NetworkSource source_of(const std::filesystem::path& network, const std::string&
 }
 
 void make_store(const InitOptions& options, const Console& console) {
-    const auto warn = [&](const std::string& words) { console.say(words); };
-    auto ways =
-        options.network
-            ? read_network(
-                  *options.network, options.columns, console.progress("reading roads"), warn)
-            : traced_ways(options, console);
+    auto ways = options.network ? ways_of(*options.network, options, console)
+                                : traced_ways(options, console);
 
     const auto source =
         options.network ? source_of(*options.network, options.attribution)
@@ -157,6 +181,7 @@ void make_store(const InitOptions& options, const Console& console) {
     settings.attribution = source.attribution;
     settings.privacy = options.privacy;
     const auto roads = build_network(std::move(ways), options.segment_length_m);
+    tell_of_size(roads, options, console);
     const auto store =
         RoadStore::create(options.store, roads, settings, console.progress("writing segments"));
 
@@ -181,9 +206,8 @@ void update_store(const InitOptions& options, const Console& console) {
     auto store = opened_store(options.store, console);
     const auto warn = [&](const std::string& words) { console.say(words); };
     const auto before = load_or_build_network(store, warn);
-    const auto after = build_network(
-        read_network(*options.update, options.columns, console.progress("reading roads"), warn),
-        store.settings().segment_length_m);
+    const auto after = build_network(ways_of(*options.update, options, console),
+                                     store.settings().segment_length_m);
 
     const auto comparing = console.progress("comparing roads");
     const auto change = change_between(before, after, {}, comparing);
@@ -222,6 +246,7 @@ constexpr std::array options{
            "FILE",
            "Road map: .osm.pbf, .osm, or any line layer that GDAL reads (.gpkg, .shp, "
            ".geojson, ...)."},
+    around_option,
     Option{"--update",
            "FILE",
            "Update an existing database to a newer map of the same area; passes move to the "
@@ -262,11 +287,23 @@ constexpr std::array options{
 const Command init_command{
     .name = "init",
     .summary = "Create a road database from a road network",
-    .about = "Cuts every road into segments of about 20 m, separately for each direction in which "
-             "it may be driven, and\nwrites them to a new GeoPackage. From OpenStreetMap it takes "
-             "the road classes that are open to cars.",
+    .about =
+        "Cuts every road into segments of about 20 m, separately for each direction in which "
+        "it may be driven, and\nwrites them to a new GeoPackage. From OpenStreetMap it takes "
+        "the road classes that are open to cars.\n\n"
+        "Road maps of OpenStreetMap are free under the ODbL, which asks to name its contributors "
+        "on maps, as is done here.\nDownload one with a browser; this program never uses the "
+        "internet:\n"
+        "  https://download.geofabrik.de               countries and regions, .osm.pbf\n"
+        "  https://extract.bbbike.org                  a rectangle or polygon up to a large city, "
+        ".osm.pbf\n"
+        "  https://www.openstreetmap.org/export        parts of a town, .osm\n"
+        "  https://overpass-turbo.eu                   the same, somewhat larger\n"
+        "A map may be far larger than needed: --around trips/ takes only the roads near your "
+        "trips.",
     .example =
         "  macadam init roads.gpkg --network town.osm.pbf\n"
+        "  macadam init roads.gpkg --network austria-latest.osm.pbf --around trips/\n"
         "  macadam init roads.gpkg --network roads.shp --id-column LINK_ID --oneway-column ONEWAY\n"
         "  macadam init roads.gpkg --trace trips/               no map at hand\n"
         "  macadam init roads.gpkg --update town-2027.osm.pbf   the map has changed",

@@ -49,6 +49,7 @@ std::vector<SegmentKey> segments_named(const StoreReader& store, const Arguments
         throw UsageError{"expected a selection of roads: --segment, --way, --road, --highway "
                          "or --bbox"};
     }
+    expect_known_highway(filter, store);
     std::vector<SegmentKey> keys;
     store.visit(filter, [&](const SegmentRecord& record) { keys.push_back(record.segment.key); });
     if (keys.empty()) {

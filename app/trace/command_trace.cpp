@@ -234,6 +234,7 @@ void run_trace(const Arguments& arguments, const Console& console) {
                                        : std::vector<SurveyRow>{};
     const auto source = one_trip(options.trip, mapping_of(arguments));
     auto log = read_trip(source, needs_of_trace(), console.progress("reading"));
+    with_trip_name(source.name(), [&] { vehicles.name_car(log.meta); });
     const auto chosen = vehicles(options.trip, log.meta.vehicle_id);
     auto found = with_trip_name(
         source.name(), [&] { return prepared(std::move(log), options.pipeline.odometer); });
@@ -279,6 +280,7 @@ constexpr std::array operands{
 constexpr std::array options{
     vehicle_option,
     vehicles_option,
+    vehicle_id_option,
     mapping_option,
     Option{"--length", "METRES", "Length of the reported segments.", "20"},
     method_option,

@@ -123,14 +123,16 @@ void trace_live(const std::filesystem::path& trip,
                 const Console& console) {
     VehicleChoice vehicles{arguments};
     TripFollower feed{trip, needs_of_trace()};
-    const auto chosen = vehicles(trip, feed.meta().vehicle_id);
+    auto meta = feed.meta();
+    with_trip_name(trip.string(), [&] { vehicles.name_car(meta); });
+    const auto chosen = vehicles(trip, meta.vehicle_id);
     if (!chosen.warning.empty()) {
         console.warn(chosen.warning);
     }
     for (const auto& column : feed.unknown_columns()) {
         console.warn(fmt::format("unknown column '{}' ignored", column));
     }
-    LiveTrace live{feed.meta(),
+    LiveTrace live{meta,
                    chosen.vehicle,
                    {.odometer = config.odometer,
                     .stretch = config.stretch,

@@ -4,6 +4,7 @@
 #include "estimator/common/plugin_library.hpp"
 #include "storage/networks/ogr_reader.hpp"
 #include "storage/networks/osm_reader.hpp"
+#include "storage/text/text.hpp"
 
 #include <fmt/core.h>
 
@@ -83,13 +84,23 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
-std::vector<Way> read_layer(const std::filesystem::path& file, const LayerColumns& columns) {
+bool is_in(NetworkCut& cut, const Way& way) {
+    ++cut.ways;
+    bool is_near = false;
+    for (const auto& point : way.line) {
+        is_near = cut.see(point) || is_near;
+    }
+    return is_near;
+}
+
+std::vector<Way>
+read_layer(const std::filesystem::path& file, const LayerColumns& columns, NetworkCut* cut) {
     std::vector<Way> ways;
     LayerBounds bounds{file};
     auto* const read = plugin_function<OgrReadLines>("macadam_gdal.so", ogr_read_lines_name);
     read(file, columns, [&](Way way) {
         bounds.add(way);
-        if (way.line.size() >= 2) {
+        if (way.line.size() >= 2 && (cut == nullptr || is_in(*cut, way))) {
             ways.push_back(std::move(way));
         }
     });
@@ -104,11 +115,12 @@ bool has_far_step(const Way& way) {
                }) != way.line.end();
 }
 
+std::string counted(std::size_t ways) {
+    return fmt::format("{} {}", ways, ways == 1 ? "way" : "ways");
+}
+
 /// Describes the omitted ways; "" if there are none.
 std::string words_of(const LeftOutWays& left_out, const std::filesystem::path& file) {
-    const auto counted = [](std::size_t count) {
-        return fmt::format("{} {}", count, count == 1 ? "way" : "ways");
-    };
     std::string words;
     if (left_out.far_steps > 0) {
         words = fmt::format("{} with points more than {:.0f} km apart",
@@ -123,21 +135,41 @@ std::string words_of(const LeftOutWays& left_out, const std::filesystem::path& f
     return words.empty() ? "" : fmt::format("{}: skipped: {}", file.string(), words);
 }
 
+/// Explains why an OSM file has no drivable road.
+std::string reason_in(const LeftOutWays& left_out) {
+    if (left_out.without_places > 0) {
+        return fmt::format(": the positions of the points of its {} are missing",
+                           counted(left_out.without_places));
+    }
+    if (left_out.closed.empty()) {
+        return ": no way has a highway tag; expected a map extract with roads";
+    }
+    std::string kinds;
+    for (const auto& kind : left_out.closed) {
+        kinds += (kinds.empty() ? "" : ", ") + in_quotes(kind);
+    }
+    return fmt::format(": its ways are not open to cars (highway = {})", kinds);
+}
+
 } // namespace
 
 std::vector<Way> read_network(const std::filesystem::path& file,
                               const LayerColumns& columns,
                               const Progress& progress,
-                              const std::function<void(const std::string&)>& warn) {
+                              const std::function<void(const std::string&)>& warn,
+                              NetworkCut* cut) {
     expect_plain_name(file.string());
     expect_present(file);
     LeftOutWays left_out;
-    auto ways = is_osm_file(file) ? read_osm(file, progress, left_out) : read_layer(file, columns);
+    auto ways = is_osm_file(file) ? read_osm(file, progress, left_out, cut)
+                                  : read_layer(file, columns, cut);
     left_out.far_steps = std::erase_if(ways, has_far_step);
     const auto words = words_of(left_out, file);
-    if (ways.empty()) {
+    if (ways.empty() && (cut == nullptr || cut->ways == 0)) {
         throw InputError{words.empty()
-                             ? fmt::format("{}: contains no drivable road", file.string())
+                             ? fmt::format("{}: contains no drivable road{}",
+                                           file.string(),
+                                           is_osm_file(file) ? reason_in(left_out) : "")
                              : fmt::format("{}; it contains no other drivable road", words)};
     }
     if (warn && !words.empty()) {

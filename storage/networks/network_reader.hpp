@@ -2,6 +2,7 @@
 
 #include "estimator/common/progress.hpp"
 #include "mapping/network/road_network.hpp"
+#include "storage/networks/network_cut.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -38,12 +39,15 @@ inline constexpr double longest_step_m = 50'000;
 /// the same few nodes again and again.
 ///
 /// \param warn  called with a message about omitted ways, if any.
+/// \param cut   if given, only ways with a point in its surroundings are read, perhaps none; memory
+///              then does not grow with an OSM file.
 /// \throws InputError  if the file is missing, is not a map, holds no drivable road, or has ids
 ///                     that are not whole numbers or not unique; if it decompresses to more than a
 ///                     map would, or has more points than bytes.
 std::vector<Way> read_network(const std::filesystem::path& file,
                               const LayerColumns& columns = {},
                               const Progress& progress = {},
-                              const std::function<void(const std::string&)>& warn = {});
+                              const std::function<void(const std::string&)>& warn = {},
+                              NetworkCut* cut = nullptr);
 
 } // namespace macadam

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <limits>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -48,6 +49,40 @@ bool runs_in_circles(NodeIds nodes) {
     return count > max_rounds * nodes.size();
 }
 
+/// Nodes in the surroundings of a cut, in rising order.
+NodeIds nodes_in(NetworkCut& cut, const std::filesystem::path& file, const ProgressThrottle& pace) {
+    NodeIds ids;
+    const auto take = [&](std::int64_t id, const PackedPoint& place) {
+        if (cut.see(Unpacked{}(place))) {
+            ids.push_back(id);
+        }
+    };
+    visit(file, {.node = take, .way = {}, .relation = {}, .pace = pace});
+    std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
+/// Ways of a cut, which are recognised by their nodes.
+struct WaysInCut {
+    NetworkCut& cut;
+    NodeIds nodes; ///< in rising order
+
+    bool hold(std::span<const std::int64_t> way) const {
+        cut.ways += way.size() < 2 ? 0 : 1;
+        return std::any_of(way.begin(), way.end(), [&](std::int64_t id) {
+            return std::binary_search(nodes.begin(), nodes.end(), id);
+        });
+    }
+};
+
+void note_closed(const OsmTags& tags, LeftOutWays& left_out) {
+    constexpr std::size_t most = 8;
+    const auto highway = value(tags, "highway");
+    if (!highway.empty() && left_out.closed.size() < most) {
+        left_out.closed.emplace(highway);
+    }
+}
+
 /// Ways and turn rules of a file, without positions.
 struct WaysAndTurns {
     std::vector<Way> ways; ///< drivable ways
@@ -66,13 +101,18 @@ std::string name_in(const OsmTags& tags, std::int64_t way) {
 
 WaysAndTurns ways_and_turns(const std::filesystem::path& file,
                             const ProgressThrottle& pace,
-                            LeftOutWays& left_out) {
+                            LeftOutWays& left_out,
+                            const std::optional<WaysInCut>& wanted) {
     WaysAndTurns all;
     visit(file,
           {.node = {},
            .way =
                [&](std::int64_t id, const OsmTags& tags, std::span<const std::int64_t> nodes) {
                    if (!is_drivable(tags)) {
+                       note_closed(tags, left_out);
+                       return;
+                   }
+                   if (wanted && !wanted->hold(nodes)) {
                        return;
                    }
                    auto ids = without_repeats(nodes);
@@ -212,12 +252,14 @@ bool is_osm_file(const std::filesystem::path& file) {
         suffixes.begin(), suffixes.end(), [&](auto suffix) { return name.ends_with(suffix); });
 }
 
-std::vector<Way>
-read_osm(const std::filesystem::path& file, const Progress& progress, LeftOutWays& left_out) {
+std::vector<Way> read_osm(const std::filesystem::path& file,
+                          const Progress& progress,
+                          LeftOutWays& left_out,
+                          NetworkCut* cut) {
     const auto bytes = std::filesystem::file_size(file);
+    const std::size_t passes = cut == nullptr ? 2 : 3;
     const auto pace = [&](std::size_t pass) {
-        return [&progress, bytes, pass](std::uint64_t read) {
-            constexpr std::size_t passes = 2;
+        return [&progress, bytes, passes, pass](std::uint64_t read) {
             progress(pass * bytes + read, passes * bytes);
             if (progress.stop.stop_requested()) {
                 throw InputError{"reading was stopped"};
@@ -225,10 +267,18 @@ read_osm(const std::filesystem::path& file, const Progress& progress, LeftOutWay
         };
     };
     try {
-        auto all = ways_and_turns(file, pace(0), left_out);
+        std::optional<WaysInCut> wanted;
+        if (cut != nullptr) {
+            wanted.emplace(WaysInCut{*cut, nodes_in(*cut, file, pace(0))});
+        }
+        auto all = ways_and_turns(file, pace(passes - 2), left_out, wanted);
+        wanted.reset();
         const auto ids = used_nodes(all.ways);
-        const auto places = places_of(ids, file, pace(1));
-        return with_turns(in_order(placed(std::move(all.ways), ids, places)), std::move(all.turns));
+        const auto places = places_of(ids, file, pace(passes - 1));
+        const auto count = all.ways.size();
+        auto ways = placed(std::move(all.ways), ids, places);
+        left_out.without_places = count - ways.size();
+        return with_turns(in_order(std::move(ways)), std::move(all.turns));
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {

@@ -139,6 +139,10 @@ std::string_view name_of(const OsmTags& tags) {
     return name.empty() ? value(tags, "ref") : name;
 }
 
+bool is_car_class(std::string_view highway) {
+    return is_one_of(highway, car_classes) || highway == "track";
+}
+
 bool is_for_others(std::string_view highway) {
     return is_one_of(highway, other_classes);
 }

@@ -44,6 +44,9 @@ std::uint16_t speed_limit_cmps_of(const OsmTags& tags);
 /// Value of `name`, otherwise of `ref`.
 std::string_view name_of(const OsmTags& tags);
 
+/// Tests for values of `highway` that is_drivable() accepts, tracks included.
+bool is_car_class(std::string_view highway);
+
 /// Tests for values of `highway` without car traffic: footway, cycleway and the like.
 bool is_for_others(std::string_view highway);
 

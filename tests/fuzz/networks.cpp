@@ -47,6 +47,18 @@ void expect_sound(const RoadNetwork& roads) {
     }
 }
 
+/// What is read around a place of a map includes the way there.
+void expect_way_around_its_start(const std::vector<Way>& ways,
+                                 const std::filesystem::path& file,
+                                 const LayerColumns& columns) {
+    Surroundings around{1000};
+    around.add(ways.front().line.front());
+    NetworkCut cut{.around = around};
+    const auto near = read_network(file, columns, {}, {}, &cut);
+    expect(std::ranges::find(near, ways.front().id, &Way::id) != near.end(), "the way is there");
+    expect(cut.ways >= near.size(), "the map has the ways");
+}
+
 Answer read(const std::filesystem::path& file, const LayerColumns& columns = {}) {
     const auto warn = [](const std::string& words) {
         expect(!words.empty(), "a warning has words");
@@ -54,6 +66,7 @@ Answer read(const std::filesystem::path& file, const LayerColumns& columns = {})
     return may_refuse([&] {
         auto ways = read_network(file, columns, {}, warn);
         expect_sound(ways);
+        expect_way_around_its_start(ways, file, columns);
         expect_sound(build_network(std::move(ways)));
     });
 }

@@ -53,8 +53,25 @@ std::string StoreReader::network_hash() const {
     return store_->network_hash;
 }
 
+std::vector<std::string> StoreReader::highways() const {
+    auto select = store_->database.prepare("SELECT DISTINCT coalesce(highway, '') AS class FROM way"
+                                           " ORDER BY class LIMIT 100");
+    std::vector<std::string> classes;
+    while (select.step()) {
+        classes.push_back(select.text(0));
+    }
+    return classes;
+}
+
 bool StoreReader::contains_trip(const std::string& sha256) const {
     return row_of_trip(store_->database, sha256).has_value();
+}
+
+bool StoreReader::is_trip_of(const std::string& sha256, const std::string& vehicle_id) const {
+    auto select = store_->database.prepare(
+        "SELECT 1 FROM trip CROSS JOIN vehicle ON vehicle.id = trip.vehicle"
+        " WHERE sha256 = ? AND pseudonym = ?");
+    return is_operator() && select.bind(sha256, store_->pseudonym(vehicle_id)).step();
 }
 
 bool StoreReader::has_forgotten(const std::string& sha256) const {

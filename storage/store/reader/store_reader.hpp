@@ -74,7 +74,13 @@ public:
     /// SHA-256 of the ways, in hex digits.
     std::string network_hash() const;
 
+    /// OSM classes of the roads in alphabetical order, "" if some have none; at most 100.
+    std::vector<std::string> highways() const;
+
     bool contains_trip(const std::string& sha256) const;
+
+    /// Tests whether a trip in the database was imported as one of this car.
+    bool is_trip_of(const std::string& sha256, const std::string& vehicle_id) const;
 
     /// Tests whether the trip was forgotten; TripImporter::add_trips() skips such trips.
     bool has_forgotten(const std::string& sha256) const;

@@ -1,5 +1,6 @@
 // Logs of other makers as users hand them to the program.
 
+#include "storage/trips/log/trip_writer.hpp"
 #include "support/program/program.hpp"
 #include "support/roads/drive.hpp"
 
@@ -11,6 +12,7 @@ namespace macadam::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -51,6 +53,69 @@ TEST(ForeignLogs, GoThroughEveryCommandThatTakesTrips) {
     EXPECT_EQ(import.exit_status, 0) << import.err;
     EXPECT_THAT(import.out, HasSubstr("\"trip_id\":\"phone\""));
     EXPECT_THAT(import.out, HasSubstr("\"rows_read\":5052,")); // 5,001 of 100 Hz, 51 of 1 Hz
+}
+
+TEST(ForeignLogs, AreOfTheCarThatVehicleIdNames) {
+    const auto folder = fresh_folder();
+    const auto phone = phyphox_export(folder / "trips/phone").string();
+    const auto store = (folder / "roads.gpkg").string();
+    run_macadam({"init", store, "--trace", phone});
+    fs::create_directory(folder / "vehicles");
+    run_macadam({"vehicles",
+                 "add",
+                 "--mass",
+                 "1430",
+                 "--wheelbase",
+                 "2.62",
+                 "--body",
+                 "compact",
+                 "-o",
+                 (folder / "vehicles/golf.toml").string()});
+    const auto import = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"import", store, phone, "--method", "kf"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_macadam(words);
+    };
+    const auto imported = import({"--vehicle-id", "golf"});
+    EXPECT_EQ(imported.exit_status, 0) << imported.err;
+    EXPECT_THAT(imported.out, AllOf(HasSubstr("car 'golf'"), Not(HasSubstr("car unknown"))));
+    EXPECT_THAT(import({"--vehicle-id", "golf"}).out, Not(HasSubstr("note:")));
+    const auto other = import({"--vehicle-id", "polo"});
+    EXPECT_EQ(other.exit_status, 0) << other.err;
+    EXPECT_THAT(other.out, HasSubstr("is in the database with another car or none, which stays"));
+    EXPECT_THAT(
+        run_macadam({"reprocess", store, phone, "--method", "kf", "--vehicle-id", "polo"}).out,
+        AllOf(HasSubstr("reprocessed"), HasSubstr("with another car or none, which stays")));
+
+    EXPECT_EQ(run_macadam({"forget", store, "--vehicle-id", "polo"}).exit_status, 1);
+    EXPECT_EQ(run_macadam({"forget", store, "--vehicle-id", "golf"}).exit_status, 0);
+    EXPECT_THAT(import({"--vehicle-id", "polo", "--take-back"}).out, HasSubstr("imported  "));
+    EXPECT_EQ(run_macadam({"forget", store, "--vehicle-id", "polo"}).exit_status, 0);
+}
+
+TEST(ForeignLogs, ThatNameTheirCarAreNotGivenAnotherOne) {
+    const auto folder = fresh_folder();
+    auto trip = drive_over(patched_road([](double) { return false; }, 1),
+                           {.gnss_hz = 1},
+                           *built_in_vehicle("golden-car"));
+    trip.meta.vehicle_id = "van-7";
+    const auto file = (folder / "a.trip.csv").string();
+    write_trip(trip, file);
+    const auto store = (folder / "roads.gpkg").string();
+    run_macadam({"init", store, "--trace", file});
+    const auto refused =
+        run_macadam({"import", store, file, "--vehicle-id", "golf", "--vehicle", "golden-car"});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_THAT(
+        refused.out,
+        HasSubstr("a.trip.csv: its vehicle_id is 'van-7', not 'golf': --vehicle-id names the "
+                  "car of logs that name none"));
+    EXPECT_EQ(
+        run_macadam({"trace", file, "--vehicle-id", "golf", "--vehicle", "golden-car"}).exit_status,
+        1);
+    EXPECT_EQ(run_macadam({"import", store, file, "--vehicle-id", "  "}).exit_status, 2);
+    EXPECT_THAT(run_macadam({"import", store, file, "--vehicle-id", "  "}).err,
+                HasSubstr("--vehicle-id is '  ', expected a name of 1 to 100 characters"));
 }
 
 TEST(ForeignLogs, LoseTheirEndsByTrimAndSaySo) {

@@ -112,6 +112,58 @@ const std::string restriction = tag("type", "restriction");
 
 } // namespace
 
+TEST(NetworkReader, ReadsTheWaysAroundPositionsAsTheyAreInTheWholeMap) {
+    const auto all = read_network(harrisburg);
+    const auto centre = all.front().line.front();
+    Surroundings around{300};
+    around.add(centre);
+    NetworkCut cut{.around = around};
+    const auto ways = read_network(harrisburg, {}, {}, {}, &cut);
+    EXPECT_EQ(cut.ways, all.size());
+    EXPECT_FALSE(cut.holds_exchanged);
+    EXPECT_TRUE(contains(cut.extent, centre));
+    std::vector<Way> near;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(near), [&](const Way& way) {
+        return std::any_of(way.line.begin(), way.line.end(), [&](const GeoPoint& point) {
+            return around.contains(point);
+        });
+    });
+    EXPECT_GT(near.size(), 3U);
+    EXPECT_LT(near.size(), all.size() / 2);
+    ASSERT_EQ(ways.size(), near.size());
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        EXPECT_EQ(ways[i].id, near[i].id);
+        EXPECT_EQ(ways[i].node_ids, near[i].node_ids);
+        EXPECT_EQ(ways[i].line, near[i].line);
+        EXPECT_EQ(ways[i].turns, near[i].turns);
+    }
+}
+
+TEST(NetworkReader, ReadsTheLinesOfALayerAroundPositions) {
+    const auto file = written(test_folder(),
+                              "a.geojson",
+                              geojson_of({{"{}", line("[16.1,48.1],[16.2,48.2]")},
+                                          {"{}", line("[17.1,48.1],[17.2,48.2]")}}));
+    Surroundings around{1000};
+    around.add({48.2, 17.2});
+    NetworkCut cut{.around = around};
+    const auto ways = read_network(file, {}, {}, {}, &cut);
+    ASSERT_EQ(ways.size(), 1U);
+    EXPECT_EQ(ways[0].line[1], (GeoPoint{48.2, 17.2}));
+    EXPECT_EQ(ways[0].node_ids, (std::vector<std::int64_t>{3, 4}));
+    EXPECT_EQ(cut.ways, 2U);
+}
+
+TEST(NetworkReader, FindsNoWayAroundPositionsElsewhereAndSeesExchangedOnes) {
+    Surroundings around{1000};
+    around.add({16.2, 48.2});
+    NetworkCut cut{.around = around};
+    const auto file = written(test_folder(), "a.osm", osm_of(tag("highway", "primary")));
+    EXPECT_THAT(read_network(file, {}, {}, {}, &cut), IsEmpty());
+    EXPECT_EQ(cut.ways, 1U);
+    EXPECT_TRUE(cut.holds_exchanged);
+}
+
 TEST(NetworkReader, ReadsTheDrivableWaysOfARealMap) {
     const auto ways = read_network(harrisburg);
     const auto with = [&](Oneway oneway) {
@@ -283,8 +335,10 @@ TEST(NetworkReader, RefusesAMapThatIsCutOffOrSomethingElse) {
 }
 
 TEST(NetworkReader, RefusesAMapWithoutRoads) {
-    EXPECT_THAT(refusal_of([] { read_osm_of(tag("highway", "footway")); }),
-                EndsWith("a.osm: contains no drivable road"));
+    EXPECT_THAT(
+        refusal_of([] { read_osm_of(tag("highway", "footway")); }),
+        EndsWith("a.osm: contains no drivable road: its ways are not open to cars (highway = "
+                 "'footway')"));
     EXPECT_THAT(refusal_of([] { read_network("/nowhere/a.osm.pbf"); }),
                 EndsWith("/nowhere/a.osm.pbf: cannot be read: No such file or directory"));
 }
