@@ -56,8 +56,8 @@ std::vector<fs::path> vehicle_folders(const fs::path& trip_folder) {
 
 VehicleChoice::VehicleChoice(const Arguments& arguments) {
     const auto name = arguments.value("--vehicle");
-    const auto folder = arguments.value("--vehicles");
-    if (name && folder) {
+    const auto folder = name ? std::nullopt : arguments.value("--vehicles");
+    if (name && arguments.is_given("--vehicles")) {
         throw UsageError{"--vehicle and --vehicles cannot be combined"};
     }
     if (name) {

@@ -17,11 +17,11 @@ namespace macadam {
 inline constexpr Option vehicle_option = in_group(
     "car and log",
     {"--vehicle", "NAME|FILE", "The car of all trips given: a built-in name or a TOML file."});
-inline constexpr Option vehicles_option =
-    in_group("car and log",
-             {"--vehicles",
-              "DIR",
-              "A folder of TOML files; each trip takes the one whose name equals its vehicle_id."});
+inline constexpr Option vehicles_option = preference(in_group(
+    "car and log",
+    {"--vehicles",
+     "DIR",
+     "A folder of TOML files; each trip takes the one whose name equals its vehicle_id."}));
 
 struct ChosenVehicle {
     Vehicle vehicle;

@@ -78,7 +78,17 @@ TEST(Commands, ThatPrintRowsHaveAFormatAFileAndTheShortFormOfJson) {
             found.push_back(command.name);
         }
     }
-    EXPECT_THAT(found, UnorderedElementsAre("query", "trace", "match", "iri", "valid-from"));
+    EXPECT_THAT(found,
+                UnorderedElementsAre("query",
+                                     "trace",
+                                     "match",
+                                     "iri",
+                                     "valid-from",
+                                     "info",
+                                     "compare",
+                                     "calibrate",
+                                     "identify",
+                                     "report"));
 }
 
 TEST(Commands, ThatAreMisspelledAreAnsweredWithTheNearestOne) {
@@ -89,7 +99,7 @@ TEST(Commands, ThatAreMisspelledAreAnsweredWithTheNearestOne) {
 }
 
 TEST(Help, OfAllNamesEveryCommand) {
-    const auto help = help_of_all();
+    const auto help = help_of_all(1);
     for (const auto& command : commands()) {
         EXPECT_THAT(help, HasSubstr("  " + std::string{command.name} + " "));
     }
