@@ -22,12 +22,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view variable_prefix = "MACADAM_";
 constexpr std::int64_t max_integer = 1'000'000'000;
 
-std::string key_of(const Option& option) {
-    auto key = long_name(option).substr(2);
-    std::ranges::replace(key, '-', '_');
-    return key;
-}
-
 std::string option_of(std::string_view key) {
     auto option = fmt::format("--{}", key);
     std::ranges::replace(option, '_', '-');
@@ -54,7 +48,8 @@ std::map<std::string, Preference, std::less<>> collect_preferences() {
         for (const auto& option : options_of(command)) {
             if (option.is_preference) {
                 auto& preference =
-                    found.try_emplace(key_of(option), Preference{option, {}, {}}).first->second;
+                    found.try_emplace(preference_key(option), Preference{option, {}, {}})
+                        .first->second;
                 add_choices(preference, option);
                 preference.commands.push_back(command.name);
             }
@@ -133,7 +128,7 @@ std::vector<std::string> keys_of_command(const TomlTable& table, const Command& 
     std::vector<std::string> known;
     for (const auto& option : options_of(command)) {
         if (option.is_preference) {
-            known.push_back(key_of(option));
+            known.push_back(preference_key(option));
         }
     }
     const auto keys = table.keys();
@@ -228,6 +223,12 @@ std::vector<Default> in_force(const std::vector<Default>& ranked) {
 const std::map<std::string, Preference, std::less<>>& preferences() {
     static const auto all = collect_preferences();
     return all;
+}
+
+std::string preference_key(const Option& option) {
+    auto key = long_name(option).substr(2);
+    std::ranges::replace(key, '-', '_');
+    return key;
 }
 
 std::string variable_of(std::string_view key) {

@@ -22,6 +22,9 @@ struct Preference {
 /// Returns the preferences by key: "left_hand" for --left-hand.
 const std::map<std::string, Preference, std::less<>>& preferences();
 
+/// Returns "left_hand" for --left-hand.
+std::string preference_key(const Option& option);
+
 /// Returns "MACADAM_LEFT_HAND" for the key "left_hand".
 std::string variable_of(std::string_view key);
 
