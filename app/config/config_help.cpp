@@ -60,11 +60,7 @@ std::string values_text() {
     };
     std::vector<Use> uses;
     for (const auto& command : commands()) {
-        const auto options = options_of(command);
         for (const auto& each : user_defaults(command)) {
-            if (std::ranges::find(options, each.option, long_name) == options.end()) {
-                continue;
-            }
             auto found = std::ranges::find_if(uses, [&](const Use& use) {
                 return use.value.option == each.option && use.value.source == each.source;
             });

@@ -199,8 +199,9 @@ std::vector<Default> defaults_of_variables() {
 }
 
 /// Keeps the first default of each option, and the first of --quiet and --verbose, which exclude
-/// each other; drops flags that are off.
-std::vector<Default> in_force(const std::vector<Default>& ranked) {
+/// each other; drops flags that are off, and options that are no preference of the command: --unit
+/// of a survey that is read.
+std::vector<Default> in_force(const std::vector<Default>& ranked, const Command& command) {
     const auto subject = [](const std::string& option) {
         return option == "--quiet" ? "--verbose" : option;
     };
@@ -214,7 +215,13 @@ std::vector<Default> in_force(const std::vector<Default>& ranked) {
             first.push_back(each);
         }
     }
-    std::erase_if(first, [](const Default& each) { return each.value == "no"; });
+    const auto options = options_of(command);
+    std::erase_if(first, [&](const Default& each) {
+        const bool is_preferred = std::ranges::any_of(options, [&](const Option& option) {
+            return option.is_preference && long_name(option) == each.option;
+        });
+        return !is_preferred || each.value == "no";
+    });
     return first;
 }
 
@@ -282,7 +289,7 @@ std::vector<Default> user_defaults(const Command& command) {
             throw UsageError{error.what()};
         }
     }
-    return in_force(ranked);
+    return in_force(ranked, command);
 }
 
 } // namespace macadam

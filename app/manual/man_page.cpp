@@ -47,7 +47,7 @@ std::string title(std::string_view name, std::string_view summary, std::string_v
 /// \param options  those whose defaults users may set
 std::string defaults_of(const std::vector<Option>& options) {
     std::string roff = ".SH FILES\n.TP\n.I $XDG_CONFIG_HOME/macadam/config.toml\nDefaults of "
-                       "options, by default in ~/.config/macadam/config.toml; see "
+                       "options, by default in \\(ti/.config/macadam/config.toml; see "
                        "\\fBmacadam help config\\fP.\n"
                        ".TP\n.I macadam.toml\nBeside a database: unit, language, theme and "
                        "[colours] of its maps and reports.\n"

@@ -26,7 +26,7 @@
 namespace macadam {
 namespace {
 
-const std::string all_tables = "all"; // of --table
+constexpr std::string_view all_tables = "all"; // of --table
 
 double share(double part, double whole) {
     return whole > 0 ? part / whole : 0;
@@ -222,7 +222,7 @@ void print_info(const StoreReader& store, const Arguments& arguments, const std:
 void expect_one_result(const Arguments& arguments, std::string_view format) {
     std::vector<std::string_view> given;
     for (const auto* const name : {"--digest", "--audit", "--table", "--truth"}) {
-        if (arguments.value(name).value_or(all_tables) != all_tables) {
+        if (arguments.value(name).value_or(std::string{all_tables}) != all_tables) {
             given.emplace_back(name);
         }
     }

@@ -152,6 +152,13 @@ TEST_F(UserDefaults, OfVariablesOutrankThoseOfTheFile) {
     EXPECT_THAT(in_force(), ElementsAre("--unit in/mi from " + file + ":1"));
 }
 
+TEST_F(UserDefaults, OfTheUnitOfResultsAreNotTakenForTheUnitOfAFileThatIsRead) {
+    configure("unit = \"in/mi\"\n");
+    for (const auto* const command : {&trace_command, &compare_command, &import_command}) {
+        EXPECT_THAT(user_defaults(*command), IsEmpty()) << command->name;
+    }
+}
+
 TEST_F(UserDefaults, OfFlagsCanBeSwitchedOffByAVariable) {
     configure("quiet = true\n");
     EXPECT_THAT(in_force(), Contains(HasSubstr("--quiet yes")));
