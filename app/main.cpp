@@ -1,6 +1,9 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/memory_limit.hpp"
 #include "app/cli/terminal_escape.hpp"
+#include "app/config/config_help.hpp"
+#include "app/config/user_defaults.hpp"
+#include "app/terminal/text_style.hpp"
 
 #include <fmt/format.h>
 
@@ -12,12 +15,15 @@
 #include <string_view>
 
 #include <malloc.h>
+#include <unistd.h>
 
 namespace {
 
 /// Writes to standard error; a failure there cannot be reported.
-void say(const std::string& words) {
-    std::fputs(macadam::printable(words).c_str(), stderr);
+/// \param name   of the program or command that failed, in the colour of errors
+void say(std::string_view name, const std::string& words) {
+    const auto label = macadam::styled(macadam::TextStyle::error, name, STDERR_FILENO);
+    std::fputs(fmt::format("{}: {}", label, macadam::printable(words)).c_str(), stderr);
 }
 
 enum ExitStatus { done = 0, failed = 1, misused = 2 };
@@ -29,14 +35,17 @@ int tell(const std::string& words) {
 }
 
 int refuse_command(std::string_view name) {
-    say(fmt::format("macadam: {}\n", macadam::refusal_of_command(name)));
+    say("macadam", fmt::format("{}\n", macadam::refusal_of_command(name)));
     return misused;
 }
 
 /// Answers `macadam help [COMMAND]`.
 int help_on(const std::vector<std::string>& words) {
     if (words.empty() || words.front().starts_with('-')) {
-        return tell(macadam::help_of_all());
+        return tell(macadam::help_of_all(STDOUT_FILENO));
+    }
+    if (words.front() == "config") {
+        return tell(macadam::config_help());
     }
     const auto* const command = macadam::command_named(words.front());
     return command == nullptr ? refuse_command(words.front()) : tell(macadam::help_of(*command));
@@ -44,21 +53,23 @@ int help_on(const std::vector<std::string>& words) {
 
 /// Runs a command and converts exceptions to a message and an exit status; the only place to do so.
 int run_command(const macadam::Command& command, std::vector<std::string> words) {
+    const auto name = fmt::format("macadam {}", command.name);
     try {
-        macadam::run(command, std::move(words));
+        const auto defaults = macadam::user_defaults(command);
+        macadam::run(command, std::move(words), defaults);
         return done;
     } catch (const macadam::UsageError& error) {
-        say(fmt::format("macadam {}: {}\nusage: {}\nmore:  macadam {} --help\n",
-                        command.name,
+        say(name,
+            fmt::format("{}\nusage: {}\nmore:  macadam {} --help\n",
                         error.what(),
                         macadam::usage_of(command),
                         command.name));
         return misused;
     } catch (const std::bad_alloc&) {
-        say(fmt::format("macadam {}: not enough memory\n", command.name));
+        say(name, "not enough memory\n");
         return failed;
     } catch (const std::exception& error) {
-        say(fmt::format("macadam {}: {}\n", command.name, error.what()));
+        say(name, fmt::format("{}\n", error.what()));
         return failed;
     }
 }
@@ -76,7 +87,7 @@ int main(int argc, char** argv) {
 
     std::vector<std::string> words{argv + 1, argv + argc};
     if (words.empty()) {
-        say(macadam::help_of_all());
+        std::fputs(macadam::help_of_all(STDERR_FILENO).c_str(), stderr);
         return misused;
     }
     const auto name = words.front();

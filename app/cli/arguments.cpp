@@ -178,15 +178,14 @@ void adopt_choices(std::span<const Option> options,
         }
         const auto choices = choices_in(option.choices);
         for (auto& word : words.at(long_name(option))) {
-            const auto found = std::ranges::find_if(
-                choices, [&](auto choice) { return in_lower_case(choice) == in_lower_case(word); });
-            if (found == choices.end()) {
+            const auto choice = choice_among(choices, word);
+            if (!choice) {
                 throw UsageError{fmt::format("{} is '{}', expected {}",
                                              long_name(option),
                                              word,
                                              fmt::join(choices, " or "))};
             }
-            word = *found;
+            word = *choice;
         }
     }
 }
@@ -195,6 +194,13 @@ void adopt_choices(std::span<const Option> options,
 
 std::string long_name(const Option& option) {
     return std::string{option.name.substr(option.name.rfind(',') + 1)};
+}
+
+std::optional<std::string> choice_among(std::span<const std::string_view> choices,
+                                        std::string_view word) {
+    const auto found = std::ranges::find_if(
+        choices, [&](auto choice) { return in_lower_case(choice) == in_lower_case(word); });
+    return found == choices.end() ? std::nullopt : std::optional{std::string{*found}};
 }
 
 std::vector<std::string_view> choices_in(std::string_view choices) {
@@ -238,6 +244,26 @@ Arguments::Arguments(std::span<const Option> options,
             choices_.emplace(long_name(option), choices);
         }
     }
+}
+
+void Arguments::adopt(std::span<const Default> defaults) {
+    for (const auto& [option, value, source] : defaults) {
+        const auto found = words_.find(option);
+        if (found == words_.end() || !found->second.empty()) {
+            continue;
+        }
+        const auto choices = choices_.find(option);
+        const auto word =
+            choices == choices_.end() ? std::optional{value} : choice_among(choices->second, value);
+        if (word) {
+            found->second = {*word};
+            defaults_.push_back({option, *word, source});
+        }
+    }
+}
+
+bool Arguments::is_given(std::string_view name) const {
+    return !values(name).empty() && std::ranges::count(defaults_, name, &Default::option) == 0;
 }
 
 bool Arguments::flag(std::string_view name) const {

@@ -29,6 +29,7 @@ struct Option {
     bool rare = false;              ///< shown by --help-all and in the manual page only
     std::string_view former{};      ///< earlier spelling: an alias that is answered with a note
     bool former_is_refused = false; ///< the earlier spelling meant something else: a UsageError
+    bool is_preference = false;     ///< users may set a default (app/config)
 };
 
 /// \name Words of the tables: `rare(one_of("csv|json", {"--format", ...}))`
@@ -54,13 +55,28 @@ constexpr Option instead_of(std::string_view refused, Option option) {
     option.former_is_refused = true;
     return option;
 }
+constexpr Option preference(Option option) {
+    option.is_preference = true;
+    return option;
+}
 /// @}
+
+/// Default of an option that the user has set.
+struct Default {
+    std::string option; ///< "--unit"
+    std::string value;  ///< as on the command line; "yes" for a flag
+    std::string source; ///< "/home/ada/.config/macadam/config.toml:3", "MACADAM_UNIT"
+};
 
 /// Returns "--output" for "-o,--output".
 std::string long_name(const Option& option);
 
 /// Returns {"light", "dark", "print"} for "light|dark|print".
 std::vector<std::string_view> choices_in(std::string_view choices);
+
+/// Returns the choice that a word names, whatever its case; `std::nullopt` if it names none.
+std::optional<std::string> choice_among(std::span<const std::string_view> choices,
+                                        std::string_view word);
 
 /// Positional argument.
 struct Operand {
@@ -101,6 +117,20 @@ public:
     const std::string& operand(std::string_view name) const;
     const std::vector<std::string>& operands(std::string_view name) const;
 
+    /// Gives options that are not on the command line the user's defaults. A default that is none
+    /// of the choices of this command is left out: other commands offer it.
+    void adopt(std::span<const Default> defaults);
+
+    /// Tests whether the command has an option.
+    bool has(std::string_view name) const { return words_.contains(name); }
+
+    /// Tests whether an option is on the command line. Only then may it be refused for having no
+    /// effect; a default never is.
+    bool is_given(std::string_view name) const;
+
+    /// Returns the defaults that apply.
+    const std::vector<Default>& defaults() const { return defaults_; }
+
     /// Returns a sentence for each option that was given in an earlier spelling.
     const std::vector<std::string>& notes() const { return notes_; }
 
@@ -108,6 +138,7 @@ private:
     std::map<std::string, std::vector<std::string>, std::less<>> words_;
     std::map<std::string, std::vector<std::string_view>, std::less<>> choices_;
     std::vector<std::string> notes_;
+    std::vector<Default> defaults_;
 };
 
 } // namespace macadam

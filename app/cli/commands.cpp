@@ -1,24 +1,29 @@
 #include "app/cli/commands.hpp"
 
 #include "app/cli/interrupt_handler.hpp"
+#include "app/terminal/text_style.hpp"
 #include "storage/atomic/temporary_folder.hpp"
 #include "storage/text/spelling.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 namespace macadam {
 namespace {
 
-constexpr Option quiet{"--quiet", "", "Print only warnings and errors."};
+constexpr std::array common_options{
+    preference({"--quiet", "", "Print only warnings and errors."}),
+    preference({"--verbose", "", "Also tell what is read, chosen and done, with times."})};
 
-std::vector<Option> options_of(const Command& command) {
-    std::vector<Option> options{command.options.begin(), command.options.end()};
-    options.push_back(quiet);
-    return options;
+std::string heading(std::string_view words, int stream = STDOUT_FILENO) {
+    return styled(TextStyle::heading, words, stream);
 }
 
 std::string described(std::string_view term, std::string_view text) {
@@ -35,6 +40,65 @@ std::string described(const Option& option) {
         text += fmt::format(" [{}]", option.fallback);
     }
     return described(term_of(option), text);
+}
+
+Verbosity verbosity_of(const Arguments& arguments) {
+    if (arguments.is_given("--quiet") && arguments.is_given("--verbose")) {
+        throw UsageError{"--quiet and --verbose cannot be combined"};
+    }
+    const bool prefers_quiet = !arguments.is_given("--verbose") && arguments.flag("--quiet");
+    return prefers_quiet                 ? Verbosity::quiet
+           : arguments.flag("--verbose") ? Verbosity::verbose
+                                         : Verbosity::normal;
+}
+
+/// Tells the options in force that are not built-in defaults, and where they come from.
+void tell_settings(std::span<const Option> options,
+                   const Arguments& arguments,
+                   const Console& console) {
+    for (const auto& option : options) {
+        const auto name = long_name(option);
+        const auto values = arguments.values(name);
+        const auto found = std::ranges::find(arguments.defaults(), name, &Default::option);
+        if (!values.empty()) {
+            console.detail(
+                fmt::format("{}{} ({})",
+                            name,
+                            option.value.empty() ? "" : fmt::format(" {}", fmt::join(values, " ")),
+                            found == arguments.defaults().end() ? "command line" : found->source));
+        }
+    }
+}
+
+/// Adds to a refusal where the options that it names got their defaults.
+std::string with_sources(std::string refusal, const Arguments& arguments) {
+    const auto words = refusal;
+    for (const auto& [option, value, source] : arguments.defaults()) {
+        if (words.find(option + " ") != std::string::npos) {
+            refusal += fmt::format("; {} {} comes from {}", option, value, source);
+        }
+    }
+    return refusal;
+}
+
+double peak_memory_mb() {
+    struct rusage usage {};
+    getrusage(RUSAGE_SELF, &usage);
+    constexpr double kb_per_mb = 1000;
+    return static_cast<double>(usage.ru_maxrss) * 1.024 / kb_per_mb;
+}
+
+/// Names the options of the command's own table whose defaults users may set.
+std::string preference_line(const Command& command) {
+    std::vector<std::string> names;
+    for (const auto& option : command.options) {
+        if (option.is_preference) {
+            names.push_back(long_name(option));
+        }
+    }
+    return names.empty() ? ""
+                         : fmt::format("\nSet your own defaults of {}: macadam help config\n",
+                                       fmt::join(names, ", "));
 }
 
 /// Reports unfinished files that killed programs left beside their outputs.
@@ -106,8 +170,14 @@ std::vector<OptionGroup> option_groups_of(const Command& command) {
         }
         group->options.push_back(option);
     }
-    groups.front().options.push_back(quiet);
+    std::ranges::copy(common_options, std::back_inserter(groups.front().options));
     return groups;
+}
+
+std::vector<Option> options_of(const Command& command) {
+    std::vector<Option> options{command.options.begin(), command.options.end()};
+    std::ranges::copy(common_options, std::back_inserter(options));
+    return options;
 }
 
 std::string term_of(const Option& option) {
@@ -119,8 +189,11 @@ std::string term_of(const Option& option) {
 }
 
 std::string help_of(const Command& command, HelpDetail detail) {
-    auto help =
-        fmt::format("{}\n\nusage: {}\n\n{}\n", command.summary, usage_of(command), command.about);
+    auto help = fmt::format("{}\n\n{} {}\n\n{}\n",
+                            heading(command.summary),
+                            heading("usage:"),
+                            usage_of(command),
+                            command.about);
     if (!command.operands.empty()) {
         help += '\n';
         for (const auto& operand : command.operands) {
@@ -135,7 +208,7 @@ std::string help_of(const Command& command, HelpDetail detail) {
             lines += shown ? described(option) : "";
             hidden += shown ? 0U : 1U;
         }
-        help += lines.empty() ? "" : fmt::format("\n{}\n{}", title, lines);
+        help += lines.empty() ? "" : fmt::format("\n{}\n{}", heading(title), lines);
     }
     if (hidden > 0) {
         help += fmt::format("\n{} rarely needed: macadam {} --help-all\n",
@@ -143,37 +216,50 @@ std::string help_of(const Command& command, HelpDetail detail) {
                                         : fmt::format("{} more options are", hidden),
                             command.name);
     }
-    return help + fmt::format("\nexample\n{}\n", command.example);
+    return help + preference_line(command) +
+           fmt::format("\n{}\n{}\n", heading("example"), command.example);
 }
 
-std::string help_of_all() {
-    std::string help =
-        "Macadam: road roughness maps from the sensors that ordinary cars already have\n\n"
-        "usage: macadam COMMAND ...    macadam help COMMAND    macadam --version\n\n";
+std::string help_of_all(int stream) {
+    auto help =
+        heading("Macadam: road roughness maps from the sensors that ordinary cars already have",
+                stream) +
+        "\n\n" + heading("usage:", stream) +
+        " macadam COMMAND ...    macadam help COMMAND    macadam --version\n\n";
     for (const auto& command : commands()) {
         help += described(command.name, command.summary);
     }
-    return help + "\n"
-                  "From a trip to a map:\n"
-                  "  macadam init roads.gpkg --network town.osm.pbf\n"
-                  "  macadam import roads.gpkg trips/\n"
-                  "  macadam render roads.gpkg -o map.png\n"
-                  "\n"
-                  "STORE is a road database: one .gpkg file that 'macadam init' makes.\n"
-                  "Exit status: 0 success, 1 failure, 2 usage error.\n";
+    return help + "\n" + heading("From a trip to a map:", stream) +
+           "\n"
+           "  macadam init roads.gpkg --network town.osm.pbf\n"
+           "  macadam import roads.gpkg trips/\n"
+           "  macadam render roads.gpkg -o map.png\n"
+           "\n"
+           "STORE is a road database: one .gpkg file that 'macadam init' makes.\n"
+           "Defaults of options: a configuration file and variables; see macadam help config.\n"
+           "Exit status: 0 success, 1 failure, 2 usage error.\n";
 }
 
-void run(const Command& command, std::vector<std::string> words) {
+void run(const Command& command,
+         std::vector<std::string> words,
+         std::span<const Default> defaults) {
     const auto options = options_of(command);
-    const Arguments arguments{options, command.operands, std::move(words)};
+    Arguments arguments{options, command.operands, std::move(words)};
+    arguments.adopt(defaults);
     const InterruptHandler interruption{command.name};
-    const Console console{arguments.flag("--quiet"), interruption.stop()};
+    const Console console{verbosity_of(arguments), interruption.stop()};
+    tell_settings(options, arguments, console);
     for (const auto& note : arguments.notes()) {
         console.say(fmt::format("macadam: note: {}", note));
     }
     say_what_was_left(command, arguments, console);
-    command.run(arguments, console);
+    try {
+        command.run(arguments, console);
+    } catch (const UsageError& error) {
+        throw UsageError{with_sources(error.what(), arguments)};
+    }
     flush_results();
+    console.detail(fmt::format("done, with at most {:.0f} MB of memory", peak_memory_mb()));
 }
 
 } // namespace macadam

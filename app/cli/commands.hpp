@@ -33,6 +33,9 @@ std::string refusal_of_command(std::string_view name);
 /// Returns the usage line: "macadam iri PROFILE [OPTION...]".
 std::string usage_of(const Command& command);
 
+/// Returns the options of a command: those of its table, then those common to all commands.
+std::vector<Option> options_of(const Command& command);
+
 /// Options of a command under one heading of its help, in the order of the table.
 struct OptionGroup {
     std::string_view title;
@@ -40,7 +43,7 @@ struct OptionGroup {
 };
 
 /// Returns the options of a command by group, in the order in which groups first appear in its
-/// table; "options", which all commands have, comes first and ends with --quiet.
+/// table; "options", which all commands have, comes first and ends with the common ones.
 std::vector<OptionGroup> option_groups_of(const Command& command);
 
 /// Returns "-o --output FILE", "--trip TRIP...": an option as help shows it.
@@ -50,11 +53,14 @@ std::string term_of(const Option& option);
 enum class HelpDetail { usual, all };
 std::string help_of(const Command& command, HelpDetail detail = HelpDetail::usual);
 
-/// Returns the output of `macadam --help`.
-std::string help_of_all();
+/// Returns the output of `macadam --help`, for this stream.
+std::string help_of_all(int stream);
 
-/// Parses the words with the command's tables (and --quiet, common to all commands) and runs it.
-void run(const Command& command, std::vector<std::string> words);
+/// Parses the words with the command's tables (and the options common to all commands) and runs it.
+/// \param defaults  of the user, for options that are not among the words
+void run(const Command& command,
+         std::vector<std::string> words,
+         std::span<const Default> defaults = {});
 
 extern const Command init_command;       // app/store/command_init.cpp
 extern const Command identify_command;   // app/profile/command_identify.cpp

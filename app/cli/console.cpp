@@ -2,6 +2,7 @@
 
 #include "app/cli/row_output.hpp"
 #include "app/cli/terminal_escape.hpp"
+#include "app/terminal/text_style.hpp"
 
 #include "estimator/common/error.hpp"
 
@@ -44,21 +45,31 @@ void require_written(bool written) {
 
 } // namespace
 
-Console::Console(bool quiet, std::stop_token stop)
-    : stop_{std::move(stop)}, quiet_{quiet}, terminal_{isatty(STDERR_FILENO) == 1} {}
+Console::Console(Verbosity verbosity, std::stop_token stop)
+    : stop_{std::move(stop)}, verbosity_{verbosity}, terminal_{isatty(STDERR_FILENO) == 1} {}
 
 void Console::say(std::string_view line) const {
-    if (!quiet_) {
+    if (!is_quiet()) {
         std::fputs(fmt::format("{}\n", printable(line)).c_str(), stderr);
     }
 }
 
+void Console::detail(std::string_view line) const {
+    if (verbosity_ == Verbosity::verbose) {
+        const std::chrono::duration<double> passed = Clock::now() - begin_;
+        std::fputs(fmt::format("[{:7.3f} s] {}\n", passed.count(), printable(line)).c_str(),
+                   stderr);
+    }
+}
+
 void Console::warn(std::string_view line) const { // NOLINT(*-convert-member-functions-to-static)
-    std::fputs(fmt::format("macadam: warning: {}\n", printable(line)).c_str(), stderr);
+    const auto label = styled(TextStyle::warning, "macadam: warning:", STDERR_FILENO);
+    std::fputs(fmt::format("{} {}\n", label, printable(line)).c_str(), stderr);
 }
 
 Progress Console::progress(std::string label) const {
-    if (quiet_ || !terminal_) {
+    detail(label);
+    if (is_quiet() || !terminal_) {
         return {.report = {}, .stop = stop_};
     }
     auto shown = std::make_shared<int>(-1);

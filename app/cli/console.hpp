@@ -2,22 +2,30 @@
 
 #include "estimator/common/progress.hpp"
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <stop_token>
 #include <string>
 #include <string_view>
 
 namespace macadam {
 
+enum class Verbosity : std::uint8_t { quiet, normal, verbose };
+
 /// Messages and progress for people, on standard error only; standard output is reserved for
 /// results.
 class Console {
 public:
-    /// \param quiet  suppresses all but warnings and errors
-    /// \param stop   requested when the user wants the command to end
-    explicit Console(bool quiet, std::stop_token stop = {});
+    /// \param verbosity  quiet suppresses all but warnings and errors; verbose adds details
+    /// \param stop       requested when the user wants the command to end
+    explicit Console(Verbosity verbosity, std::stop_token stop = {});
 
-    void say(std::string_view line) const;  ///< suppressed when quiet
+    void say(std::string_view line) const; ///< suppressed when quiet
+
+    /// Tells what the command reads, chooses and does, after the seconds since its start; only when
+    /// verbose.
+    void detail(std::string_view line) const;
     void warn(std::string_view line) const; ///< "macadam: warning: ..."
 
     /// Returns a progress bar on a terminal; silent elsewhere and when quiet. The bar disappears
@@ -25,12 +33,13 @@ public:
     Progress progress(std::string label) const;
 
     const std::stop_token& stop() const { return stop_; }
-    bool is_quiet() const { return quiet_; }
+    bool is_quiet() const { return verbosity_ == Verbosity::quiet; }
 
 private:
     std::stop_token stop_;
-    bool quiet_;
+    Verbosity verbosity_;
     bool terminal_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 /// Formats a count with its noun: "1 trip", "2 trips".

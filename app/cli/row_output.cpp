@@ -31,25 +31,43 @@ std::string row_format_of(const Arguments& arguments) {
     if (format) {
         return *format;
     }
-    const auto suffix = suffix_of(arguments.value("--output").value_or(""));
-    const auto choices = arguments.choices("--format");
-    const auto named = std::ranges::find(choices, suffix);
-    return std::string{named == choices.end() ? choices.front() : *named};
+    const auto& choices = arguments.choices("--format");
+    for (const auto& file : arguments.values("--output")) {
+        const auto named = std::ranges::find(choices, suffix_of(file));
+        if (named != choices.end()) {
+            return std::string{*named};
+        }
+    }
+    return std::string{choices.front()};
 }
 
-std::optional<std::filesystem::path> row_file_of(const Arguments& arguments) {
-    const auto file = arguments.value("--output");
-    if (!file || arguments.value("--format") || arguments.flag("--json")) {
-        return file;
+std::optional<std::filesystem::path> row_file_of(const Arguments& arguments,
+                                                 std::initializer_list<std::string_view> others) {
+    const bool is_format_given = arguments.value("--format") || arguments.flag("--json");
+    const auto& choices = arguments.choices("--format");
+    std::optional<std::filesystem::path> row_file;
+    for (const auto& file : arguments.values("--output")) {
+        const auto suffix = suffix_of(file);
+        if (std::ranges::find(others, "." + suffix) != others.end()) {
+            continue;
+        }
+        const bool names_format = suffix.empty() || suffix == "txt" ||
+                                  std::ranges::find(choices, suffix) != choices.end();
+        if (!is_format_given && !names_format) {
+            throw UsageError{fmt::format("-o is '{}', expected a name that ends in {}{}.{}, or "
+                                         "--format",
+                                         file,
+                                         fmt::join(others, ", "),
+                                         others.size() > 0 ? ", " : "",
+                                         fmt::join(choices.begin() + 1, choices.end(), ", ."))};
+        }
+        if (row_file) {
+            throw UsageError{
+                fmt::format("-o names two files of rows, '{}' and '{}'", row_file->string(), file)};
+        }
+        row_file = file;
     }
-    const auto suffix = suffix_of(*file);
-    const auto choices = arguments.choices("--format");
-    if (!suffix.empty() && suffix != "txt" && std::ranges::find(choices, suffix) == choices.end()) {
-        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .{}, or --format",
-                                     *file,
-                                     fmt::join(choices.begin() + 1, choices.end(), ", ."))};
-    }
-    return file;
+    return row_file;
 }
 
 RowOutput::RowOutput(const std::optional<std::filesystem::path>& file) {

@@ -5,6 +5,7 @@
 #include "storage/atomic/atomic_file.hpp"
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,8 +25,10 @@ inline constexpr Option json_option{"--json", "", "The same as --format json."};
 std::string row_format_of(const Arguments& arguments);
 
 /// Returns the file of -o of a command whose first format is a table.
+/// \param others  suffixes of files of another kind that -o names, such as ".html"
 /// \throws UsageError  if only its suffix can tell the format, and it names none; .txt is a table.
-std::optional<std::filesystem::path> row_file_of(const Arguments& arguments);
+std::optional<std::filesystem::path>
+row_file_of(const Arguments& arguments, std::initializer_list<std::string_view> others = {});
 
 /// Directs print() to a file while this object exists. The file appears complete with commit(), or
 /// not at all. Without a file, print() goes to standard output as ever. One object at a time.

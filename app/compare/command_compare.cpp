@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/compare/comparison_output.hpp"
 #include "app/compare/source_comparison.hpp"
 #include "app/database/period_options.hpp"
@@ -15,6 +16,8 @@
 #include <array>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -130,14 +133,33 @@ CompareOptions parse_compare(const Arguments& arguments) {
     return options;
 }
 
-/// Returns the page's name; empty without -o.
-fs::path parse_output(const Arguments& arguments) {
-    const fs::path output = arguments.value("--output").value_or("");
-    if (!output.empty() && output.extension() != ".html" && output.extension() != ".pdf") {
-        throw UsageError{
-            fmt::format("-o is '{}', expected a name that ends in .html or .pdf", output.string())};
+/// Files that -o names.
+struct CompareOutput {
+    std::optional<fs::path> page;
+    std::optional<fs::path> rows; ///< `std::nullopt`: standard output
+    std::string format;
+};
+
+CompareOutput parse_output(const Arguments& arguments) {
+    CompareOutput output{.page = {},
+                         .rows = row_file_of(arguments, {".html", ".pdf"}),
+                         .format = row_format_of(arguments)};
+    if (!output.rows) {
+        output.page = arguments.value("--output");
     }
     return output;
+}
+
+void expect_replaceable(const CompareOutput& output, const CompareOptions& options) {
+    std::vector<fs::path> inputs{options.a.file, options.b.file};
+    if (options.roads) {
+        inputs.push_back(*options.roads);
+    }
+    for (const auto& file : {output.page, output.rows}) {
+        if (file) {
+            refuse_to_replace(*file, inputs);
+        }
+    }
 }
 
 void write_page(const SourceComparison& comparison, const fs::path& output) {
@@ -150,34 +172,33 @@ void write_page(const SourceComparison& comparison, const fs::path& output) {
 void run_compare(const Arguments& arguments, const Console& console) {
     const auto output = parse_output(arguments);
     const auto options = parse_compare(arguments);
-    if (!output.empty()) {
-        std::vector<fs::path> inputs{options.a.file, options.b.file};
-        if (options.roads) {
-            inputs.push_back(*options.roads);
-        }
-        refuse_to_replace(output, inputs);
-    }
+    expect_replaceable(output, options);
     const auto comparison = compare_sources(options, console);
     if (comparison.pairs.empty()) {
         console.warn(comparison.shared ? "the sources share no segment with a measurement"
                                        : "the profiles share less than one interval of --length");
     }
-    if (!output.empty()) {
-        write_page(comparison, output);
+    if (output.page) {
+        write_page(comparison, *output.page);
     }
-    if (arguments.flag("--json")) {
-        print(comparison_json(comparison));
-    } else {
+    RowOutput rows{output.rows};
+    if (output.format == "table") {
         print_words(comparison_text(comparison));
+    } else {
+        print(output.format == "json" ? comparison_json(comparison) : comparison_csv(comparison));
     }
+    rows.commit();
 }
 
 constexpr std::array operands{
     Operand{"A", "A road database (.gpkg), a survey (.csv) or a profile (.csv, .txt, .erd, .pro)."},
     Operand{"B", "The source to compare with; usually the better one, such as a reference."}};
 constexpr std::array options{
-    Option{"-o,--output", "FILE", "Write a page: .html or .pdf."},
-    Option{"--json", "", "Print one JSON object instead of tables."},
+    Option{"-o,--output",
+           "FILE",
+           "Write a page, .html or .pdf, beside the tables; or the tables to this .csv or .json."},
+    one_of("table|csv|json", {"--format", "NAME", "table, csv or json.", "table"}),
+    json_option,
     Option{"--car-a",
            "ID",
            "Only this car of database A, by vehicle_id or by pseudonym ('macadam info')."},

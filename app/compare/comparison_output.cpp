@@ -1,5 +1,6 @@
 #include "app/compare/comparison_output.hpp"
 
+#include "storage/text/columns.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
@@ -108,6 +109,68 @@ std::string array_of(const Values& values) {
         objects.push_back(json_of(value));
     }
     return json_array(objects);
+}
+
+// ----------------------------------------------------------------------------------------- CSV
+
+struct GroupRow {
+    std::string by; ///< property; "" = all pairs
+    std::string name;
+    MethodAgreement agreement;
+};
+
+struct BandRow {
+    std::string track;
+    TrackAgreement agreement;
+    BandAgreement band;
+};
+
+bool is_waveband(const BandRow& row) {
+    return row.band.band.to_m > 0;
+}
+
+// clang-format off
+const Columns<GroupRow> group_columns{
+    {"by", as::text, [](auto& r) { return r.by; }},
+    {"name", as::text, [](auto& r) { return r.name; }},
+    {"pairs", as::integer, [](auto& r) { return r.agreement.pairs; }},
+    {"independent", as::real(1), [](auto& r) { return r.agreement.difference.independent; }},
+    {"mean_a", as::iri(4), [](auto& r) { return r.agreement.mean_a; }},
+    {"mean_b", as::iri(4), [](auto& r) { return r.agreement.mean_b; }},
+    {"bias", as::iri(4), [](auto& r) { return r.agreement.difference.bias.value; }},
+    {"bias_low_95", as::iri(4), [](auto& r) { return r.agreement.difference.bias.low; }},
+    {"bias_high_95", as::iri(4), [](auto& r) { return r.agreement.difference.bias.high; }},
+    {"sd", as::iri(4), [](auto& r) { return r.agreement.difference.sd; }},
+    {"lower_limit", as::iri(4), [](auto& r) { return r.agreement.difference.lower.value; }},
+    {"upper_limit", as::iri(4), [](auto& r) { return r.agreement.difference.upper.value; }},
+    {"bias_percent", as::real(4), [](auto& r) { return r.agreement.relative.bias.value; }},
+    {"lower_limit_percent", as::real(4), [](auto& r) { return r.agreement.relative.lower.value; }},
+    {"upper_limit_percent", as::real(4), [](auto& r) { return r.agreement.relative.upper.value; }},
+};
+
+const Columns<BandRow> band_columns{
+    {"track", as::text, [](auto& r) { return r.track; }},
+    {"shared_m", as::metres(2), [](auto& r) { return r.agreement.shared_m; }},
+    {"iri_a", as::iri(4), [](auto& r) { return r.agreement.iri_a; }},
+    {"iri_b", as::iri(4), [](auto& r) { return r.agreement.iri_b; }},
+    {"band", as::text, [](auto& r) { return r.band.band.name; }},
+    {"from_m", as::metres(2), [](auto& r) { return known_if(is_waveband(r), r.band.band.from_m); }},
+    {"to_m", as::metres(2), [](auto& r) { return known_if(is_waveband(r), r.band.band.to_m); }},
+    {"score", as::real(4), [](auto& r) { return r.band.score; }},
+    {"correlation", as::real(4), [](auto& r) { return r.band.correlation; }},
+    {"gain", as::real(4), [](auto& r) { return r.band.gain; }},
+    {"lag_m", as::metres(3), [](auto& r) { return r.band.lag_m; }},
+};
+// clang-format on
+
+std::string bands_csv(const std::vector<ComparedTrack>& tracks) {
+    auto csv = csv_header(band_columns);
+    for (const auto& [name, agreement] : tracks) {
+        for (const auto& band : agreement.bands) {
+            csv += csv_line(band_columns, {name, agreement, band});
+        }
+    }
+    return csv;
 }
 
 // ---------------------------------------------------------------------------------------- text
@@ -222,6 +285,19 @@ std::string comparison_json(const SourceComparison& comparison) {
         .add("by", JsonRaw{array_of(comparison.groups)})
         .add("tracks", JsonRaw{array_of(comparison.tracks)});
     return object.text() + "\n";
+}
+
+std::string comparison_csv(const SourceComparison& comparison) {
+    if (!comparison.shared) {
+        return bands_csv(comparison.tracks);
+    }
+    auto csv = csv_header(group_columns) + csv_line(group_columns, {"", "all", comparison.all});
+    for (const auto& [property, groups] : comparison.groups) {
+        for (const auto& [name, agreement] : groups) {
+            csv += csv_line(group_columns, {property, name, agreement});
+        }
+    }
+    return csv;
 }
 
 std::string comparison_text(const SourceComparison& comparison) {

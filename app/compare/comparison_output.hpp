@@ -12,4 +12,8 @@ std::string comparison_text(const SourceComparison& comparison);
 /// Formats all values as one JSON object (docs/reference/compare.md).
 std::string comparison_json(const SourceComparison& comparison);
 
+/// Formats rows: a group each, or a waveband of a track of profiles each
+/// (docs/reference/compare.md).
+std::string comparison_csv(const SourceComparison& comparison);
+
 } // namespace macadam

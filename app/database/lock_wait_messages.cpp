@@ -15,11 +15,13 @@ LockWaitPolicy wait_policy_for(const std::filesystem::path& store, const Console
 }
 
 RoadStore opened_store(const std::filesystem::path& file, const Console& console) {
+    console.detail(fmt::format("opening {}", file.string()));
     return RoadStore::open(file, wait_policy_for(file, console));
 }
 
 StoreReader
 opened_reader(const std::filesystem::path& file, const Console& console, Audience audience) {
+    console.detail(fmt::format("reading {}", file.string()));
     return StoreReader::open(file, wait_policy_for(file, console), audience);
 }
 

@@ -64,7 +64,7 @@ void expect_sections_alone(const ExportOptions& options) {
     }
 }
 
-ExportOptions parse_export(const Arguments& arguments) {
+ExportOptions parse_export(const Arguments& arguments, const Console& console) {
     const auto output = arguments.value("--output");
     if (!output) {
         throw UsageError{"-o FILE is missing"};
@@ -93,7 +93,7 @@ ExportOptions parse_export(const Arguments& arguments) {
     }
     if (is_tile_archive(options.output)) {
         options.tiles = parse_tile_plan(arguments);
-        options.pictures = parse_picture_plan(arguments, *options.tiles, options.filter);
+        options.pictures = parse_picture_plan(arguments, *options.tiles, options.filter, console);
     } else {
         expect_no_tile_options(arguments);
         expect_no_picture_options(arguments);
@@ -132,7 +132,7 @@ void export_sections(const StoreReader& store,
 }
 
 void run_export(const Arguments& arguments, const Console& console) {
-    const auto options = parse_export(arguments);
+    const auto options = parse_export(arguments, console);
     refuse_to_replace(options.output, inputs_of(options));
     if (options.pictures) {
         export_picture_tiles(

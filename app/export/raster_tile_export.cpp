@@ -31,22 +31,16 @@ void expect_whole_network(const SegmentFilter& filter) {
 }
 
 void expect_no_picture_looks(const Arguments& arguments) {
-    if (arguments.value("--tile-size") || arguments.value("--theme") ||
-        arguments.value("--style") || arguments.flag("--left-hand") ||
+    if (arguments.value("--tile-size") || arguments.is_given("--theme") ||
+        arguments.is_given("--style") || arguments.is_given("--left-hand") ||
         arguments.flag("--no-labels") || arguments.value("--grey-below")) {
         throw UsageError{"--tile-size, --theme, --style, --grey-below, --left-hand and "
                          "--no-labels require --tiles picture"};
     }
 }
 
-MapStyle style_of(const Arguments& arguments) {
-    auto style = parse_style_file(arguments);
-    if (arguments.value("--theme")) {
-        const auto theme = arguments.choice("--theme");
-        style.theme = theme == "dark"    ? MapStyle::Theme::dark
-                      : theme == "print" ? MapStyle::Theme::print
-                                         : MapStyle::Theme::light;
-    }
+MapStyle parse_style(const Arguments& arguments, const Console& console) {
+    auto style = style_of(parse_look(arguments, store_file(arguments), console).look);
     style.left_hand_traffic = arguments.flag("--left-hand");
     style.labels = !arguments.flag("--no-labels");
     style.min_passes = grey_below(arguments).value_or(style.min_passes);
@@ -82,8 +76,10 @@ StoreInfo info_of(const std::filesystem::path& file, const Console& console) {
 
 } // namespace
 
-std::optional<PicturePlan>
-parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const SegmentFilter& filter) {
+std::optional<PicturePlan> parse_picture_plan(const Arguments& arguments,
+                                              const TilePlan& tiles,
+                                              const SegmentFilter& filter,
+                                              const Console& console) {
     if (arguments.choice("--tiles") != "picture") {
         expect_no_picture_looks(arguments);
         return std::nullopt;
@@ -94,7 +90,7 @@ parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const Segm
                        .tile_px = arguments.choice("--tile-size") == "512" ? 512 : 256,
                        .jobs = tiles.jobs,
                        .box = {},
-                       .style = style_of(arguments)};
+                       .style = parse_style(arguments, console)};
 }
 
 void expect_no_picture_options(const Arguments& arguments) {

@@ -16,11 +16,11 @@ inline constexpr Option tiles_option = one_of(
 inline constexpr Option tile_size_option = rare(one_of(
     "256|512",
     in_group("tiles", {"--tile-size", "PX", "Picture tiles: 256 or 512 pixels per side.", "256"})));
-inline constexpr Option tile_theme_option = rare(one_of(
+inline constexpr Option tile_theme_option = preference(rare(one_of(
     "light|dark|print",
-    in_group("tiles", {"--theme", "NAME", "Picture tiles: light, dark or print.", "light"})));
+    in_group("tiles", {"--theme", "NAME", "Picture tiles: light, dark or print.", "light"}))));
 inline constexpr Option tile_left_hand_option =
-    rare(in_group("tiles", {"--left-hand", "", "Picture tiles: traffic keeps left."}));
+    preference(rare(in_group("tiles", {"--left-hand", "", "Picture tiles: traffic keeps left."})));
 inline constexpr Option tile_no_labels_option =
     rare(in_group("tiles", {"--no-labels", "", "Picture tiles: omit road names."}));
 
@@ -29,8 +29,10 @@ inline constexpr Option tile_no_labels_option =
 /// \param tiles        values of --zoom and --jobs
 /// \throws UsageError  for invalid values, for options of picture tiles without them, and for
 ///                     filters that picture tiles do not support: they show all roads of a box.
-std::optional<PicturePlan>
-parse_picture_plan(const Arguments& arguments, const TilePlan& tiles, const SegmentFilter& filter);
+std::optional<PicturePlan> parse_picture_plan(const Arguments& arguments,
+                                              const TilePlan& tiles,
+                                              const SegmentFilter& filter,
+                                              const Console& console);
 
 /// Rejects options of picture tiles.
 /// \throws UsageError  if one is given.

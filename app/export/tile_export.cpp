@@ -105,7 +105,7 @@ TilePlan parse_tile_plan(const Arguments& arguments) {
 }
 
 void expect_no_tile_options(const Arguments& arguments) {
-    if (arguments.value("--zoom") || arguments.value("--jobs")) {
+    if (arguments.value("--zoom") || arguments.is_given("--jobs")) {
         throw UsageError{fmt::format("--zoom and --jobs are for tile output, expected -o to "
                                      "end in {}",
                                      tile_endings())};

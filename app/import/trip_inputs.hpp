@@ -20,7 +20,8 @@ inline constexpr Option max_members_option =
 /// \throws UsageError  for an invalid number.
 std::size_t max_members_of(const Arguments& arguments);
 
-inline constexpr Option jobs_option{"--jobs", "N", "Number of trips processed in parallel.", "1"};
+inline constexpr Option jobs_option =
+    preference({"--jobs", "N", "Number of trips processed in parallel.", "1"});
 
 /// Parses --jobs.
 /// \throws UsageError  for an invalid number.

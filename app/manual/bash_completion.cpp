@@ -12,18 +12,19 @@ namespace {
 
 constexpr std::string_view head = R"(# bash completion of macadam, made from its table of commands
 
+# $current, here and below, is the word to complete, a local variable of _macadam.
 _macadam_words() {
-    COMPREPLY=($(compgen -W "$*" -- "${COMP_WORDS[COMP_CWORD]}"))
+    COMPREPLY=($(compgen -W "$*" -- "$current"))
 }
 
 _macadam_folders() {
     compopt -o filenames
-    mapfile -t COMPREPLY < <(compgen -d -- "${COMP_WORDS[COMP_CWORD]}")
+    mapfile -t COMPREPLY < <(compgen -d -- "$current")
 }
 
 # Files of these suffixes, or all files, and folders.
 _macadam_files() {
-    local current=${COMP_WORDS[COMP_CWORD]} suffix
+    local suffix
     compopt -o filenames
     mapfile -t COMPREPLY < <(
         [ $# -gt 0 ] || compgen -f -- "$current"
@@ -105,12 +106,17 @@ std::string bash_completion() {
     return fmt::format("{}_macadam() {{\n"
                        "    local current=${{COMP_WORDS[COMP_CWORD]}} "
                        "before=${{COMP_WORDS[COMP_CWORD - 1]}} command=${{COMP_WORDS[1]}}\n"
+                       "    if [ \"$current\" = = ]; then # bash splits --format=csv\n"
+                       "        current=\n"
+                       "    elif [ \"$before\" = = ]; then\n"
+                       "        before=${{COMP_WORDS[COMP_CWORD - 2]}}\n"
+                       "    fi\n"
                        "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
                        "        _macadam_words {}help --help --version\n"
                        "        return\n"
                        "    fi\n"
                        "    case $command/$before in\n"
-                       "    help/help) _macadam_words {}; return ;;\n{}"
+                       "    help/help) _macadam_words {}config; return ;;\n{}"
                        "    esac\n"
                        "    case $command in\n{}"
                        "    esac\n"

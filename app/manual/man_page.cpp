@@ -1,8 +1,11 @@
 #include "app/manual/man_page.hpp"
 
+#include "app/config/user_defaults.hpp"
+
 #include <fmt/format.h>
 
 #include <cctype>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -40,6 +43,23 @@ std::string title(std::string_view name, std::string_view summary, std::string_v
                        in_roff(summary));
 }
 
+/// Names the files and variables with defaults of options.
+/// \param options  those whose defaults users may set
+std::string defaults_of(const std::vector<Option>& options) {
+    std::string roff = ".SH FILES\n.TP\n.I $XDG_CONFIG_HOME/macadam/config.toml\nDefaults of "
+                       "options, by default in \\(ti/.config/macadam/config.toml; see "
+                       "\\fBmacadam help config\\fP.\n"
+                       ".TP\n.I macadam.toml\nBeside a database: unit, language, theme and "
+                       "[colours] of its maps and reports.\n"
+                       ".SH ENVIRONMENT\n";
+    for (const auto& option : options) {
+        roff += fmt::format(".TP\n.B {}\nDefault of {}.\n",
+                            in_roff(variable_of(preference_key(option))),
+                            in_roff(long_name(option)));
+    }
+    return roff + ".TP\n.B NO_COLOR\nNo colour, if it is not empty.\n";
+}
+
 std::string example_of(std::string_view lines) {
     return fmt::format(".SH EXAMPLE\n.EX\n{}\n.EE\n", in_roff(lines));
 }
@@ -67,6 +87,11 @@ std::string man_page_of_all(std::string_view version) {
             ".TP\n.BR macadam\\-{} (1)\n{}.\n", in_roff(command.name), in_roff(command.summary));
     }
     page += exit_status;
+    std::vector<Option> options;
+    for (const auto& [key, preference] : preferences()) {
+        options.push_back(preference.option);
+    }
+    page += defaults_of(options);
     return page + example_of("  macadam init roads.gpkg --network town.osm.pbf\n"
                              "  macadam import roads.gpkg trips/\n"
                              "  macadam render roads.gpkg -o map.png");
@@ -88,6 +113,9 @@ std::string man_page_of(const Command& command, std::string_view version) {
     }
     page += example_of(command.example);
     page += exit_status;
+    auto options = options_of(command);
+    std::erase_if(options, [](const Option& option) { return !option.is_preference; });
+    page += defaults_of(options);
     return page + ".SH SEE ALSO\n.BR macadam (1)\n";
 }
 

@@ -92,8 +92,8 @@ std::map<std::string, Vehicle> vehicles_in(const fs::path& folder) {
 
 VehicleChoice::VehicleChoice(const Arguments& arguments) : named_car_{parse_vehicle_id(arguments)} {
     const auto name = arguments.value("--vehicle");
-    const auto folder = arguments.value("--vehicles");
-    if (name && folder) {
+    const auto folder = name ? std::nullopt : arguments.value("--vehicles");
+    if (name && arguments.is_given("--vehicles")) {
         throw UsageError{"--vehicle and --vehicles cannot be combined"};
     }
     if (name) {

@@ -21,11 +21,11 @@ inline constexpr Option vehicle_option = in_group(
      "NAME|FILE",
      "Model of the car of all trips: golden-car, audi-a6-etron, generic, small-car, suv, van or a "
      "TOML file."});
-inline constexpr Option vehicles_option =
-    in_group("car and log",
-             {"--vehicles",
-              "DIR",
-              "A folder of TOML files; each trip takes the one whose name equals its vehicle_id."});
+inline constexpr Option vehicles_option = preference(in_group(
+    "car and log",
+    {"--vehicles",
+     "DIR",
+     "A folder of TOML files; each trip takes the one whose name equals its vehicle_id."}));
 
 inline constexpr Option vehicle_id_option = in_group(
     "car and log",

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/single_trip.hpp"
 #include "app/pipeline/vehicle_lookup.hpp"
@@ -33,10 +34,11 @@ struct IdentifyOptions {
     fs::path profile;
     std::optional<double> at_m;
     std::optional<double> step_m;
-    std::vector<fs::path> outputs;
+    std::vector<fs::path> outputs; ///< vehicle files and figures
+    std::optional<fs::path> row_file;
+    std::string format;
     std::string method;
     bool is_method_given;
-    bool json;
 };
 
 IdentifyOptions parse_identify(const Arguments& arguments) {
@@ -49,15 +51,13 @@ IdentifyOptions parse_identify(const Arguments& arguments) {
                             .at_m = arguments.number("--at"),
                             .step_m = arguments.number("--step"),
                             .outputs = {},
+                            .row_file = row_file_of(arguments, {".toml", ".svg"}),
+                            .format = row_format_of(arguments),
                             .method = arguments.choice("--method"),
-                            .is_method_given = arguments.value("--method").has_value(),
-                            .json = arguments.flag("--json")};
+                            .is_method_given = arguments.value("--method").has_value()};
     for (const auto& output : arguments.values("--output")) {
-        options.outputs.emplace_back(output);
-        const auto kind = options.outputs.back().extension();
-        if (kind != ".toml" && kind != ".svg") {
-            throw UsageError{
-                fmt::format("-o is '{}', expected a name that ends in .toml or .svg", output)};
+        if (const fs::path file{output}; file != options.row_file) {
+            options.outputs.push_back(file);
         }
     }
     return options;
@@ -227,11 +227,22 @@ void write_file(const fs::path& file, const std::string& text) {
     out.commit();
 }
 
+void write_rows(const IdentifyOutput& result, const IdentifyOptions& options) {
+    RowOutput output{options.row_file};
+    print(options.format == "json"  ? result.json
+          : options.format == "csv" ? result.csv
+                                    : result.table);
+    output.commit();
+}
+
 void run_identify(const Arguments& arguments, const Console& console) {
     const auto options = parse_identify(arguments);
     VehicleChoice vehicles{arguments};
     for (const auto& output : options.outputs) {
         refuse_to_replace(output, {options.trip, options.profile});
+    }
+    if (options.row_file) {
+        refuse_to_replace(*options.row_file, {options.trip, options.profile});
     }
     const auto road = road_of(read_profile(options.profile, options.step_m), options.profile);
     const auto source = one_trip(options.trip, mapping_of(arguments));
@@ -257,7 +268,7 @@ void run_identify(const Arguments& arguments, const Console& console) {
                        ? result.output.figure
                        : vehicle_file_text(result.vehicle, by_likelihood, options));
     }
-    print(options.json ? result.output.json : result.output.table);
+    write_rows(result.output, options);
 }
 
 constexpr std::array operands{
@@ -285,10 +296,13 @@ constexpr std::array options{
            "located by the profile"},
     Option{"-o,--output",
            "FILE",
-           "The identified vehicle (.toml), or the spectra as a figure (.svg).",
+           "The identified vehicle (.toml), the spectra as a figure (.svg), or the table (.csv, "
+           ".json).",
            "",
            true},
-    Option{"--json", "", "One JSON object instead of the table."}};
+    one_of("table|csv|json",
+           {"--format", "NAME", "table, csv (a row for each parameter) or json.", "table"}),
+    json_option};
 
 } // namespace
 

@@ -123,7 +123,7 @@ constexpr std::array options{
     Option{"--threshold",
            "IRI",
            "With --continuous: list the locations where the moving mean exceeds this."},
-    one_of("mm/m|in/mi", {"--unit", "UNIT", "mm/m (equal to m/km) or in/mi.", "mm/m"}),
+    preference(one_of("mm/m|in/mi", {"--unit", "UNIT", "mm/m (equal to m/km) or in/mi.", "mm/m"})),
     Option{"--no-envelope",
            "",
            "Skip the 250 mm moving average: the profile is already "

@@ -12,6 +12,7 @@ namespace macadam {
 struct IdentifyOutput {
     std::string table;
     std::string json;
+    std::string csv;    ///< a row for each parameter
     std::string figure; ///< SVG: spectra of every channel, before and after the fit
 };
 

@@ -1,3 +1,4 @@
+#include "app/cli/row_writer.hpp"
 #include "app/profile/identify_output.hpp"
 #include "app/profile/spectra_figure.hpp"
 #include "estimator/identification/car_modes.hpp"
@@ -131,6 +132,21 @@ JsonRaw correlation_json(const LikelihoodFit& fit) {
     return {rows.text()};
 }
 
+/// Values have one decimal more than the table shows, as in JSON.
+std::string csv_of(const LikelihoodFit& fit) {
+    const auto decimal = [](double value, double start) {
+        return fmt::format("{:.{}f}", value, decimals_of(start) + 1);
+    };
+    const Columns<FittedParameter> columns{
+        {"parameter", as::text, [](auto& r) { return r.name; }},
+        {"start", as::raw, [&](auto& r) { return decimal(r.start, r.start); }},
+        {"found", as::raw, [&](auto& r) { return decimal(r.found, r.start); }},
+        {"relative_sd", as::real(4), [](auto& r) { return r.sd; }},
+        {"relative_sd_given_mass", as::real(4), [](auto& r) { return r.sd_given_mass; }},
+        {"prior_relative_sd", as::real(4), [](auto& r) { return r.prior_sd; }}};
+    return rows_text(columns, fit.parameters, "csv");
+}
+
 JsonValue misfit_of(const LikelihoodFit& fit, Channel channel) {
     for (const auto& one : fit.channels) {
         if (one.channel == channel) {
@@ -184,6 +200,7 @@ IdentifyOutput
 output_of(const LikelihoodFit& fit, const PlaceOnProfile& place, const Vehicle& identified) {
     return {.table = table_of(fit, place),
             .json = json_of(fit, place, identified),
+            .csv = csv_of(fit),
             .figure = figure_of(fit)};
 }
 

@@ -1,3 +1,4 @@
+#include "app/cli/row_writer.hpp"
 #include "app/profile/identify_output.hpp"
 #include "app/profile/spectra_figure.hpp"
 #include "estimator/identification/car_modes.hpp"
@@ -110,6 +111,20 @@ std::string table_of(const SpectrumFit& fit,
                        meaning_of(fit.gain, vehicle));
 }
 
+std::string csv_of(const SpectrumFit& fit) {
+    const auto decimal = [](double value, int decimals) {
+        return fmt::format("{:.{}f}", value, decimals + 1);
+    };
+    const Columns<Row> columns{
+        {"parameter", as::text, [](auto& r) { return r.name; }},
+        {"start", as::raw, [&](auto& r) { return decimal(r.start, r.decimals); }},
+        {"found", as::raw, [&](auto& r) { return decimal(r.found, r.decimals); }},
+        {"relative_sd", as::real(4), [&](auto& r) {
+             return fit.relative_sd.at(std::string{r.name});
+         }}};
+    return rows_text(columns, rows_of(fit), "csv");
+}
+
 std::string json_of(const SpectrumFit& fit,
                     const ProfileResponse& ride,
                     const PlaceOnProfile& place,
@@ -163,6 +178,7 @@ IdentifyOutput output_of(const SpectrumFit& fit,
                          const Vehicle& identified) {
     return {.table = table_of(fit, ride, place, identified),
             .json = json_of(fit, ride, place, identified),
+            .csv = csv_of(fit),
             .figure = figure_of(fit)};
 }
 

@@ -52,13 +52,9 @@ const Columns<NumberChange> change_columns{
 
 } // namespace
 
-std::string text_of(const std::vector<AuditEntry>& entries) {
-    return entries.empty() ? "no recorded change of any value\n"
-                           : table_text(entry_columns, entries);
-}
-
-std::string json_of(const std::vector<AuditEntry>& entries) {
-    return json_rows(entry_columns, entries) + "\n";
+std::string audit_text(const std::vector<AuditEntry>& entries, std::string_view format) {
+    return entries.empty() && format == "table" ? "no recorded change of any value\n"
+                                                : rows_text(entry_columns, entries, format);
 }
 
 std::string changes_text(const std::vector<NumberChange>& changes, std::string_view format) {

@@ -9,8 +9,8 @@
 namespace macadam {
 
 /// Formats the audit log of a database, oldest entry first.
-std::string text_of(const std::vector<AuditEntry>& entries);
-std::string json_of(const std::vector<AuditEntry>& entries);
+/// \param format  table, json or csv
+std::string audit_text(const std::vector<AuditEntry>& entries, std::string_view format);
 
 /// Formats the changes of a segment's value.
 /// \param format  table, json or csv

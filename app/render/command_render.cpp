@@ -32,36 +32,20 @@ struct RenderOptions {
     bool events;
 };
 
-MapStyle style_of(const Arguments& arguments) {
-    auto style = parse_style_file(arguments);
-    if (arguments.value("--theme")) {
-        const auto theme = arguments.choice("--theme");
-        style.theme = theme == "dark"    ? MapStyle::Theme::dark
-                      : theme == "print" ? MapStyle::Theme::print
-                                         : MapStyle::Theme::light;
-    }
-    if (arguments.value("--ramp")) {
-        style.ramp = arguments.choice("--ramp");
-        style.own_ramp.clear();
-    }
-    if (arguments.value("--unit")) {
-        style.in_per_mi = arguments.choice("--unit") == "in/mi";
-    }
+MapStyle parse_style(const Arguments& arguments, const Console& console) {
+    auto style = style_of(parse_look(arguments, store_file(arguments), console).look);
     style.left_hand_traffic = arguments.flag("--left-hand");
     style.labels = !arguments.flag("--no-labels");
     style.min_passes = grey_below(arguments).value_or(style.min_passes);
-    if (const auto name = arguments.value("--classes")) {
-        style.classes = class_table(*name);
-    }
     return style;
 }
 
-RenderOptions parse_render(const Arguments& arguments) {
+RenderOptions parse_render(const Arguments& arguments, const Console& console) {
     return {.store = store_file(arguments),
             .output = parse_picture_output(arguments),
             .box = map_box(arguments),
             .title = arguments.value("--title").value_or("Road roughness"),
-            .style = style_of(arguments),
+            .style = parse_style(arguments, console),
             .base = parse_base_map(arguments),
             .events = arguments.flag("--events")};
 }
@@ -82,7 +66,7 @@ void expect_files_apart(const RenderOptions& options) {
 }
 
 void run_render(const Arguments& arguments, const Console& console) {
-    auto options = parse_render(arguments);
+    auto options = parse_render(arguments, console);
     expect_files_apart(options);
     const auto store = opened_reader(options.store, console);
     warn_of_waiting(store, options.store, console);
@@ -137,31 +121,33 @@ constexpr std::array options{
     paper_option,
     landscape_option,
     in_group("page", {"--title", "TEXT", "Title above the map.", "Road roughness"}),
-    one_of(
+    preference(one_of(
         "fhwa|five",
         in_group("appearance",
-                 {"--classes", "NAME", "fhwa (good, fair, poor) or five.", "as in the database"})),
-    one_of(
+                 {"--classes", "NAME", "fhwa (good, fair, poor) or five.", "as in the database"}))),
+    preference(one_of(
         "rdylbu|cividis|viridis",
         in_group(
             "appearance",
             {"--ramp",
              "NAME",
              "Colour ramp: rdylbu, cividis or viridis; all are suitable for colour-blind readers.",
-             "rdylbu"})),
-    one_of("light|dark|print",
-           in_group("appearance", {"--theme", "NAME", "light, dark or print.", "light"})),
-    one_of(
+             "rdylbu"}))),
+    preference(
+        one_of("light|dark|print",
+               in_group("appearance", {"--theme", "NAME", "light, dark or print.", "light"}))),
+    preference(one_of(
         "mm/m|in/mi",
-        in_group("appearance", {"--unit", "UNIT", "Unit in the legend: mm/m or in/mi.", "mm/m"})),
+        in_group("appearance", {"--unit", "UNIT", "Unit in the legend: mm/m or in/mi.", "mm/m"}))),
     style_option,
     base_option,
     base_opacity_option,
     instead_of("--min-passes", grey_below_option),
     in_group("appearance", {"--events", "", "Also potholes, bumps, joints and rails, as symbols."}),
     in_group("appearance", {"--no-labels", "", "Omit road names."}),
-    in_group("appearance",
-             {"--left-hand", "", "Traffic keeps left: draw each direction on the left side."})};
+    preference(in_group(
+        "appearance",
+        {"--left-hand", "", "Traffic keeps left: draw each direction on the left side."}))};
 
 } // namespace
 

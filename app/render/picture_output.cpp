@@ -85,7 +85,7 @@ void expect_fitting(const Arguments& arguments, Kind kind) {
     if (kind == Kind::pdf && arguments.value("--size")) {
         throw UsageError{"--size is for pictures, expected --paper with a .pdf"};
     }
-    if (kind != Kind::pdf && (arguments.value("--paper") || arguments.flag("--landscape"))) {
+    if (kind != Kind::pdf && (arguments.is_given("--paper") || arguments.flag("--landscape"))) {
         throw UsageError{"--paper and --landscape are for a .pdf, expected --size with a "
                          "picture"};
     }

@@ -53,12 +53,12 @@ inline constexpr Option crs_option =
                    "Map projection, as known to PROJ: EPSG:3006, a PROJ string or WKT.",
                    "EPSG:3857"}));
 inline constexpr Option paper_option =
-    one_of("A4|A0|A1|A2|A3|A5|letter|legal|tabloid",
-           in_group("page",
-                    {"--paper",
-                     "NAME",
-                     "Paper size of a .pdf: A0 to A5, letter, legal or tabloid.",
-                     default_paper}));
+    preference(one_of("A4|A0|A1|A2|A3|A5|letter|legal|tabloid",
+                      in_group("page",
+                               {"--paper",
+                                "NAME",
+                                "Paper size of a .pdf: A0 to A5, letter, legal or tabloid.",
+                                default_paper})));
 inline constexpr Option landscape_option =
     in_group("page", {"--landscape", "", "Landscape paper."});
 

@@ -1,6 +1,8 @@
 #include "app/render/style_options.hpp"
 
+#include "estimator/common/error.hpp"
 #include "render/scene/style_check.hpp"
+#include "storage/settings/database_appearance.hpp"
 #include "storage/settings/style_file.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +11,68 @@
 
 namespace macadam {
 namespace {
+
+/// Sets a value from an option of this command. A default of the option does not replace what the
+/// style file states.
+/// \returns whether the option determines the value
+bool prefer(std::optional<std::string>& value,
+            bool is_stated,
+            const Arguments& arguments,
+            std::string_view option) {
+    if (!arguments.has(option) || !arguments.value(option) ||
+        (is_stated && !arguments.is_given(option))) {
+        return false;
+    }
+    value = arguments.value(option);
+    return true;
+}
+
+MapLook user_look(const Arguments& arguments) {
+    const auto file = arguments.value("--style");
+    auto look = file ? read_style(*file) : MapLook{};
+    prefer(look.theme, look.theme.has_value(), arguments, "--theme");
+    prefer(look.unit, look.unit.has_value(), arguments, "--unit");
+    if (prefer(look.ramp, look.ramp || !look.own_ramp.empty(), arguments, "--ramp")) {
+        look.own_ramp.clear();
+    }
+    if (prefer(look.shipped_table, look.shipped_table || look.own_table, arguments, "--classes")) {
+        look.own_table.reset();
+    }
+    return look;
+}
+
+/// Reads the appearance beside a database. A file that is wrong must not make the database
+/// unusable.
+DatabaseAppearance appearance_of(const std::filesystem::path& store, const Console& console) {
+    const auto file = appearance_file_of(store);
+    try {
+        if (auto appearance = read_appearance(file)) {
+            console.detail(fmt::format("appearance suggested by {}", file.string()));
+            return *std::move(appearance);
+        }
+    } catch (const InputError& error) {
+        console.warn(fmt::format("{}; the file is ignored", error.what()));
+    }
+    return {};
+}
+
+/// Sets the colours that are not set yet.
+void add_colours(ThemeColours& colours, const ThemeColours& more) {
+    for (const auto colour : {&ThemeColours::page,
+                              &ThemeColours::ground,
+                              &ThemeColours::border,
+                              &ThemeColours::ink,
+                              &ThemeColours::quiet_ink,
+                              &ThemeColours::casing,
+                              &ThemeColours::unmeasured,
+                              &ThemeColours::few_passes}) {
+        if (!(colours.*colour)) {
+            colours.*colour = more.*colour;
+        }
+    }
+}
+
+} // namespace
 
 MapStyle style_of(MapLook look) {
     MapStyle style;
@@ -36,11 +100,17 @@ MapStyle style_of(MapLook look) {
     return style;
 }
 
-} // namespace
-
-MapStyle parse_style_file(const Arguments& arguments) {
-    const auto file = arguments.value("--style");
-    return file ? style_of(read_style(*file)) : MapStyle{};
+ChosenLook
+parse_look(const Arguments& arguments, const std::filesystem::path& store, const Console& console) {
+    ChosenLook chosen{.look = user_look(arguments), .language = {}};
+    prefer(chosen.language, false, arguments, "--language");
+    const auto suggested = appearance_of(store, console);
+    const auto add = [](auto& value, const auto& more) { value = value ? value : more; };
+    add(chosen.look.unit, suggested.unit);
+    add(chosen.look.theme, suggested.theme);
+    add(chosen.language, suggested.language);
+    add_colours(chosen.look.colours, suggested.colours);
+    return chosen;
 }
 
 std::optional<int> grey_below(const Arguments& arguments) {

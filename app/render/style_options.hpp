@@ -2,27 +2,43 @@
 
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
+#include "mapping/style/map_style_values.hpp"
 #include "render/scene/scene.hpp"
 
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace macadam {
 
 inline constexpr Option style_option =
-    in_group("appearance",
-             {"--style",
-              "FILE",
-              "TOML file with classes, colours, widths and texts "
-              "(docs/reference/pictures.md)."});
+    preference(in_group("appearance",
+                        {"--style",
+                         "FILE",
+                         "TOML file with classes, colours, widths and texts "
+                         "(docs/reference/pictures.md)."}));
 
 inline constexpr Option grey_below_option = in_group(
     "appearance", {"--grey-below", "N", "Draw roads with fewer passes of cars in grey.", "1"});
 
-/// Reads the style of --style, or returns the default one. Other options override it.
+/// Look that the user wants, and what the provider of the database suggests.
+struct ChosenLook {
+    MapLook look;
+    std::optional<std::string> language; ///< of reports
+};
+
+/// Reads the style of --style and the options --theme, --unit, --classes, --ramp and --language of
+/// a command that has them. In order of rank: options on the command line, the style file, defaults
+/// of these options, and for unit, language, theme and colours the file macadam.toml beside the
+/// database. A macadam.toml that is no such file is ignored with a warning.
 ///
-/// \throws InputError  for a file that is no style.
-MapStyle parse_style_file(const Arguments& arguments);
+/// \throws InputError  for a --style that is no style.
+ChosenLook
+parse_look(const Arguments& arguments, const std::filesystem::path& store, const Console& console);
+
+/// Builds the style of a map. Its classes are null if the look states none.
+MapStyle style_of(MapLook look);
 
 /// Parses --grey-below.
 /// \throws UsageError  for less than 1.

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
@@ -16,6 +17,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace macadam {
@@ -39,26 +42,19 @@ std::size_t parse_worst(const Arguments& arguments) {
     return static_cast<std::size_t>(worst);
 }
 
-MapStyle parse_style(const Arguments& arguments) {
-    auto style = parse_style_file(arguments);
+MapStyle parse_style(const Arguments& arguments, const MapLook& look) {
+    auto style = style_of(look);
     style.min_passes = grey_below(arguments).value_or(style.min_passes);
     style.left_hand_traffic = arguments.flag("--left-hand");
-    if (const auto name = arguments.value("--classes")) {
-        style.classes = class_table(*name);
-    }
     return style;
 }
 
-/// Parses --language and --unit.
-/// \param by_default  unit without --unit
-Localisation parse_wording(const Arguments& arguments, IriUnit by_default) {
-    Localisation wording{.unit = by_default};
-    if (const auto code = arguments.value("--language")) {
-        wording.language = language(*code);
+Localisation wording_of(const ChosenLook& chosen) {
+    Localisation wording;
+    if (chosen.language) {
+        wording.language = language(*chosen.language);
     }
-    if (const auto unit = arguments.value("--unit")) {
-        wording.unit = *unit == "in/mi" ? IriUnit::in_per_mi : IriUnit::mm_per_m;
-    }
+    wording.unit = chosen.look.unit == "in/mi" ? IriUnit::in_per_mi : IriUnit::mm_per_m;
     return wording;
 }
 
@@ -66,16 +62,16 @@ Localisation parse_wording(const Arguments& arguments, IriUnit by_default) {
 /// \param ending  suffix of the output
 PdfConfig parse_paper(const Arguments& arguments, std::string_view ending) {
     PdfConfig config;
-    if (const auto name = arguments.value("--paper")) {
-        if (ending != ".pdf") {
-            throw UsageError{"--paper requires -o FILE.pdf"};
-        }
-        config.paper = *name == "letter" ? us_letter : a4;
+    if (ending != ".pdf" && arguments.is_given("--paper")) {
+        throw UsageError{"--paper requires -o FILE.pdf"};
+    }
+    if (arguments.choice("--paper") == "letter") {
+        config.paper = us_letter;
     }
     return config;
 }
 
-ReportOptions parse_report(const Arguments& arguments) {
+ReportOptions parse_report(const Arguments& arguments, const Console& console) {
     const auto output = arguments.value("--output");
     const auto ending = std::filesystem::path{output.value_or("")}.extension().string();
     if (ending != ".html" && ending != ".pdf") {
@@ -83,10 +79,10 @@ ReportOptions parse_report(const Arguments& arguments) {
             output ? fmt::format("-o is '{}', expected a name that ends in .html or .pdf", *output)
                    : std::string{"-o report.html is missing"}};
     }
-    const auto style = parse_style(arguments);
-    const auto wording =
-        parse_wording(arguments, style.in_per_mi ? IriUnit::in_per_mi : IriUnit::mm_per_m);
-    return {.store = store_file(arguments),
+    const auto store = store_file(arguments);
+    const auto look = parse_look(arguments, store, console);
+    const auto wording = wording_of(look);
+    return {.store = store,
             .output = *output,
             .report = {.title = arguments.value("--title").value_or(wording("title")),
                        .worst = parse_worst(arguments),
@@ -94,7 +90,7 @@ ReportOptions parse_report(const Arguments& arguments) {
                        .since_ms = parse_begin(arguments, "--compare-since"),
                        .wording = wording,
                        .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
-                       .style = style},
+                       .style = parse_style(arguments, look.look)},
             .pdf = parse_paper(arguments, ending)};
 }
 
@@ -102,7 +98,7 @@ ReportOptions parse_report(const Arguments& arguments) {
 void refuse_beside_references(const Arguments& arguments) {
     for (const auto* const option :
          {"--worst", "--sections", "--classes", "--compare-since", "--style", "--grey-below"}) {
-        if (arguments.value(option)) {
+        if (arguments.is_given(option)) {
             throw UsageError{fmt::format("{} and --against-reference cannot be combined", option)};
         }
     }
@@ -111,51 +107,84 @@ void refuse_beside_references(const Arguments& arguments) {
 /// Rejects --unit and --language for data formats, which are always in English and mm/m.
 void refuse_for_programs(const Arguments& arguments) {
     for (const auto* const option : {"--unit", "--language"}) {
-        if (arguments.value(option)) {
+        if (arguments.is_given(option)) {
             throw UsageError{
                 fmt::format("with --against-reference, {} requires -o FILE.html or .pdf", option)};
         }
     }
 }
 
-std::string text_for(const ReferenceReport& report, std::string_view ending, const PdfConfig& pdf) {
-    return ending == ".html"   ? reference_html(report)
-           : ending == ".pdf"  ? pdf_of(reference_document(report), pdf)
-           : ending == ".json" ? reference_json(report)
-                               : reference_csv(report);
+/// Output of --against-reference: a page, or rows in a file or on standard output.
+struct ReferenceOutput {
+    std::optional<std::filesystem::path> page;
+    std::optional<std::filesystem::path> rows;
+    std::string format; ///< of the rows
+};
+
+ReferenceOutput parse_reference_output(const Arguments& arguments) {
+    ReferenceOutput output{.page = {},
+                           .rows = row_file_of(arguments, {".html", ".pdf"}),
+                           .format = row_format_of(arguments)};
+    if (!output.rows) {
+        output.page = arguments.value("--output");
+    }
+    if (output.page && (arguments.value("--format") || arguments.flag("--json"))) {
+        throw UsageError{fmt::format("-o {} is a page, which --format and --json do not concern",
+                                     output.page->string())};
+    }
+    return output;
+}
+
+void write_rows(const ReferenceReport& report, const ReferenceOutput& to) {
+    RowOutput output{to.rows};
+    if (to.format == "table") {
+        print_words(reference_text(report));
+    } else {
+        print(to.format == "json" ? reference_json(report) : reference_csv(report));
+    }
+    output.commit();
+}
+
+void write_page(const ReferenceReport& report,
+                const std::filesystem::path& file,
+                const PdfConfig& pdf) {
+    AtomicFile page{file};
+    page.write(file.extension() == ".pdf" ? pdf_of(reference_document(report), pdf)
+                                          : reference_html(report));
+    page.commit();
 }
 
 void report_against_reference(const Arguments& arguments, const Console& console) {
     refuse_beside_references(arguments);
-    const std::filesystem::path output = arguments.value("--output").value_or("");
-    const auto ending = output.extension().string();
-    constexpr std::array<std::string_view, 4> endings{".html", ".pdf", ".json", ".csv"};
-    if (!output.empty() && std::ranges::find(endings, ending) == endings.end()) {
-        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .html, .pdf, .json "
-                                     "or .csv",
-                                     output.string())};
-    }
-    const auto pdf = parse_paper(arguments, ending);
-    const auto wording = parse_wording(arguments, IriUnit::mm_per_m);
-    if (ending != ".html" && ending != ".pdf") {
+    const auto output = parse_reference_output(arguments);
+    const auto pdf = parse_paper(arguments, output.page.value_or("").extension().string());
+    if (!output.page) {
         refuse_for_programs(arguments);
     }
     const auto file = store_file(arguments);
+    const auto wording =
+        output.page ? wording_of(parse_look(arguments, file, console)) : Localisation{};
+    for (const auto& written : {output.page, output.rows}) {
+        if (written) {
+            refuse_to_replace(*written, {file});
+        }
+    }
     const auto store = opened_reader(file, console);
     warn_of_waiting(store, file, console);
     tell_publication(store, console);
     const auto report = reference_report(
         store, arguments.value("--title").value_or(wording("reference.title")), wording);
-    if (output.empty()) {
-        print_words(reference_text(report));
-        store.expect_in_place();
-        return;
-    }
-    refuse_to_replace(output, {file});
     store.expect_in_place();
-    AtomicFile written{output};
-    written.write(text_for(report, ending, pdf));
-    written.commit();
+    output.page ? write_page(report, *output.page, pdf) : write_rows(report, output);
+}
+
+/// Rejects options of rows, which only --against-reference prints.
+void refuse_rows(const Arguments& arguments) {
+    for (const auto* const option : {"--format", "--json"}) {
+        if (arguments.value(option)) {
+            throw UsageError{fmt::format("{} requires --against-reference", option)};
+        }
+    }
 }
 
 void run_report(const Arguments& arguments, const Console& console) {
@@ -163,7 +192,8 @@ void run_report(const Arguments& arguments, const Console& console) {
         report_against_reference(arguments, console);
         return;
     }
-    auto options = parse_report(arguments);
+    refuse_rows(arguments);
+    auto options = parse_report(arguments, console);
     const auto store = opened_reader(options.store, console);
     refuse_to_replace(options.output, {options.store});
     warn_of_waiting(store, options.store, console);
@@ -189,32 +219,36 @@ constexpr std::array options{
     Option{"-o,--output", "FILE", "The report, an .html or .pdf file."},
     Option{"--against-reference",
            "",
-           "Compare cars with reference surveys: -o FILE.html, .pdf, .json or .csv, or a table."},
+           "Compare cars with reference surveys: -o FILE.html, .pdf, .csv or .json, or a table."},
+    one_of("table|csv|json",
+           {"--format", "NAME", "Of --against-reference: table, csv or json.", "table"}),
+    json_option,
     Option{"--title", "TEXT", "Title of the report.", "Road roughness"},
     instead_of(
         "--since",
         {"--compare-since", "DATE", "Report changes since this day: 2026-03-01 or 2026-03."}),
-    one_of("mm/m|in/mi",
-           in_group("appearance", {"--unit", "UNIT", "Unit of roughness: mm/m or in/mi.", "mm/m"})),
-    one_of("en|de", in_group("appearance", {"--language", "CODE", "en or de.", "en"})),
-    one_of(
+    preference(one_of(
+        "mm/m|in/mi",
+        in_group("appearance", {"--unit", "UNIT", "Unit of roughness: mm/m or in/mi.", "mm/m"}))),
+    preference(one_of("en|de", in_group("appearance", {"--language", "CODE", "en or de.", "en"}))),
+    preference(one_of(
         "A4|letter",
-        in_group("appearance", {"--paper", "SIZE", "Paper size of a .pdf: A4 or letter.", "A4"})),
+        in_group("appearance", {"--paper", "SIZE", "Paper size of a .pdf: A4 or letter.", "A4"}))),
     Option{"--worst", "N", "Number of worst sections to list, each with a map.", "20"},
     sections_option,
     section_length_option,
     homogeneous_option,
     exclude_option,
     exclude_radius_option,
-    one_of(
+    preference(one_of(
         "fhwa|five",
         in_group("appearance",
-                 {"--classes", "NAME", "fhwa (good, fair, poor) or five.", "as in the database"})),
+                 {"--classes", "NAME", "fhwa (good, fair, poor) or five.", "as in the database"}))),
     style_option,
     instead_of("--min-passes", grey_below_option),
-    in_group(
+    preference(in_group(
         "appearance",
-        {"--left-hand", "", "Traffic keeps left: maps draw each direction on the left side."})};
+        {"--left-hand", "", "Traffic keeps left: maps draw each direction on the left side."}))};
 
 } // namespace
 

@@ -1,6 +1,5 @@
 #include "app/report/control_monitoring.hpp"
 
-#include "app/cli/text_table.hpp"
 #include "estimator/common/statistics.hpp"
 #include "storage/text/utc.hpp"
 
@@ -93,6 +92,10 @@ Cell json_of(const std::optional<Drift>& drift) {
     return drift ? Cell{json_object(columns, *drift).text()} : Cell{};
 }
 
+Cell of_drift(const WatchedSection& watched, double Drift::*value) {
+    return watched.drift ? Cell{(*watched.drift).*value} : Cell{};
+}
+
 bool has_pass(const WatchedSection& watched) {
     return watched.cars.length_m > 0;
 }
@@ -138,7 +141,7 @@ std::string drift_words(const WatchedSection& watched) {
 }
 
 // clang-format off
-const Columns<WatchedSection> control_columns{
+const Columns<WatchedSection> of_control_sections{
     {"name", as::text, [](auto& r) { return r.section.name; }, {"control section", "{:<18.18}"}},
     {"way_id", as::integer, [](auto& r) { return r.section.way_id; }},
     {"direction", as::text, [](auto& r) { return r.section.forward ? "forward" : "backward"; }},
@@ -154,15 +157,20 @@ const Columns<WatchedSection> control_columns{
     {"difference", as::iri(3), [](auto& r) { return of_cars(r, r.off); }},
     {"difference_low", as::iri(3), [](auto& r) { return difference_of(r, -normal_interval_90); }},
     {"difference_high", as::iri(3), [](auto& r) { return difference_of(r, normal_interval_90); }},
-    {"drift", as::raw, [](auto& r) { return json_of(r.drift); }},
+    {"drift", as::json_only(as::raw), [](auto& r) { return json_of(r.drift); }},
+    {"drift_per_year", as::csv_only(as::iri(4)),
+     [](auto& r) { return of_drift(r, &Drift::per_year); }},
+    {"drift_sd_per_year", as::csv_only(as::iri(4)),
+     [](auto& r) { return of_drift(r, &Drift::sd_per_year); }},
     {"", as::text, cars_words, {"cars", " {:>6}"}},
     {"", as::text, bias_words, {"bias (90 %)", " {:>16}"}},
     {"", as::text, metres_words, {"metres", " {:>9}"}},
     {"", as::text, drift_words, {"drift, mm/m (90 %)", "  {}"}},
-    {"months", as::raw, [](auto& r) { return json_of(r.months, r.section.iri_mm_per_m); }},
+    {"months", as::json_only(as::raw),
+     [](auto& r) { return json_of(r.months, r.section.iri_mm_per_m); }},
 };
 
-const Columns<SurveyUse> survey_columns{
+const Columns<SurveyUse> of_surveys{
     {"name", as::text, [](auto& r) { return r.name; }, {"reference survey", "{:<24.24}"}},
     {"file", as::text, [](auto& r) { return r.file_name; }},
     {"sha256", as::text, [](auto& r) { return r.sha256; }},
@@ -195,20 +203,12 @@ std::vector<WatchedSection> watched_sections(const StoreReader& store) {
     return all;
 }
 
-std::string text_of(const std::vector<WatchedSection>& sections) {
-    return sections.empty() ? "" : fmt::format("\n{}", table_text(control_columns, sections));
+const Columns<WatchedSection>& control_section_columns() {
+    return of_control_sections;
 }
 
-std::string json_of(const std::vector<WatchedSection>& sections) {
-    return json_rows(control_columns, sections);
-}
-
-std::string text_of(const std::vector<SurveyUse>& surveys) {
-    return surveys.empty() ? "" : fmt::format("\n{}", table_text(survey_columns, surveys));
-}
-
-std::string json_of(const std::vector<SurveyUse>& surveys) {
-    return json_rows(survey_columns, surveys);
+const Columns<SurveyUse>& survey_columns() {
+    return of_surveys;
 }
 
 } // namespace macadam

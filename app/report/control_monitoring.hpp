@@ -3,9 +3,9 @@
 #include "app/query/monthly_history.hpp"
 #include "mapping/surveys/control_section.hpp"
 #include "storage/store/reader/store_reader.hpp"
+#include "storage/text/columns.hpp"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace macadam {
@@ -25,14 +25,8 @@ struct WatchedSection {
 /// monitoring selects passes by day.
 std::vector<WatchedSection> watched_sections(const StoreReader& store);
 
-/// Formats a table for people; "" if there are no sections.
-std::string text_of(const std::vector<WatchedSection>& sections);
-
-/// Formats an array of objects.
-std::string json_of(const std::vector<WatchedSection>& sections);
-
-/// Formats the reference surveys of a database in the same way.
-std::string text_of(const std::vector<SurveyUse>& surveys);
-std::string json_of(const std::vector<SurveyUse>& surveys);
+/// Columns of control sections, and of the reference surveys of a database.
+const Columns<WatchedSection>& control_section_columns();
+const Columns<SurveyUse>& survey_columns();
 
 } // namespace macadam

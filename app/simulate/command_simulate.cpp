@@ -245,7 +245,7 @@ constexpr std::array options{
     Option{"--show-recipe", "", "Print the sample recipe, with a comment on every key."},
     Option{"--seed", "N", "Random seed: each number gives another fleet on other roads.", "1"},
     Option{"--trips", "N", "Number of trips, overrides the recipe."},
-    Option{"--jobs", "N", "Number of parallel jobs; the files do not depend on it.", "1"}};
+    preference({"--jobs", "N", "Number of parallel jobs; the files do not depend on it.", "1"})};
 
 } // namespace
 

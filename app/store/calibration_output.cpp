@@ -1,7 +1,7 @@
 #include "app/store/calibration_output.hpp"
 
 #include "app/cli/console.hpp"
-#include "app/cli/text_table.hpp"
+#include "app/cli/row_writer.hpp"
 #include "app/store/car_change_output.hpp"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ const Columns<CalibratedCar> car_columns{
     {"relative_sd", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::relative_sd); }},
     {"", as::text, sd_words, {"sd", " {:>9}"}},
     {"scatter", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::scatter); }},
-    {"changes", as::raw, [](auto& r) { return changes_json(r.periods); }},
+    {"changes", as::json_only(as::raw), [](auto& r) { return changes_json(r.periods); }},
 };
 
 const Columns<CalibrationReport> report_columns{
@@ -104,6 +104,10 @@ std::string text_of(const CalibrationReport& report) {
 
 std::string json_of(const CalibrationReport& report) {
     return json_object(report_columns, report).text() + "\n";
+}
+
+std::string csv_of(const CalibrationReport& report) {
+    return rows_text(car_columns, report.cars, "csv");
 }
 
 } // namespace macadam

@@ -11,4 +11,7 @@ namespace macadam {
 std::string text_of(const CalibrationReport& report);
 std::string json_of(const CalibrationReport& report);
 
+/// Formats a row for each car.
+std::string csv_of(const CalibrationReport& report);
+
 } // namespace macadam

@@ -1,4 +1,6 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
@@ -10,6 +12,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <optional>
+#include <string_view>
 
 namespace macadam {
 namespace {
@@ -25,17 +30,30 @@ CalibrationReport calibrated(const std::filesystem::path& file, bool keep, const
     return store.maintenance.calibrate(console.progress("calibrating"));
 }
 
+void write_rows(const CalibrationReport& report,
+                std::string_view format,
+                const std::optional<std::filesystem::path>& file) {
+    RowOutput output{file};
+    if (format == "table") {
+        print_words(text_of(report));
+    } else {
+        print(format == "json" ? json_of(report) : csv_of(report));
+    }
+    output.commit();
+}
+
 void run_calibrate(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
+    const auto format = row_format_of(arguments);
+    const auto output = row_file_of(arguments);
+    if (output) {
+        refuse_to_replace(*output, {file});
+    }
     const bool keep = !arguments.flag("--dry-run");
     expect_operator(opened_reader(file, console, Audience::operator_),
                     "calibrations of single cars");
     const auto report = calibrated(file, keep, console);
-    if (arguments.flag("--json")) {
-        print(json_of(report));
-    } else {
-        print_words(text_of(report));
-    }
+    write_rows(report, format, output);
     const bool any = std::ranges::any_of(
         report.cars, [](const CalibratedCar& car) { return car.calibration.has_value(); });
     if (!any) {
@@ -51,11 +69,15 @@ void run_calibrate(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{store_operand};
-constexpr std::array options{Option{"--dry-run",
-                                    "",
-                                    "Only report: leave the database "
-                                    "unchanged."},
-                             Option{"--json", "", "Print the result as one JSON object."}};
+constexpr std::array options{
+    Option{"--dry-run",
+           "",
+           "Only report: leave the database "
+           "unchanged."},
+    one_of("table|csv|json",
+           {"--format", "NAME", "table, csv (a row for each car) or json.", "table"}),
+    row_output_option,
+    json_option};
 
 } // namespace
 

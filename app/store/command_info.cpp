@@ -1,4 +1,7 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
+#include "app/cli/row_writer.hpp"
 #include "app/database/key_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
@@ -12,14 +15,18 @@
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace macadam {
 namespace {
+
+constexpr std::string_view all_tables = "all"; // of --table
 
 double share(double part, double whole) {
     return whole > 0 ? part / whole : 0;
@@ -41,6 +48,17 @@ struct KnownRoads {
     std::vector<SurveyUse> surveys;
     std::vector<WatchedSection> controls;
 };
+
+std::string text_of(const KnownRoads& known) {
+    std::string text;
+    if (!known.surveys.empty()) {
+        text += "\n" + table_text(survey_columns(), known.surveys);
+    }
+    if (!known.controls.empty()) {
+        text += "\n" + table_text(control_section_columns(), known.controls);
+    }
+    return text;
+}
 
 /// Formats the report as JSON.
 /// \param truth  JSON; "" = not requested
@@ -69,8 +87,8 @@ std::string json_of(const StoreInfo& info,
         object.add("publication", JsonRaw{json_of(info.publication)})
             .add("published_alone", info.published_alone);
     }
-    object.add("surveys", JsonRaw{json_of(known.surveys)})
-        .add("control_sections", JsonRaw{json_of(known.controls)});
+    object.add("surveys", JsonRaw{json_rows(survey_columns(), known.surveys)})
+        .add("control_sections", JsonRaw{json_rows(control_section_columns(), known.controls)});
     object.add("generation", std::int64_t{info.generation}).add("digest", digest);
     if (!truth.empty()) {
         object.add("truth", JsonRaw{truth});
@@ -142,25 +160,52 @@ std::string text_of(const StoreInfo& info, bool operates) {
     return text;
 }
 
-void print_info(const StoreReader& store, const Arguments& arguments) {
+/// Formats the one table that --table names.
+std::string one_table(const StoreReader& store, std::string_view name, const std::string& format) {
+    if (name == "classes") {
+        const auto info = store.info();
+        return rows_text(class_columns(info.km), info.classes, format);
+    }
+    if (name == "surveys") {
+        return rows_text(survey_columns(), store.surveys(), format);
+    }
+    if (name == "control-sections") {
+        return rows_text(control_section_columns(), watched_sections(store), format);
+    }
+    const auto tables = info_tables(store);
+    return name == "cars"           ? rows_text(car_columns(), tables.cars, format)
+           : name == "road-classes" ? rows_text(road_class_columns(), tables.road_classes, format)
+           : name == "months" ? rows_text(usage_columns("month"), months_of(tables.days), format)
+                              : rows_text(usage_columns("day"), tables.days, format);
+}
+
+void print_info(const StoreReader& store, const Arguments& arguments, const std::string& format) {
+    const auto print_rows = format == "table" ? print_words : print;
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
         return;
     }
     if (arguments.flag("--audit")) {
         expect_operator(store, "audit entries");
-        const auto entries = store.audit();
-        arguments.flag("--json") ? print(json_of(entries)) : print_words(text_of(entries));
+        print_rows(audit_text(store.audit(), format));
+        return;
+    }
+    if (const auto table = arguments.choice("--table"); table != all_tables) {
+        print_rows(one_table(store, table, format));
         return;
     }
     std::optional<TruthComparison> truth;
     if (const auto truth_file = arguments.value("--truth")) {
         truth = compared(store, *truth_file);
     }
+    if (truth && format == "csv") {
+        print(csv_of(*truth));
+        return;
+    }
     const auto info = store.info();
     const auto tables = info_tables(store);
     const KnownRoads known{store.surveys(), watched_sections(store)};
-    if (arguments.flag("--json")) {
+    if (format == "json") {
         print(json_of(info,
                       tables,
                       known,
@@ -168,23 +213,53 @@ void print_info(const StoreReader& store, const Arguments& arguments) {
                       store.digest(),
                       truth ? json_of(*truth) : ""));
     } else {
-        print_words(text_of(info, store.is_operator()) + text_of(tables) + text_of(known.surveys) +
-                    text_of(known.controls) + (truth ? "\n" + text_of(*truth) : ""));
+        print_words(text_of(info, store.is_operator()) + text_of(tables) + text_of(known) +
+                    (truth ? "\n" + text_of(*truth) : ""));
+    }
+}
+
+/// Rejects options that would have no effect, and CSV of more than one table.
+void expect_one_result(const Arguments& arguments, std::string_view format) {
+    std::vector<std::string_view> given;
+    for (const auto* const name : {"--digest", "--audit", "--table", "--truth"}) {
+        if (arguments.value(name).value_or(std::string{all_tables}) != all_tables) {
+            given.emplace_back(name);
+        }
+    }
+    if (given.size() > 1) {
+        throw UsageError{fmt::format("{} cannot be combined", fmt::join(given, " and "))};
+    }
+    if (format == "csv" && (given.empty() || given.front() == "--digest")) {
+        throw UsageError{"CSV holds one table, expected --table NAME, --audit or --truth FILE "
+                         "with --format csv"};
     }
 }
 
 void run_info(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
+    const auto format = row_format_of(arguments);
+    expect_one_result(arguments, format);
+    const auto row_file = row_file_of(arguments);
+    if (row_file) {
+        refuse_to_replace(*row_file, {file});
+    }
     const auto store = open_for_operator(file, console);
     warn_of_waiting(store, file, console);
     warn_of_open_key(store, console);
-    print_info(store, arguments);
+    RowOutput output{row_file};
+    print_info(store, arguments, format);
     store.expect_in_place();
+    output.commit();
 }
 
 constexpr std::array operands{store_operand};
 constexpr std::array options{
-    Option{"--json", "", "One JSON object instead, with the digest."},
+    one_of("all|classes|road-classes|cars|months|days|surveys|control-sections",
+           {"--table", "NAME", "Print only this table, with all its rows.", "all"}),
+    one_of("table|csv|json",
+           {"--format", "NAME", "table, json (with the digest), or csv of one table.", "table"}),
+    row_output_option,
+    json_option,
     Option{"--truth",
            "FILE.csv",
            "Compare with true values: a truth.csv of 'macadam simulate' or of a profiler."},
@@ -202,6 +277,7 @@ const Command info_command{
              "OpenStreetMap; a pass counts on the\nday on which its trip began.",
     .example = "  macadam info roads.gpkg\n"
                "  macadam info roads.gpkg --digest       has anything changed?\n"
+               "  macadam info roads.gpkg --table cars -o cars.csv\n"
                "  macadam info fleet/roads.gpkg --truth fleet/truth.csv",
     .operands = operands,
     .options = options,

@@ -4,11 +4,13 @@
 #include "app/store/car_change_output.hpp"
 
 #include "storage/networks/network_file.hpp"
+#include "storage/text/json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <span>
 #include <string_view>
 
@@ -111,7 +113,7 @@ Cell calibrated(const CarInfo& car, double CarCalibration::*value, double unit =
 }
 
 // clang-format off
-const Columns<CarInfo> car_columns{
+const Columns<CarInfo> of_cars{
     {"", as::integer, number_of, {"no.", "{:>4}"}},
     {"vehicle", as::text, [](auto& r) { return r.vehicle; }, {"car", " {:<34}"}},
     {"number", as::integer, number_of},
@@ -127,19 +129,10 @@ const Columns<CarInfo> car_columns{
      [](auto& r) { return calibrated(r, &CarCalibration::offset_um, 1000); }},
     {"relative_sd", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::relative_sd); }},
     {"scatter", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::scatter); }},
-    {"changes", as::raw, [](auto& r) { return changes_json(r.periods); }},
+    {"changes", as::json_only(as::raw), [](auto& r) { return changes_json(r.periods); }},
 };
 
-/// Columns of the use in each day, or month.
-Columns<DailyUsage> usage_columns(std::string_view period) {
-    return {
-        {period, as::text, [](auto& r) { return r.day; }, {period, "{:<18}"}},
-        {"trips", as::integer, [](auto& r) { return r.trips; }, {"trips", " {:>6}"}},
-        {"passes", as::integer, [](auto& r) { return r.passes; }, {"passes", " {:>9}"}},
-    };
-}
-
-const Columns<RoadClassInfo> road_class_columns{
+const Columns<RoadClassInfo> of_road_classes{
     {"highway", as::text, [](auto& r) { return r.highway.empty() ? Cell{} : Cell{r.highway}; },
      {"road class", "{:<18}"}},
     {"network_km", as::real(3, "km"), [](auto& r) { return r.network_km; },
@@ -147,21 +140,14 @@ const Columns<RoadClassInfo> road_class_columns{
     {"km", as::real(3, "km"), [](auto& r) { return r.km; }, {"driven km", " {:>10}", 2}},
     {"covered", as::real(4), [](auto& r) { return share(r.km, r.network_km); }},
     {"", as::text, covered_words, {"covered", " {:>8}"}},
-    {"classes", as::raw, [](auto& r) { return class_lengths_json(r.classes, r.km); }},
+    {"classes", as::json_only(as::raw),
+     [](auto& r) { return class_lengths_json(r.classes, r.km); }},
 };
 // clang-format on
 
-std::vector<DailyUsage> month_rows(const std::vector<DailyUsage>& days) {
-    std::vector<DailyUsage> rows;
-    for (const auto& [month, use] : months_of(days)) {
-        rows.push_back(use);
-    }
-    return rows;
-}
-
 std::string car_lines(std::span<const CarInfo> cars) {
     const auto count = std::min(cars.size(), max_rows);
-    const auto text = fmt::format("\n{}", table_text(car_columns, cars.first(count)));
+    const auto text = fmt::format("\n{}", table_text(of_cars, cars.first(count)));
     return cars.size() > count ? text + fmt::format("and {} more\n", cars.size() - count) : text;
 }
 
@@ -187,7 +173,29 @@ InfoTables info_tables(const StoreReader& store) {
     return {road_classes_of(store, usage), cars_of(usage), usage.days};
 }
 
-std::map<std::string, DailyUsage> months_of(const std::vector<DailyUsage>& days) {
+const Columns<RoadClassInfo>& road_class_columns() {
+    return of_road_classes;
+}
+
+const Columns<CarInfo>& car_columns() {
+    return of_cars;
+}
+
+Columns<DailyUsage> usage_columns(std::string_view period) {
+    return {
+        {period, as::text, [](auto& r) { return r.day; }, {period, "{:<18}"}},
+        {"trips", as::integer, [](auto& r) { return r.trips; }, {"trips", " {:>6}"}},
+        {"passes", as::integer, [](auto& r) { return r.passes; }, {"passes", " {:>9}"}},
+    };
+}
+
+Columns<ClassLength> class_columns(double km) {
+    return {{"class", as::text, [](auto& r) { return r.name; }, {"class", "{:<12}"}},
+            {"km", as::real(3, "km"), [](auto& r) { return r.km; }, {"km", " {:>10}", 2}},
+            {"share", as::real(4), [km](auto& r) { return share(r.km, km); }, {"share", " {:>7}"}}};
+}
+
+std::vector<DailyUsage> months_of(const std::vector<DailyUsage>& days) {
     std::map<std::string, DailyUsage> months;
     for (const auto& [day, trips, passes] : days) {
         auto& month = months[day.substr(0, 7)];
@@ -195,28 +203,27 @@ std::map<std::string, DailyUsage> months_of(const std::vector<DailyUsage>& days)
         month.trips += trips;
         month.passes += passes;
     }
-    return months;
+    std::vector<DailyUsage> rows;
+    for (const auto& [name, month] : months) {
+        rows.push_back(month);
+    }
+    return rows;
 }
 
 std::string text_of(const InfoTables& tables) {
-    return fmt::format("\n{}", table_text(road_class_columns, tables.road_classes)) +
+    return fmt::format("\n{}", table_text(of_road_classes, tables.road_classes)) +
            (tables.cars.empty() ? "" : car_lines(tables.cars)) + change_lines(tables.cars) +
-           (tables.days.empty() ? "" : month_lines(month_rows(tables.days)));
+           (tables.days.empty() ? "" : month_lines(months_of(tables.days)));
 }
 
 std::string class_lengths_json(const std::vector<ClassLength>& lengths, double km) {
-    const Columns<ClassLength> columns{
-        {"class", as::text, [](auto& r) { return r.name; }},
-        {"km", as::real(3, "km"), [](auto& r) { return r.km; }},
-        {"share", as::real(4), [km](auto& r) { return share(r.km, km); }}};
-    return json_rows(columns, lengths);
+    return json_rows(class_columns(km), lengths);
 }
 
 void add_to(JsonObject& object, const InfoTables& tables) {
-    object.add("road_classes", JsonRaw{json_rows(road_class_columns, tables.road_classes)})
-        .add("cars", JsonRaw{json_rows(car_columns, tables.cars)})
-        .add("passes_per_month",
-             JsonRaw{json_rows(usage_columns("month"), month_rows(tables.days))})
+    object.add("road_classes", JsonRaw{json_rows(of_road_classes, tables.road_classes)})
+        .add("cars", JsonRaw{json_rows(of_cars, tables.cars)})
+        .add("passes_per_month", JsonRaw{json_rows(usage_columns("month"), months_of(tables.days))})
         .add("passes_per_day", JsonRaw{json_rows(usage_columns("day"), tables.days)});
 }
 

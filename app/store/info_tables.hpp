@@ -1,11 +1,11 @@
 #pragma once
 
 #include "storage/store/reader/store_reader.hpp"
-#include "storage/text/json.hpp"
+#include "storage/text/columns.hpp"
 
-#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace macadam {
@@ -39,10 +39,20 @@ struct InfoTables {
 InfoTables info_tables(const StoreReader& store);
 
 /// Sums the days by month, such as "2026-03".
-std::map<std::string, DailyUsage> months_of(const std::vector<DailyUsage>& days);
+std::vector<DailyUsage> months_of(const std::vector<DailyUsage>& days);
 
 /// Formats lengths by class as JSON, with their shares of `km`.
 std::string class_lengths_json(const std::vector<ClassLength>& lengths, double km);
+
+/// \name Columns of these tables
+/// @{
+const Columns<RoadClassInfo>& road_class_columns();
+const Columns<CarInfo>& car_columns();
+/// \param period  heading: "day" or "month"
+Columns<DailyUsage> usage_columns(std::string_view period);
+/// Columns of lengths by class, with their shares of `km`.
+Columns<ClassLength> class_columns(double km);
+/// @}
 
 std::string text_of(const InfoTables& tables);
 void add_to(JsonObject& object, const InfoTables& tables);

@@ -1,6 +1,6 @@
 #include "app/store/truth_output.hpp"
 
-#include "app/cli/text_table.hpp"
+#include "app/cli/row_writer.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/surveys/truth_file.hpp"
 
@@ -21,6 +21,8 @@ double bias_share(const Row& row) {
 
 // clang-format off
 const Columns<Row> columns{
+    {"group", as::csv_only(as::text),
+     [](auto& r) { return r.highway.empty() ? "(no class)" : r.highway; }},
     {"", as::text, [](auto& r) { return r.highway.empty() ? "(no class)" : r.highway; },
      {"against truth", "{:<16}"}},
     {"segments", as::integer, [](auto& r) { return r.score.segments; }, {"segments", "{:>9}"}},
@@ -62,6 +64,16 @@ rows_of(const std::vector<Band>& bands, std::string_view quantity, std::string_v
     return rows;
 }
 
+std::vector<Row> rows_of(const TruthComparison& comparison) {
+    std::vector<Row> rows{{"all", comparison.all}};
+    rows.insert(rows.end(), comparison.classes.begin(), comparison.classes.end());
+    for (const auto& bands :
+         {rows_of(comparison.levels, "IRI ", ""), rows_of(comparison.speeds, "", " km/h")}) {
+        rows.insert(rows.end(), bands.begin(), bands.end());
+    }
+    return rows;
+}
+
 } // namespace
 
 TruthComparison compared(const StoreReader& store, const std::filesystem::path& file) {
@@ -79,17 +91,15 @@ TruthComparison compared(const StoreReader& store, const std::filesystem::path& 
 }
 
 std::string text_of(const TruthComparison& comparison) {
-    std::vector<Row> rows{{"all", comparison.all}};
-    rows.insert(rows.end(), comparison.classes.begin(), comparison.classes.end());
-    for (const auto& bands :
-         {rows_of(comparison.levels, "IRI ", ""), rows_of(comparison.speeds, "", " km/h")}) {
-        rows.insert(rows.end(), bands.begin(), bands.end());
-    }
-    return table_text(columns, rows) +
+    return table_text(columns, rows_of(comparison)) +
            "IRI (MRI) in mm/m; RMSE of single segments, and of five in a row (about 100 "
            "m); share of true\n"
            "values within the 90 % interval, %. Bands of the true IRI, and of the passes' mean "
            "speed.\n";
+}
+
+std::string csv_of(const TruthComparison& comparison) {
+    return rows_text(columns, rows_of(comparison), "csv");
 }
 
 std::string json_of(const TruthComparison& comparison) {

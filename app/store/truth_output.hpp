@@ -19,4 +19,7 @@ std::string text_of(const TruthComparison& comparison);
 /// Formats one JSON object.
 std::string json_of(const TruthComparison& comparison);
 
+/// Formats a row for all segments, for each class of road, and for each band.
+std::string csv_of(const TruthComparison& comparison);
+
 } // namespace macadam

@@ -77,15 +77,6 @@ std::optional<std::uint32_t> colour_of(std::string_view text) {
     return error == std::errc{} && stop == end ? std::optional{rgb} : std::nullopt;
 }
 
-std::string
-word_among(const TomlTable& table, std::string_view key, std::span<const std::string_view> words) {
-    auto word = table.text(key);
-    if (std::ranges::find(words, word) == words.end()) {
-        table.refuse(key, fmt::format("one of {}", fmt::join(words, ", ")));
-    }
-    return word;
-}
-
 std::string shipped_table(const TomlTable& top) {
     std::vector<std::string_view> names;
     for (const auto& table : class_tables()) {
@@ -178,20 +169,6 @@ void read_ramp(const TomlTable& top, MapLook& look) {
     }
 }
 
-ThemeColours colours_of(const TomlTable& table) {
-    table.expect_only(names_of(colour_keys));
-    ThemeColours colours;
-    for (const auto& [name, colour] : colour_keys) {
-        if (table.has(name)) {
-            colours.*colour = colour_of(table.text(name));
-            if (!(colours.*colour)) {
-                table.refuse(name, "a colour such as \"#2c7bb6\"");
-            }
-        }
-    }
-    return colours;
-}
-
 LineFactors lines_of(const TomlTable& table) {
     table.expect_only(line_keys);
     return {.width = table.maybe_number("width", line_factor).value_or(1),
@@ -223,18 +200,38 @@ LegendWords words_of(const TomlTable& table) {
 
 } // namespace
 
-MapLook read_style(const std::filesystem::path& file) {
-    constexpr std::array<std::string_view, 3> themes{"light", "dark", "print"};
-    constexpr std::array<std::string_view, 2> units{"mm/m", "in/mi"};
+std::string
+word_among(const TomlTable& table, std::string_view key, std::span<const std::string_view> words) {
+    auto word = table.text(key);
+    if (std::ranges::find(words, word) == words.end()) {
+        table.refuse(key, fmt::format("one of {}", fmt::join(words, ", ")));
+    }
+    return word;
+}
 
+ThemeColours read_colours(const TomlTable& table) {
+    table.expect_only(names_of(colour_keys));
+    ThemeColours colours;
+    for (const auto& [name, colour] : colour_keys) {
+        if (table.has(name)) {
+            colours.*colour = colour_of(table.text(name));
+            if (!(colours.*colour)) {
+                table.refuse(name, "a colour such as \"#2c7bb6\"");
+            }
+        }
+    }
+    return colours;
+}
+
+MapLook read_style(const std::filesystem::path& file) {
     const auto top = read_toml(file, "a style");
     top.expect_only(top_keys);
     MapLook look;
     if (top.has("theme")) {
-        look.theme = word_among(top, "theme", themes);
+        look.theme = word_among(top, "theme", theme_words);
     }
     if (top.has("unit")) {
-        look.unit = word_among(top, "unit", units);
+        look.unit = word_among(top, "unit", unit_words);
     }
     if (top.has("classes") && top.has("class")) {
         top.refuse("classes", "either classes or tables [[class]]");
@@ -250,7 +247,7 @@ MapLook read_style(const std::filesystem::path& file) {
         read_ramp(top, look);
     }
     if (const auto colours = top.table("colours")) {
-        look.colours = colours_of(*colours);
+        look.colours = read_colours(*colours);
     }
     if (const auto lines = top.table("lines")) {
         look.lines = lines_of(*lines);

@@ -5,6 +5,7 @@
 #include "estimator/iri/iri.hpp"
 #include "mapping/surveys/survey_match.hpp"
 #include "storage/profiles/profile_reader.hpp"
+#include "storage/settings/database_appearance.hpp"
 #include "storage/settings/scenario_file.hpp"
 #include "storage/settings/style_file.hpp"
 #include "storage/settings/vehicle_file.hpp"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -189,6 +191,17 @@ Answer style_toml(std::string_view input) {
             expect(std::ranges::is_sorted(classes, {}, &IriClass::to_mm_per_m), "borders rise");
             expect(classes.size() <= max_own_classes, "there are not too many classes");
         }
+    });
+}
+
+Answer appearance_toml(std::string_view input) {
+    return may_refuse([&] {
+        constexpr std::uint32_t white = 0xFFFFFF;
+        const auto file = input_file("macadam.toml", input);
+        const auto appearance = read_appearance(file);
+        expect(appearance.has_value(), "a file that is there is read");
+        expect(input.size() <= max_appearance_bytes, "a file that is read is short");
+        expect(appearance->colours.ink.value_or(0) <= white, "a colour has three bytes");
     });
 }
 

@@ -24,8 +24,10 @@ Answer mapped_trip(std::string_view input);     ///< a mapping, and a table for 
 Answer rawlog(std::string_view input);          ///< of MRPT, by its own reader
 Answer gpx(std::string_view input);             ///< a track, and the roads that it draws
 Answer vehicle_toml(std::string_view input);
-Answer recipe_toml(std::string_view input); ///< of a simulated fleet
-Answer style_toml(std::string_view input);  ///< of a map
+Answer recipe_toml(std::string_view input);     ///< of a simulated fleet
+Answer style_toml(std::string_view input);      ///< of a map
+Answer appearance_toml(std::string_view input); ///< beside a database
+Answer config_toml(std::string_view input);     ///< a user's defaults of options
 Answer profile_csv(std::string_view input);
 Answer profile_txt(std::string_view input);
 Answer profile_erd(std::string_view input); ///< the header, and perhaps its numbers in a .bin

@@ -2,6 +2,7 @@
 #include "fuzz/targets.hpp"
 
 #include "app/cli/commands.hpp"
+#include "app/config/user_defaults.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/segment_options.hpp"
 #include "app/pipeline/estimation_options.hpp"
@@ -174,6 +175,23 @@ Answer command_line(std::string_view input) {
         const Arguments arguments{command->options, command->operands, std::move(words)};
         ask_for_everything(*command, arguments);
         parse_as(*command, arguments);
+    });
+}
+
+Answer config_toml(std::string_view input) {
+    return may_refuse([&] {
+        const auto config = parse_toml(input, "config.toml");
+        for (const auto& command : commands()) {
+            for (const auto& each : config_defaults(config, "/home", command)) {
+                auto key = each.option.substr(2);
+                std::ranges::replace(key, '-', '_');
+                const auto preference = preferences().find(key);
+                expect(preference != preferences().end(), "a default is of a preference");
+                const auto& choices = preference->second.choices;
+                expect(choices.empty() || choice_among(choices, each.value) == each.value,
+                       "a default is one of the choices");
+            }
+        }
     });
 }
 

@@ -169,6 +169,29 @@ TEST(Arguments, TakeAnEarlierSpellingWithANote) {
     EXPECT_THAT(parse_renamed({"a.gpkg", "--road", "Ring"}).notes(), ElementsAre());
 }
 
+TEST(Arguments, TakeDefaultsOfTheUserWhereTheCommandLineHasNone) {
+    const std::vector<Default> defaults{{"--theme", "Dark", "config.toml:1"},
+                                        {"--theme", "light", "config.toml:2"},
+                                        {"--road", "Ring", "MACADAM_ROAD"},
+                                        {"--jobs", "3", "config.toml:3"}}; // no option of it
+    auto arguments = parse_renamed({"a.gpkg", "--road", "Main"});
+    arguments.adopt(defaults);
+    EXPECT_EQ(arguments.choice("--theme"), "dark");
+    EXPECT_EQ(arguments.value("--road"), "Main");
+    EXPECT_FALSE(arguments.is_given("--theme"));
+    EXPECT_TRUE(arguments.is_given("--road"));
+    ASSERT_THAT(arguments.defaults(), ::testing::SizeIs(1));
+    EXPECT_EQ(arguments.defaults().front().source, "config.toml:1");
+}
+
+TEST(Arguments, LeaveOutADefaultThatOnlyOtherCommandsOffer) {
+    auto arguments = parse_renamed({"a.gpkg"});
+    const std::vector<Default> defaults{{"--theme", "print", "config.toml:1"}};
+    arguments.adopt(defaults);
+    EXPECT_EQ(arguments.choice("--theme"), "light");
+    EXPECT_FALSE(arguments.is_given("--theme"));
+}
+
 TEST(Arguments, RefuseAnEarlierSpellingThatMeantSomethingElse) {
     EXPECT_EQ(refusal_of_renamed({"a.gpkg", "--min-passes", "3"}),
               "--min-passes is called --grey-below here now");

@@ -80,7 +80,17 @@ TEST(Commands, ThatPrintRowsHaveAFormatAFileAndTheShortFormOfJson) {
         }
     }
     EXPECT_THAT(found,
-                UnorderedElementsAre("query", "trace", "match", "iri", "valid-from", "vehicles"));
+                UnorderedElementsAre("query",
+                                     "trace",
+                                     "match",
+                                     "iri",
+                                     "valid-from",
+                                     "vehicles",
+                                     "info",
+                                     "compare",
+                                     "calibrate",
+                                     "identify",
+                                     "report"));
 }
 
 TEST(Commands, ThatAreMisspelledAreAnsweredWithTheNearestOne) {
@@ -91,7 +101,7 @@ TEST(Commands, ThatAreMisspelledAreAnsweredWithTheNearestOne) {
 }
 
 TEST(Help, OfAllNamesEveryCommand) {
-    const auto help = help_of_all();
+    const auto help = help_of_all(1);
     for (const auto& command : commands()) {
         EXPECT_THAT(help, HasSubstr("  " + std::string{command.name} + " "));
     }

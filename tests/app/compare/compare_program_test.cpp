@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 const std::string town = R"(<osm version="0.6">
 <node id="1" lat="48.4000000" lon="15.6000000"/>
@@ -168,6 +170,31 @@ TEST_F(Compare, OfADatabaseAndTheTruthGivesTheErrorsThatInfoGives) {
     EXPECT_NEAR(turned["difference"]["bias"]["value"].get<double>(),
                 -all["difference"]["bias"]["value"].get<double>(),
                 1e-9);
+}
+
+TEST_F(Compare, WritesARowForEachGroupOfDatabasesAndEachBandOfProfiles) {
+    const auto comparison = compared({store_, truth_});
+    std::ptrdiff_t groups = 1; // all pairs
+    for (const auto& by : comparison["by"]) {
+        groups += std::ssize(by["groups"]);
+    }
+    const auto csv = ran({"compare", store_, truth_, "--format", "csv"}).out;
+    EXPECT_THAT(csv, StartsWith("by,name,pairs,independent,mean_a,mean_b,bias,"));
+    EXPECT_EQ(std::ranges::count(csv, '\n'), groups + 1);
+    EXPECT_THAT(csv, HasSubstr(fmt::format("\n,all,{},", comparison["all"]["pairs"].dump())));
+    const auto file = (folder_ / "rows.csv").string();
+    EXPECT_EQ(ran({"compare", store_, truth_, "-o", file}).out, "");
+    EXPECT_EQ(read_file(file), csv);
+    const auto page = (folder_ / "page.html").string();
+    EXPECT_EQ(ran({"compare", store_, truth_, "-o", page, "--format", "csv"}).out, csv);
+    EXPECT_THAT(read_file(page), HasSubstr("<svg"));
+
+    const auto a = written("a.csv", profile(0, 1));
+    const auto b = written("b.csv", profile(0.3, 1.1));
+    const auto bands = ran({"compare", a, b, "--format", "csv"}).out;
+    EXPECT_THAT(bands, StartsWith("track,shared_m,iri_a,iri_b,band,from_m,to_m,score,"));
+    EXPECT_EQ(std::ranges::count(bands, '\n'),
+              std::ssize(compared({a, b})["tracks"][0]["bands"]) + 1);
 }
 
 TEST_F(Compare, LeavesSurveysInsideADatabaseOut) {
@@ -326,7 +353,7 @@ TEST_F(Compare, WritesASelfContainedPage) {
     EXPECT_THAT(html, Not(HasSubstr("http://")));
     EXPECT_THAT(html, Not(HasSubstr("v-")));
     EXPECT_THAT(ran({"compare", store_, truth_, "-o", "page.png"}, 2).err,
-                HasSubstr("expected a name that ends in .html or .pdf"));
+                HasSubstr("expected a name that ends in .html, .pdf, .csv, .json, or --format"));
     EXPECT_THAT(ran({"compare", store_, truth_, "-o", store_ + ".html", "--car-b", "one"}, 2).err,
                 HasSubstr("--car-b requires a road database"));
 }

@@ -226,7 +226,8 @@ TEST(TileExport, WritesWhatTheStoreHoldsIntoBothKinds) {
     auto store = new_store(folder / "a.gpkg");
     import_trips(store, 6);
     for (const auto* name : {"a.pmtiles", "a.mbtiles"}) {
-        export_tiles(store, {}, folder / name, {.min_zoom = 12, .max_zoom = 15}, Console{true});
+        export_tiles(
+            store, {}, folder / name, {.min_zoom = 12, .max_zoom = 15}, Console{Verbosity::quiet});
     }
     const auto read = read_pmtiles(folder / "a.pmtiles");
     std::map<std::string, std::int64_t> passes;
@@ -256,7 +257,8 @@ TEST(TileExport, WritesTheSameTilesIntoAFolder) {
     auto store = new_store(folder / "a.gpkg");
     import_trips(store, 6);
     for (const auto* name : {"tiles/", "a.pmtiles"}) {
-        export_tiles(store, {}, folder / name, {.min_zoom = 12, .max_zoom = 15}, Console{true});
+        export_tiles(
+            store, {}, folder / name, {.min_zoom = 12, .max_zoom = 15}, Console{Verbosity::quiet});
     }
     const auto read = read_pmtiles(folder / "a.pmtiles");
     for (const auto& [tile, bytes] : read.tiles) {
@@ -283,15 +285,17 @@ TEST(TileExport, TakesNoFolderForAFileOfSegments) {
 TEST(TileExport, RefusesAFolderWithSomethingInItBeforeItReadsTheStore) {
     const auto folder = test_folder();
     const auto store = new_store(folder / "a.gpkg"); // in which nothing was measured
-    EXPECT_EQ(refusal_of([&] { export_tiles(store, {}, folder / "", {}, Console{true}); }),
-              folder.string() + ": is not empty, expected a new or an empty folder");
+    EXPECT_EQ(
+        refusal_of([&] { export_tiles(store, {}, folder / "", {}, Console{Verbosity::quiet}); }),
+        folder.string() + ": is not empty, expected a new or an empty folder");
 }
 
 TEST(TileExport, IntoAFolderIsReadByGdal) {
     const auto folder = test_folder();
     auto store = new_store(folder / "a.gpkg");
     import_trips(store, 6);
-    export_tiles(store, {}, folder / "tiles/", {.min_zoom = 12, .max_zoom = 14}, Console{true});
+    export_tiles(
+        store, {}, folder / "tiles/", {.min_zoom = 12, .max_zoom = 14}, Console{Verbosity::quiet});
     const auto command = "ogr2ogr -f CSV -select segment " + (folder / "a.csv").string() + " " +
                          (folder / "tiles/14").string();
     ASSERT_EQ(std::system(command.c_str()), 0);
@@ -311,7 +315,11 @@ TEST(TileExport, IsReadByGdal) {
     const auto folder = test_folder();
     auto store = new_store(folder / "a.gpkg");
     import_trips(store, 6);
-    export_tiles(store, {}, folder / "a.mbtiles", {.min_zoom = 12, .max_zoom = 14}, Console{true});
+    export_tiles(store,
+                 {},
+                 folder / "a.mbtiles",
+                 {.min_zoom = 12, .max_zoom = 14},
+                 Console{Verbosity::quiet});
     const auto command = "ogr2ogr -f CSV -oo ZOOM_LEVEL=14 -select segment,iri " +
                          (folder / "a.csv").string() + " " + (folder / "a.mbtiles").string();
     ASSERT_EQ(std::system(command.c_str()), 0);
@@ -336,7 +344,9 @@ TEST(TileExport, IsReadByGdal) {
 TEST(TileExport, AsksForASegmentToShow) {
     const auto folder = test_folder();
     const auto store = new_store(folder / "a.gpkg");
-    EXPECT_EQ(refusal_of([&] { export_tiles(store, {}, folder / "a.pmtiles", {}, Console{true}); }),
+    EXPECT_EQ(refusal_of([&] {
+                  export_tiles(store, {}, folder / "a.pmtiles", {}, Console{Verbosity::quiet});
+              }),
               (folder / "a.gpkg").string() +
                   ": the selection contains no measured segment, expected at least one");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.pmtiles"));

@@ -106,6 +106,20 @@ TEST(BashCompletion, OffersCommandsOptionsChoicesAndFilesBySuffix) {
     EXPECT_EQ(offered({"macadam", "render", "ro"}), "roads.gpkg\n");
     EXPECT_EQ(offered({"macadam", "render", "roads.gpkg", "-o", "ma"}), "map.png\n");
     EXPECT_EQ(offered({"macadam", "render", "roads.gpkg", "--title", "ma"}), "\n");
+    EXPECT_EQ(offered({"macadam", "help", "conf"}), "config\n");
+}
+
+TEST(BashCompletion, CompletesValuesAfterAnEqualsSignWhichBashTakesForAWord) {
+    EXPECT_EQ(offered({"macadam", "render", "--theme", "="}), "light dark print\n");
+    EXPECT_EQ(offered({"macadam", "render", "--theme", "=", "da"}), "dark\n");
+}
+
+TEST(ManualPage, NamesTheFileAndVariablesOfDefaults) {
+    const auto page = man_page_of(render_command, "1");
+    EXPECT_THAT(page, HasSubstr(".SH FILES\n.TP\n.I $XDG_CONFIG_HOME/macadam/config.toml\n"));
+    EXPECT_THAT(page, HasSubstr(".B MACADAM_LEFT_HAND\nDefault of \\-\\-left\\-hand.\n"));
+    EXPECT_THAT(page, Not(HasSubstr("MACADAM_JOBS")));
+    EXPECT_THAT(man_page_of_all("1"), HasSubstr("MACADAM_JOBS"));
 }
 
 TEST(Completions, NameEveryOptionAndNoEarlierSpelling) {

@@ -151,6 +151,16 @@ TEST_F(Identify, TellsTheSameAsJson) {
     EXPECT_THAT(run.out, HasSubstr("\"settled\":"));
 }
 
+TEST_F(Identify, WritesARowForEachParameter) {
+    const auto file = at("table.csv");
+    const auto run = identify({"--method", "spectrum", "-o", at("found.toml"), file});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(read_file(file), StartsWith("parameter,start,found,relative_sd\nks_n_per_m,"));
+    EXPECT_THAT(read_file(file), HasSubstr("\ngain,1.0000,"));
+    EXPECT_THAT(read_file(at("found.toml")), HasSubstr("[half_car]"));
+}
+
 TEST_F(Identify, FitsACarWithoutAxlesByItsSpectrumAndSaysSo) {
     const auto run = run_macadam({"identify",
                                   at("drive.trip.csv"),
@@ -241,7 +251,10 @@ TEST_F(Identify, TellsWhatItCanWrite) {
     const auto run = identify({"-o", "spectra.png"});
     EXPECT_EQ(run.exit_status, 2);
     EXPECT_THAT(run.err,
-                HasSubstr("-o is 'spectra.png', expected a name that ends in .toml or .svg"));
+                HasSubstr("-o is 'spectra.png', expected a name that ends in .toml, .svg, .csv, "
+                          ".json, or --format"));
+    EXPECT_THAT(identify({"-o", "a.csv", "b.json"}).err,
+                HasSubstr("-o names two files of rows, 'a.csv' and 'b.json'"));
 }
 
 } // namespace

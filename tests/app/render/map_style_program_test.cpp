@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace macadam::testing {
 namespace {
 
@@ -84,6 +86,51 @@ TEST_F(MapStyleProgram, DrawsByTheFileUnlessAnOptionSaysOtherwise) {
     EXPECT_TRUE(picture({"--style", dark}) == picture({"--theme", "dark", "--unit", "in/mi"}));
     EXPECT_TRUE(picture({"--style", dark, "--theme", "light", "--unit", "mm/m"}) == plain);
     EXPECT_TRUE(picture({"--style", style("")}) == plain);
+}
+
+TEST_F(MapStyleProgram, DrawsAsTheDatabasesOwnFileSuggestsUnlessTheUserSaysOtherwise) {
+    const auto plain = picture({});
+    const auto dark = picture({"--theme", "dark"});
+    ASSERT_FALSE(dark == plain);
+    write_file(folder_ / "macadam.toml", "theme = \"dark\"\nlanguage = \"de\"\n");
+    EXPECT_TRUE(picture({}) == dark);
+    setenv("MACADAM_THEME", "light", 1);
+    EXPECT_TRUE(picture({}) == plain);
+    EXPECT_TRUE(picture({"--style", style("theme = \"dark\"\n")}) == dark);
+    unsetenv("MACADAM_THEME");
+    EXPECT_THAT(report({}), HasSubstr("<html lang=\"de\""));
+}
+
+TEST_F(MapStyleProgram, IgnoresAFileBesideTheDatabaseThatIsWrongAndSaysSo) {
+    const auto plain = picture({});
+    const auto file = folder_ / "macadam.toml";
+    write_file(file, "theme = \"dark\"\nmin_passes = 9\n");
+    const auto run = render({});
+    EXPECT_EQ(run.exit_status, 0);
+    EXPECT_THAT(run.err, HasSubstr("macadam.toml:2: unknown key"));
+    EXPECT_THAT(run.err, HasSubstr("expected unit, language, theme, colours; the file is ignored"));
+    EXPECT_TRUE(read_file(picture_file()) == plain);
+    fs::remove(file);
+    fs::create_symlink(style("theme = \"dark\"\n"), file);
+    EXPECT_THAT(render({}).err, HasSubstr("is a link, which is not followed; the file is ignored"));
+    EXPECT_TRUE(read_file(picture_file()) == plain);
+}
+
+TEST_F(MapStyleProgram, TakesDefaultsWithoutRefusingThoseThatHaveNoEffect) {
+    setenv("MACADAM_PAPER", "letter", 1);
+    setenv("MACADAM_THEME", "print", 1);
+    setenv("MACADAM_JOBS", "2", 1);
+    EXPECT_FALSE(report({}).empty());
+    const auto rows = (folder_ / "roads.csv").string();
+    const auto run = run_macadam({"export", store_, "-o", rows});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    setenv("MACADAM_JOBS", "many", 1);
+    const auto tiles = run_macadam({"export", store_, "-o", (folder_ / "a.mbtiles").string()});
+    EXPECT_EQ(tiles.exit_status, 2);
+    EXPECT_THAT(tiles.err, HasSubstr("--jobs many comes from MACADAM_JOBS"));
+    for (const auto* const name : {"MACADAM_PAPER", "MACADAM_THEME", "MACADAM_JOBS"}) {
+        unsetenv(name);
+    }
 }
 
 TEST_F(MapStyleProgram, KnowsTheShippedTableAsAFileOfItsOwn) {

@@ -187,6 +187,8 @@ TEST_F(Reference, ReportsForPeopleWithPictures) {
     ran({"report", store_, "--against-reference", "-o", csv});
     EXPECT_THAT(read_file(csv), HasSubstr("\nsegment,truth,11+0005,11+0005,"));
     EXPECT_THAT(read_file(csv), HasSubstr("\n100m,truth,11"));
+    EXPECT_EQ(ran({"report", store_, "--against-reference", "--format", "csv"}).out,
+              read_file(csv));
 }
 
 TEST_F(Reference, ReportsInTheLanguageAndUnitThatItIsAskedFor) {
@@ -300,7 +302,17 @@ TEST_F(Reference, RefusesWithWords) {
     EXPECT_THAT(report.err, HasSubstr("contains no reference survey and no control section"));
     const auto picture = run_macadam({"report", store_, "--against-reference", "-o", "a.png"});
     EXPECT_EQ(picture.exit_status, 2);
-    EXPECT_THAT(picture.err, HasSubstr("expected a name that ends in .html, .pdf, .json or .csv"));
+    EXPECT_THAT(picture.err,
+                HasSubstr("expected a name that ends in .html, .pdf, .csv, .json, or "
+                          "--format"));
+    const auto page =
+        run_macadam({"report", store_, "--against-reference", "-o", "a.html", "--json"});
+    EXPECT_EQ(page.exit_status, 2);
+    EXPECT_THAT(page.err,
+                HasSubstr("-o a.html is a page, which --format and --json do not concern"));
+    const auto whole = run_macadam({"report", store_, "-o", "a.html", "--format", "csv"});
+    EXPECT_EQ(whole.exit_status, 2);
+    EXPECT_THAT(whole.err, HasSubstr("--format requires --against-reference"));
 }
 
 } // namespace

@@ -9,6 +9,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace macadam::testing {
 namespace {
 
@@ -30,6 +36,10 @@ protected:
     macadam::testing::Run run(const std::string& command, std::vector<std::string> words) const {
         words.insert(words.begin(), {command, store_});
         return run_macadam(words);
+    }
+
+    std::string beside(const std::string& name) const {
+        return (std::filesystem::path{store_}.parent_path() / name).string();
     }
 
     std::string digest() const { return run("info", {"--digest"}).out; }
@@ -120,6 +130,60 @@ TEST_F(UpkeepProgram, CalibratesTheCarsAndTellsThem) {
     EXPECT_EQ(info["generation"], 2);
     EXPECT_TRUE(info["cars"][0]["gain"].is_number());
     EXPECT_THAT(run("info", {}).out, HasSubstr(" IRI "));
+}
+
+TEST_F(UpkeepProgram, WritesTheRowsOfACalibrationInEachFormat) {
+    const auto csv = run("calibrate", {"--dry-run", "--format", "csv"});
+    EXPECT_EQ(csv.exit_status, 0) << csv.err;
+    EXPECT_THAT(
+        csv.out,
+        StartsWith("vehicle,trips,shared_passes,gain,offset_mm_per_m,relative_sd,scatter\n"));
+    EXPECT_EQ(std::ranges::count(csv.out, '\n'), 4);
+    const auto file = beside("cars.csv");
+    EXPECT_EQ(run("calibrate", {"--dry-run", "-o", file}).out, "");
+    EXPECT_EQ(read_file(file), csv.out);
+    const auto refused = run("calibrate", {"--dry-run", "-o", "cars.xls"});
+    EXPECT_EQ(refused.exit_status, 2);
+    EXPECT_THAT(
+        refused.err,
+        HasSubstr("-o is 'cars.xls', expected a name that ends in .csv, .json, or --format"));
+}
+
+TEST_F(UpkeepProgram, PrintsOneTableOfADatabaseWithAllItsRows) {
+    const auto json = Json::parse(run("info", {"--json"}).out);
+    const std::vector<std::pair<std::string, std::string>> tables{
+        {"classes", "classes"},
+        {"road-classes", "road_classes"},
+        {"cars", "cars"},
+        {"months", "passes_per_month"},
+        {"days", "passes_per_day"},
+        {"surveys", "surveys"},
+        {"control-sections", "control_sections"}};
+    for (const auto& [name, member] : tables) {
+        const auto csv = run("info", {"--table", name, "--format", "csv"}).out;
+        EXPECT_EQ(std::ranges::count(csv, '\n'), std::ssize(json[member]) + 1) << name;
+    }
+    EXPECT_EQ(Json::parse(run("info", {"--table", "cars", "--json"}).out), json["cars"]);
+    EXPECT_THAT(run("info", {"--table", "months"}).out, StartsWith("month "));
+    EXPECT_THAT(run("info", {"--audit", "--format", "csv"}).out,
+                StartsWith("at,generation,what,detail,segments\n"));
+    const auto whole = beside("info.json");
+    EXPECT_EQ(run("info", {"-o", whole}).out, "");
+    EXPECT_EQ(Json::parse(read_file(whole)), json);
+}
+
+TEST_F(UpkeepProgram, RefusesCsvOfMoreThanOneTable) {
+    const auto refusal = [&](std::vector<std::string> words) {
+        const auto done = run("info", std::move(words));
+        EXPECT_EQ(done.exit_status, 2);
+        return done.err;
+    };
+    const auto* const one = "CSV holds one table, expected --table NAME, --audit or --truth FILE";
+    EXPECT_THAT(refusal({"--format", "csv"}), HasSubstr(one));
+    EXPECT_THAT(refusal({"-o", "info.csv"}), HasSubstr(one));
+    EXPECT_THAT(refusal({"--digest", "--format", "csv"}), HasSubstr(one));
+    EXPECT_THAT(refusal({"--audit", "--table", "cars"}),
+                HasSubstr("--audit and --table cannot be combined"));
 }
 
 TEST_F(UpkeepProgram, LeavesAStoreAsItWasWhereNoCarCanBeCalibrated) {

@@ -3,11 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <execinfo.h>
 #include <unistd.h>
@@ -55,9 +58,31 @@ void set_time_limit(int argc, char** argv) {
     ::testing::UnitTest::GetInstance()->listeners().Append(new TimeLimit{limit_s}); // which owns it
 }
 
+/// Keeps the developer's own settings from the program under test: its configuration file,
+/// variables with defaults of options, and colours.
+void forget_own_settings() {
+    constexpr std::string_view ours{"MACADAM_"};
+    constexpr std::array tests{std::string_view{"MACADAM_TEST_"},
+                               std::string_view{"MACADAM_LEAVE_"}};
+    std::vector<std::string> names{"NO_COLOR", "CLICOLOR_FORCE"};
+    for (auto** variable = environ; *variable != nullptr; ++variable) {
+        const std::string_view text{*variable};
+        const bool is_of_tests = std::ranges::any_of(
+            tests, [&](std::string_view prefix) { return text.starts_with(prefix); });
+        if (text.starts_with(ours) && !is_of_tests) {
+            names.emplace_back(text.substr(0, text.find('=')));
+        }
+    }
+    for (const auto& name : names) {
+        ::unsetenv(name.c_str());
+    }
+    ::setenv("XDG_CONFIG_HOME", "/dev/null", 1); // holds no file
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+    forget_own_settings();
     ::testing::InitGoogleMock(&argc, argv);
     set_time_limit(argc, argv);
     return RUN_ALL_TESTS();
