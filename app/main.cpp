@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/memory_limit.hpp"
 #include "app/cli/terminal_escape.hpp"
+#include "app/progress/progress_display.hpp"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@ namespace {
 
 /// Writes to standard error; a failure there cannot be reported.
 void say(const std::string& words) {
+    macadam::clear_progress_bar();
     std::fputs(macadam::printable(words).c_str(), stderr);
 }
 

@@ -62,11 +62,11 @@ void say_what_was_left(const Command& command, const Arguments& arguments, const
 
 std::span<const Command> commands() {
     static const std::array table{
-        init_command,    import_command,   calibrate_command, reprocess_command, valid_from_command,
-        forget_command,  privacy_command,  publish_command,   upgrade_command,   query_command,
-        export_command,  render_command,   report_command,    compare_command,   info_command,
-        iri_command,     identify_command, trace_command,     match_command,     convert_command,
-        simulate_command};
+        init_command,       import_command,  watch_command,    calibrate_command, reprocess_command,
+        valid_from_command, forget_command,  privacy_command,  publish_command,   upgrade_command,
+        query_command,      export_command,  render_command,   report_command,    compare_command,
+        info_command,       iri_command,     identify_command, trace_command,     match_command,
+        convert_command,    simulate_command};
     return table;
 }
 
@@ -165,7 +165,9 @@ std::string help_of_all() {
 void run(const Command& command, std::vector<std::string> words) {
     const auto options = options_of(command);
     const Arguments arguments{options, command.operands, std::move(words)};
-    const InterruptHandler interruption{command.name};
+    const InterruptHandler interruption{
+        command.name,
+        {.is_quiet = arguments.flag("--quiet"), .runs_until_stopped = command.runs_until_stopped}};
     const Console console{arguments.flag("--quiet"), interruption.stop()};
     for (const auto& note : arguments.notes()) {
         console.say(fmt::format("macadam: note: {}", note));

@@ -42,6 +42,9 @@ public:
     /// \throws InputError  if a vehicle file beside the trip is invalid.
     ChosenVehicle operator()(const std::filesystem::path& trip_file, const std::string& vehicle_id);
 
+    /// Car of --vehicle; `std::nullopt` without the option.
+    const std::optional<ChosenVehicle>& for_all() const { return for_all_; }
+
 private:
     using ByName = std::map<std::string, Vehicle>;
     const ByName& in_folder(const std::filesystem::path& folder);
