@@ -106,5 +106,25 @@ TEST(RepeatedImport, WithOtherSettingsSaysSoInOneLine) {
                 HasSubstr("2 trips were imported before with --vehicle golden-car"));
 }
 
+TEST(EmptyMap, IsToldWithWhatToDoNext) {
+    const auto made = world();
+    const auto out = [&](const char* name) { return (made.folder / name).string(); };
+    const std::vector<std::vector<std::string>> commands{
+        {"render", made.store, "-o", out("map.png"), "--size", "400x300"},
+        {"report", made.store, "-o", out("report.html")},
+        {"export", made.store, "-o", out("roads.geojson")},
+        {"query", made.store, "--format", "csv"}};
+    for (const auto& words : commands) {
+        const auto run = run_macadam(words);
+        EXPECT_EQ(run.exit_status, 0) << run.err;
+        EXPECT_THAT(run.err,
+                    HasSubstr(fmt::format("warning: {}: the map is empty: no trips yet; 'macadam "
+                                          "import {} TRIPS' adds them",
+                                          made.store,
+                                          made.store)));
+    }
+    EXPECT_THAT(read_file(out("report.html")), HasSubstr("No measurements yet."));
+}
+
 } // namespace
 } // namespace macadam::testing
