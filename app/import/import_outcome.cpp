@@ -39,8 +39,10 @@ outside_text(std::span<const GeoPoint> outside, std::size_t looked_at, const Geo
                      : looked_at == 1
                          ? std::string{"the trip does not touch this map"}
                          : fmt::format("none of {} touches this map", counted(looked_at, "trip"));
+    constexpr double margin_m = 1000;
+    const auto near_map = grown(map, margin_m);
     const auto lies_exchanged = [&](const GeoPoint& at) {
-        return contains(map, {at.lon_deg, at.lat_deg}) && !contains(map, at);
+        return contains(near_map, {at.lon_deg, at.lat_deg}) && !contains(near_map, at);
     };
     return fmt::format("{}: {} near {}; map covers {:.2f},{:.2f} to {:.2f},{:.2f} (W,S to E,N){}",
                        who,

@@ -85,8 +85,7 @@ std::string text_lines(const TripReport& trip) {
     if (trip.result == TripReport::Result::outside) {
         return fmt::format("{:<9} {}: touches no road of this map, not stored\n",
                            result,
-                           printable_name(trip.file)) +
-               notes(trip.warnings);
+                           printable_name(trip.file));
     }
     if (trip.result == TripReport::Result::known || trip.result == TripReport::Result::unknown) {
         const bool is_explained =

@@ -51,6 +51,9 @@ SettledTrips::Version SettledTrips::version_of(const fs::path& trip) {
 bool SettledTrips::is_complete(const fs::path& trip,
                                const Candidate& candidate,
                                Clock::time_point now) {
+    if (candidate.version == Version{}) {
+        return false; // it vanished meanwhile
+    }
     const auto age = std::max<Clock::duration>(
         now - candidate.since, fs::file_time_type::clock::now() - candidate.version.changed);
     if (trip.filename().string().ends_with(".trip.csv") && age < patience) {

@@ -37,7 +37,7 @@ private:
     /// Size and time of change of a file, or of all files of an export.
     struct Version {
         std::uintmax_t bytes = 0;
-        std::filesystem::file_time_type changed{};
+        std::filesystem::file_time_type changed = std::filesystem::file_time_type::min();
         friend bool operator==(const Version&, const Version&) = default;
     };
     struct Candidate {

@@ -113,7 +113,7 @@ TEST(EmptyMap, IsToldWithWhatToDoNext) {
         {"render", made.store, "-o", out("map.png"), "--size", "400x300"},
         {"report", made.store, "-o", out("report.html")},
         {"export", made.store, "-o", out("roads.geojson")},
-        {"query", made.store, "--format", "csv"}};
+        {"query", made.store, "--worst", "1", "--segments"}};
     for (const auto& words : commands) {
         const auto run = run_macadam(words);
         EXPECT_EQ(run.exit_status, 0) << run.err;
