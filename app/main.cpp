@@ -3,6 +3,7 @@
 #include "app/cli/terminal_escape.hpp"
 #include "app/config/config_help.hpp"
 #include "app/config/user_defaults.hpp"
+#include "app/progress/progress_display.hpp"
 #include "app/terminal/text_style.hpp"
 
 #include <fmt/format.h>
@@ -22,6 +23,7 @@ namespace {
 /// Writes to standard error; a failure there cannot be reported.
 /// \param name   of the program or command that failed, in the colour of errors
 void say(std::string_view name, const std::string& words) {
+    macadam::clear_progress_bar();
     const auto label = macadam::styled(macadam::TextStyle::error, name, STDERR_FILENO);
     std::fputs(fmt::format("{}: {}", label, macadam::printable(words)).c_str(), stderr);
 }

@@ -126,12 +126,12 @@ void say_what_was_left(const Command& command, const Arguments& arguments, const
 
 std::span<const Command> commands() {
     static const std::array table{
-        init_command,       import_command,  calibrate_command, reprocess_command,
-        valid_from_command, forget_command,  privacy_command,   publish_command,
-        upgrade_command,    query_command,   export_command,    render_command,
-        report_command,     compare_command, info_command,      iri_command,
-        identify_command,   trace_command,   match_command,     convert_command,
-        vehicles_command,   simulate_command};
+        init_command,      import_command,     watch_command,   calibrate_command,
+        reprocess_command, valid_from_command, forget_command,  privacy_command,
+        publish_command,   upgrade_command,    query_command,   export_command,
+        render_command,    report_command,     compare_command, info_command,
+        iri_command,       identify_command,   trace_command,   match_command,
+        convert_command,   vehicles_command,   simulate_command};
     return table;
 }
 
@@ -246,8 +246,11 @@ void run(const Command& command,
     const auto options = options_of(command);
     Arguments arguments{options, command.operands, std::move(words)};
     arguments.adopt(defaults);
-    const InterruptHandler interruption{command.name};
-    const Console console{verbosity_of(arguments), interruption.stop()};
+    const auto verbosity = verbosity_of(arguments);
+    const InterruptHandler interruption{command.name,
+                                        {.is_quiet = verbosity == Verbosity::quiet,
+                                         .runs_until_stopped = command.runs_until_stopped}};
+    const Console console{verbosity, interruption.stop()};
     tell_settings(options, arguments, console);
     for (const auto& note : arguments.notes()) {
         console.say(fmt::format("macadam: note: {}", note));

@@ -19,6 +19,7 @@ struct Command {
     std::span<const Operand> operands;
     std::span<const Option> options;
     void (*run)(const Arguments&, const Console&);
+    bool runs_until_stopped = false; ///< INT and TERM are its ordinary end: exit status 0
 };
 
 /// Returns all commands, in the order of a typical workflow.
@@ -65,6 +66,7 @@ void run(const Command& command,
 extern const Command init_command;       // app/store/command_init.cpp
 extern const Command identify_command;   // app/profile/command_identify.cpp
 extern const Command import_command;     // app/import/command_import.cpp
+extern const Command watch_command;      // app/watch/command_watch.cpp
 extern const Command calibrate_command;  // app/store/command_calibrate.cpp
 extern const Command reprocess_command;  // app/import/command_reprocess.cpp
 extern const Command valid_from_command; // app/store/command_valid_from.cpp

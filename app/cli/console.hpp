@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/progress/progress_display.hpp"
 #include "estimator/common/progress.hpp"
 
 #include <chrono>
@@ -28,9 +29,9 @@ public:
     void detail(std::string_view line) const;
     void warn(std::string_view line) const; ///< "macadam: warning: ..."
 
-    /// Returns a progress bar on a terminal; silent elsewhere and when quiet. The bar disappears
-    /// when it is full. The result carries the user's stop token.
-    Progress progress(std::string label) const;
+    /// Returns a progress display (app/progress/progress_display.hpp), silent when quiet. The
+    /// result carries the user's stop token.
+    Progress progress(std::string label, ProgressUnit unit = {}) const;
 
     const std::stop_token& stop() const { return stop_; }
     bool is_quiet() const { return verbosity_ == Verbosity::quiet; }

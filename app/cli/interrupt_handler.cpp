@@ -35,7 +35,9 @@ constexpr std::array interrupting{SIGINT, SIGTERM, SIGHUP};
 struct Wish {
     /// A stop request takes no lock as long as no std::stop_callback is registered.
     std::optional<std::stop_source> stop;
+    std::string acknowledgement; ///< "" when quiet
     std::string last_words;
+    int last_status = 1;
     pid_t process = 0; ///< forked processes handle signals themselves
     std::atomic<bool> is_known = false;
 };
@@ -48,6 +50,10 @@ void wake_after(int time_ms) {
     itimerval timer{};
     timer.it_value = {.tv_sec = time_ms / 1000, .tv_usec = time_ms % 1000 * 1000};
     ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+void say(const std::string& words) {
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, words.data(), words.size());
 }
 
 /// Removes unfinished files and ends the process by the signal's default action.
@@ -63,6 +69,7 @@ void interrupted(int signal) {
         cut_off(signal);
     } else {
         wish.stop->request_stop();
+        say(wish.acknowledgement);
         wake_after(databases_open_for_writing() > 0 ? grace_ms : reader_wait_ms);
     }
     errno = error;
@@ -70,9 +77,8 @@ void interrupted(int signal) {
 
 void end_of_wait(int /*signal*/) {
     remove_unfinished();
-    [[maybe_unused]] const auto written =
-        ::write(STDERR_FILENO, wish.last_words.data(), wish.last_words.size());
-    ::_exit(1);
+    say(wish.last_words);
+    ::_exit(wish.last_status);
 }
 
 /// Installs a handler that blocks the other signals while it runs.
@@ -89,11 +95,18 @@ void handle(int signal, void (*handler)(int), struct sigaction* replaced) {
 
 } // namespace
 
-InterruptHandler::InterruptHandler(std::string_view command) {
+InterruptHandler::InterruptHandler(std::string_view command, InterruptConfig config) {
     wish.stop.emplace();
-    wish.last_words = fmt::format("{}macadam {}: interrupted; unfinished work was discarded\n",
-                                  ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", // clears a bar
-                                  command);
+    const auto* const clear_bar = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+    wish.acknowledgement = config.is_quiet
+                               ? std::string{}
+                               : fmt::format("{}macadam {}: stopping; press Ctrl-C again to stop "
+                                             "at once\n",
+                                             clear_bar,
+                                             command);
+    wish.last_words = fmt::format(
+        "{}macadam {}: interrupted; unfinished work was discarded\n", clear_bar, command);
+    wish.last_status = config.runs_until_stopped ? 0 : 1;
     wish.process = ::getpid();
     wish.is_known = false;
     handle(SIGALRM, end_of_wait, nullptr);

@@ -5,6 +5,7 @@
 #include "estimator/common/error.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "storage/networks/osm_tags.hpp"
+#include "storage/store/connection/import_lock.hpp"
 #include "storage/text/spelling.hpp"
 
 #include <fmt/format.h>
@@ -101,12 +102,23 @@ void expect_known_class(const SegmentFilter& filter, const StoreReader& store) {
 void warn_of_waiting(const StoreReader& store,
                      const std::filesystem::path& file,
                      const Console& console) {
-    if (const auto waiting = store.waiting(); waiting > 0) {
-        console.warn(
-            fmt::format("{}: {} segments have passes that are not fused yet because an import was "
-                        "interrupted; run 'macadam import' again",
-                        file.string(),
-                        waiting));
+    bool is_running = is_import_running(file);
+    auto waiting = store.waiting();
+    if (!is_running && waiting > 0) { // an import may have begun or ended meanwhile
+        is_running = is_import_running(file);
+        waiting = store.waiting();
+    }
+    const auto segments = counted(waiting, "segment");
+    if (is_running) {
+        console.say(fmt::format("{}: an import is running; values hold what it has fused so far{}",
+                                file.string(),
+                                waiting > 0 ? fmt::format(", {} not yet", segments) : ""));
+    } else if (waiting > 0) {
+        console.warn(fmt::format("{}: {} {} passes that are not fused yet because an import was "
+                                 "interrupted; run 'macadam import' again",
+                                 file.string(),
+                                 segments,
+                                 waiting == 1 ? "has" : "have"));
     }
 }
 

@@ -57,7 +57,7 @@ void expect_known_highway(const SegmentFilter& filter, const StoreReader& store)
 /// \throws UsageError  if the database's class table has no such class.
 void expect_known_class(const SegmentFilter& filter, const StoreReader& store);
 
-/// Warns if an import was interrupted before its passes were fused.
+/// Says that an import is running, or warns if one was interrupted before its passes were fused.
 void warn_of_waiting(const StoreReader& store,
                      const std::filesystem::path& file,
                      const Console& console);

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/database/empty_map_message.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
@@ -143,6 +144,7 @@ void run_export(const Arguments& arguments, const Console& console) {
     expect_known_class(options.filter, store);
     expect_known_highway(options.filter, store);
     warn_of_waiting(store, options.store, console);
+    warn_of_empty_map(store, console);
     tell_publication(store, console);
     if (options.sections) {
         export_sections(store, options, console);

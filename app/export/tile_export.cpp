@@ -15,7 +15,6 @@ namespace macadam {
 namespace {
 
 constexpr int farthest_zoom = 18; // a unit of a tile is then 4 cm at the equator
-constexpr std::int64_t max_jobs = 256;
 
 /// Parses "6-16", or "14" alone.
 std::optional<std::pair<int, int>> zooms_in(const std::string& text) {
@@ -96,11 +95,7 @@ TilePlan parse_tile_plan(const Arguments& arguments) {
         }
         std::tie(plan.min_zoom, plan.max_zoom) = *zooms;
     }
-    const auto jobs = arguments.integer("--jobs").value_or(1);
-    if (jobs < 1 || jobs > max_jobs) {
-        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, max_jobs)};
-    }
-    plan.jobs = static_cast<std::size_t>(jobs);
+    plan.jobs = jobs_of(arguments);
     return plan;
 }
 

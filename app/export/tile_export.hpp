@@ -3,6 +3,7 @@
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
 #include "app/export/tile_pyramid.hpp"
+#include "app/parallel/jobs_option.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
 #include <filesystem>
@@ -16,8 +17,8 @@ inline constexpr Option zoom_option =
               "A-B",
               "Tiles: zoom levels, from 0 to 18 (single segments appear from zoom 14).",
               "6-16"});
-inline constexpr Option tile_jobs_option =
-    preference(in_group("tiles", {"--jobs", "N", "Tiles: number of parallel jobs.", "1"}));
+inline constexpr Option tile_jobs_option = preference(
+    in_group("tiles", {"--jobs", "N", "Tiles: number of parallel jobs.", default_jobs_words}));
 
 /// Returns whether the path is an output for tiles: a file with a suffix of archives, or a folder.
 bool is_tile_archive(const std::filesystem::path& place);

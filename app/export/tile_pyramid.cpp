@@ -1,6 +1,6 @@
 #include "app/export/tile_pyramid.hpp"
 
-#include "app/cli/parallel_for.hpp"
+#include "app/parallel/parallel_for.hpp"
 #include "estimator/common/error.hpp"
 #include "mapping/tiles/tile_generalisation.hpp"
 #include "render/tiles/mvt_tile.hpp"

@@ -1,8 +1,10 @@
 #include "app/cli/commands.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/import/import_outcome.hpp"
 #include "app/import/import_trips.hpp"
 #include "app/import/trip_inputs.hpp"
+#include "app/import/trip_progress.hpp"
 #include "app/import/trip_report_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
@@ -31,13 +33,14 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     const bool json = arguments.flag("--json");
     const auto tell = [&](const TripReport& trip) { print_report(trip, json, console); };
 
-    const auto working = console.progress("reprocessing");
+    const auto working =
+        console.progress("reprocessing", {.name = "trip", .parts = TripProgress::whole_trip});
     const ImportWork work{.pipeline = config, .jobs = jobs, .reprocess = true};
     const auto totals = import_trips(store, trips, vehicles, work, working, tell);
-    working(1, 1); // clears the progress bar
     if (totals.interrupted) {
         throw InputError{"interrupted: the database is unchanged"};
     }
+    expect_on_map(totals, store, console);
     if (totals.imported == 0) {
         throw InputError{fmt::format("no trip of {} was reprocessed: the database is unchanged",
                                      counted(totals.looked_at(), "trip"))};

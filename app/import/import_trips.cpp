@@ -1,6 +1,8 @@
 #include "app/import/import_trips.hpp"
 
+#include "app/import/commit_batch.hpp"
 #include "app/import/ordered_worker_pool.hpp"
+#include "app/import/trip_progress.hpp"
 #include "app/pipeline/privacy_trim.hpp"
 #include "app/pipeline/single_trip.hpp"
 
@@ -8,8 +10,10 @@
 #include "storage/trips/trip_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -17,19 +21,11 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace macadam {
 namespace {
-
-/// One trip on its way into the database.
-struct ProcessedTrip {
-    TripReport report;
-    TripRecord record; ///< valid, as are passes and traces, if the report says so
-    std::vector<Pass> passes;
-    std::vector<RoughnessTrace> traces;
-    std::optional<std::vector<PassEvent>> events;
-};
 
 /// What all workers share.
 struct Intake {
@@ -39,10 +35,21 @@ struct Intake {
     const RoadNetwork& roads;
     const ImportWork& work; ///< with the database's trim rule
     std::stop_token stop;
+    std::atomic<std::size_t>& done; ///< thousandths of trips
 };
 
 std::int64_t thousandths(double value) {
     return std::llround(value * 1000);
+}
+
+std::string_view name_of(Method method) {
+    return method == Method::kf ? "kf" : "smoother";
+}
+
+/// Returns the name of a car that may be stored. A car from a user's file is named after its
+/// vehicle_id, which the database does not keep.
+std::string model_name(const ChosenVehicle& car) {
+    return car.built_in ? car.vehicle.name : std::string{own_file_model};
 }
 
 TripRecord record_of(const TripSource& source,
@@ -60,7 +67,7 @@ TripRecord record_of(const TripSource& source,
         record.t0_utc_ms = thousandths(*meta.t0_utc_s) + *begin_ms;
     }
     record.vehicle_model = vehicle_model;
-    record.method = method == Method::kf ? "kf" : "smoother";
+    record.method = name_of(method);
     record.distance_mm = thousandths(report.distance_m);
     record.matched_mm = thousandths(report.matched_m);
     record.rows_read = report.rows.read;
@@ -89,6 +96,23 @@ std::vector<std::string> unchanged_car_text(const Intake& intake, const std::str
                         sha256)};
 }
 
+/// Returns the settings with which a trip was imported, as far as the database keeps them and
+/// others are asked for: "--method kf --vehicle van"; "" = none.
+std::string earlier_settings(const Intake& intake, const std::string& sha256) {
+    const auto earlier = intake.store.settings_of_trip(sha256);
+    std::vector<std::string> words;
+    if (earlier && earlier->method != name_of(intake.work.pipeline.estimator.method)) {
+        words.push_back("--method " + earlier->method);
+    }
+    const auto& car = intake.vehicles.for_all();
+    if (earlier && car && earlier->vehicle_model != model_name(*car)) {
+        words.push_back(earlier->vehicle_model == own_file_model
+                            ? std::string{"a vehicle file"}
+                            : "--vehicle " + earlier->vehicle_model);
+    }
+    return fmt::format("{}", fmt::join(words, " and "));
+}
+
 /// Looks up a trip by the hash of its content. Returns whether to skip it; the report says why.
 bool is_skipped(const Intake& intake, const std::string& sha256, TripReport& report) {
     using Result = TripReport::Result;
@@ -108,6 +132,7 @@ bool is_skipped(const Intake& intake, const std::string& sha256, TripReport& rep
     if (is_known) {
         auto warnings = known_text(intake.work.pipeline.trim);
         std::ranges::move(unchanged_car_text(intake, sha256), std::back_inserter(warnings));
+        report.earlier_settings = earlier_settings(intake, sha256);
         return skip(Result::known, std::move(warnings));
     }
     return !intake.work.readmit && intake.store.has_forgotten(sha256) &&
@@ -129,8 +154,10 @@ std::string refusal_in(const std::string& file, Step step) {
 
 /// Reads a trip once, and looks it up before parsing if its content is short. If there is no log to
 /// process, the report says why.
-std::optional<TripLog>
-read_once(const Intake& intake, const TripSource& source, TripReport& report) {
+std::optional<TripLog> read_once(const Intake& intake,
+                                 const TripSource& source,
+                                 TripReport& report,
+                                 const Progress& progress) {
     std::optional<OpenTrip> trip;
     std::optional<std::string> sha256;
     report.error = refusal_in(report.file, [&] { sha256 = trip.emplace(source).sha256_ahead(); });
@@ -138,7 +165,6 @@ read_once(const Intake& intake, const TripSource& source, TripReport& report) {
         return std::nullopt;
     }
     std::optional<TripLog> log;
-    const Progress progress{.report = {}, .stop = intake.stop};
     report.error = refusal_in(report.file, [&] { log = trip->read(needs_of_import(), progress); });
     if (sha256 || (!log && intake.stop.stop_requested())) {
         return log;
@@ -151,7 +177,11 @@ read_once(const Intake& intake, const TripSource& source, TripReport& report) {
 }
 
 /// Estimates and matches a trip.
-void add_passes(ProcessedTrip& trip, const Intake& intake, const TripSource& source, TripLog log) {
+void add_passes(ProcessedTrip& trip,
+                const Intake& intake,
+                const TripSource& source,
+                TripLog log,
+                const Progress& progress) {
     auto& report = trip.report;
     with_trip_name(report.file, [&] { intake.vehicles.name_car(log.meta); });
     const auto meta = log.meta;
@@ -160,12 +190,14 @@ void add_passes(ProcessedTrip& trip, const Intake& intake, const TripSource& sou
     report.vehicle = chosen.vehicle.name;
     report.rows.read = report.rows.rejected = log.rows.size();
     auto result = with_trip_name(report.file, [&] {
-        return passes_of(std::move(log), chosen.vehicle, intake.roads, intake.work.pipeline);
+        return passes_of(
+            std::move(log), chosen.vehicle, intake.roads, intake.work.pipeline, progress);
     });
     report.rows = std::move(result.rows);
     report.distance_m = result.distance_m;
     report.matched_m = result.matched_m;
     report.passes = result.passes.size();
+    report.outside_at = result.outside_at;
     report.warnings = std::move(result.warnings);
     if (!chosen.warning.empty()) {
         report.warnings.push_back(chosen.warning);
@@ -173,17 +205,19 @@ void add_passes(ProcessedTrip& trip, const Intake& intake, const TripSource& sou
     if (!meta.t0_utc_s) {
         report.warnings.emplace_back("no date in the log (t0_utc): date filters ignore this trip");
     }
-    // A car from a user's file is named after its vehicle_id, which the database does not keep.
     trip.record = record_of(source,
                             meta,
                             report,
                             result.begin_ms,
-                            chosen.built_in ? chosen.vehicle.name : std::string{own_file_model},
+                            model_name(chosen),
                             intake.work.pipeline.estimator.method);
     trip.passes = std::move(result.passes);
     trip.traces = std::move(result.traces);
     trip.events = std::move(result.events);
 }
+
+// Reading takes about a tenth of the time of a trip, estimating the rest.
+constexpr std::size_t trip_is_read = TripProgress::whole_trip / 10;
 
 /// Processes one trip from file to passes. Its errors become part of the report; those of the
 /// database are thrown.
@@ -192,14 +226,19 @@ ProcessedTrip process_trip(const Intake& intake, const TripSource& source) {
     ProcessedTrip trip;
     auto& report = trip.report;
     report.file = source.name();
-    auto log = read_once(intake, source, report);
+    TripProgress progress{intake.done, intake.stop};
+    auto log = read_once(intake, source, report, progress.step(0, trip_is_read));
     if (!log) {
         return trip;
     }
-    report.error =
-        refusal_in(report.file, [&] { add_passes(trip, intake, source, std::move(*log)); });
+    report.error = refusal_in(report.file, [&] {
+        const auto estimating = progress.step(trip_is_read, TripProgress::whole_trip);
+        add_passes(trip, intake, source, std::move(*log), estimating);
+    });
     if (report.error.empty()) {
-        report.result = intake.work.reprocess ? Result::reprocessed : Result::imported;
+        report.result = report.outside_at       ? Result::outside
+                        : intake.work.reprocess ? Result::reprocessed
+                                                : Result::imported;
     } else if (report.rows.read > 0) {
         report.rows.reasons = {{"trip_rejected", report.rows.read}};
     }
@@ -251,97 +290,117 @@ void put(const Intake& intake, std::vector<ProcessedTrip>& trips) {
 using Clock = std::chrono::steady_clock;
 using TripPool = OrderedWorkerPool<TripSource, ProcessedTrip>;
 
-// A commit takes the same disk time for one trip as for many. Uncommitted trips must be processed
-// again after a kill.
-constexpr std::size_t most_together = 100; // trips
-constexpr std::size_t max_passes_together = 50'000;
-constexpr std::chrono::seconds longest_together{1};
-
-/// Trips that are committed together and then reported, in their order.
-class CommitBatch {
-public:
-    void add(ProcessedTrip trip) {
-        if (trips_.empty()) {
-            due_ = Clock::now() + longest_together;
-        }
-        passes_ += trip.passes.size();
-        trips_.push_back(std::move(trip));
-    }
-
-    /// Time of the next commit; `std::nullopt` if no trip waits.
-    TripPool::Deadline due() const { return trips_.empty() ? TripPool::Deadline{} : due_; }
-
-    bool is_full() const {
-        return trips_.size() >= most_together || passes_ >= max_passes_together ||
-               (!trips_.empty() && Clock::now() >= due_);
-    }
-
-    std::vector<ProcessedTrip> empty() {
-        passes_ = 0;
-        return std::exchange(trips_, {});
-    }
-
-private:
-    std::vector<ProcessedTrip> trips_;
-    std::size_t passes_ = 0;
-    Clock::time_point due_;
-};
-
 void add(ImportTotals& totals, const TripReport& report) {
     const bool is_taken = has_passes(report);
     const bool is_rejected = report.result == TripReport::Result::rejected;
+    const bool is_outside = report.result == TripReport::Result::outside;
     totals.imported += is_taken ? 1U : 0U;
     totals.rejected += is_rejected ? 1U : 0U;
-    totals.known += !is_taken && !is_rejected ? 1U : 0U;
+    totals.known += !is_taken && !is_rejected && !is_outside ? 1U : 0U;
     totals.passes += is_taken ? report.passes : 0U;
+    if (is_outside) {
+        totals.outside.push_back(*report.outside_at);
+    }
+    if (!report.earlier_settings.empty()) {
+        ++totals.earlier_settings[report.earlier_settings];
+    }
 }
 
-ImportTotals process_trips(const Intake& intake,
-                           AskedTrips& trips,
-                           const Progress& progress,
-                           const std::function<void(const TripReport&)>& tell) {
-    ImportTotals totals;
-    TripPool pool{[&] { return trips.next(); },
-                  intake.work.jobs,
-                  [&](const TripSource& source) { return process_trip(intake, source); }};
-    CommitBatch batch;
-    const auto commit = [&] {
-        auto together = batch.empty();
-        put(intake, together);
-        for (const auto& trip : together) {
-            add(totals, trip.report);
-            tell(trip.report);
-            progress(totals.looked_at(), std::max(totals.looked_at(), trips.at_least()));
+/// Import of many trips: workers read and estimate, the caller's thread commits, fuses and reports.
+class TripImport {
+public:
+    TripImport(const Intake& intake,
+               AskedTrips& trips,
+               const Progress& progress,
+               const std::function<void(const TripReport&)>& tell)
+        : intake_{intake}, trips_{trips}, progress_{progress}, tell_{tell},
+          pool_{[this] { return trips_.next(); },
+                intake.work.jobs,
+                [this](const TripSource& source) { return process_trip(intake_, source); }} {}
+
+    ImportTotals run() {
+        const auto& stop = progress_.stop;
+        for (std::size_t i = 0;; ++i) {
+            if (stop.stop_requested() && trips_.count() != i) {
+                totals_.interrupted = true;
+                break;
+            }
+            auto taken = take(i);
+            if (taken.over) {
+                break;
+            }
+            // After a stop a trip is possibly rejected only because of the stop.
+            if (!taken.result || (stop.stop_requested() &&
+                                  taken.result->report.result == TripReport::Result::rejected)) {
+                totals_.interrupted = true;
+                break;
+            }
+            batch_.add(std::move(*taken.result));
+            if (batch_.is_full() || totals_.looked_at() == 0) { // the first report comes soon
+                commit();
+                fuse_if_due();
+            }
         }
-    };
-    const auto& stop = progress.stop;
-    for (std::size_t i = 0;; ++i) {
-        if (stop.stop_requested() && trips.count() != i) {
-            totals.interrupted = true;
-            break;
-        }
-        auto taken = pool.take(i, batch.due(), stop);
-        if (!taken.result && !taken.over) { // a long trip: earlier ones do not wait for it
-            commit();
-            taken = pool.take(i, {}, stop);
-        }
-        if (taken.over) {
-            break;
-        }
-        // After a stop a trip is possibly rejected only because of the stop.
-        if (!taken.result || (stop.stop_requested() &&
-                              taken.result->report.result == TripReport::Result::rejected)) {
-            totals.interrupted = true;
-            break;
-        }
-        batch.add(std::move(*taken.result));
-        if (batch.is_full() || totals.looked_at() == 0) { // the first report comes soon
-            commit();
+        commit();
+        return std::move(totals_);
+    }
+
+private:
+    /// Waits for a trip. Earlier ones do not wait for a long one: they are committed and fused.
+    TripPool::Taken take(std::size_t number) {
+        constexpr std::chrono::milliseconds look_every{250};
+        for (;;) {
+            const auto look = Clock::now() + look_every;
+            auto taken =
+                pool_.take(number, std::min(batch_.due().value_or(look), look), progress_.stop);
+            if (taken.result || taken.over || progress_.stop.stop_requested()) {
+                return taken;
+            }
+            if (batch_.is_full()) {
+                commit();
+            }
+            fuse_if_due();
+            show_progress();
         }
     }
-    commit();
-    return totals;
-}
+
+    void commit() {
+        auto together = batch_.empty();
+        put(intake_, together);
+        for (const auto& trip : together) {
+            add(totals_, trip.report);
+            tell_(trip.report);
+            has_unfused_ = has_unfused_ || has_passes(trip.report);
+        }
+        show_progress();
+    }
+
+    void fuse_if_due() {
+        if (!has_unfused_ || intake_.work.reprocess ||
+            Clock::now() - fused_at_ < intake_.work.fuse_every) {
+            return;
+        }
+        const std::scoped_lock lock{intake_.store_in_use};
+        totals_.fused += intake_.store.importer.refresh({.report = {}, .stop = progress_.stop});
+        has_unfused_ = false;
+        fused_at_ = Clock::now();
+    }
+
+    void show_progress() const {
+        const auto whole = std::max(totals_.looked_at(), trips_.at_least());
+        progress_(intake_.done, whole * TripProgress::whole_trip);
+    }
+
+    const Intake& intake_;
+    AskedTrips& trips_;
+    const Progress& progress_;
+    const std::function<void(const TripReport&)>& tell_;
+    ImportTotals totals_;
+    CommitBatch batch_;
+    bool has_unfused_ = false;
+    Clock::time_point fused_at_ = Clock::now();
+    TripPool pool_; // last member: its workers use the others
+};
 
 } // namespace
 
@@ -355,6 +414,8 @@ std::string_view name_of(TripReport::Result result) {
         return "reprocessed";
     case TripReport::Result::unknown:
         return "unknown";
+    case TripReport::Result::outside:
+        return "outside";
     case TripReport::Result::rejected:
         break;
     }
@@ -371,8 +432,9 @@ ImportTotals import_trips(RoadStore& store,
     auto work = asked;
     work.pipeline.trim = trim_in(store, asked.pipeline.trim);
     std::mutex store_in_use;
-    return process_trips(
-        {store, store_in_use, vehicles, roads, work, progress.stop}, trips, progress, tell);
+    std::atomic<std::size_t> done = 0;
+    const Intake intake{store, store_in_use, vehicles, roads, work, progress.stop, done};
+    return TripImport{intake, trips, progress, tell}.run();
 }
 
 } // namespace macadam

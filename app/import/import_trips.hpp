@@ -6,7 +6,10 @@
 #include "app/pipeline/vehicle_lookup.hpp"
 #include "storage/store/road_store.hpp"
 
+#include <chrono>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +18,7 @@ namespace macadam {
 
 /// Report on one trip of an import: its result, counts and warnings.
 struct TripReport {
-    enum class Result { imported, known, rejected, reprocessed, unknown };
+    enum class Result { imported, known, rejected, outside, reprocessed, unknown };
     Result result = Result::rejected;
     std::string file;
     std::string trip_id;
@@ -26,7 +29,10 @@ struct TripReport {
     double matched_m = 0;   ///< part of distance_m on roads of the network
     std::size_t passes = 0; ///< number
     std::vector<std::string> warnings;
-    std::string error; ///< reason for rejection
+    std::string error;                    ///< reason for rejection
+    std::optional<GeoPoint> outside_at{}; ///< middle of a trip whose result is `outside`
+    /// Settings with which a known trip was imported, if others are asked for: "--method kf".
+    std::string earlier_settings{};
 };
 
 std::string_view name_of(TripReport::Result result);
@@ -36,9 +42,12 @@ struct ImportTotals {
     std::size_t known = 0;    ///< or unknown: unchanged
     std::size_t rejected = 0;
     std::size_t passes = 0;
+    std::size_t fused = 0;                               ///< segments fused meanwhile
+    std::vector<GeoPoint> outside;                       ///< middle of each trip outside the map
+    std::map<std::string, std::size_t> earlier_settings; ///< known trips by TripReport's settings
     bool interrupted = false; ///< progress.stop was requested before the rest was processed
 
-    std::size_t looked_at() const { return imported + known + rejected; }
+    std::size_t looked_at() const { return imported + known + rejected + outside.size(); }
 };
 
 /// Options of an import: how trips are estimated, and which of them are stored.
@@ -48,15 +57,18 @@ struct ImportWork {
     bool reprocess = false; ///< only trips that are in the database, which stages them anew
                             ///< (StoreMaintenance::stage_trip); otherwise only trips that are not
     bool readmit = false;   ///< include trips that were forgotten
+    /// Limit for the time until committed trips are fused, so that readers see them.
+    std::chrono::milliseconds fuse_every{45'000};
     /// Receives warnings about the network beside the database.
     std::function<void(const std::string&)> warn{};
 };
 
 /// Imports or reprocesses trips. `jobs` threads read and estimate them; this thread writes them in
 /// order, in commit batches of 1 s (at most 100 trips), and reports each batch once it is on disk.
-/// An unusable trip is reported and never stops the others. An error of the database itself is
-/// thrown; trips committed before stay. On a stop request the current trip is finished or dropped
-/// and the rest is skipped.
+/// An unusable trip is reported and never stops the others. New passes are fused every
+/// `fuse_every`, those of the last trips are left to the caller. Progress counts thousandths of
+/// trips. An error of the database itself is thrown; trips committed before stay. On a stop request
+/// the current trip is finished or dropped and the rest is skipped.
 ImportTotals import_trips(RoadStore& store,
                           AskedTrips& trips,
                           VehicleChoice& vehicles,

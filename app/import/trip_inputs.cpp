@@ -19,15 +19,6 @@ std::size_t max_members_of(const Arguments& arguments) {
     return static_cast<std::size_t>(count);
 }
 
-std::size_t jobs_of(const Arguments& arguments) {
-    constexpr std::int64_t max_jobs = 256;
-    const auto jobs = arguments.integer("--jobs").value_or(1);
-    if (jobs < 1 || jobs > max_jobs) {
-        throw UsageError{fmt::format("--jobs is {}, expected 1 to {}", jobs, max_jobs)};
-    }
-    return static_cast<std::size_t>(jobs);
-}
-
 AskedTrips::AskedTrips(const std::vector<std::filesystem::path>& paths,
                        const TripWalkConfig& config,
                        const Console& console) {
@@ -91,7 +82,7 @@ void AskedTrips::tell(const Path& path, const Console& console) {
     if (walk.count() == std::size_t{0}) {
         console.warn(fmt::format(
             "{}: contains no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst, *.rawlog) "
-            "and no export of phyphox or Sensor Logger",
+            "and no export of phyphox or Sensor Logger; for other files see 'macadam inspect'",
             path.path.string()));
     }
     if (const auto others = walk.other_files(); others > 0) {

@@ -2,6 +2,7 @@
 
 #include "app/cli/arguments.hpp"
 #include "app/cli/console.hpp"
+#include "app/parallel/jobs_option.hpp"
 #include "storage/trips/trip_search.hpp"
 
 #include <filesystem>
@@ -21,11 +22,7 @@ inline constexpr Option max_members_option =
 std::size_t max_members_of(const Arguments& arguments);
 
 inline constexpr Option jobs_option =
-    preference({"--jobs", "N", "Number of trips processed in parallel.", "1"});
-
-/// Parses --jobs.
-/// \throws UsageError  for an invalid number.
-std::size_t jobs_of(const Arguments& arguments);
+    preference({"--jobs", "N", "Number of trips processed in parallel.", default_jobs_words});
 
 /// Thread-safe sequence of the trips of several paths, in the order of the paths.
 class AskedTrips {

@@ -82,6 +82,11 @@ std::string text_lines(const TripReport& trip) {
     if (trip.result == TripReport::Result::rejected) {
         return fmt::format("{:<9} {}\n", result, printable_name(trip.error));
     }
+    if (trip.result == TripReport::Result::outside) {
+        return fmt::format("{:<9} {}: touches no road of this map, not stored\n",
+                           result,
+                           printable_name(trip.file));
+    }
     if (trip.result == TripReport::Result::known || trip.result == TripReport::Result::unknown) {
         const bool is_explained =
             trip.result == TripReport::Result::unknown || !trip.warnings.empty();

@@ -13,13 +13,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <string_view>
 #include <utility>
 
 namespace macadam {
 namespace {
+
+constexpr std::size_t per_mille = 1000;
 
 double length_m(const IriRun& run) {
     return run.cell_m * static_cast<double>(run.centre_mm_per_m.size());
@@ -54,6 +58,29 @@ void expect_sensors(const TripLog& trip, const std::optional<SensorSet>& sensors
 
 std::size_t samples_in(const StretchSpan& span) {
     return span.last - span.first;
+}
+
+std::size_t total_samples(const std::vector<StretchSpan>& spans) {
+    return std::transform_reduce(
+        spans.begin(), spans.end(), std::size_t{0}, std::plus<>{}, samples_in);
+}
+
+/// Samples of a stretch among those of all stretches.
+struct SampleShare {
+    std::size_t before;
+    std::size_t own;
+    std::size_t all;
+};
+
+/// Returns the progress of one stretch, which reports that of the trip in thousandths.
+Progress part_of(const Progress& whole, const SampleShare& share) {
+    return {.report =
+                [&whole, share](std::size_t done, std::size_t of) {
+                    const auto own = of == 0 ? 0 : share.own * done / of;
+                    whole(per_mille * (share.before + own) / std::max<std::size_t>(1, share.all),
+                          per_mille);
+                },
+            .stop = whole.stop};
 }
 
 /// Marks the samples of a stretch as unused because the channel in use was not sampled.
@@ -190,10 +217,26 @@ std::vector<Pass> counting_from(std::int64_t begin_ms, std::span<const DrivenPas
     return passes;
 }
 
+/// Returns the middle of the positions of a trip: the median of latitudes and of longitudes.
+std::optional<GeoPoint> middle_of(const std::vector<GnssFix>& fixes) {
+    if (fixes.empty()) {
+        return std::nullopt;
+    }
+    const auto median = [&](double GeoPoint::*degrees) {
+        std::vector<double> values;
+        std::ranges::transform(
+            fixes, std::back_inserter(values), [&](const GnssFix& fix) { return fix.at.*degrees; });
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::ranges::nth_element(values, middle);
+        return *middle;
+    };
+    return GeoPoint{median(&GeoPoint::lat_deg), median(&GeoPoint::lon_deg)};
+}
+
 /// Explains why a trip gave no pass.
 std::string_view no_pass_reason(const IriTrace& roughness, const MatchedTrace& matched) {
     if (length_on_roads_m(matched) <= 0) {
-        return "the trip is outside this map";
+        return "the log has no usable position: no pass";
     }
     return roughness.runs.empty() ? "no part of the trip was driven steadily enough: no pass"
                                   : "no segment was driven completely enough: no pass";
@@ -223,7 +266,8 @@ double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
 TripTrace trace_of(const TripLog& trip,
                    TripMotion motion,
                    const Vehicle& vehicle,
-                   const PipelineConfig& config) {
+                   const PipelineConfig& config,
+                   const Progress& progress) {
     expect_channels(trip, motion.mounting, config.estimator.channels);
     expect_sensors(trip, config.estimator.sensors);
     auto found = find_stretches(trip, motion.odometer, config.stretch, motion.mounting.otherwise);
@@ -238,10 +282,18 @@ TripTrace trace_of(const TripLog& trip,
     IriTrace roughness{.runs = {},
                        .slow = slow_parts(motion.odometer, config.stretch.min_speed_mps)};
     SampleUse gyro(trip.gyro.t_s.size(), code(RowReason::unused_channel));
+    const auto all_samples = total_samples(found.spans);
+    std::size_t samples_before = 0;
     for (const auto& span : found.spans) {
         const auto stretch = stretch_of(span);
-        auto run = car ? smoothed_iri(stretch, *car, config.estimator)
+        const auto part = part_of(progress, {samples_before, samples_in(span), all_samples});
+        auto run = car ? smoothed_iri(stretch, *car, config.estimator, {}, part)
                        : estimate_iri(stretch, vehicle, config.estimator);
+        part(1, 1);
+        samples_before += samples_in(span);
+        if (progress.stop.stop_requested()) {
+            throw InputError{"interrupted"};
+        }
         if (run.centre_mm_per_m.empty()) {
             found.acc = without_vibration(std::move(found.acc), span);
             continue;
@@ -267,11 +319,12 @@ TripTrace trace_of(const TripLog& trip,
 TripResult passes_of(TripLog log,
                      const Vehicle& vehicle,
                      const RoadNetwork& roads,
-                     const PipelineConfig& config) {
+                     const PipelineConfig& config,
+                     const Progress& progress) {
     auto [trip, motion, warnings] = prepared(std::move(log), config.odometer);
     auto with_profile = config;
     with_profile.estimator.profile = true;
-    auto trace = trace_of(trip, std::move(motion), vehicle, with_profile);
+    auto trace = trace_of(trip, std::move(motion), vehicle, with_profile, progress);
     std::ranges::move(trace.warnings, std::back_inserter(warnings));
     const auto events = events_in(trace.roughness);
     const auto kept = kept_of(trip, trace.odometer, config.trim);
@@ -298,7 +351,8 @@ TripResult passes_of(TripLog log,
     if (!kept.is_whole) {
         warnings.push_back(trim_text(kept, trace.odometer.whole_m(), config.trim));
     }
-    if (cut.passes.empty() && begin_ms) {
+    const auto outside_at = length_on_roads_m(matched) <= 0 ? middle_of(trip.fixes) : std::nullopt;
+    if (cut.passes.empty() && begin_ms && !outside_at) {
         warnings.emplace_back(no_pass_reason(trace.roughness, matched));
     }
     return {.passes = counting_from(begin_ms.value_or(0), cut.passes),
@@ -308,6 +362,7 @@ TripResult passes_of(TripLog log,
             .begin_ms = begin_ms,
             .distance_m = distance_m,
             .matched_m = length_on_roads_m(kept_match),
+            .outside_at = outside_at,
             .warnings = std::move(warnings)};
 }
 

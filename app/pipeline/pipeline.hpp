@@ -1,5 +1,7 @@
 #pragma once
 
+#include "estimator/common/geo.hpp"
+#include "estimator/common/progress.hpp"
 #include "estimator/motion/heading.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
@@ -40,13 +42,16 @@ struct TripTrace {
 /// front axle; a car with one axle has it under its centre of gravity.
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle);
 
-/// Estimates the roughness along the trip's own travel. Uses no map.
+/// Estimates the roughness along the trip's own travel. Uses no map. Reports progress in
+/// thousandths.
 ///
-/// \throws InputError  if the log lacks a requested sensor, or sampled too slowly.
+/// \throws InputError  if the log lacks a requested sensor, or sampled too slowly, or a stop is
+///                     requested.
 TripTrace trace_of(const TripLog& trip,
                    TripMotion motion,
                    const Vehicle& vehicle,
-                   const PipelineConfig& config);
+                   const PipelineConfig& config,
+                   const Progress& progress = {});
 
 /// Result of one trip for the database, with every row of its log accounted for.
 struct TripResult {
@@ -60,17 +65,21 @@ struct TripResult {
                                              ///< `std::nullopt`: too short to report anything
     double distance_m = 0;                   ///< length of the reported part
     double matched_m = 0;                    ///< part of distance_m on roads of the network
+    /// Middle of the positions of a trip that touches no road of the network; `std::nullopt`: it
+    /// touches some, or has no position.
+    std::optional<GeoPoint> outside_at{};
     std::vector<std::string> warnings;
 };
 
 /// Runs the whole estimation: takes one trip and returns its passes. Uses no files, no clock, no
-/// globals.
+/// globals. Progress and errors as of trace_of().
 ///
 /// The trip is taken by value: its acceleration is released as soon as the roughness is estimated,
 /// so that ten hours of it do not occupy memory during map matching.
 TripResult passes_of(TripLog trip,
                      const Vehicle& vehicle,
                      const RoadNetwork& roads,
-                     const PipelineConfig& config);
+                     const PipelineConfig& config,
+                     const Progress& progress = {});
 
 } // namespace macadam

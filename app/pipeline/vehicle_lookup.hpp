@@ -65,6 +65,9 @@ public:
     /// Car of --vehicle-id; `std::nullopt` without that option.
     const std::optional<std::string>& named_car() const { return named_car_; }
 
+    /// Car of --vehicle; `std::nullopt` without the option.
+    const std::optional<ChosenVehicle>& for_all() const { return for_all_; }
+
 private:
     using ByName = std::map<std::string, Vehicle>;
     const ByName& in_folder(const std::filesystem::path& folder);

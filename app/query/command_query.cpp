@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
+#include "app/database/empty_map_message.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
@@ -136,6 +137,7 @@ void print_segments(const StoreReader& store, const QueryOptions& options, const
     if (printer.count() == 0) {
         console.say("no segment with a pass meets these conditions; --all also shows segments "
                     "without a pass");
+        warn_of_empty_map(store, console);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/database/empty_map_message.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
@@ -70,6 +71,7 @@ void run_render(const Arguments& arguments, const Console& console) {
     expect_files_apart(options);
     const auto store = opened_reader(options.store, console);
     warn_of_waiting(store, options.store, console);
+    warn_of_empty_map(store, console);
     tell_publication(store, console);
     if (options.style.classes == nullptr) {
         options.style.classes = class_table(store.settings().class_table);

@@ -1,6 +1,7 @@
 #include "app/render/map_scene.hpp"
 
 #include "app/cli/console.hpp"
+#include "app/database/empty_map_message.hpp"
 #include "app/render/base_map_option.hpp"
 #include "app/render/bbox_option.hpp"
 #include "estimator/common/error.hpp"
@@ -34,6 +35,11 @@ std::string period_of(const ObservedPeriod& seen) {
     const auto first = utc_day(*seen.first_ms);
     const auto last = utc_day(*seen.last_ms);
     return first == last ? first : first + " to " + last;
+}
+
+std::string subtitle_of_empty_map(const StoreReader& store) {
+    return store.shows_published_alone() ? "No measurements are published yet"
+                                         : "No measurements yet: 'macadam import' adds trips";
 }
 
 std::string subtitle_of(const StoreInfo& info) {
@@ -87,13 +93,15 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
     }
     if (request.box) {
         scene.box = *request.box;
-        scene.subtitle = period_of(store.seen());
+        const auto empty = empty_map_text(store);
+        scene.subtitle = empty.empty() ? period_of(store.seen()) : subtitle_of_empty_map(store);
         return scene;
     }
     const auto info = store.info();
     const auto& classes = classes_of(request);
     scene.box = box_with_margin(info.box);
-    scene.subtitle = subtitle_of(info);
+    scene.subtitle =
+        info.segments_with_passes == 0 ? subtitle_of_empty_map(store) : subtitle_of(info);
     if (request.style.min_passes <= 1 && &classes == class_table(info.settings.class_table)) {
         for (const auto& [name, km] : info.classes) {
             scene.class_km.push_back(km);

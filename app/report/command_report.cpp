@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
+#include "app/database/empty_map_message.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
@@ -197,6 +198,7 @@ void run_report(const Arguments& arguments, const Console& console) {
     const auto store = opened_reader(options.store, console);
     refuse_to_replace(options.output, {options.store});
     warn_of_waiting(store, options.store, console);
+    warn_of_empty_map(store, console);
     tell_publication(store, console);
     if (options.report.style.classes == nullptr) {
         options.report.style.classes = class_table(store.settings().class_table);

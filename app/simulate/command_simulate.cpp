@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
-#include "app/cli/parallel_for.hpp"
+#include "app/parallel/jobs_option.hpp"
+#include "app/parallel/parallel_for.hpp"
 #include "app/pipeline/single_trip.hpp"
 #include "app/simulate/lane_surface_cache.hpp"
 
@@ -34,7 +35,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t max_jobs = 256;
 constexpr std::int64_t max_trips = 1'000'000;
 constexpr std::size_t max_lane_bytes = std::size_t{1} << 30; // about 1,000 km
 constexpr int quick_compression = 1; // more hardly shrinks noise and is slower
@@ -73,8 +73,7 @@ SimulateOptions parse_simulate(const Arguments& arguments) {
         .recipe_name = arguments.value("--recipe").value_or("the sample recipe"),
         .recipe = {},
         .seed = static_cast<std::uint64_t>(integer_from(arguments, "--seed", 1, {0, 9e15})),
-        .jobs =
-            static_cast<std::size_t>(integer_from(arguments, "--jobs", 1, {1, double{max_jobs}}))};
+        .jobs = jobs_of(arguments)};
     const auto recipe = arguments.value("--recipe");
     options.recipe = recipe ? read_recipe(*recipe) : parse_recipe("", options.recipe_name);
     const auto asked = static_cast<std::int64_t>(options.recipe.driving.trips);
@@ -245,7 +244,10 @@ constexpr std::array options{
     Option{"--show-recipe", "", "Print the sample recipe, with a comment on every key."},
     Option{"--seed", "N", "Random seed: each number gives another fleet on other roads.", "1"},
     Option{"--trips", "N", "Number of trips, overrides the recipe."},
-    preference({"--jobs", "N", "Number of parallel jobs; the files do not depend on it.", "1"})};
+    preference({"--jobs",
+                "N",
+                "Number of parallel jobs; the files do not depend on it.",
+                default_jobs_words})};
 
 } // namespace
 

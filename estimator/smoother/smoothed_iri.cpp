@@ -189,7 +189,8 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
 IriRun smoothed_iri(const Stretch& stretch,
                     const TunedCar& car,
                     const EstimatorConfig& config,
-                    const PieceConfig& pieces) {
+                    const PieceConfig& pieces,
+                    const Progress& progress) {
     SmootherConfig smoother;
     auto passage = passage_of(stretch, car.vehicle, config);
     IriRun run = empty_run(stretch, config, smoother.cell_m);
@@ -205,7 +206,7 @@ IriRun smoothed_iri(const Stretch& stretch,
     const auto [begin, end] = cells_under(passage, smoother.cell_m);
     run.start_travel_m = static_cast<double>(begin) * smoother.cell_m;
     run.profile = {.start_travel_m = run.start_travel_m, .step_m = smoother.cell_m};
-    for (auto cell = begin; cell < end;) {
+    for (auto cell = begin; cell < end && !progress.stop.stop_requested();) {
         const auto piece = piece_at(passage, cell, end, smoother.cell_m, pieces);
         const auto estimate = smooth_passages(
             {{piece_of(passage, piece.first, piece.last), vehicle, car.friction_n}}, smoother);
@@ -214,6 +215,7 @@ IriRun smoothed_iri(const Stretch& stretch,
             append(estimate, piece.from, piece.to, run.profile);
         }
         cell = piece.to;
+        progress(static_cast<std::size_t>(cell - begin), static_cast<std::size_t>(end - begin));
     }
     for (std::size_t i = 0; i < run.centre_mm_per_m.size(); ++i) {
         const double at_m = run.start_travel_m + (static_cast<double>(i) + 0.5) * run.cell_m;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/common/progress.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
 #include "estimator/smoother/car_tuning.hpp"
 
@@ -20,10 +21,12 @@ struct PieceConfig {
 };
 
 /// Estimates both tracks of the road under one stretch by the joint smoother, in overlapping pieces
-/// of a kilometre or two, so that memory does not grow with the stretch.
+/// of a kilometre or two, so that memory does not grow with the stretch. Reports progress in cells;
+/// after a stop request the rest is missing.
 IriRun smoothed_iri(const Stretch& stretch,
                     const TunedCar& car,
                     const EstimatorConfig& config,
-                    const PieceConfig& pieces = {});
+                    const PieceConfig& pieces = {},
+                    const Progress& progress = {});
 
 } // namespace macadam

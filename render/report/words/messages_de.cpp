@@ -117,7 +117,7 @@ constexpr std::array messages{
     Message{"column.change", "Änderung"},
 
     Message{"head.about", "Unebenheit der Straßen (IRI) aus den Sensoren gewöhnlicher Autos."},
-    Message{"head.nothing", "Noch wurde nichts gemessen."},
+    Message{"head.nothing", "Noch wurde nichts gemessen. „macadam import“ fügt Fahrten hinzu."},
     Message{"head.undated", "Die Fahrten tragen kein Datum."},
     Message{"head.driven", "Gefahren"},
     Message{"key.measured", "Gemessen"},

@@ -117,7 +117,7 @@ constexpr std::array messages{
     Message{"column.change", "Change"},
 
     Message{"head.about", "Road roughness (IRI) from the sensors of ordinary cars."},
-    Message{"head.nothing", "No measurements yet."},
+    Message{"head.nothing", "No measurements yet. 'macadam import' adds trips."},
     Message{"head.undated", "The trips are undated."},
     Message{"head.driven", "Driven"},
     Message{"key.measured", "Measured"},

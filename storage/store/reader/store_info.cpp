@@ -39,6 +39,13 @@ struct Cover {
     GeoBox box;
 };
 
+GeoBox box_of_segments(Database& database) {
+    auto all = database.prepare("SELECT min_x, min_y, max_x, max_y FROM gpkg_contents"
+                                " WHERE table_name = 'segment'");
+    all.step();
+    return {all.real(0), all.real(1), all.real(2), all.real(3)};
+}
+
 Cover cover_of(Database& database) {
     auto select = database.prepare(
         fmt::format("SELECT sum(to_m - from_m), min(ST_MinX(geom)), min(ST_MinY(geom)),"
@@ -48,10 +55,7 @@ Cover cover_of(Database& database) {
     if (!select.is_null(0)) {
         return {select.real(0), {select.real(1), select.real(2), select.real(3), select.real(4)}};
     }
-    auto all = database.prepare("SELECT min_x, min_y, max_x, max_y FROM gpkg_contents"
-                                " WHERE table_name = 'segment'");
-    all.step();
-    return {0, {all.real(0), all.real(1), all.real(2), all.real(3)}};
+    return {0, box_of_segments(database)};
 }
 
 std::vector<ClassLength> lengths_of(Database& database, const ClassTable& classes) {
@@ -130,6 +134,10 @@ StoreInfo StoreReader::info() const {
         info.passes = count(database, "SELECT coalesce(sum(passes), 0) FROM segment_state");
     }
     return info;
+}
+
+GeoBox StoreReader::map_box() const {
+    return box_of_segments(store_->database);
 }
 
 std::size_t StoreReader::waiting() const {

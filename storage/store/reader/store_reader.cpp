@@ -74,6 +74,13 @@ bool StoreReader::is_trip_of(const std::string& sha256, const std::string& vehic
     return is_operator() && select.bind(sha256, store_->pseudonym(vehicle_id)).step();
 }
 
+std::optional<TripSettings> StoreReader::settings_of_trip(const std::string& sha256) const {
+    auto select = store_->database.prepare(
+        "SELECT method, vehicle_model FROM trip WHERE sha256 = ? AND reference_ppm IS NULL");
+    return select.bind(sha256).step() ? std::optional{TripSettings{select.text(0), select.text(1)}}
+                                      : std::nullopt;
+}
+
 bool StoreReader::has_forgotten(const std::string& sha256) const {
     return is_forgotten(store_->database, sha256);
 }

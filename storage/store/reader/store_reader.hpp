@@ -82,6 +82,9 @@ public:
     /// Tests whether a trip in the database was imported as one of this car.
     bool is_trip_of(const std::string& sha256, const std::string& vehicle_id) const;
 
+    /// Settings with which a trip of a car was imported; `std::nullopt` if there is no such trip.
+    std::optional<TripSettings> settings_of_trip(const std::string& sha256) const;
+
     /// Tests whether the trip was forgotten; TripImporter::add_trips() skips such trips.
     bool has_forgotten(const std::string& sha256) const;
 
@@ -137,6 +140,9 @@ public:
 
     /// Part of info(), faster: number of segments whose new passes are not yet fused.
     std::size_t waiting() const;
+
+    /// Part of info(), faster: box around all segments.
+    GeoBox map_box() const;
 
     /// Part of info(), faster: summary of the alignment of passes.
     AlignmentSummary laid() const;

@@ -63,6 +63,12 @@ struct TripRecord {
     std::optional<ReferenceNote> reference{};
 };
 
+/// Settings of the estimation of a stored trip, as in TripRecord.
+struct TripSettings {
+    std::string method;
+    std::string vehicle_model;
+};
+
 /// Trip with its passes and traces.
 struct NewTrip {
     const TripRecord* trip;

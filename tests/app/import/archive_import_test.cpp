@@ -105,7 +105,7 @@ TEST(ArchiveImport, IsToldWhereAnArchiveHoldsNone) {
     const auto made = world();
     const auto run =
         run_macadam({"import", made.store, archive_in(made, "zip", {{"notes.txt", "x"}})});
-    EXPECT_EQ(run.exit_status, 0);
+    EXPECT_EQ(run.exit_status, 1);
     EXPECT_THAT(run.err, HasSubstr("fleet.zip: contains no trip log"));
 }
 

@@ -1,4 +1,4 @@
-#include "app/cli/parallel_for.hpp"
+#include "app/parallel/parallel_for.hpp"
 
 #include <algorithm>
 #include <exception>

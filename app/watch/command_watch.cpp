@@ -1,0 +1,139 @@
+#include "app/cli/commands.hpp"
+#include "app/database/lock_wait_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/import/import_outcome.hpp"
+#include "app/import/import_run.hpp"
+#include "app/import/trip_inputs.hpp"
+#include "app/pipeline/column_mapping_option.hpp"
+#include "app/pipeline/estimation_options.hpp"
+#include "app/watch/folder_changes.hpp"
+#include "app/watch/settled_trips.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <set>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+// Interval of looking into a folder whose changes are noticed, and of one whose changes are not.
+constexpr auto look_every = 60s;
+constexpr auto look_blindly_every = 15s;
+
+/// Imports trips over a connection of their own, so that the database is closed in between.
+void import_batch(const fs::path& file,
+                  const std::vector<fs::path>& trips,
+                  const ImportOptions& options,
+                  const Arguments& arguments,
+                  const Console& console) {
+    VehicleChoice vehicles{arguments}; // also of cars that were added meanwhile
+    auto store = opened_store(file, console);
+    const auto totals = import_paths(store, trips, options, vehicles, console);
+    warn_of_earlier_settings(totals, file, options.named_after, console);
+    try {
+        expect_on_map(totals, store, console);
+    } catch (const InputError& all_outside) {
+        console.warn(all_outside.what());
+    }
+}
+
+/// Returns the trips that are complete; empty if a folder below the watched one vanished meanwhile.
+std::vector<fs::path>
+take(SettledTrips& trips, const fs::path& folder, const std::set<fs::path>& closed) {
+    try {
+        return trips.take(closed);
+    } catch (const InputError&) {
+        if (!fs::is_directory(folder)) {
+            throw;
+        }
+        return {};
+    }
+}
+
+void run_watch(const Arguments& arguments, const Console& console) {
+    const auto file = store_file(arguments);
+    const fs::path folder = arguments.operand("FOLDER");
+    auto options = parse_import(arguments);
+    options.named_after = folder;
+    options.tells_known = false;
+    if (!fs::is_directory(folder)) {
+        throw InputError{fmt::format("{}: is not a folder, expected the folder in which trip logs "
+                                     "appear",
+                                     folder.string())};
+    }
+    static_cast<void>(VehicleChoice{arguments});    // refuses bad values at once,
+    static_cast<void>(opened_store(file, console)); // as well as a bad database
+
+    FolderChanges changes{folder};
+    SettledTrips trips{folder, {.mapping = options.mapping, .max_files = options.max_members}};
+    console.say(changes.blindness().empty()
+                    ? fmt::format("watching {}; Ctrl-C ends", folder.string())
+                    : fmt::format("{}: {}; looking for new files every {} s; Ctrl-C ends",
+                                  folder.string(),
+                                  changes.blindness(),
+                                  look_blindly_every.count()));
+    std::set<fs::path> closed;
+    while (!console.stop().stop_requested()) {
+        if (const auto complete = take(trips, folder, closed); !complete.empty()) {
+            try {
+                import_batch(file, complete, options, arguments, console);
+            } catch (const InputError&) {
+                if (!console.stop().stop_requested()) {
+                    throw;
+                }
+            }
+        }
+        const auto pause = trips.has_incomplete()        ? SettledTrips::settling
+                           : changes.blindness().empty() ? look_every
+                                                         : look_blindly_every;
+        closed = changes.wait(pause, console.stop());
+    }
+    console.say("stopped; what was reported is in the database");
+}
+
+constexpr std::array operands{
+    store_operand, Operand{"FOLDER", "The folder in which trip logs appear, at any depth."}};
+
+constexpr std::array options{
+    vehicle_option,
+    vehicles_option,
+    mapping_option,
+    trim_option,
+    jobs_option,
+    method_option,
+    channels_option,
+    no_filters_option,
+    rate_option,
+    max_members_option,
+    Option{"--json", "", "One JSON object per trip on standard output, one per line."}};
+
+} // namespace
+
+const Command watch_command{
+    .name = "watch",
+    .summary = "Import trip logs as they appear in a folder, until stopped",
+    .about =
+        "Imports what is in the folder and then each trip log that is added, as 'macadam import' "
+        "does. A log is taken\n"
+        "when its writer has closed it, when it was moved into the folder, or when it did not "
+        "change for 10 s, and\n"
+        "when a macadam-trip log has its end row. Rejected files are reported once. INT and TERM "
+        "(Ctrl-C) end the\n"
+        "command with exit status 0; started again, it continues with what is not in the "
+        "database yet.",
+    .example = "  macadam watch roads.gpkg incoming/\n"
+               "  macadam watch roads.gpkg incoming/ --vehicles cars/ --json >> import.jsonl   "
+               "(docs/reference/nightly-import.md)",
+    .operands = operands,
+    .options = options,
+    .run = run_watch,
+    .runs_until_stopped = true};
+
+} // namespace macadam

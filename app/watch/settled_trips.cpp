@@ -1,0 +1,90 @@
+#include "app/watch/settled_trips.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Tests for the end row of a plain log, "# end rows: N", in its last bytes.
+bool has_end_row(const fs::path& log) {
+    constexpr std::streamoff enough = 256;
+    std::ifstream in{log, std::ios::binary};
+    in.seekg(0, std::ios::end);
+    in.seekg(-std::min<std::streamoff>(enough, in.tellg()), std::ios::end);
+    std::string end(static_cast<std::size_t>(enough), '\0');
+    in.read(end.data(), enough);
+    end.resize(static_cast<std::size_t>(in.gcount()));
+    return end.find("# end rows:") != std::string::npos;
+}
+
+} // namespace
+
+SettledTrips::SettledTrips(fs::path folder, TripWalkConfig config)
+    : folder_{std::move(folder)}, config_{std::move(config)} {}
+
+SettledTrips::Version SettledTrips::version_of(const fs::path& trip) {
+    std::error_code gone;
+    Version version;
+    const auto add = [&](const fs::path& file) {
+        const auto bytes = fs::file_size(file, gone);
+        version.bytes += gone ? 0 : bytes;
+        const auto changed = fs::last_write_time(file, gone);
+        version.changed = gone ? version.changed : std::max(version.changed, changed);
+    };
+    if (fs::is_directory(trip, gone)) { // the export of a phone
+        for (fs::recursive_directory_iterator file{trip, gone}, end; !gone && file != end;
+             file.increment(gone)) {
+            add(file->path());
+        }
+    } else {
+        add(trip);
+    }
+    return version;
+}
+
+bool SettledTrips::is_complete(const fs::path& trip,
+                               const Candidate& candidate,
+                               Clock::time_point now) {
+    if (candidate.version == Version{}) {
+        return false; // it vanished meanwhile
+    }
+    const auto age = std::max<Clock::duration>(
+        now - candidate.since, fs::file_time_type::clock::now() - candidate.version.changed);
+    if (trip.filename().string().ends_with(".trip.csv") && age < patience) {
+        return (candidate.is_closed || age >= settling) && has_end_row(trip);
+    }
+    return candidate.is_closed || age >= settling;
+}
+
+std::vector<fs::path> SettledTrips::take(const std::set<fs::path>& closed, Clock::time_point now) {
+    std::map<fs::path, Candidate> found;
+    std::vector<fs::path> complete;
+    has_incomplete_ = false;
+    for (const auto& trip : TripWalk{folder_, config_}.files()) {
+        const auto before = candidates_.find(trip);
+        Candidate candidate{.version = version_of(trip), .since = now};
+        if (before != candidates_.end() && before->second.version == candidate.version) {
+            candidate = before->second;
+        }
+        candidate.is_closed = candidate.is_closed || closed.contains(trip);
+        if (!candidate.is_taken) {
+            candidate.is_taken = is_complete(trip, candidate, now);
+            if (candidate.is_taken) {
+                complete.push_back(trip);
+            } else {
+                has_incomplete_ = true;
+            }
+        }
+        found.insert_or_assign(trip, candidate);
+    }
+    candidates_ = std::move(found);
+    return complete;
+}
+
+} // namespace macadam

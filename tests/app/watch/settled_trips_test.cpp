@@ -1,0 +1,78 @@
+#include "app/watch/settled_trips.hpp"
+
+#include "estimator/common/error.hpp"
+#include "support/program/program.hpp"
+
+#include <gmock/gmock.h>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+const SettledTrips::Clock::time_point now = SettledTrips::Clock::now();
+const std::string whole = "# macadam-trip 1\nt_s\n0\n# end rows: 1\n";
+
+TEST(SettledTrips, AreTakenAtOnceWhenTheirWriterHasClosedThem) {
+    const auto folder = fresh_folder();
+    const auto trip = folder / "a.trip.csv";
+    write_file(trip, whole);
+    SettledTrips trips{folder, {}};
+    EXPECT_THAT(trips.take({}, now), IsEmpty());
+    EXPECT_TRUE(trips.has_incomplete());
+    EXPECT_THAT(trips.take({trip}, now), ElementsAre(trip));
+    EXPECT_FALSE(trips.has_incomplete());
+}
+
+TEST(SettledTrips, AreTakenWhenTheyDidNotChangeForTenSeconds) {
+    const auto folder = fresh_folder();
+    const auto trip = folder / "day" / "a.trip.csv.gz";
+    fs::create_directories(trip.parent_path());
+    write_file(trip, "one");
+    SettledTrips trips{folder, {}};
+    EXPECT_THAT(trips.take({}, now), IsEmpty());
+    write_file(trip, "three");
+    EXPECT_THAT(trips.take({}, now + 10s), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 19s), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 20s), ElementsAre(trip));
+}
+
+TEST(SettledTrips, AreTakenAtOnceIfTheyAreOld) {
+    const auto folder = fresh_folder();
+    const auto trip = folder / "a.rawlog";
+    write_file(trip, "old");
+    fs::last_write_time(trip, fs::file_time_type::clock::now() - 1h);
+    EXPECT_THAT(SettledTrips(folder, {}).take({}, now), ElementsAre(trip));
+}
+
+TEST(SettledTrips, WaitFiveMinutesForTheirEndRow) {
+    const auto folder = fresh_folder();
+    const auto trip = folder / "a.trip.csv";
+    write_file(trip, "# macadam-trip 1\nt_s\n0\n");
+    SettledTrips trips{folder, {}};
+    EXPECT_THAT(trips.take({trip}, now), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 4min), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 5min), ElementsAre(trip));
+}
+
+TEST(SettledTrips, AreReturnedOnceUntilTheyChange) {
+    const auto folder = fresh_folder();
+    const auto trip = folder / "a.trip.csv";
+    write_file(trip, whole);
+    SettledTrips trips{folder, {}};
+    EXPECT_THAT(trips.take({trip}, now), ElementsAre(trip));
+    EXPECT_THAT(trips.take({trip}, now + 1h), IsEmpty());
+    write_file(trip, "# more\n" + whole);
+    EXPECT_THAT(trips.take({trip}, now + 1h), ElementsAre(trip));
+}
+
+TEST(SettledTrips, OfAFolderThatIsGoneAreAnError) {
+    SettledTrips trips{fresh_folder() / "gone", {}};
+    EXPECT_THROW(trips.take({}, now), InputError);
+}
+
+} // namespace
+} // namespace macadam::testing
