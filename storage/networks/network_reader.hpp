@@ -40,7 +40,7 @@ inline constexpr double longest_step_m = 50'000;
 ///
 /// \param warn  called with a message about omitted ways, if any.
 /// \param cut   if given, only ways with a point in its surroundings are read, perhaps none; memory
-///              then does not grow with an OSM file.
+///              then grows with an OSM file by its turn restrictions only.
 /// \throws InputError  if the file is missing, is not a map, holds no drivable road, or has ids
 ///                     that are not whole numbers or not unique; if it decompresses to more than a
 ///                     map would, or has more points than bytes.
