@@ -58,6 +58,7 @@ void run(const Command& command, std::vector<std::string> words);
 
 extern const Command init_command;       // app/store/command_init.cpp
 extern const Command identify_command;   // app/profile/command_identify.cpp
+extern const Command inspect_command;    // app/inspect/command_inspect.cpp
 extern const Command import_command;     // app/import/command_import.cpp
 extern const Command calibrate_command;  // app/store/command_calibrate.cpp
 extern const Command reprocess_command;  // app/import/command_reprocess.cpp

@@ -243,8 +243,8 @@ std::optional<UnitKind> unit_kind(Quantity quantity) {
 
 /// Texts in round and square brackets of a name, and the name without those that are units.
 struct Brackets {
-    std::string rest;
-    std::vector<std::string> inside;
+    std::string rest{};
+    std::vector<std::string> inside{};
 };
 
 Brackets brackets_in(std::string_view name) {

@@ -35,9 +35,9 @@ struct NamedAxis {
 /// Reading of a column's name.
 struct NamedColumn {
     Quantity quantity = Quantity::unknown;
-    NamedAxis axis;
-    std::string unit;      ///< word of mapping files; "": not named
-    std::string family;    ///< the name without its axis; equal for the axes of a sensor
+    NamedAxis axis{};
+    std::string unit{};    ///< word of mapping files; "": not named
+    std::string family{};  ///< the name without its axis; equal for the axes of a sensor
     bool is_apple = false; ///< of iOS, where all accelerations have the opposite sign
 };
 

@@ -12,15 +12,15 @@ namespace macadam {
 struct CsvDialect {
     char separator = ',';
     char decimal = '.';
-    std::string comment; ///< prefix of remarks; "": none
+    std::string comment{}; ///< prefix of remarks; "": none
     bool has_header = false;
     std::size_t header_line = 0;       ///< index into the lines, if there is a header
-    std::string header_begins;         ///< prefix that no earlier line has; "": none suits
+    std::string header_begins{};       ///< prefix that no earlier line has; "": none suits
     std::size_t rows_under_header = 0; ///< that are not data
     std::size_t first_row = 0;         ///< index of the first line of data
     std::size_t columns = 0;           ///< number, at least 2
-    std::vector<std::string> names;    ///< of the columns; empty without names
-    std::vector<std::string> units; ///< of the columns, from a row under the header; may be empty
+    std::vector<std::string> names{};  ///< of the columns; empty without names
+    std::vector<std::string> units{}; ///< of the columns, from a row under the header; may be empty
 };
 
 /// Detects the layout of a table from its first lines. The header may be preceded by any lines and

@@ -24,7 +24,7 @@ struct Sensor {
     Quantity quantity = Quantity::unknown;
     bool of_vehicle = false;
     bool is_apple = false;
-    std::string unit;
+    std::string unit{};
     std::array<const LogColumn*, 3> axes{};
 
     std::size_t count() const {
@@ -105,11 +105,11 @@ bool is_near(double value, double gravity) {
 
 /// Reading of an accelerometer.
 struct Acceleration {
-    Sensor sensor;
+    Sensor sensor{};
     AccelerationUnit unit{"", 1};
     bool has_gravity = false;
     Confidence confidence = Confidence::likely;
-    std::string reason;
+    std::string reason{};
 };
 
 Acceleration named_acceleration(const Sensor& sensor, double mean) {

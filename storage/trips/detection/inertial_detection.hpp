@@ -9,10 +9,10 @@ namespace macadam {
 
 /// Accelerations and angular rates of a log.
 struct DetectedInertia {
-    std::vector<DetectedChannel> channels;
+    std::vector<DetectedChannel> channels{};
     bool has_gravity = true; ///< of the accelerations
     bool of_device = false;  ///< in the axes of the device, which may be mounted anyhow
-    std::string gravity;     ///< for people: "gravity 9.79 m/s2, included"; "": no acceleration
+    std::string gravity{};   ///< for people: "gravity 9.79 m/s2, included"; "": no acceleration
 };
 
 /// Finds the accelerations and angular rates. Units follow from names and from gravity: the mean

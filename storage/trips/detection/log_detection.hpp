@@ -14,16 +14,16 @@ namespace macadam {
 
 /// Log of an unknown make whose layout, columns and units were detected.
 struct DetectedLog {
-    std::string built_in; ///< name of the built-in mapping that fits; "": none
-    CsvDialect dialect;
+    std::string built_in{}; ///< name of the built-in mapping that fits; "": none
+    CsvDialect dialect{};
     TextEncoding encoding = TextEncoding::utf8;
-    std::vector<std::string> names;   ///< of all columns; "" without one
-    std::vector<std::string> empty;   ///< words that stand for an empty cell
-    std::optional<DetectedTime> time; ///< without its values
-    std::vector<DetectedChannel> channels;
+    std::vector<std::string> names{};   ///< of all columns; "" without one
+    std::vector<std::string> empty{};   ///< words that stand for an empty cell
+    std::optional<DetectedTime> time{}; ///< without its values
+    std::vector<DetectedChannel> channels{};
     bool has_gravity = true;
     bool of_device = false; ///< accelerations in the axes of the device
-    std::string gravity;    ///< for people; "" without accelerations
+    std::string gravity{};  ///< for people; "" without accelerations
 };
 
 /// Detects the layout of a log from its first lines.

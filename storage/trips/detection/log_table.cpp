@@ -1,5 +1,6 @@
 #include "storage/trips/detection/log_table.hpp"
 
+#include "estimator/common/statistics.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/text/text.hpp"
 #include "storage/trips/detection/unit_names.hpp"
@@ -120,9 +121,7 @@ double median_of(std::vector<double> values) {
     if (values.empty()) {
         return unknown;
     }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return median(std::move(values));
 }
 
 } // namespace macadam

@@ -13,21 +13,21 @@ namespace macadam {
 /// Column of a sample.
 struct LogColumn {
     std::size_t number = 0; ///< from 1
-    std::string name;       ///< "" without one
-    NamedColumn named;
-    std::vector<double> values;     ///< a value for each row; NaN: none
-    std::vector<std::string> texts; ///< cells of a column that is not numeric; otherwise empty
-    std::size_t count = 0;          ///< of the values or texts that are not empty
+    std::string name{};     ///< "" without one
+    NamedColumn named{};
+    std::vector<double> values{};     ///< a value for each row; NaN: none
+    std::vector<std::string> texts{}; ///< cells of a column that is not numeric; otherwise empty
+    std::size_t count = 0;            ///< of the values or texts that are not empty
 
     bool is_numeric() const { return texts.empty() && count > 0; }
 };
 
 /// First rows of a table of unknown make.
 struct LogTable {
-    CsvDialect dialect;
+    CsvDialect dialect{};
     TextEncoding encoding = TextEncoding::utf8;
-    std::vector<LogColumn> columns;
-    std::vector<std::string> empty; ///< words that stand for an empty cell, such as "-"
+    std::vector<LogColumn> columns{};
+    std::vector<std::string> empty{}; ///< words that stand for an empty cell, such as "-"
     std::size_t rows = 0;
 };
 

@@ -67,8 +67,8 @@ std::optional<std::size_t> hemisphere_column(const LogTable& table, std::string_
 
 /// One coordinate: how its numbers become degrees.
 struct Coordinate {
-    DetectedChannel channel;
-    std::vector<double> deg; ///< by row
+    DetectedChannel channel{};
+    std::vector<double> deg{}; ///< by row
 };
 
 double degrees_of(double value, const DetectedChannel& channel) {

@@ -16,13 +16,13 @@ enum class Confidence : std::uint8_t {
 
 /// Time of a log: its columns and format in the words of mapping files.
 struct DetectedTime {
-    std::vector<std::size_t> columns; ///< numbers, from 1; date and time may be two
-    std::string format;               ///< "ms", "iso", ...
+    std::vector<std::size_t> columns{}; ///< numbers, from 1; date and time may be two
+    std::string format{};               ///< "ms", "iso", ...
     bool since_1970 = false;
     bool has_date = false; ///< gives UTC
     Confidence confidence = Confidence::likely;
-    std::string reason;      ///< for people: "steps of 0.01 s"
-    std::vector<double> t_s; ///< for each row, from any origin; NaN: none
+    std::string reason{};      ///< for people: "steps of 0.01 s"
+    std::vector<double> t_s{}; ///< for each row, from any origin; NaN: none
 };
 
 /// Finds the time of a log; `std::nullopt` if no column increases like one.
