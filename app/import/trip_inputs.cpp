@@ -91,7 +91,7 @@ void AskedTrips::tell(const Path& path, const Console& console) {
     if (walk.count() == std::size_t{0}) {
         console.warn(fmt::format(
             "{}: contains no trip log (*.trip.csv, *.trip.csv.gz, *.trip.csv.zst, *.rawlog) "
-            "and no export of phyphox or Sensor Logger",
+            "and no export of phyphox or Sensor Logger; 'macadam inspect' says what is there",
             path.path.string()));
     }
     if (const auto others = walk.other_files(); others > 0) {

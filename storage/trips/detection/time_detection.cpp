@@ -121,7 +121,8 @@ CountUnit unit_by_steps(double step, bool whole) {
 
 /// Reads a column as hhmmss, if all its values are such.
 std::optional<DetectedTime> as_compact_clock(const LogColumn& column) {
-    const TimeMapping mapping{.columns = {}, .format = TimeFormat::compact_clock};
+    TimeMapping mapping;
+    mapping.format = TimeFormat::compact_clock;
     DetectedTime time{.columns = {column.number},
                       .format = "hhmmss",
                       .confidence = Confidence::likely,
@@ -203,7 +204,8 @@ std::vector<std::string> joined(const LogColumn& date, const LogColumn& clock) {
 /// Reads texts in a format; `std::nullopt` if more than one in fifty does not fit.
 std::optional<DetectedTime>
 as_text(std::vector<std::string> texts, const TextFormat& format, char decimal) {
-    const TimeMapping mapping{.columns = {}, .format = format.format};
+    TimeMapping mapping;
+    mapping.format = format.format;
     DetectedTime time{.columns = {}, .format = std::string{format.word}};
     std::size_t faults = 0;
     std::size_t dated = 0;
