@@ -112,10 +112,16 @@ struct Acceleration {
     std::string reason{};
 };
 
+/// Tests whether gravity shows which way is up: by all three axes, or because z points along it.
+bool has_vertical(const Sensor& sensor, double mean) {
+    return sensor.count() == 3 ||
+           (sensor.axes[2] != nullptr && is_near(std::abs(mean_of(sensor.axes[2])), mean));
+}
+
 Acceleration named_acceleration(const Sensor& sensor, double mean) {
     const auto unit = *std::ranges::find(units, sensor.unit, &AccelerationUnit::word);
     Acceleration read{.sensor = sensor, .unit = unit, .reason = {}};
-    const bool sees_gravity = sensor.count() == 3 || sensor.axes[2] != nullptr;
+    const bool sees_gravity = has_vertical(sensor, mean);
     if (is_near(mean, unit.gravity) && sees_gravity) {
         read.has_gravity = true;
         read.confidence = Confidence::sure;
@@ -148,10 +154,9 @@ Acceleration acceleration_of(const Sensor& sensor) {
     if (unit != units.end()) {
         read.unit = *unit;
         read.has_gravity = true;
-        read.confidence = sensor.axes[2] != nullptr ? Confidence::sure : Confidence::likely;
+        read.confidence = has_vertical(sensor, mean) ? Confidence::sure : Confidence::likely;
         read.reason = fmt::format("by gravity, {:.4g}", mean);
     } else {
-        read.unit = units[0];
         read.reason =
             fmt::format("no unit in its name, and its mean of {:.3g} is no gravity", mean);
     }
@@ -188,6 +193,9 @@ void add(const Acceleration& read, DetectedInertia& to) {
              .confidence = is_sign_known ? read.confidence : Confidence::likely,
              .reason = is_sign_known ? read.reason : "check its sign"});
     }
+    if (read.unit.word.empty()) {
+        return;
+    }
     const double mean_mps2 = mean_length(read.sensor) * standard_gravity_mps2 / read.unit.gravity;
     to.has_gravity = read.has_gravity;
     to.gravity = read.has_gravity ? fmt::format("{:.2f} m/s2, included", mean_mps2)
@@ -220,10 +228,14 @@ void add_rates(const Sensor& sensor, DetectedInertia& to) {
     const double rate = large_rate(sensor);
     const bool may_be_rad = rate < max_radps;
     const bool may_be_deg = rate > sure_radps && rate < max_degps;
-    const auto unit = sensor.unit.empty() ? (may_be_rad ? "rad/s" : "deg/s") : sensor.unit;
-    const bool agrees = sensor.unit.empty() ? (rate < sure_radps && rate > 0) ||
-                                                  (rate >= max_radps && rate < max_degps)
-                                            : (unit == "rad/s" ? may_be_rad : may_be_deg);
+    const bool is_rad = rate < sure_radps && rate > 0;
+    const bool is_deg = rate >= max_radps && may_be_deg;
+    const auto unit = !sensor.unit.empty() ? sensor.unit
+                      : is_rad             ? "rad/s"
+                      : is_deg             ? "deg/s"
+                                           : ""; // cannot be told
+    const bool agrees =
+        sensor.unit.empty() ? !unit.empty() : (unit == "rad/s" ? may_be_rad : may_be_deg);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (sensor.axes[axis] != nullptr) {
             to.channels.push_back(

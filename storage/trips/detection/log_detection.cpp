@@ -76,28 +76,26 @@ const DetectedChannel* channel_in(const DetectedLog& log, std::string_view name)
     return found == log.channels.end() ? nullptr : &*found;
 }
 
+/// Tests for channels whose numbers mean nothing without a unit.
+bool needs_unit(std::string_view channel) {
+    return channel.starts_with("acc_") || channel.starts_with("gyro_") ||
+           channel.ends_with("speed_mps");
+}
+
 bool has(const DetectedLog& log, std::string_view column, Confidence least) {
     if (column == "t_s") {
         return log.time && is_sure_enough(log.time->confidence, least);
     }
     const auto* const channel = channel_in(log, column);
     return channel != nullptr &&
-           !(channel->unit.empty() && channel->channel.ends_with("speed_mps") &&
-             log.built_in.empty()) &&
+           (!channel->unit.empty() || !needs_unit(column) || !log.built_in.empty()) &&
            is_sure_enough(channel->confidence, least);
 }
 
-/// Only vertical acceleration counts where the axes of a device are detected: all three are needed
-/// to find the vertical.
+/// Tests for a column of which an import can make use. Lateral acceleration alone is no reason to
+/// read a file by what was detected.
 bool has_usable(const DetectedLog& log, std::string_view column, Confidence least) {
-    if (column == "acc_y_mps2") {
-        return false; // lateral acceleration alone is no reason to read a file by a guess
-    }
-    if (column == "acc_z_mps2" && log.of_device && log.has_gravity && log.built_in.empty()) {
-        return has(log, "acc_x_mps2", least) && has(log, "acc_y_mps2", least) &&
-               has(log, column, least);
-    }
-    return has(log, column, least);
+    return column != "acc_y_mps2" && has(log, column, least);
 }
 
 // --- the mapping file
@@ -266,7 +264,7 @@ std::string channels_toml(const DetectedLog& log, Confidence least) {
     for (const auto& channel : log.channels) {
         const bool is_usable = has(log, channel.channel, least);
         toml += is_usable ? channel_toml(log, channel) : "";
-        if (!is_usable && least == Confidence::likely) { // a speed without a unit
+        if (!is_usable && least == Confidence::likely) { // without a unit
             toml += fmt::format("# {} = {{column = {}, unit = \"?\"}}   # {}\n",
                                 channel.channel,
                                 column_text(log, channel.column),

@@ -91,7 +91,10 @@ bool are_minutes(const std::vector<double>& values) {
 }
 
 /// Reads degrees, ddmm.mmmm, minutes of VBOX files, and whole degrees times 1e7, 1e6 or 1e5.
-Coordinate coordinate_of(const LogTable& table, const LogColumn& column, bool is_latitude) {
+Coordinate coordinate_of(const LogTable& table,
+                         const LogColumn& column,
+                         bool is_latitude,
+                         double whole_scale) {
     const double limit = is_latitude ? 90 : 180;
     const auto [low, high] = range_of(column.values);
     const double largest = std::max(std::abs(low), std::abs(high));
@@ -117,10 +120,10 @@ Coordinate coordinate_of(const LogTable& table, const LogColumn& column, bool is
         channel.confidence = channel.hemisphere ? Confidence::sure : Confidence::likely;
         channel.reason = "degrees and minutes as in NMEA";
     } else if (is_whole && largest >= 1e5) {
-        const bool is_nano = largest > limit * 1e6;
-        channel.scale = is_nano ? 1e-7 : largest > limit * 1e5 ? 1e-6 : 1e-5;
-        channel.confidence =
-            is_nano && largest <= limit * 1e7 ? Confidence::sure : Confidence::likely;
+        channel.scale = whole_scale;
+        channel.confidence = largest * whole_scale <= limit && whole_scale == 1e-7
+                                 ? Confidence::sure
+                                 : Confidence::likely;
         channel.reason = fmt::format("whole numbers of {:g} degrees", channel.scale);
     } else {
         channel.reason = fmt::format("{:g} to {:g} are no degrees", low, high);
@@ -131,6 +134,21 @@ Coordinate coordinate_of(const LogTable& table, const LogColumn& column, bool is
         channel.reason += high > low ? "; further apart than a trip is" : "; always the same";
     }
     return read;
+}
+
+/// Scale of whole numbers, the same of both: the largest that is a position. That of 1e-7 is sure,
+/// as others would lie beyond the poles or the antimeridian.
+double whole_scale_of(const LogColumn& lat, const LogColumn& lon) {
+    const auto largest = [](const LogColumn& column) {
+        const auto [low, high] = range_of(column.values);
+        return std::max(std::abs(low), std::abs(high));
+    };
+    for (const double scale : {1e-5, 1e-6}) {
+        if (largest(lat) * scale <= 90 && largest(lon) * scale <= 180) {
+            return scale;
+        }
+    }
+    return 1e-7;
 }
 
 /// Ways from each fix to the next one that differs.
@@ -293,8 +311,9 @@ std::vector<DetectedChannel> detect_positions(const LogTable& table, const Detec
     std::vector<Way> ways;
     const bool has_positions = lat != nullptr && lon != nullptr;
     if (has_positions) {
-        auto latitude = coordinate_of(table, *lat, true);
-        auto longitude = coordinate_of(table, *lon, false);
+        const double scale = whole_scale_of(*lat, *lon);
+        auto latitude = coordinate_of(table, *lat, true, scale);
+        auto longitude = coordinate_of(table, *lon, false, scale);
         if (time != nullptr) {
             ways = ways_of(latitude, longitude, *time);
         }
