@@ -124,7 +124,11 @@ std::string toml_text(std::string_view text) {
 /// "" if it is no name of this column alone.
 std::string pattern_of(const DetectedLog& log, std::size_t column) {
     const auto& names = log.dialect.names;
-    if (!log.dialect.has_header || column > names.size()) {
+    constexpr std::size_t max_length = 200; // comparing long names with several '*' takes long
+    constexpr std::ptrdiff_t max_stars = 2;
+    const bool are_short = std::ranges::all_of(
+        names, [](const std::string& name) { return name.size() <= max_length; });
+    if (!log.dialect.has_header || column > names.size() || !are_short) {
         return "";
     }
     std::string pattern;
@@ -134,11 +138,14 @@ std::string pattern_of(const DetectedLog& log, std::size_t column) {
             pattern += is_plain ? letter : '*';
         }
     }
+    if (std::ranges::count(pattern, '*') > max_stars) {
+        return "";
+    }
     const auto first =
         std::ranges::find_if(names, [&](const auto& name) { return fits(name, pattern); });
     const bool is_own = first - names.begin() + 1 == static_cast<std::ptrdiff_t>(column);
     const bool says_something = pattern.find_first_not_of("* ") != std::string::npos;
-    return is_own && says_something && std::ranges::count(pattern, '*') <= 4 ? pattern : "";
+    return is_own && says_something ? pattern : "";
 }
 
 std::string column_text(const DetectedLog& log, std::size_t column) {

@@ -26,6 +26,7 @@ constexpr double fine_rising_share = 0.9;
 // Steps between rows of a log, s.
 constexpr double shortest_step_s = 2e-4;
 constexpr double longest_step_s = 10;
+constexpr double longest_epoch_step_s = 2; // a count of ms after a week of running is no date
 
 struct NumberUnit {
     std::string_view word;
@@ -163,11 +164,16 @@ std::optional<DetectedTime> as_number(const LogColumn& column) {
     if (!is_like_time(steps)) {
         return std::nullopt;
     }
+    const auto* const named = std::ranges::find(number_units, column.named.unit, &NumberUnit::word);
+    const bool is_named = named != number_units.end();
+    const double named_step_s = is_named ? steps.median_s * named->unit_s : unknown;
+    const bool fits_name = named_step_s >= shortest_step_s && named_step_s <= longest_epoch_step_s;
     for (const auto& unit : number_units) {
         const double middle_s = middle * unit.unit_s;
         const double step_s = steps.median_s * unit.unit_s;
-        if (middle_s >= earliest_s && middle_s <= latest_s && step_s <= longest_step_s) {
-            // ns of a phone's clock since 1970, or s of one since its start, give no such number
+        const bool contradicts_name = fits_name && unit.word != named->word;
+        if (middle_s >= earliest_s && middle_s <= latest_s && step_s <= longest_epoch_step_s &&
+            !contradicts_name) {
             return as_epoch(column, unit);
         }
     }
@@ -175,11 +181,11 @@ std::optional<DetectedTime> as_number(const LogColumn& column) {
         return clock;
     }
     auto [unit, confidence] = unit_by_steps(steps.median_s, are_whole(column.values));
-    if (!column.named.unit.empty()) {
-        unit = *std::ranges::find(number_units, column.named.unit, &NumberUnit::word);
-        const double step_s = steps.median_s * unit.unit_s;
-        confidence = step_s >= shortest_step_s && step_s <= longest_step_s ? Confidence::sure
-                                                                           : Confidence::likely;
+    if (is_named) {
+        unit = *named;
+        confidence = named_step_s >= shortest_step_s && named_step_s <= longest_step_s
+                         ? Confidence::sure
+                         : Confidence::likely;
     } else if (steps.median_s * unit.unit_s < shortest_step_s) {
         confidence = Confidence::likely; // a longitude rises, too
     } else if (ascii_lower(column.name).find("milli") != std::string::npos) {
@@ -250,6 +256,31 @@ std::optional<DetectedTime> as_any_text(const std::vector<std::string>& texts, c
     return first;
 }
 
+/// Pairs of columns of text that may be a date and a time of day: the first that are named so, or
+/// neighbours without names.
+std::vector<std::pair<const LogColumn*, const LogColumn*>>
+date_and_clock_columns(const LogTable& table) {
+    std::vector<std::pair<const LogColumn*, const LogColumn*>> pairs;
+    const auto first = [&](Quantity quantity) {
+        return std::ranges::find_if(table.columns, [&](const LogColumn& column) {
+            return column.named.quantity == quantity && !column.texts.empty();
+        });
+    };
+    const auto date = first(Quantity::date);
+    const auto clock = first(Quantity::time);
+    if (date != table.columns.end() && clock != table.columns.end()) {
+        pairs.emplace_back(&*date, &*clock);
+    }
+    for (std::size_t i = 1; table.dialect.names.empty() && i < table.columns.size(); ++i) {
+        const auto& left = table.columns[i - 1];
+        const auto& right = table.columns[i];
+        if (!left.texts.empty() && !right.texts.empty()) {
+            pairs.emplace_back(&left, &right);
+        }
+    }
+    return pairs;
+}
+
 std::vector<DetectedTime> candidates_in(const LogTable& table) {
     std::vector<DetectedTime> found;
     const auto add = [&](std::optional<DetectedTime> time, std::vector<std::size_t> columns) {
@@ -269,16 +300,8 @@ std::vector<DetectedTime> candidates_in(const LogTable& table) {
             add(as_any_text(column.texts, decimal), {column.number});
         }
     }
-    for (const auto& date : table.columns) {
-        for (const auto& clock : table.columns) {
-            const bool are_texts = !date.texts.empty() && !clock.texts.empty();
-            const bool named =
-                date.named.quantity == Quantity::date && clock.named.quantity == Quantity::time;
-            const bool beside = table.dialect.names.empty() && clock.number == date.number + 1;
-            if (are_texts && (named || beside)) {
-                add(as_any_text(joined(date, clock), decimal), {date.number, clock.number});
-            }
-        }
+    for (const auto& [date, clock] : date_and_clock_columns(table)) {
+        add(as_any_text(joined(*date, *clock), decimal), {date->number, clock->number});
     }
     return found;
 }
