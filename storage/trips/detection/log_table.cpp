@@ -116,7 +116,7 @@ LogTable parse_log_table(const TextSample& sample, CsvDialect dialect) {
     return table;
 }
 
-double median_of(std::vector<double> values) {
+double known_median(std::vector<double> values) {
     std::erase_if(values, [](double value) { return std::isnan(value); });
     if (values.empty()) {
         return unknown;

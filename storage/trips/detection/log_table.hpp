@@ -35,6 +35,6 @@ struct LogTable {
 LogTable parse_log_table(const TextSample& sample, CsvDialect dialect);
 
 /// Median of the values that are numbers; NaN if there are none.
-double median_of(std::vector<double> values);
+double known_median(std::vector<double> values);
 
 } // namespace macadam

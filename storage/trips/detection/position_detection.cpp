@@ -196,7 +196,7 @@ double speed_ratio(const LogColumn& column, const std::vector<Way>& ways) {
             ratios.push_back(value / way.speed_mps);
         }
     }
-    return ratios.size() < min_samples ? unknown : median_of(std::move(ratios));
+    return ratios.size() < min_samples ? unknown : known_median(std::move(ratios));
 }
 
 bool has_minus_one(const LogColumn& column) {
@@ -245,7 +245,7 @@ DetectedChannel course_of(const LogColumn& column, const std::vector<Way>& ways)
             errors_deg.push_back(std::abs(std::remainder(value - way.course_deg, 360)));
         }
     }
-    const double error_deg = errors_deg.size() < min_samples ? unknown : median_of(errors_deg);
+    const double error_deg = errors_deg.size() < min_samples ? unknown : known_median(errors_deg);
     const bool agrees = error_deg < max_course_error_deg;
     return {.channel = "course_deg",
             .column = column.number,
@@ -260,7 +260,7 @@ DetectedChannel course_of(const LogColumn& column, const std::vector<Way>& ways)
 
 DetectedChannel accuracy_of(const LogColumn& column) {
     const auto [low, high] = range_of(column.values);
-    const bool plausible = (low > 0 || has_minus_one(column)) && median_of(column.values) < 500;
+    const bool plausible = (low > 0 || has_minus_one(column)) && known_median(column.values) < 500;
     return {.channel = "hacc_m",
             .column = column.number,
             .unit = column.named.unit,

@@ -80,7 +80,7 @@ Steps steps_of(const std::vector<double>& t_s) {
     const auto all = static_cast<double>(count);
     return {.rising = static_cast<double>(rises.size()) / all,
             .falling = static_cast<double>(falls) / all,
-            .median_s = median_of(std::move(rises))};
+            .median_s = known_median(std::move(rises))};
 }
 
 bool is_like_time(const Steps& steps) {
@@ -140,7 +140,7 @@ std::optional<DetectedTime> as_compact_clock(const LogColumn& column) {
         last = std::isnan(value) ? last : value;
         time.t_s.push_back(read->s);
     }
-    const bool may_be = median_of(column.values) >= 10000 && column.named.unit.empty();
+    const bool may_be = known_median(column.values) >= 10000 && column.named.unit.empty();
     if (!may_be || !rolls_over) {
         return std::nullopt;
     }
@@ -159,7 +159,7 @@ DetectedTime as_epoch(const LogColumn& column, const NumberUnit& unit) {
 }
 
 std::optional<DetectedTime> as_number(const LogColumn& column) {
-    const double middle = median_of(column.values);
+    const double middle = known_median(column.values);
     const auto steps = steps_of(column.values);
     if (!is_like_time(steps)) {
         return std::nullopt;
