@@ -65,6 +65,7 @@ void run(const Command& command,
 
 extern const Command init_command;       // app/store/command_init.cpp
 extern const Command identify_command;   // app/profile/command_identify.cpp
+extern const Command inspect_command;    // app/inspect/command_inspect.cpp
 extern const Command import_command;     // app/import/command_import.cpp
 extern const Command watch_command;      // app/watch/command_watch.cpp
 extern const Command calibrate_command;  // app/store/command_calibrate.cpp

@@ -4,6 +4,7 @@
 #include "estimator/common/gravity.hpp"
 #include "estimator/motion/gnss_latency.hpp"
 #include "estimator/motion/stretch.hpp"
+#include "storage/trips/detection/log_detection.hpp"
 
 #include <fmt/format.h>
 
@@ -32,9 +33,20 @@ bool was_sampled(const TripLog& trip, const Mounting& mounting, Axis axis) {
 
 } // namespace
 
+std::optional<std::string> detected_text(const TripMeta& meta) {
+    const auto found = meta.other.find(detected_key);
+    return found == meta.other.end()
+               ? std::nullopt
+               : std::optional{fmt::format(
+                     "read as {} (detected); 'macadam inspect' shows the mapping", found->second)};
+}
+
 PreparedTrip prepared(TripLog trip, const OdometerConfig& config) {
     std::optional<TripMotion> motion;
     std::vector<std::string> warnings;
+    if (const auto words = detected_text(trip.meta)) {
+        warnings.push_back(*words);
+    }
     if (!trip.meta.gnss_latency_stated && !trip.fixes.empty()) {
         std::optional<FoundLatency> latency;
         if (const auto by_speeds_s = estimate_gnss_latency_s(trip)) {

@@ -4,6 +4,7 @@
 #include "estimator/motion/trip_motion.hpp"
 #include "estimator/roughness/roughness_trace.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct PreparedTrip {
     TripMotion motion;
     std::vector<std::string> warnings;
 };
+
+/// Says how a CSV file without a mapping was read; `std::nullopt` for other logs.
+std::optional<std::string> detected_text(const TripMeta& meta);
 
 /// Finds the motion of a trip. If the log does not state the receiver's latency, it is estimated,
 /// and a warning gives the estimate or the failure. The motion is found once, and again only where

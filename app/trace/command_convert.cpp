@@ -2,6 +2,7 @@
 #include "app/cli/overwrite_guard.hpp"
 #include "app/import/trip_inputs.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
+#include "app/pipeline/trip_preparation.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/trips/log/trip_writer.hpp"
@@ -288,6 +289,9 @@ void convert(const Task& task, const ConvertOptions& options, const Console& con
     const TripNeeds all{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
     const auto& stop = console.stop();
     const auto trip = read_trip(task.trip, all, console.progress("reading"));
+    if (const auto words = detected_text(trip.meta)) {
+        console.say(fmt::format("{}: {}", task.trip.name(), *words));
+    }
     if (!names_a_file(options.output)) {
         make_folder(task.output.parent_path());
     }

@@ -225,6 +225,12 @@ bool TomlTable::is_number(std::string_view key) const {
     return has(key) && node_->at(key).is_number();
 }
 
+bool TomlTable::is_number_array(std::string_view key) const {
+    const auto* const node = node_->get(key);
+    const auto* const array = node == nullptr ? nullptr : node->as_array();
+    return array != nullptr && !array->empty() && array->front().is_number();
+}
+
 std::optional<TomlTable> TomlTable::table(std::string_view key) const {
     const auto* const node = node_->get(key);
     if (node == nullptr) {

@@ -50,6 +50,7 @@ public:
 
     bool is_text(std::string_view key) const;
     bool is_number(std::string_view key) const;
+    bool is_number_array(std::string_view key) const;
 
     std::optional<TomlTable>
     table(std::string_view key) const; ///< [key]; `std::nullopt` if it is missing

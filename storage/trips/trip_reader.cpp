@@ -9,7 +9,9 @@
 #include "storage/trips/log/trip_assembly.hpp"
 #include "storage/trips/log/trip_rows.hpp"
 #include "storage/trips/rawlog/rawlog_reader.hpp"
+#include "storage/trips/source/phone_export_files.hpp"
 #include "storage/trips/source/trip_contents.hpp"
+#include "storage/trips/trip_file_names.hpp"
 
 #include <fmt/core.h>
 
@@ -33,6 +35,33 @@ std::size_t size_of(const TripSource& source) {
     std::error_code unknown_size;
     const auto size = std::filesystem::file_size(source.file, unknown_size);
     return unknown_size ? 0 : static_cast<std::size_t>(size);
+}
+
+/// Tests for a file on disk whose name says no format.
+bool may_be_detected(const TripSource& source) {
+    const auto name = source.file.filename().string();
+    return !is_foreign(source) && !source.contents && !is_trip_name(name) && !is_gpx_name(name) &&
+           !marks_export(name);
+}
+
+TripSource with_mapping(TripSource source, std::shared_ptr<const TripMapping> mapping) {
+    if (mapping) {
+        source.files = {source.file.filename().string()};
+        source.mapping = std::move(mapping);
+    }
+    return source;
+}
+
+void expect_sure(const DetectedLog& log, const TripNeeds& needs, const std::string& name) {
+    if (const auto missing = missing_columns(log, needs, Confidence::sure); !missing.empty()) {
+        throw InputError{
+            fmt::format("{0}: not a Macadam log; read as a CSV file ({1}), it lacks {2}, or "
+                        "it is not sure which column has it: 'macadam inspect {0}' "
+                        "shows what was found and writes a mapping for --mapping",
+                        name,
+                        words_of(log),
+                        missing)};
+    }
 }
 
 /// Bytes that report progress as they are read, and stop on request.
@@ -61,6 +90,11 @@ private:
 } // namespace
 
 OpenTrip::OpenTrip(TripSource source) : source_{std::move(source)} {
+    if (may_be_detected(source_)) {
+        detected_ = detect_log(source_.file);
+        source_ = detected_ ? with_mapping(std::move(source_), sure_mapping(*detected_))
+                            : std::move(source_);
+    }
     if (is_foreign(source_)) {
         source_ = with_contents(std::move(source_));
     } else {
@@ -89,6 +123,9 @@ std::string OpenTrip::sha256() {
 }
 
 TripLog OpenTrip::parsed(const TripNeeds& needs, const Progress& progress) {
+    if (detected_) {
+        expect_sure(*detected_, needs, source_.name());
+    }
     if (!bytes_) {
         return read_foreign_trip(source_, needs, progress.stop);
     }

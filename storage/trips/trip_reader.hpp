@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "estimator/common/trip.hpp"
 #include "storage/files/hashed_bytes.hpp"
+#include "storage/trips/detection/log_detection.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
 #include <cstddef>
@@ -36,13 +37,16 @@ private:
     TripLog parsed(const TripNeeds& needs, const Progress& progress);
 
     TripSource source_;
-    std::optional<HashedBytes> bytes_; ///< `std::nullopt`: a foreign trip, of several files
-    std::string foreign_sha256_;       ///< once it was asked for
+    std::optional<HashedBytes> bytes_;    ///< `std::nullopt`: a foreign trip, of several files
+    std::string foreign_sha256_;          ///< once it was asked for
+    std::optional<DetectedLog> detected_; ///< of a CSV file of unknown make
 };
 
 /// Reads a "macadam-trip 1" log, plain, .gz or .zst, as a stream: its samples, and for every data
 /// row its contribution or the reason why it has none. By suffix also rawlogs
 /// (storage/trips/rawlog/rawlog_reader.hpp) and GPX tracks (storage/trips/foreign/gpx_reader.hpp).
+/// Any other CSV file is read if its layout is detected for sure
+/// (storage/trips/detection/log_detection.hpp); its meta data then say how it was read.
 ///
 /// \throws InputError  "file:line: ..." if it is not such a log, lacks a required column, or does
 ///                     not end with "# end rows: N" and the correct N.

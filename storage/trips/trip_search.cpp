@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/archived_trips.hpp"
+#include "storage/trips/detection/log_detection.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
 #include "storage/trips/trip_file_names.hpp"
@@ -55,6 +56,21 @@ TripSource mapped_trip(const fs::path& path, const std::shared_ptr<const TripMap
         }
     }
     return source;
+}
+
+/// Trip of a CSV file whose layout is detected for sure.
+std::optional<TripSource> detected_trip(const fs::path& path) {
+    const auto name = path.filename().string();
+    if (!(name.ends_with(".csv") || name.ends_with(".csv.gz")) || !fs::is_regular_file(path)) {
+        return std::nullopt;
+    }
+    try {
+        const auto log = detect_log(path);
+        auto mapping = log ? sure_mapping(*log) : nullptr;
+        return mapping ? std::optional{mapped_trip(path, mapping)} : std::nullopt;
+    } catch (const InputError&) { // an unreadable file, which is counted with the others
+        return std::nullopt;
+    }
 }
 
 /// Path of a folder without a final slash, so that it has a name.
@@ -126,7 +142,16 @@ void TripWalk::find_in_folder(const fs::path& folder) {
             others.erase(name);
         }
     }
-    for (auto& [inside, files] : exports_in(names)) {
+    auto exports = exports_in(names);
+    if (items.empty() && exports.empty() && !config_.mapping) { // perhaps the logs of another make
+        for (const auto& name : names) {
+            if (auto source = detected_trip(folder / name)) {
+                items.emplace_back(name, Item{.source = std::move(*source)});
+                others.erase(name);
+            }
+        }
+    }
+    for (auto& [inside, files] : exports) {
         const auto place = inside.empty() ? folder : folder / inside.substr(0, inside.size() - 1);
         for (const auto& file : files) {
             others.erase(inside + file);

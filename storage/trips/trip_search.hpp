@@ -25,7 +25,8 @@ struct TripWalkConfig {
 /// Iterates over the trips of a path: the file itself, every *.trip.csv[.gz|.zst] below a folder in
 /// byte order of the relative paths, or every such file of a .zip, .tar, .tar.gz or .tar.zst
 /// archive in its order; and every export of phyphox or Sensor Logger, which is a folder, below a
-/// folder, in an archive, or in a .zip below a folder.
+/// folder, in an archive, or in a .zip below a folder. In a folder without any of these, CSV files
+/// whose layout is detected for sure are trips (storage/trips/detection/log_detection.hpp).
 ///
 /// An archive is read once, as far as trips are requested; its trips carry their contents.
 class TripWalk {

@@ -20,6 +20,7 @@ Answer trip_live(std::string_view input);       ///< a trip log as `trace --live
 Answer trip_trace(std::string_view input);      ///< the text of a trip log, through the estimator
 Answer trip_written(std::string_view input);    ///< the text of a trip log, read, written, read
 Answer phone_export(std::string_view input);    ///< the files of phyphox or Sensor Logger
+Answer log_detection(std::string_view input);   ///< a CSV file of another program
 Answer mapped_trip(std::string_view input);     ///< a mapping, and a table for it
 Answer rawlog(std::string_view input);          ///< of MRPT, by its own reader
 Answer gpx(std::string_view input);             ///< a track, and the roads that it draws

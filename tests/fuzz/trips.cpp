@@ -6,6 +6,7 @@
 #include "app/pipeline/pipeline.hpp"
 #include "estimator/motion/trip_motion.hpp"
 #include "mapping/inference/network_inference.hpp"
+#include "storage/trips/detection/log_detection.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/log/trip_writer.hpp"
@@ -282,6 +283,32 @@ Answer phone_export(std::string_view input) {
                                                             "inner/Location.csv"};
     const auto folder = input_folder(names, input);
     return read_all_of([&] { return testing::find_trips(folder); });
+}
+
+Answer log_detection(std::string_view input) {
+    const auto file = input_file("a.csv", input);
+    auto answer = Answer::refused;
+    may_refuse([&] {
+        const auto log = detect_log(file);
+        if (!log) {
+            return;
+        }
+        answer = Answer::accepted;
+        try { // what is written is read
+            if (log->time) {
+                parse_mapping(mapping_toml(*log, Confidence::likely, "*.csv"), "detected");
+            }
+        } catch (const InputError& refusal) {
+            throw std::logic_error{refusal.what()};
+        }
+        const auto mapping = sure_mapping(*log);
+        if (mapping) {
+            const TripSource source{
+                .file = file, .member = {}, .files = {"a.csv"}, .mapping = mapping};
+            may_refuse([&] { expect_sound(read_trip(source, needs_of_match())); });
+        }
+    });
+    return answer;
 }
 
 Answer mapped_trip(std::string_view input) {

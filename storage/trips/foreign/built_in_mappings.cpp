@@ -5,7 +5,8 @@ namespace macadam {
 namespace {
 
 constexpr BuiltInMapping table[] = {
-    {"racechrono", R"toml(# RaceChrono Pro, CSV v3. Vertical acceleration is not in it.
+    {"racechrono",
+     R"toml(# RaceChrono Pro, CSV v3. Vertical acceleration is not in it.
 header_begins = "timestamp"
 rows_under_header = 2            # units, and which device
 gravity = "removed"
@@ -22,8 +23,10 @@ lat_deg = {column = "latitude"}
 lon_deg = {column = "longitude"}
 gnss_speed_mps = {column = 15, unit = "m/s"}     # of three columns "speed" the receiver's
 course_deg = {column = "bearing"}
-)toml"},
-    {"trackaddict", R"toml(# TrackAddict 4, CSV. Y points ahead, X to the left.
+)toml",
+     "This file is created using RaceChrono"},
+    {"trackaddict",
+     R"toml(# TrackAddict 4, CSV. Y points ahead, X to the left.
 comment = "#"
 gravity = "removed"
 axes = ["y", "x", "z"]
@@ -42,7 +45,8 @@ lon_deg = {column = "Longitude"}
 gnss_speed_mps = {column = "Speed (Km/h)", unit = "km/h"}
 course_deg = {column = "Heading"}
 hacc_m = {column = "Accuracy (m)"}
-)toml"},
+)toml",
+     "# RaceRender Data: TrackAddict"},
 };
 
 } // namespace

@@ -8,6 +8,7 @@ namespace macadam {
 struct BuiltInMapping {
     std::string_view name;
     std::string_view toml;
+    std::string_view first_line; ///< prefix by which a file of the logger is recognised
 };
 
 /// Mappings for loggers with a fixed layout.

@@ -23,7 +23,7 @@ enum class TimeFormat : std::uint8_t {
     number,         ///< a number in units of `unit_s`
     clock,          ///< hh:mm:ss, with or without a fraction
     compact_clock,  ///< hhmmss as one number
-    day_month_year, ///< dd/mm/yyyy hh:mm:ss, with any separators
+    day_month_year, ///< dd/mm/yyyy hh:mm:ss, with any separators; months may be names
     month_day_year,
     year_month_day, ///< ISO 8601, with T or a blank, with or without a time zone
 };
@@ -46,7 +46,9 @@ struct ChannelMapping {
     ColumnName column;
     double scale = 1; ///< includes unit and sign
     double offset = 0;
-    std::vector<double> invalid; ///< cell values that mean "none", before scale and offset
+    std::vector<double> invalid{}; ///< cell values that mean "none", before scale and offset
+    bool degrees_minutes = false;  ///< cells are ddmm.mmmm, as in NMEA 0183
+    std::optional<ColumnName> hemisphere{}; ///< column of N, S, E or W; S and W negate
 };
 
 enum class TextEncoding : std::uint8_t {

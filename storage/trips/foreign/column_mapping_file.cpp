@@ -45,8 +45,11 @@ constexpr std::array<std::string_view, 13> table_keys{"files",
                                                       "channels"};
 constexpr std::array<std::string_view, 7> time_keys{
     "column", "columns", "format", "epoch", "utc_offset_h", "fraction_s", "shift_s"};
-constexpr std::array<std::string_view, 6> channel_keys{
-    "column", "unit", "scale", "offset", "sign", "invalid"};
+constexpr std::array<std::string_view, 7> channel_keys{
+    "column", "unit", "scale", "offset", "sign", "invalid", "hemisphere"};
+
+constexpr std::string_view degrees_minutes =
+    "ddmm.mmmm"; // unit of latitudes and longitudes in NMEA 0183
 
 constexpr std::int64_t max_columns = 10000;
 constexpr std::int64_t max_skipped = 1000000;
@@ -74,6 +77,7 @@ constexpr Unit units[] = {
     {"mph", TripColumn::gnss_speed, TripColumn::gnss_speed, 0.44704},
     {"kn", TripColumn::gnss_speed, TripColumn::gnss_speed, 1852.0 / 3600},
     {"deg", TripColumn::lat, TripColumn::lon, 1},
+    {degrees_minutes, TripColumn::lat, TripColumn::lon, 1},
     {"deg", TripColumn::course, TripColumn::course, 1},
     {"m", TripColumn::hacc, TripColumn::hacc, 1},
     {"ft", TripColumn::hacc, TripColumn::hacc, 0.3048},
@@ -96,15 +100,25 @@ Value one_of(const TomlTable& table,
     table.refuse(key, "one of " + expected);
 }
 
-ColumnName column_of(const TomlTable& table) {
-    if (!table.has("column")) {
-        table.miss("column");
+ColumnName column_of(const TomlTable& table, std::string_view key = "column") {
+    if (!table.has(key)) {
+        table.miss(key);
     }
-    if (table.is_text("column")) {
-        return {.pattern = table.text("column")};
+    if (table.is_text(key)) {
+        return {.pattern = table.text(key)};
     }
-    return {.pattern = "",
-            .number = static_cast<std::size_t>(table.integer("column", 1, max_columns))};
+    return {.pattern = "", .number = static_cast<std::size_t>(table.integer(key, 1, max_columns))};
+}
+
+/// Column with the hemispheres of a latitude or longitude; `std::nullopt` if none is stated.
+std::optional<ColumnName> hemisphere_of(const TomlTable& table, TripColumn channel) {
+    if (!table.has("hemisphere")) {
+        return std::nullopt;
+    }
+    if (channel != TripColumn::lat && channel != TripColumn::lon) {
+        table.refuse("hemisphere", "no such key except for lat_deg and lon_deg");
+    }
+    return column_of(table, "hemisphere");
 }
 
 double unit_of(const TomlTable& table, TripColumn channel) {
@@ -140,7 +154,9 @@ ChannelMapping channel_of(const TomlTable& channels, const std::string& name) {
             .column = column_of(*table),
             .scale = sign * unit_of(*table, *channel) * table->maybe_number("scale").value_or(1),
             .offset = table->maybe_number("offset").value_or(0),
-            .invalid = table->has("invalid") ? table->numbers("invalid") : std::vector<double>{}};
+            .invalid = table->has("invalid") ? table->numbers("invalid") : std::vector<double>{},
+            .degrees_minutes = table->maybe_text("unit") == degrees_minutes,
+            .hemisphere = hemisphere_of(*table, *channel)};
 }
 
 struct TimeWord {
@@ -178,7 +194,14 @@ TimeMapping time_of(const TomlTable& table) {
     if (time.utc_offset_s) {
         *time.utc_offset_s *= hour_s;
     }
-    if (table.has("columns")) {
+    if (table.is_number_array("columns")) {
+        static constexpr TomlRange column_number{
+            [](double x) { return x >= 1 && x <= max_columns && x == std::floor(x); },
+            "column numbers from 1 to 10000"};
+        for (const auto number : table.numbers("columns", column_number)) {
+            time.columns.push_back({.pattern = "", .number = static_cast<std::size_t>(number)});
+        }
+    } else if (table.has("columns")) {
         for (auto& name : table.texts("columns")) {
             time.columns.push_back({.pattern = std::move(name)});
         }
@@ -304,10 +327,14 @@ TripMapping mapping_of(const TomlTable& top, const std::string& name) {
 
 } // namespace
 
+TripMapping parse_mapping(std::string_view toml, const std::string& name) {
+    return mapping_of(parse_toml(toml, name), name);
+}
+
 TripMapping read_mapping(const std::string& name_or_file) {
-    for (const auto& [name, toml] : built_in_mappings()) {
+    for (const auto& [name, toml, begin] : built_in_mappings()) {
         if (name == name_or_file) {
-            return mapping_of(parse_toml(toml, name_or_file), name_or_file);
+            return parse_mapping(toml, name_or_file);
         }
     }
     return mapping_of(read_toml(name_or_file, "a mapping"), name_or_file);

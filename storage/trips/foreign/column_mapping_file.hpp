@@ -14,6 +14,11 @@ namespace macadam {
 /// \throws InputError  "file:line: ..." for an unknown or missing key, or an invalid value.
 TripMapping read_mapping(const std::string& name_or_file);
 
+/// Parses the text of a mapping; `name` stands for the file in messages.
+///
+/// \throws InputError  as read_mapping does.
+TripMapping parse_mapping(std::string_view toml, const std::string& name);
+
 /// Names of the built-in mappings: "racechrono" and the like.
 std::vector<std::string_view> built_in_mapping_names();
 

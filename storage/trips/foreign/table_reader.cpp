@@ -27,6 +27,17 @@ std::vector<std::string> without_nameless_end(std::vector<std::string> cells) {
     return cells;
 }
 
+/// Converts ddmm.mmmm to degrees.
+double degrees_of(double degrees_minutes) {
+    const double degrees = std::trunc(degrees_minutes / 100);
+    return degrees + (degrees_minutes - 100 * degrees) / 60;
+}
+
+bool is_south_or_west(std::string_view hemisphere) {
+    constexpr std::string_view letters = "SsWw";
+    return !hemisphere.empty() && letters.find(hemisphere.front()) != std::string_view::npos;
+}
+
 std::string_view words_of(const ColumnName& column) {
     return column.pattern;
 }
@@ -117,8 +128,12 @@ void TableReader::find_columns(const std::vector<std::string>& names) {
         min_cells_ = std::max(min_cells_, time_cells_.back() + 1);
     }
     for (const auto& channel : mapping_.channels) {
-        sources_.push_back({index_of(channel.column, names), channel});
-        min_cells_ = std::max(min_cells_, sources_.back().cell + 1);
+        auto& source =
+            sources_.emplace_back(Source{index_of(channel.column, names), channel, std::nullopt});
+        if (channel.hemisphere) {
+            source.hemisphere = index_of(*channel.hemisphere, names);
+        }
+        min_cells_ = std::max({min_cells_, source.cell + 1, source.hemisphere.value_or(0) + 1});
     }
 }
 
@@ -168,6 +183,25 @@ double TableReader::time_in(const std::vector<std::string>& cells) {
     return time->s + midnights_s_ + mapping_.time.shift_s;
 }
 
+/// Parses the cell of a channel: NaN if it means none, `std::nullopt` if it is not a number.
+std::optional<double> TableReader::value_in(const std::vector<std::string>& cells,
+                                            const Source& from) const {
+    const auto& channel = from.channel;
+    auto number = number_in(cells[from.cell]);
+    if (!number) {
+        return std::nullopt;
+    }
+    if (std::find(channel.invalid.begin(), channel.invalid.end(), *number) !=
+        channel.invalid.end()) {
+        return unknown;
+    }
+    if (channel.degrees_minutes) {
+        number = degrees_of(*number);
+    }
+    const bool is_negated = from.hemisphere && is_south_or_west(cells[*from.hemisphere]);
+    return (is_negated ? -1 : 1) * channel.scale * *number + channel.offset;
+}
+
 TripRow TableReader::row_of(std::vector<std::string> cells) {
     TripRow row;
     row.value.fill(unknown);
@@ -179,16 +213,13 @@ TripRow TableReader::row_of(std::vector<std::string> cells) {
         return row;
     }
     row.value[static_cast<std::size_t>(TripColumn::t_s)] = time_in(cells);
-    for (const auto& [cell, channel] : sources_) {
-        const auto number = number_in(cells[cell]);
-        if (!number) {
+    for (const auto& source : sources_) {
+        const auto value = value_in(cells, source);
+        if (!value) {
             row.fault = RowReason::bad_number;
             return row;
         }
-        const bool is_none = std::find(channel.invalid.begin(), channel.invalid.end(), *number) !=
-                             channel.invalid.end();
-        row.value[static_cast<std::size_t>(channel.channel)] =
-            is_none ? unknown : channel.scale * *number + channel.offset;
+        row.value[static_cast<std::size_t>(source.channel.channel)] = *value;
     }
     return turned(turned(std::move(row), TripColumn::acc_x, mapping_.axes),
                   TripColumn::gyro_x,

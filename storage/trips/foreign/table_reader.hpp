@@ -32,6 +32,7 @@ private:
     struct Source {
         std::size_t cell;
         ChannelMapping channel;
+        std::optional<std::size_t> hemisphere; ///< its cell
     };
 
     std::optional<std::string_view> next_line();
@@ -40,6 +41,7 @@ private:
     std::size_t index_of(const ColumnName& column, const std::vector<std::string>& names) const;
     TripRow row_of(std::vector<std::string> cells);
     std::optional<double> number_in(std::string cell) const;
+    std::optional<double> value_in(const std::vector<std::string>& cells, const Source& from) const;
     double time_in(const std::vector<std::string>& cells);
 
     TextLines lines_;

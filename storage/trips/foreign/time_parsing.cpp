@@ -2,10 +2,13 @@
 
 #include "storage/text/text.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace macadam {
@@ -47,6 +50,61 @@ bool take_one_of(std::string_view& text, std::string_view letters) {
     }
     text.remove_prefix(1);
     return true;
+}
+
+/// Removes a month from the front: its number, or the first letters of its English, German or
+/// French name.
+std::optional<int> take_month(std::string_view& text) {
+    constexpr std::size_t letters = 3;
+    constexpr std::array<std::string_view, 12> names{"jan",
+                                                     "feb fév",
+                                                     "mar mär mrz",
+                                                     "apr avr",
+                                                     "may mai",
+                                                     "jun",
+                                                     "jul",
+                                                     "aug aoû",
+                                                     "sep",
+                                                     "oct okt",
+                                                     "nov",
+                                                     "dec dez déc"};
+    if (const auto digits = take_digits(text)) {
+        return digits->number;
+    }
+    std::string begin;
+    std::size_t end = 0;
+    while (end < text.size() && (std::isalpha(static_cast<unsigned char>(text[end])) != 0 ||
+                                 static_cast<unsigned char>(text[end]) >= 0x80)) {
+        begin += static_cast<char>(std::tolower(static_cast<unsigned char>(text[end++])));
+    }
+    if (begin.size() < letters) {
+        return std::nullopt;
+    }
+    for (std::size_t month = 0; month < names.size(); ++month) {
+        for (auto rest = names[month]; !rest.empty();) {
+            const auto name = rest.substr(0, rest.find(' '));
+            if (begin.starts_with(name)) {
+                text.remove_prefix(end);
+                return static_cast<int>(month) + 1;
+            }
+            rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+        }
+    }
+    return std::nullopt;
+}
+
+/// Removes AM or PM from the front: seconds to add to the time of a 12-hour clock.
+double take_half_of_day(std::string_view& text, double clock_s) {
+    constexpr double half_day_s = day_s / 2;
+    const auto second = text.substr(0, 2);
+    const bool is_am = second == "AM" || second == "am";
+    const bool is_pm = second == "PM" || second == "pm";
+    if (!is_am && !is_pm) {
+        return 0;
+    }
+    text.remove_prefix(2);
+    const bool is_twelve = clock_s >= half_day_s;
+    return is_am ? (is_twelve ? -half_day_s : 0) : (is_twelve ? 0 : half_day_s);
 }
 
 /// Fraction of a second: decimals, or a count of `unit_s`.
@@ -122,18 +180,20 @@ std::optional<double> days_of(const std::array<int, 3>& parts, TimeFormat format
 std::optional<ReadTime> dated_time(std::string_view text, const TimeMapping& mapping) {
     std::array<int, 3> parts{};
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto digits = take_digits(text);
-        if (!digits || (i < 2 && !take_one_of(text, "/.-"))) {
+        const auto number = take_month(text);
+        if (!number || (i < 2 && !take_one_of(text, "/.- "))) {
             return std::nullopt;
         }
-        parts[i] = digits->number;
+        parts[i] = *number;
     }
     const auto days = days_of(parts, mapping.format);
     if (!days || !take_one_of(text, "Tt ")) {
         return std::nullopt;
     }
     text = trimmed(text);
-    const auto clock_s = take_clock(text, mapping.fraction_s);
+    auto clock_s = take_clock(text, mapping.fraction_s);
+    text = trimmed(text);
+    clock_s = clock_s ? *clock_s + take_half_of_day(text, *clock_s) : clock_s;
     text = trimmed(text);
     const auto zone_s = text.empty() ? mapping.utc_offset_s : take_zone(text);
     if (!clock_s || !text.empty()) {

@@ -88,6 +88,13 @@ std::optional<TripColumn> channel_named(std::string_view name) {
     return known->second;
 }
 
+std::string_view name_of(TripColumn column) {
+    const auto* const known = std::find_if(std::begin(known_columns),
+                                           std::end(known_columns),
+                                           [&](const auto& row) { return row.second == column; });
+    return column >= TripColumn::other || known == std::end(known_columns) ? "" : known->first;
+}
+
 bool TripHeader::has(TripColumn column) const {
     return std::find(columns.begin(), columns.end(), column) != columns.end();
 }

@@ -41,6 +41,9 @@ inline constexpr std::size_t trip_column_count = static_cast<std::size_t>(TripCo
 /// Column of a name like "acc_z_mps2"; `std::nullopt` if no numeric column has this name.
 std::optional<TripColumn> channel_named(std::string_view name);
 
+/// Name of a numeric column; "" for `other` and `text`.
+std::string_view name_of(TripColumn column);
+
 /// Header row: the column types, and unknown names.
 struct TripHeader {
     std::vector<TripColumn> columns;

@@ -34,8 +34,8 @@ void expect_first_line(TextLines& lines, const TripSource& source) {
     if (*line != first_line) {
         expect_no_export(source);
         throw InputError{
-            fmt::format("{}: {}, expected '{}': not a Macadam log; for other CSV files see the "
-                        "option --mapping",
+            fmt::format("{}: {}, expected '{}': not a Macadam log; for other CSV files see "
+                        "'macadam inspect'",
                         lines.where(),
                         in_quotes(*line),
                         first_line)};

@@ -295,7 +295,7 @@ TEST(TripReader, ShowsTheBytesOfWhatIsNoText) {
     EXPECT_THAT(
         refusal_of_text("PK\x03\x04 and more of it"),
         EndsWith("a.trip.csv:1: 'PK\\x03\\x04 and more of it', expected '# macadam-trip 1': "
-                 "not a Macadam log; for other CSV files see the option --mapping"));
+                 "not a Macadam log; for other CSV files see 'macadam inspect'"));
     EXPECT_THAT(refusal_of_text(std::string_view{"# macadam-trip 1\nt_s\n0\0\n", 23}),
                 EndsWith("a.trip.csv:3: '0\\x00', expected text"));
     EXPECT_THAT(refusal_of_text(std::string(3 << 20, 'x')), HasSubstr("expected lines shorter"));

@@ -113,7 +113,7 @@ TEST(TripWalk, NamesTheMemberInWhatIsWrongWithIt) {
         written(test_folder(), "a.zip", archive_of("zip", {{"bad.trip.csv", "bumps\n"}}));
     EXPECT_THAT(refusal_of([&] { read_trip(find_trips(file).trips.at(0), {}); }),
                 EndsWith("a.zip/bad.trip.csv:1: 'bumps', expected '# macadam-trip 1': not a "
-                         "Macadam log; for other CSV files see the option --mapping"));
+                         "Macadam log; for other CSV files see 'macadam inspect'"));
 }
 
 TEST(TripWalk, RefusesAnArchiveThatIsCutOff) {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "app/inspect/file_kind.hpp"
+#include "app/inspect/trip_summary.hpp"
+#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/source/trip_source.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+namespace macadam {
+
+/// Result of inspecting one file or trip.
+struct Inspection {
+    std::string name{}; ///< of the file, or of the trip within a folder or archive
+    FileKind kind{};
+    std::optional<DetectedLog> detected{}; ///< of the log of another program
+    std::string mapping{};                 ///< of that log, as TOML
+    std::optional<TripSummary> trip{};     ///< `std::nullopt`: not a trip, or not readable as one
+    std::string error{};                   ///< reason why it cannot be read; "" if it can
+
+    /// Tests whether 'import' would read it without a mapping.
+    bool is_sure() const { return detected && sure_mapping(*detected) != nullptr; }
+};
+
+/// Inspects a path: a file, or all trips and other files of a folder or an archive.
+///
+/// \param tell  called for each of them; errors are part of the result.
+void inspect(const std::filesystem::path& path,
+             std::size_t max_files,
+             const std::stop_token& stop,
+             const std::function<void(const Inspection&)>& tell);
+
+} // namespace macadam

@@ -1,0 +1,152 @@
+#include "support/program/program.hpp"
+#include "support/roads/drive.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const auto source = fs::path{MACADAM_SOURCE_DIR};
+
+/// A drive of 1,000 m as a logger of unknown make writes it.
+std::string foreign_log(const std::string& header) {
+    const auto road = patched_road([](double) { return false; }, 1);
+    const auto trip = drive_over(road, {.gnss_hz = 1}, *built_in_vehicle("golden-car"));
+    auto text = header + "\n";
+    std::size_t fix = 0;
+    for (std::size_t i = 0; i < trip.acc.t_s.size(); ++i) {
+        while (fix + 1 < trip.fixes.size() && trip.fixes[fix + 1].t_s <= trip.acc.t_s[i]) {
+            ++fix;
+        }
+        text += fmt::format("{:.0f};{:.5f};{:.8f};{:.8f};{:.3f}\n",
+                            trip.acc.t_s[i] * 1000,
+                            trip.acc.z[i] / 9.80665,
+                            trip.fixes[fix].at.lat_deg,
+                            trip.fixes[fix].at.lon_deg,
+                            trip.fixes[fix].speed_mps * 3.6);
+    }
+    return text;
+}
+
+const std::string plain_header = "millis;acc z (g);latitude;longitude;GPS speed (km/h)";
+
+TEST(Inspect, ShowsColumnsQualityAndAMappingThatImportReads) {
+    const auto folder = fresh_folder();
+    const auto log = (folder / "drive.csv").string();
+    const auto store = (folder / "roads.gpkg").string();
+    write_file(log, foreign_log(plain_header));
+    const auto shown = run_macadam({"inspect", log});
+    EXPECT_EQ(shown.exit_status, 0) << shown.err;
+    EXPECT_THAT(
+        shown.out,
+        AllOf(HasSubstr("drive.csv: CSV file of another program\n"),
+              HasSubstr("layout         semicolons, time in ms, acceleration in g, GNSS "
+                        "speed in km/h\n"),
+              HasSubstr("acc_z_mps2     'acc z (g)', g; sure: unit in its name, and by "
+                        "gravity\n"),
+              HasSubstr("readings at 100 Hz; gravity 9.8"),
+              HasSubstr("gives          roughness along the trip (trace), the roads driven "
+                        "(match), a map (import)\n"),
+              HasSubstr("without        angular rates"),
+              HasSubstr("[channels]\nacc_z_mps2 = {column = \"acc z (g)\", unit = \"g\"}")));
+
+    EXPECT_EQ(run_macadam({"init", store, "--trace", log}).exit_status, 0);
+    const auto detected = run_macadam({"import", store, log, "--method", "kf"});
+    EXPECT_EQ(detected.exit_status, 0) << detected.err;
+    EXPECT_THAT(detected.out,
+                HasSubstr("note: read as semicolons, time in ms, acceleration in g, GNSS speed in "
+                          "km/h (detected); 'macadam inspect' shows the mapping"));
+
+    const auto mapping = (folder / "logger.toml").string();
+    EXPECT_EQ(run_macadam({"inspect", log, "-o", mapping}).exit_status, 0);
+    const auto mapped = run_macadam({"import", store, log, "--mapping", mapping, "--json"});
+    EXPECT_THAT(mapped.out, HasSubstr("\"result\":\"known\"")); // the same content
+}
+
+TEST(Inspect, IsNamedByCommandsThatAreNotSureOfAColumn) {
+    const auto folder = fresh_folder();
+    const auto log = (folder / "drive.csv").string();
+    write_file(log, foreign_log("millis;b;latitude;longitude;GPS speed (km/h)"));
+    const auto traced = run_macadam({"trace", log});
+    EXPECT_EQ(traced.exit_status, 1);
+    EXPECT_THAT(traced.err,
+                AllOf(HasSubstr("it lacks acc_z_mps2 or acc_y_mps2, or it is not sure which column "
+                                "has it: 'macadam inspect "),
+                      HasSubstr("writes a mapping for --mapping")));
+    EXPECT_THAT(
+        run_macadam({"inspect", log}).out,
+        AllOf(HasSubstr("not found      acc_z_mps2"), HasSubstr("# acc_z_mps2 = {column = \"?\"")));
+}
+
+TEST(Inspect, SaysOfEveryKindOfFileWhichCommandTakesIt) {
+    const auto folder = fresh_folder();
+    const auto file = [&](const std::string& name, const std::string& text) {
+        write_file(folder / name, text);
+        return (folder / name).string();
+    };
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {file("a.pdf", "%PDF-1.7\n"), "PDF document"},
+        {file("a.xlsx", "PK\x03\x04 [Content_Types].xml"), "save the sheet as CSV"},
+        {file("profile.csv", "station_m,left_m\n0,0\n0.1,0\n"), "macadam iri FILE"},
+        {file("laser.csv", "lat_deg,lon_deg,iri\n47,17,2\n47.001,17,2\n"), "--reference FILE"},
+        {file("a.osm", "<?xml version='1.0'?>\n<osm version='0.6'>\n</osm>\n"), "init STORE"},
+        {file("map.geojson", "{\"type\":\"FeatureCollection\",\"features\":[]}"), "GeoJSON"},
+        {file("log.nmea", "$GPGGA,081530,4741.25,N,01738.07,E,1,8,1,110,M,,M,,*47\n"), "NMEA 0183"},
+        {file("car.toml", read_file(source / "sample_data/fleet/recipe.toml")), "recipe of a"},
+        {(source / "tests/data/loggers/racechrono.csv").string(), "layout         racechrono"}};
+    for (const auto& [path, words] : cases) {
+        const auto run = run_macadam({"inspect", path});
+        EXPECT_EQ(run.exit_status, 0) << run.out << run.err;
+        EXPECT_THAT(run.out, HasSubstr(words));
+    }
+}
+
+TEST(Inspect, FailsForWhatItDoesNotKnowAndGoesOn) {
+    const auto folder = fresh_folder();
+    write_file(folder / "a.bin", std::string("\x01\x00\x02 no idea", 12));
+    write_file(folder / "b.txt", "one line of prose\n");
+    write_file(folder / "empty.csv", "");
+    const auto run = run_macadam({"inspect", folder.string(), (folder / "missing.csv").string()});
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_THAT(run.out,
+                AllOf(HasSubstr("a.bin: not recognised"),
+                      HasSubstr("b.txt: text that is not a table"),
+                      HasSubstr("empty.csv: empty file"),
+                      HasSubstr("missing.csv: cannot be read")));
+    EXPECT_THAT(run.err, HasSubstr("4 of 4 files not recognised or not readable"));
+}
+
+TEST(Inspect, WritesOneMappingAndReplacesNoInput) {
+    const auto folder = fresh_folder();
+    const auto log = (folder / "drive.csv").string();
+    write_file(log, foreign_log(plain_header));
+    EXPECT_THAT(run_macadam({"inspect", log, log, "-o", (folder / "m.toml").string()}).err,
+                HasSubstr("-o takes one CSV file of another program, found 2"));
+    EXPECT_FALSE(fs::exists(folder / "m.toml"));
+    EXPECT_EQ(run_macadam({"inspect", log, "-o", log}).exit_status, 1);
+    EXPECT_EQ(read_file(log), foreign_log(plain_header));
+}
+
+TEST(Inspect, PrintsJsonWithEveryColumn) {
+    const auto folder = fresh_folder();
+    const auto log = (folder / "drive.csv").string();
+    write_file(log, foreign_log(plain_header));
+    const auto run = run_macadam({"inspect", log, "--json"});
+    EXPECT_THAT(run.out,
+                AllOf(HasSubstr("{\"channel\":\"t_s\",\"column\":1,\"name\":\"millis\",\"unit\":"
+                                "\"ms\",\"confidence\":\"sure\""),
+                      HasSubstr("\"sure\":true"),
+                      HasSubstr("\"gives_roughness\":true"),
+                      HasSubstr("\"error\":null")));
+    EXPECT_THAT(run.out, Not(HasSubstr("nan")));
+}
+
+} // namespace
+} // namespace macadam::testing

@@ -1,0 +1,433 @@
+// Logs in the styles of several makers, written here from one drive.
+
+#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/trip_reader.hpp"
+#include "storage/trips/trip_search.hpp"
+
+#include "estimator/common/error.hpp"
+#include "support/files/files.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+using namespace macadam;
+using namespace macadam::testing;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double g = 9.80665;
+constexpr double deg_in_rad = std::numbers::pi / 180;
+constexpr std::size_t seconds = 40;
+constexpr std::size_t rows_per_s = 20;
+constexpr std::size_t row_count = seconds * rows_per_s;
+
+/// Readings at one time of a car on a winding road, from a phone that leans back.
+struct Reading {
+    double t_s, v_mps, lat_deg, lon_deg, course_deg;
+    double ax, ay, az;    ///< m/s2
+    double wx, wy, wz;    ///< rad/s
+    double vertical_mps2; ///< in the axes of the car
+};
+
+std::vector<Reading> drive() {
+    std::mt19937 random{11};
+    std::normal_distribution<double> noise{0, 1};
+    std::vector<Reading> readings;
+    double course = 0.7;
+    double lat_deg = 47.6875;
+    double lon_deg = 17.6346;
+    const double lean = 25 * deg_in_rad;
+    for (std::size_t i = 0; i < row_count; ++i) {
+        const double t_s = static_cast<double>(i) / rows_per_s;
+        const double v_mps = 12 + 3 * std::sin(t_s / 6);
+        const double turn = 0.1 * std::sin(t_s / 5);
+        course += turn / rows_per_s;
+        lat_deg += v_mps * std::cos(course) / rows_per_s / 111195;
+        lon_deg += v_mps * std::sin(course) / rows_per_s / 111195 / std::cos(lat_deg * deg_in_rad);
+        const double up = g + 0.6 * noise(random);
+        const double across = -v_mps * turn + 0.2 * noise(random);
+        readings.push_back({t_s,
+                            v_mps,
+                            lat_deg,
+                            lon_deg,
+                            std::fmod(course / deg_in_rad + 360, 360),
+                            0.5 * std::cos(t_s / 6) + 0.2 * noise(random),
+                            across * std::cos(lean) + up * std::sin(lean),
+                            up * std::cos(lean) - across * std::sin(lean),
+                            0.03 * noise(random),
+                            0.02 * noise(random),
+                            -turn,
+                            up});
+    }
+    return readings;
+}
+
+/// Writes a log: a header and a line for each reading; `fix` is the latest one at 1 Hz.
+std::string
+log_text(const std::string& header,
+         const std::function<std::string(const Reading& now, const Reading& fix)>& line) {
+    const auto readings = drive();
+    auto text = header;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        text += line(readings[i], readings[i / rows_per_s * rows_per_s]) + "\n";
+    }
+    return text;
+}
+
+std::string with_decimal_commas(std::string text) {
+    std::ranges::replace(text, '.', ',');
+    return text;
+}
+
+std::string in_utf16(const std::string& ascii) {
+    std::string text = "\xff\xfe";
+    for (const char letter : ascii) {
+        text += {letter, '\0'};
+    }
+    return text;
+}
+
+/// Latin-1 of text whose only letters beyond ASCII are below U+0100.
+std::string in_latin1(const std::string& utf8) {
+    std::string text;
+    for (std::size_t i = 0; i < utf8.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(utf8[i]);
+        text += byte < 0x80 ? utf8[i]
+                            : static_cast<char>(((byte & 3U) << 6U) |
+                                                (static_cast<unsigned char>(utf8[++i]) & 0x3FU));
+    }
+    return text;
+}
+
+const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
+
+fs::path log_file(const std::string& text, const std::string& name = "drive.csv") {
+    return written(test_folder(), name, text);
+}
+
+/// Expects that a log is read without a mapping, as the drive that it is of.
+void expect_read_as_the_drive(const fs::path& file, double acc_tolerance = 0.05) {
+    const auto log = detect_log(file);
+    ASSERT_TRUE(log);
+    SCOPED_TRACE(mapping_toml(*log, Confidence::likely, "*.csv"));
+    ASSERT_THAT(missing_columns(*log, needs_of_import(), Confidence::sure), IsEmpty());
+    const auto trip = read_trip({.file = file, .member = {}}, everything);
+    const auto readings = drive();
+    ASSERT_THAT(trip.acc.t_s, SizeIs(row_count));
+    ASSERT_GE(trip.fixes.size(), seconds - 1);
+    for (std::size_t i = 0; i < row_count; i += 7) {
+        const auto& truth = readings[i];
+        EXPECT_NEAR(trip.acc.t_s[i], truth.t_s, 0.002);
+        EXPECT_NEAR(std::hypot(trip.acc.x[i], trip.acc.y[i], trip.acc.z[i]),
+                    std::hypot(truth.ax, truth.ay, truth.az),
+                    acc_tolerance);
+    }
+    EXPECT_NEAR(trip.fixes[10].at.lat_deg, readings[10 * rows_per_s].lat_deg, 2e-6);
+    EXPECT_NEAR(trip.fixes[10].at.lon_deg, readings[10 * rows_per_s].lon_deg, 2e-6);
+    EXPECT_NEAR(trip.fixes[10].speed_mps, readings[10 * rows_per_s].v_mps, 0.1);
+    EXPECT_THAT(trip.meta.other, ::testing::Contains(::testing::Key(std::string{detected_key})));
+}
+
+const std::string androsensor_header =
+    "ACCELEROMETER X (m/s²);ACCELEROMETER Y (m/s²);ACCELEROMETER Z (m/s²);"
+    "LINEAR ACCELERATION X (m/s²);LINEAR ACCELERATION Y (m/s²);LINEAR ACCELERATION Z (m/s²);"
+    "GYROSCOPE X (rad/s);GYROSCOPE Y (rad/s);GYROSCOPE Z (rad/s);LIGHT (lux);"
+    "LOCATION Latitude : ;LOCATION Longitude : ;LOCATION Speed ( Kmh);LOCATION Accuracy ( m);"
+    "Satellites in range;Time since start in ms \n";
+
+std::string androsensor_line(const Reading& now, const Reading& fix) {
+    return fmt::format("{:.4f};{:.4f};{:.4f};0.1;0.2;0.1;{:.4f};{:.4f};{:.4f};12.0;{:.6f};{:.6f};"
+                       "{:.2f};5.0;9 / 12;{:.0f}",
+                       now.ax,
+                       now.ay,
+                       now.az,
+                       now.wx,
+                       now.wy,
+                       now.wz,
+                       fix.lat_deg,
+                       fix.lon_deg,
+                       fix.v_mps * 3.6,
+                       now.t_s * 1000);
+}
+
+} // namespace
+
+TEST(LogDetection, ReadsAndroSensorByTheUnitsInItsNames) {
+    expect_read_as_the_drive(log_file(log_text(androsensor_header, androsensor_line)));
+}
+
+TEST(LogDetection, ReadsDecimalCommasAndLatin1) {
+    const auto text =
+        in_latin1(with_decimal_commas(log_text(androsensor_header, androsensor_line)));
+    expect_read_as_the_drive(log_file(text));
+}
+
+TEST(LogDetection, FindsUnitsByGravityAndByTheWayDriven) {
+    const auto text =
+        log_text("time,gFx,gFy,gFz,wx,wy,wz,Latitude,Longitude,Speed\n",
+                 [](const Reading& now, const Reading& fix) {
+                     return fmt::format("{:.3f},{:.5f},{:.5f},{:.5f},{:.4f},{:.4f},{:.4f},{:.7f},"
+                                        "{:.7f},{:.3f}",
+                                        now.t_s,
+                                        now.ax / g,
+                                        now.ay / g,
+                                        now.az / g,
+                                        now.wx,
+                                        now.wy,
+                                        now.wz,
+                                        fix.lat_deg,
+                                        fix.lon_deg,
+                                        fix.v_mps / 0.44704);
+                 });
+    const auto file = log_file(text);
+    expect_read_as_the_drive(file);
+    EXPECT_EQ(words_of(*detect_log(file)),
+              "commas, time in s, acceleration in g, rates in rad/s, GNSS speed in mph");
+}
+
+TEST(LogDetection, ReadsUtf16WithDateAndTimeInTwoColumns) {
+    const auto text =
+        log_text("sep=;\nDatum;Uhrzeit;Breitengrad;Laengengrad;Geschwindigkeit;Beschleunigung X;"
+                 "Beschleunigung Y;Beschleunigung Z\n",
+                 [](const Reading& now, const Reading& fix) {
+                     const auto numbers = with_decimal_commas(
+                         fmt::format("{:06.3f};{:.6f};{:.6f};{:.2f};{:.4f};{:.4f};{:.4f}",
+                                     now.t_s,
+                                     fix.lat_deg,
+                                     fix.lon_deg,
+                                     fix.v_mps * 3.6,
+                                     now.ax,
+                                     now.ay,
+                                     now.az));
+                     return "17.05.2024;08:15:" + numbers;
+                 });
+    expect_read_as_the_drive(log_file(in_utf16(text)));
+}
+
+TEST(LogDetection, ReadsNmeaCoordinatesKnotsAndMilliG) {
+    const auto minutes = [](double deg) {
+        return std::floor(deg) * 100 + (deg - std::floor(deg)) * 60;
+    };
+    const auto text =
+        log_text("timestamp\tlat\tlat_dir\tlon\tlon_dir\tspeed_knots\tacc_x [mg]\tacc_y [mg]\t"
+                 "acc_z [mg]\tgyro_x [dps]\tgyro_y [dps]\tgyro_z [dps]\n",
+                 [&](const Reading& now, const Reading& fix) {
+                     return fmt::format(
+                         "{:.0f}\t{:.5f}\tN\t{:.5f}\tE\t{:.3f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.2f}\t"
+                         "{:.2f}\t{:.2f}",
+                         1715926530000 + now.t_s * 1000,
+                         minutes(fix.lat_deg),
+                         minutes(fix.lon_deg),
+                         fix.v_mps * 3600 / 1852,
+                         now.ax / g * 1000,
+                         now.ay / g * 1000,
+                         now.az / g * 1000,
+                         now.wx / deg_in_rad,
+                         now.wy / deg_in_rad,
+                         now.wz / deg_in_rad);
+                 });
+    const auto file = log_file(text);
+    expect_read_as_the_drive(file);
+    EXPECT_EQ(read_trip({.file = file, .member = {}}, everything).meta.t0_utc_s, 1715926530);
+}
+
+TEST(LogDetection, ReadsCountsOfAChipAndCoordinatesTimesTenMillion) {
+    const auto text = log_text(
+        "millis,ax,ay,az,gx,gy,gz,lat,lng,kmph\n", [](const Reading& now, const Reading& fix) {
+            const double counts = 16384 / g;
+            return fmt::format(
+                "{:.0f},{:.0f},{:.0f},{:.0f},{:.0f},{:.0f},{:.0f},{:.0f},{:.0f},{:.1f}",
+                5000 + now.t_s * 1000,
+                now.ax * counts,
+                now.ay * counts,
+                now.az * counts,
+                now.wx / deg_in_rad * 131,
+                now.wy / deg_in_rad * 131,
+                now.wz / deg_in_rad * 131,
+                fix.lat_deg * 1e7,
+                fix.lon_deg * 1e7,
+                fix.v_mps * 3.6);
+        });
+    const auto file = log_file(text);
+    expect_read_as_the_drive(file);
+    // Nothing shows the unit of the rates: they are left out rather than guessed.
+    EXPECT_THAT(read_trip({.file = file, .member = {}}, everything).gyro.t_s, IsEmpty());
+}
+
+TEST(LogDetection, ReversesTheAccelerationsOfAnIphone) {
+    const auto text = log_text(
+        "loggingTime(txt),loggingSample(N),locationLatitude(WGS84),locationLongitude(WGS84),"
+        "locationSpeed(m/s),accelerometerAccelerationX(G),accelerometerAccelerationY(G),"
+        "accelerometerAccelerationZ(G),motionYaw(rad)\n",
+        [](const Reading& now, const Reading& fix) {
+            return fmt::format(
+                "2024-05-17 08:15:{:06.3f} +0200,1,{:.6f},{:.6f},{:.2f},{:.5f},{:.5f},{:.5f},0.1",
+                now.t_s,
+                fix.lat_deg,
+                fix.lon_deg,
+                fix.v_mps,
+                -now.ax / g,
+                -now.ay / g,
+                -now.az / g);
+        });
+    const auto file = log_file(text);
+    expect_read_as_the_drive(file);
+    const auto trip = read_trip({.file = file, .member = {}}, everything);
+    EXPECT_GT(trip.acc.z.front(), 5);
+    EXPECT_EQ(trip.meta.t0_utc_s, 1715926500); // 06:15 UTC
+}
+
+TEST(LogDetection, ReadsNamesBelowAPreambleAndUnitsBelowTheNames) {
+    const auto text = log_text(
+        "\"Format\",\"AiM CSV File\"\n\"Session\",\"track\"\n\n\"Time\",\"GPS Speed\",\"GPS "
+        "Latitude\",\"GPS Longitude\",\"VerticalAcc\"\n\"s\",\"km/h\",\"deg\",\"deg\",\"g\"\n\n",
+        [](const Reading& now, const Reading& fix) {
+            return fmt::format("\"{:.2f}\",\"{:.2f}\",\"{:.6f}\",\"{:.6f}\",\"{:.5f}\"",
+                               now.t_s,
+                               fix.v_mps * 3.6,
+                               fix.lat_deg,
+                               fix.lon_deg,
+                               now.vertical_mps2 / g);
+        });
+    const auto file = log_file(text);
+    const auto log = detect_log(file);
+    ASSERT_TRUE(log);
+    EXPECT_THAT(missing_columns(*log, needs_of_import(), Confidence::sure), IsEmpty());
+    EXPECT_NEAR(read_trip({.file = file, .member = {}}, everything).acc.z[3],
+                drive()[3].vertical_mps2,
+                0.01);
+}
+
+TEST(LogDetection, ReadsATableWithoutNamesAsFarAsItsValuesTell) {
+    const auto text = log_text("", [](const Reading& now, const Reading&) {
+        return fmt::format("{:.0f},{:.3f},{:.3f},{:.3f}", now.t_s * 1000, now.ax, now.ay, now.az);
+    });
+    const auto log = detect_log(log_file(text));
+    ASSERT_TRUE(log);
+    ASSERT_TRUE(log->time);
+    EXPECT_EQ(log->time->columns.front(), 1U);
+    EXPECT_EQ(log->time->format, "ms");
+    EXPECT_EQ(sure_mapping(*log), nullptr);
+}
+
+TEST(LogDetection, IsNotSureWhereNamesAndValuesContradict) {
+    const auto log_with = [](const std::string& names, double factor) {
+        return detect_log(log_file(log_text(names, [&](const Reading& now, const Reading& fix) {
+            return fmt::format("{:.2f},{:.4f},{:.4f},{:.4f},{:.6f},{:.6f},{:.2f}",
+                               now.t_s,
+                               now.ax / g,
+                               now.ay / g,
+                               now.az / g,
+                               fix.lat_deg,
+                               fix.lon_deg,
+                               fix.v_mps * factor);
+        })));
+    };
+    // 1 g as m/s2
+    const auto acc = log_with("t [s],ax [m/s2],ay [m/s2],az [m/s2],lat,lon,speed [m/s]\n", 1);
+    EXPECT_THAT(missing_columns(*acc, needs_of_trace(), Confidence::sure), HasSubstr("acc_z_mps2"));
+    // km/h as m/s: then time or positions may be wrong as well
+    const auto speed = log_with("t [s],ax [g],ay [g],az [g],lat,lon,speed [m/s]\n", 3.6);
+    EXPECT_THAT(missing_columns(*speed, needs_of_import(), Confidence::sure),
+                HasSubstr("gnss_speed_mps"));
+    EXPECT_THAT(missing_columns(*speed, needs_of_import(), Confidence::sure), HasSubstr("lat_deg"));
+}
+
+TEST(LogDetection, IsNotSureWhichWayIsUpWithoutGravity) {
+    const auto log =
+        detect_log(log_file(log_text("time (s),Linear Acceleration x (m/s^2),Linear Acceleration y "
+                                     "(m/s^2),Linear Acceleration z "
+                                     "(m/s^2),speed (m/s)\n",
+                                     [](const Reading& now, const Reading&) {
+                                         return fmt::format("{:.2f},{:.4f},0.1,{:.4f},{:.2f}",
+                                                            now.t_s,
+                                                            now.ax,
+                                                            now.vertical_mps2 - g,
+                                                            now.v_mps);
+                                     })));
+    ASSERT_TRUE(log);
+    EXPECT_FALSE(log->has_gravity);
+    EXPECT_THAT(missing_columns(*log, needs_of_trace(), Confidence::sure), HasSubstr("acc_z_mps2"));
+    EXPECT_THAT(missing_columns(*log, needs_of_trace(), Confidence::likely), IsEmpty());
+}
+
+TEST(LogDetection, WritesAMappingThatReadsTheSameTrip) {
+    const auto file = log_file(log_text(androsensor_header, androsensor_line));
+    const auto mapping_file = written(
+        file.parent_path(), "m.toml", mapping_toml(*detect_log(file), Confidence::likely, "*.csv"));
+    const auto mapping = std::make_shared<const TripMapping>(read_mapping(mapping_file.string()));
+    const auto mapped = read_trip(*TripWalk(file, {.mapping = mapping}).next(), everything);
+    const auto detected = read_trip({.file = file, .member = {}}, everything);
+    EXPECT_EQ(mapped.sha256, detected.sha256);
+    EXPECT_EQ(mapped.acc.t_s, detected.acc.t_s);
+    EXPECT_EQ(mapped.acc.z, detected.acc.z);
+    EXPECT_EQ(mapped.gyro.x, detected.gyro.x);
+    EXPECT_EQ(mapped.rows, detected.rows);
+}
+
+TEST(LogDetection, MarksWhatItDidNotFind) {
+    const auto log = detect_log(
+        log_file(log_text("t [s],temperature,az [g]\n", [](const Reading& now, const Reading&) {
+            return fmt::format("{:.2f},20,{:.4f}", now.t_s, now.vertical_mps2 / g);
+        })));
+    const auto toml = mapping_toml(*log, Confidence::likely, "*.csv");
+    EXPECT_THAT(toml, HasSubstr("acc_z_mps2 = {column = \"az [g]\", unit = \"g\"}   # sure"));
+    EXPECT_THAT(toml, HasSubstr("# lat_deg = {column = \"?\"}   # not found: latitude"));
+    EXPECT_THAT(toml, HasSubstr("# not used: temperature"));
+    EXPECT_NO_THROW(parse_mapping(toml, "m.toml"));
+    EXPECT_EQ(missing_columns(*log, needs_of_import(), Confidence::likely),
+              "speed_mps or gnss_speed_mps or wheel_fl_mps or wheel_fr_mps or wheel_rl_mps or "
+              "wheel_rr_mps and lat_deg and lon_deg");
+}
+
+TEST(LogDetection, RecognisesTheLoggersOfBuiltInMappings) {
+    const auto loggers = fs::path{MACADAM_SOURCE_DIR} / "tests/data/loggers";
+    EXPECT_EQ(detect_log(loggers / "racechrono.csv")->built_in, "racechrono");
+    EXPECT_EQ(detect_log(loggers / "trackaddict.csv")->built_in, "trackaddict");
+    const TripSource source{.file = loggers / "trackaddict.csv", .member = {}};
+    EXPECT_THAT(read_trip(source, needs_of_match()).fixes, SizeIs(::testing::Gt(2)));
+}
+
+TEST(LogDetection, TakesNoOtherTableForALog) {
+    const auto log =
+        detect_log(log_file("product;price;count\nbread;3,50;7\nmilk;1,20;2\nsalt;0,80;1\n"));
+    ASSERT_TRUE(log);
+    EXPECT_EQ(sure_mapping(*log), nullptr);
+    EXPECT_FALSE(detect_log(log_file("# macadam-trip 1\nt_s,acc_z_mps2\n0,9.8\n0.1,9.8\n")));
+    EXPECT_FALSE(detect_log(log_file("one line of prose\nand another\n")));
+}
+
+TEST(TripWalk, TakesDetectedLogsOfAFolderThatHasNoOthers) {
+    const auto folder = test_folder();
+    written(folder, "a.csv", log_text(androsensor_header, androsensor_line));
+    written(folder, "prices.csv", "product;price\nbread;3,50\nmilk;1,20\n");
+    TripWalk walk{folder};
+    EXPECT_EQ(walk.count(), 1U);
+    EXPECT_EQ(walk.next()->file.filename(), "a.csv");
+    EXPECT_EQ(walk.first_other_file(), "prices.csv");
+    written(folder, "b.trip.csv", "# macadam-trip 1\n");
+    TripWalk beside{folder};
+    EXPECT_EQ(beside.count(), 1U);
+    EXPECT_EQ(beside.next()->file.filename(), "b.trip.csv");
+}
+
+TEST(OpenTrip, NamesInspectForATableThatIsNotSure) {
+    const auto file = log_file("a,b,c\n1,2,3\n2,2,3\n3,2,3\n");
+    EXPECT_THAT(
+        refusal_of([&] { read_trip({.file = file, .member = {}}, needs_of_match()); }),
+        HasSubstr(
+            "drive.csv: not a Macadam log; read as a CSV file (commas), it lacks t_s and lat_deg "
+            "and lon_deg, or it is not sure which column has it: 'macadam inspect "));
+}
