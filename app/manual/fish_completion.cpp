@@ -85,10 +85,11 @@ std::string fish_completion() {
                             command.name,
                             in_quotes(command.summary));
     }
-    text += fmt::format("complete -c macadam -n __fish_use_subcommand -a help -d 'Show the help of "
-                        "a command'\n"
-                        "complete -c macadam -n '__fish_seen_subcommand_from help' -a '{}'\n",
-                        names);
+    text +=
+        fmt::format("complete -c macadam -n __fish_use_subcommand -a help -d 'Show the help of "
+                    "a command'\n"
+                    "complete -c macadam -n '__fish_seen_subcommand_from help' -a '{} config'\n",
+                    names);
     for (const auto& command : commands()) {
         for (const auto& group : option_groups_of(command)) {
             for (const auto& option : group.options) {

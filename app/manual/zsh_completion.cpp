@@ -112,7 +112,8 @@ std::string zsh_completion() {
                        "    shift words\n"
                        "    (( CURRENT-- ))\n"
                        "    case $words[1] in\n"
-                       "    help) _describe command names ;;\n{}"
+                       "    help) names+=('config:Show defaults of options'); "
+                       "_describe command names ;;\n{}"
                        "    esac\n"
                        "}}\n\n"
                        "_macadam \"$@\"\n",
