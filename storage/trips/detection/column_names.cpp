@@ -126,7 +126,7 @@ Words with_parts(Words words) {
     for (const std::string_view joined : {"acc", "g", "force", "rate"}) { // latacc, lateralg
         for (auto& word : words) {
             const auto stem = word.substr(0, word.size() - std::min(word.size(), joined.size()));
-            if (word.ends_with(joined) &&
+            if (word.ends_with(joined) && word != "long" &&
                 has_any({stem},
                         " lat lon long vert lateral longitudinal vertical inline lineal "
                         "roll pitch yaw rotation ")) {
