@@ -112,7 +112,7 @@ Coordinate coordinate_of(const LogTable& table,
     const bool is_whole = std::ranges::all_of(
         column.values, [](double v) { return std::isnan(v) || v == std::floor(v); });
     const bool is_vbox = table.dialect.names.front() == "sats";
-    if (largest <= limit && !is_whole) {
+    if (largest <= limit && (!is_whole || !varies(column))) {
         channel.confidence = Confidence::sure;
         channel.reason = fmt::format("{:.2f} to {:.2f} degrees", low, high);
     } else if (is_vbox && largest <= limit * 60) {
