@@ -6,6 +6,8 @@
 #include "estimator/common/geo.hpp"
 #include "estimator/common/statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,6 +20,7 @@ namespace {
 constexpr double shortest_gap_s = 1;
 constexpr double gap_steps = 5;
 constexpr double max_speed_mps = 70; // no car on a road is faster
+constexpr double min_rate_hz = 20;   // of acceleration; below, waves that shape the IRI are lost
 
 SensorSummary sensor_of(std::span<const double> t_s) {
     SensorSummary sensor{.readings = t_s.size()};
@@ -102,6 +105,10 @@ std::vector<std::string> missing_in(const TripLog& trip, const TripSummary& summ
     if (trip.acc.t_s.empty()) {
         missing.emplace_back("vertical acceleration: no roughness");
     }
+    if (!trip.acc.t_s.empty() && summary.acceleration.rate_hz < min_rate_hz) {
+        missing.push_back(
+            fmt::format("acceleration at {:.0f} Hz or more: no roughness", min_rate_hz));
+    }
     if (trip.speed.t_s.empty() && !summary.has_gnss_speed) {
         missing.emplace_back("speed of the car or of the receiver: no roughness");
     }
@@ -155,7 +162,7 @@ TripSummary summarise(TripLog trip) {
     summary.missing = missing_in(trip, summary);
     summary.gives_roads = trip.fixes.size() >= 2;
     const bool has_speed = !trip.speed.t_s.empty() || summary.has_gnss_speed;
-    const bool has_acc = !trip.acc.t_s.empty();
+    const bool has_acc = summary.acceleration.rate_hz >= min_rate_hz;
     add_motion(std::move(trip), summary);
     summary.gives_roughness = summary.gives_roughness && has_speed && has_acc;
     return summary;

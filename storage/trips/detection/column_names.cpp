@@ -126,7 +126,7 @@ Words with_parts(Words words) {
     for (const std::string_view joined : {"acc", "g", "force", "rate"}) { // latacc, lateralg
         for (auto& word : words) {
             const auto stem = word.substr(0, word.size() - std::min(word.size(), joined.size()));
-            if (word.ends_with(joined) &&
+            if (word.ends_with(joined) && word != "long" &&
                 has_any({stem},
                         " lat lon long vert lateral longitudinal vertical inline lineal "
                         "roll pitch yaw rotation ")) {
@@ -151,7 +151,8 @@ Quantity speed_kind(const Words& words) {
 }
 
 bool is_acceleration(const Words& words) {
-    return has_any(words, acceleration_words) || is_one_word_and_axis(words, "a") ||
+    return has_any(words, acceleration_words) ||
+           (words.size() == 2 && words[0] == "a" && axis_in(words).number > 0) ||
            (has_any(words, linear_words) && axis_in(words).number > 0) ||
            (has_any(words, " g ") && axis_in(words).of_vehicle);
 }
@@ -203,7 +204,9 @@ Quantity quantity_of(const Words& words) {
         return Quantity::longitude;
     }
     const bool is_vector = has_any(words, " x y z north east down vertical vert n e d ve vn vd ");
-    if (has_any(words, speed_words) && !is_vector && !has_any(words, acceleration_words)) {
+    const bool is_v = words.size() == 1 && words[0] == "v";
+    if ((has_any(words, speed_words) || is_v) && !is_vector &&
+        !has_any(words, acceleration_words)) {
         return speed_kind(words);
     }
     if (has_any(words, course_words) && axis_in(words).number == 0 &&

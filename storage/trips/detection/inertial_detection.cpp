@@ -9,6 +9,8 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -171,6 +173,28 @@ auto rank(const Acceleration& acceleration) {
                       acceleration.sensor.count()};
 }
 
+/// Finds an accelerometer in a table without names: the first three neighbouring columns whose
+/// mean is gravity. It is likely at best.
+std::optional<Acceleration> unnamed_acceleration(const LogTable& table) {
+    const auto may_be_axis = [](const LogColumn& column) {
+        return column.is_numeric() && column.count >= min_samples &&
+               !std::ranges::is_sorted(column.values); // not a time
+    };
+    for (std::size_t i = 0; table.dialect.names.empty() && i + 3 <= table.columns.size(); ++i) {
+        const std::span<const LogColumn> three{table.columns.data() + i, 3};
+        if (!std::ranges::all_of(three, may_be_axis)) {
+            continue;
+        }
+        auto read = acceleration_of(
+            {.quantity = Quantity::acceleration, .axes = {&three[0], &three[1], &three[2]}});
+        if (read.has_gravity) {
+            read.confidence = Confidence::likely;
+            return read;
+        }
+    }
+    return std::nullopt;
+}
+
 constexpr std::array<std::string_view, 3> acc_channels{"acc_x_mps2", "acc_y_mps2", "acc_z_mps2"};
 constexpr std::array<std::string_view, 3> gyro_channels{
     "gyro_x_radps", "gyro_y_radps", "gyro_z_radps"};
@@ -269,6 +293,10 @@ DetectedInertia detect_inertia(const LogTable& table) {
             readings, [](const auto& a, const auto& b) { return rank(a) < rank(b); });
         found.of_device = !best->sensor.of_vehicle;
         add(*best, found);
+    }
+    if (const auto unnamed = unnamed_acceleration(table)) {
+        found.of_device = true;
+        add(*unnamed, found);
     }
     const auto rate = std::ranges::find_if(rates, [&](const Sensor& sensor) {
         return sensors.empty() || sensor.of_vehicle != found.of_device;

@@ -51,6 +51,11 @@ std::pair<double, double> range_of(const std::vector<double>& values) {
     return range;
 }
 
+bool varies(const LogColumn& column) {
+    const auto [low, high] = range_of(column.values);
+    return high > low;
+}
+
 /// Column that holds only the two letters of a hemisphere.
 std::optional<std::size_t> hemisphere_column(const LogTable& table, std::string_view letters) {
     for (const auto& column : table.columns) {
@@ -107,7 +112,7 @@ Coordinate coordinate_of(const LogTable& table,
     const bool is_whole = std::ranges::all_of(
         column.values, [](double v) { return std::isnan(v) || v == std::floor(v); });
     const bool is_vbox = table.dialect.names.front() == "sats";
-    if (largest <= limit && !is_whole) {
+    if (largest <= limit && (!is_whole || !varies(column))) {
         channel.confidence = Confidence::sure;
         channel.reason = fmt::format("{:.2f} to {:.2f} degrees", low, high);
     } else if (is_vbox && largest <= limit * 60) {
@@ -129,9 +134,9 @@ Coordinate coordinate_of(const LogTable& table,
         channel.reason = fmt::format("{:g} to {:g} are no degrees", low, high);
     }
     set_degrees(read, column);
-    if (high - low > largest_extent_deg / channel.scale || !(high > low)) {
+    if (high - low > largest_extent_deg / channel.scale) {
         channel.confidence = Confidence::likely;
-        channel.reason += high > low ? "; further apart than a trip is" : "; always the same";
+        channel.reason += "; further apart than a trip is";
     }
     return read;
 }
@@ -319,6 +324,12 @@ std::vector<DetectedChannel> detect_positions(const LogTable& table, const Detec
         }
         found.push_back(std::move(latitude.channel));
         found.push_back(std::move(longitude.channel));
+    }
+    if (has_positions && !varies(*lat) && !varies(*lon)) {
+        for (auto& channel : found) {
+            channel.confidence = Confidence::likely;
+            channel.reason += "; always the same";
+        }
     }
     add_speeds(table, has_positions, ways, found);
     if (has_positions && is_contradicted(found)) {

@@ -320,6 +320,11 @@ TEST(LogDetection, ReadsATableWithoutNamesAsFarAsItsValuesTell) {
     EXPECT_EQ(log->time->columns.front(), 1U);
     EXPECT_EQ(log->time->format, "ms");
     EXPECT_EQ(sure_mapping(*log), nullptr);
+    ASSERT_THAT(log->channels, SizeIs(3)); // whose mean is gravity
+    EXPECT_EQ(log->channels[2].channel, "acc_z_mps2");
+    EXPECT_EQ(log->channels[2].column, 4U);
+    EXPECT_EQ(log->channels[2].unit, "m/s2");
+    EXPECT_EQ(log->channels[2].confidence, Confidence::likely);
 }
 
 TEST(LogDetection, IsNotSureWhereNamesAndValuesContradict) {
