@@ -236,6 +236,9 @@ ProcessedTrip process_trip(const Intake& intake, const TripSource& source) {
         add_passes(trip, intake, source, std::move(*log), estimating);
     });
     if (report.error.empty()) {
+        if (report.outside_at) {
+            report.warnings.clear(); // about values that are not stored
+        }
         report.result = report.outside_at       ? Result::outside
                         : intake.work.reprocess ? Result::reprocessed
                                                 : Result::imported;

@@ -148,7 +148,7 @@ TEST(Program, MapsARealTripFromItsLogToItsPicture) {
 TEST(Program, AccountsForEveryRowOfTheRealTrips) {
     const auto folder = fresh_folder();
     const auto store = folder / "roads.gpkg";
-    expect_done({"init", store.string(), "--trace", rav4, gyor});
+    expect_done({"init", store.string(), "--trace", rav4});
     const auto lines =
         expect_done({"import", store.string(), rav4, gyor, "--json", "--method", "kf"}).out;
     EXPECT_THAT(lines, HasSubstr("\"rows_read\":11808"));
@@ -168,8 +168,8 @@ TEST(Program, GivesOneDigestWhateverTheOrderAndTheJobs) {
     const auto folder = fresh_folder();
     const auto first = folder / "a.gpkg";
     const auto second = folder / "b.gpkg";
-    expect_done({"init", first.string(), "--trace", rav4, gyor});
-    expect_done({"init", second.string(), "--trace", rav4, gyor});
+    expect_done({"init", first.string(), "--trace", rav4});
+    expect_done({"init", second.string(), "--trace", rav4});
     expect_done({"import", first.string(), rav4, gyor, "--method", "kf"});
     expect_done({"import", second.string(), gyor, rav4, "--jobs", "2", "--method", "kf"});
     EXPECT_EQ(digest_of(first), digest_of(second));

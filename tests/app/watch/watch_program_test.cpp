@@ -45,9 +45,10 @@ World world() {
     return {folder, incoming, {"watch", store, incoming.string(), "--method", "kf", "--json"}};
 }
 
-/// Puts a file into the watched folder as a whole.
+/// Moves a file into the watched folder that was written an hour ago.
 void move_in(const World& made, const std::string& name, const std::string& text) {
     write_file(made.folder / name, text);
+    fs::last_write_time(made.folder / name, fs::file_time_type::clock::now() - 1h);
     fs::rename(made.folder / name, made.incoming / name);
 }
 
@@ -55,8 +56,6 @@ TEST(Watch, ImportsWhatIsThereAndWhatAppearsUntilItIsStopped) {
     const auto made = world();
     move_in(made, "a.trip.csv.gz", "no log");
     move_in(made, "b.trip.csv", log_named("b"));
-    fs::last_write_time(made.incoming / "a.trip.csv.gz", fs::file_time_type::clock::now() - 1h);
-    fs::last_write_time(made.incoming / "b.trip.csv", fs::file_time_type::clock::now() - 1h);
     PipedProgram watch{made.words};
     EXPECT_THAT(watch.line(enough).value_or(""),
                 AllOf(HasSubstr("a.trip.csv.gz"), HasSubstr("\"rejected\"")));
