@@ -85,8 +85,9 @@ std::string acceleration_text(const TripSummary& trip) {
     auto text = rate_text(trip.acceleration);
     text += trip.gravity_mps2 > 0
                 ? fmt::format("; gravity {:.2f} m/s2, included", trip.gravity_mps2)
-            : trip.gravity_stated ? "; gravity not found"
-                                  : "; gravity removed";
+            : !trip.gravity_stated ? "; gravity removed"
+            : trip.distance_m      ? "; gravity not found"
+                                   : ""; // not sought without a known motion
     if (trip.gravity_mps2 > 0) {
         text += fmt::format("; tilted by {:.0f} degrees{}",
                             trip.tilt_deg,
