@@ -48,7 +48,7 @@ ImportTotals import_all(RoadStore& store,
                         const std::function<void(const TripReport&)>& tell) {
     constexpr std::array options{vehicle_option, vehicles_option};
     VehicleChoice vehicles{Arguments{options, {}, {}}};
-    AskedTrips trips{{folder / "trips"}, {}, Console{true}};
+    AskedTrips trips{{folder / "trips"}, {}, Console{Verbosity::quiet}};
     PipelineConfig pipeline;
     pipeline.estimator.method = Method::kf;
     return import_trips(store,
