@@ -46,7 +46,7 @@ ImportTotals import_all(RoadStore& store,
                         std::chrono::milliseconds fuse_every,
                         const Progress& progress,
                         const std::function<void(const TripReport&)>& tell) {
-    constexpr std::array options{vehicle_option, vehicles_option};
+    constexpr std::array options{vehicle_option, vehicles_option, vehicle_id_option};
     VehicleChoice vehicles{Arguments{options, {}, {}}};
     AskedTrips trips{{folder / "trips"}, {}, Console{Verbosity::quiet}};
     PipelineConfig pipeline;

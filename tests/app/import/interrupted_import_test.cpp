@@ -58,7 +58,7 @@ std::string whole_digest(const World& made) {
 
 Run import_until(const World& made, int signal) {
     return run_macadam_signalled(
-        {"import", made.store.string(), made.trips.string(), "--method", "kf"},
+        {"import", made.store.string(), made.trips.string(), "--method", "kf", "--jobs", "1"},
         "trip-0.trip.csv",
         signal);
 }
