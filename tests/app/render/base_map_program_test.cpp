@@ -150,7 +150,7 @@ TEST_F(BaseMapProgram, GoesOnOverTheAntimeridian) {
                            world,
                            "--base-opacity",
                            "1"});
-    EXPECT_THAT(run.err, Not(HasSubstr("warning")));
+    EXPECT_THAT(run.err, Not(HasSubstr("does not overlap")));
     for (const auto& [lon_deg, red] : std::vector<std::pair<double, int>>{
              {177.75, 238}, {179.3, 239}, {180.7, 0}, {182.25, 1}}) {
         EXPECT_EQ(output_of(folder_,
