@@ -74,6 +74,11 @@ InitOptions parse_init(const Arguments& arguments) {
     if (is_traced && !options.around.paths.empty()) {
         throw UsageError{"--around cannot be combined with --trace: there is no map to cut"};
     }
+    if (options.update && !options.around.paths.empty()) {
+        throw UsageError{
+            "--around cannot be combined with --update: roads away from these trips would be "
+            "removed with their passes; expected --update with a map of the whole area"};
+    }
     options.json = arguments.flag("--json");
     if (options.json && !options.update) {
         throw UsageError{"--json requires --update, which reports the changes of the roads"};
