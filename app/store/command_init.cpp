@@ -95,6 +95,11 @@ InitOptions parse_init(const Arguments& arguments) {
             "--trace cannot be combined with --privacy crowd: roads traced from trips end "
             "where the trips end; expected --network"};
     }
+    if (options.privacy == PrivacyProfile::crowd && !options.around.paths.empty()) {
+        throw UsageError{
+            "--around cannot be combined with --privacy crowd: the outline of the roads would "
+            "show where the trips went; expected a map of the whole area"};
+    }
     options.segment_length_m = arguments.number("--segment-length", RoadNetwork{}.segment_length_m);
     if (!(options.segment_length_m >= min_segment_m && options.segment_length_m <= max_segment_m)) {
         throw UsageError{fmt::format("--segment-length is {}, expected {} to {} metres",
