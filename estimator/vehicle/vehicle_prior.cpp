@@ -87,6 +87,16 @@ double take_number(std::string_view& text) {
     return error == std::errc{} ? number : 0;
 }
 
+/// Tells whether text is what may follow a size on a tyre, if anything: C, and load index and speed,
+/// such as " 91V", "C 107/105T" or " 95(W) XL".
+bool is_service(std::string_view text) {
+    constexpr std::size_t max_bytes = 20;
+    text.remove_prefix(text.starts_with('C') || text.starts_with('c') ? 1 : 0);
+    return text.empty() || (text.starts_with(' ') && text.size() <= max_bytes &&
+                            text.find_first_not_of("0123456789/ ()ABCDEFGHJKLMNPQRSTUVWXYZ"
+                                                   "abcdefghjklmnpqrstuvwxyz") == text.npos);
+}
+
 double square(double x) {
     return x * x;
 }
@@ -121,17 +131,20 @@ std::optional<TyreSize> parse_tyre_size(std::string_view text) {
     constexpr ValueRange aspects{25, 85};
     constexpr ValueRange rims_in{12, 24};
     TyreSize tyre{};
+    for (const std::string_view kind : {"P", "LT", "p", "lt"}) { // passenger car, light truck
+        text.remove_prefix(text.starts_with(kind) ? kind.size() : 0);
+    }
     tyre.width_mm = take_number(text);
     if (!text.starts_with('/')) {
         return {};
     }
     text.remove_prefix(1);
     tyre.aspect_percent = take_number(text);
-    for (const char letter : {' ', 'Z', 'R', ' '}) {
+    for (const char letter : {' ', 'Z', 'z', 'R', 'r', ' '}) {
         text.remove_prefix(text.starts_with(letter) ? 1 : 0);
     }
     tyre.rim_in = take_number(text);
-    const bool is_tyre = text.empty() && widths_mm.contains(tyre.width_mm) &&
+    const bool is_tyre = is_service(text) && widths_mm.contains(tyre.width_mm) &&
                          aspects.contains(tyre.aspect_percent) && rims_in.contains(tyre.rim_in);
     return is_tyre ? std::optional{tyre} : std::nullopt;
 }

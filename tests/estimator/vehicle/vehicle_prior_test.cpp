@@ -79,7 +79,16 @@ TEST(VehiclesOfOwners, AreSurerTheMoreTheOwnerKnows) {
 }
 
 TEST(TyreSizes, AreReadAsTheyStandOnTyres) {
-    for (const auto* const text : {"205/55R16", "205/55 R16", "205/55ZR16", "205/55 R 16"}) {
+    for (const auto* const text : {"205/55R16",
+                                    "205/55 R16",
+                                    "205/55ZR16",
+                                    "205/55 R 16",
+                                    "205/55r16",
+                                    "205/55 R16 91V",
+                                    "205/55ZR16 95(W) XL",
+                                    "205/55R16C 107/105T",
+                                    "P205/55R16",
+                                    "LT205/55R16"}) {
         const auto tyre = parse_tyre_size(text);
         ASSERT_TRUE(tyre) << text;
         EXPECT_EQ(tyre->width_mm, 205);
@@ -87,7 +96,7 @@ TEST(TyreSizes, AreReadAsTheyStandOnTyres) {
         EXPECT_EQ(tyre->rim_in, 16);
     }
     for (const auto* const text :
-         {"", "205", "205/55", "55/205R16", "205/55R160", "205/55R16 91V"}) {
+         {"", "205", "205/55", "55/205R16", "205/55R160", "205/55R16x", "205/55R16 91V;", "X205/55R16"}) {
         EXPECT_FALSE(parse_tyre_size(text)) << text;
     }
 }
