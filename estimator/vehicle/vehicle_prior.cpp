@@ -15,16 +15,16 @@ constexpr int wheels = 4;
 
 // Frequencies of the body: 1.0 to 1.5 Hz in passenger cars (T. D. Gillespie, "Fundamentals of
 // Vehicle Dynamics", SAE 1992, chapter 5); soft in saloons, harder where a load is to be carried.
-// Ranges hold every car of the kind on sale, electric ones included.
+// Ranges hold the usual cars of the kind, heavy electric ones and crew cabs included.
 // clang-format off
 constexpr std::array<BodyType, 7> types{{
     {"small",   {600, 1600},  {1.70, 2.65}, 1.35, 0.72, 0.60, 0.125},
     {"compact", {800, 2200},  {2.35, 2.90}, 1.30, 0.77, 0.60, 0.120},
     {"saloon",  {900, 2700},  {2.35, 3.40}, 1.20, 0.79, 0.55, 0.115},
     {"estate",  {900, 2700},  {2.35, 3.20}, 1.25, 0.79, 0.56, 0.120},
-    {"suv",     {1000, 3300}, {2.20, 3.40}, 1.30, 0.80, 0.55, 0.125},
+    {"suv",     {1000, 4300}, {2.20, 4.60}, 1.30, 0.80, 0.55, 0.125},
     {"van",     {1100, 3500}, {2.50, 4.70}, 1.45, 0.83, 0.56, 0.125},
-    {"pickup",  {1300, 3500}, {2.60, 4.20}, 1.50, 0.81, 0.56, 0.130},
+    {"pickup",  {1300, 4300}, {2.60, 4.60}, 1.50, 0.81, 0.56, 0.130},
 }};
 // clang-format on
 
@@ -87,8 +87,8 @@ double take_number(std::string_view& text) {
     return error == std::errc{} ? number : 0;
 }
 
-/// Tells whether text is what may follow a size on a tyre, if anything: C, and load index and speed,
-/// such as " 91V", "C 107/105T" or " 95(W) XL".
+/// Tells whether text is what may follow a size on a tyre, if anything: C, and load index and
+/// speed, such as " 91V", "C 107/105T" or " 95(W) XL".
 bool is_service(std::string_view text) {
     constexpr std::size_t max_bytes = 20;
     text.remove_prefix(text.starts_with('C') || text.starts_with('c') ? 1 : 0);
