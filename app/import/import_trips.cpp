@@ -91,9 +91,11 @@ std::vector<std::string> unchanged_car_text(const Intake& intake, const std::str
     if (!car || intake.store.is_trip_of(sha256, *car)) {
         return {};
     }
-    return {fmt::format("is in the database with another car or none, which stays: to change it, "
-                        "'macadam forget --trip {}', then import it with --take-back",
-                        sha256)};
+    return {
+        fmt::format("was imported for another car, or for none; its car is unchanged. To change "
+                    "it: macadam forget {} --trip {}, then import it again with --take-back",
+                    intake.store.file().string(),
+                    sha256)};
 }
 
 /// Returns the settings with which a trip was imported, as far as the database keeps them and
