@@ -91,9 +91,29 @@ std::vector<std::string> unchanged_car_text(const Intake& intake, const std::str
     if (!car || intake.store.is_trip_of(sha256, *car)) {
         return {};
     }
-    return {fmt::format("is in the database with another car or none, which stays: to change it, "
-                        "'macadam forget --trip {}', then import it with --take-back",
-                        sha256)};
+    return {
+        fmt::format("was imported for another car, or for none; its car is unchanged. To change "
+                    "it: macadam forget {} --trip {}, then import it again with --take-back",
+                    intake.store.file().string(),
+                    sha256)};
+}
+
+/// Gives a log that names no car the one with which it is stored, if a vehicle has its name.
+/// \throws InputError  if --vehicle-id names another.
+void name_stored_car(const Intake& intake,
+                     const TripSource& source,
+                     const std::string& sha256,
+                     TripMeta& meta) {
+    const auto names = intake.vehicles.names_for(source.file);
+    const std::scoped_lock lock{intake.store_in_use};
+    if (const auto contradiction = unchanged_car_text(intake, sha256); !contradiction.empty()) {
+        throw InputError{contradiction.front()};
+    }
+    const auto stored = std::ranges::find_if(
+        names, [&](const auto& name) { return intake.store.is_trip_of(sha256, name); });
+    if (meta.vehicle_id.empty() && stored != names.end()) {
+        meta.vehicle_id = *stored;
+    }
 }
 
 /// Returns the settings with which a trip was imported, as far as the database keeps them and
@@ -183,7 +203,12 @@ void add_passes(ProcessedTrip& trip,
                 TripLog log,
                 const Progress& progress) {
     auto& report = trip.report;
-    with_trip_name(report.file, [&] { intake.vehicles.name_car(log.meta); });
+    with_trip_name(report.file, [&] {
+        intake.vehicles.name_car(log.meta);
+        if (intake.work.reprocess) {
+            name_stored_car(intake, source, report.sha256, log.meta);
+        }
+    });
     const auto meta = log.meta;
     report.trip_id = meta.trip_id;
     const auto chosen = intake.vehicles(source.file, meta.vehicle_id);
@@ -272,10 +297,7 @@ void put(const Intake& intake, std::vector<ProcessedTrip>& trips) {
             if (!intake.store.maintenance.stage_trip(
                     {&trip->record, trip->passes, trip->traces, false, trip->events})) {
                 report.result = Result::unknown;
-                continue;
             }
-            std::ranges::move(unchanged_car_text(intake, report.sha256),
-                              std::back_inserter(report.warnings));
         }
         return;
     }

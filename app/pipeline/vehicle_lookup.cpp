@@ -130,13 +130,29 @@ void VehicleChoice::name_car(TripMeta& meta) const {
     meta.vehicle_id = *named_car_;
 }
 
+std::vector<fs::path> VehicleChoice::folders_for(const fs::path& trip_file) const {
+    const auto trip_folder = fs::absolute(trip_file).lexically_normal().parent_path();
+    return folder_ ? std::vector{*folder_} : vehicle_folders(trip_folder);
+}
+
+std::set<std::string> VehicleChoice::names_for(const fs::path& trip_file) {
+    std::set<std::string> names;
+    for (const auto& folder : folders_for(trip_file)) {
+        for (const auto& [name, vehicle] : in_folder(folder)) {
+            names.insert(name);
+        }
+    }
+    for (const auto& vehicle : built_in_vehicles()) {
+        names.insert(vehicle.name);
+    }
+    return names;
+}
+
 ChosenVehicle VehicleChoice::operator()(const fs::path& trip_file, const std::string& vehicle_id) {
     if (for_all_) {
         return *for_all_;
     }
-    const auto trip_folder = fs::absolute(trip_file).lexically_normal().parent_path();
-    const auto folders = folder_ ? std::vector{*folder_} : vehicle_folders(trip_folder);
-    for (const auto& folder : folders) {
+    for (const auto& folder : folders_for(trip_file)) {
         const auto& known = in_folder(folder);
         if (const auto found = known.find(vehicle_id); found != known.end()) {
             return {found->second, false, ""};

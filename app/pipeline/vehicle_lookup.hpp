@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,10 @@ public:
     /// \throws InputError  if a vehicle file beside the trip is invalid.
     ChosenVehicle operator()(const std::filesystem::path& trip_file, const std::string& vehicle_id);
 
+    /// Returns the names of all cars among which that of a trip is looked up.
+    /// \throws InputError  if a vehicle file beside the trip is invalid.
+    std::set<std::string> names_for(const std::filesystem::path& trip_file);
+
     /// Gives the car of --vehicle-id to a log that names none.
     /// \throws InputError  if the log names another car.
     void name_car(TripMeta& meta) const;
@@ -70,6 +75,7 @@ public:
 
 private:
     using ByName = std::map<std::string, Vehicle>;
+    std::vector<std::filesystem::path> folders_for(const std::filesystem::path& trip_file) const;
     const ByName& in_folder(const std::filesystem::path& folder);
 
     std::optional<ChosenVehicle> for_all_;

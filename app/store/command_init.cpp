@@ -74,6 +74,11 @@ InitOptions parse_init(const Arguments& arguments) {
     if (is_traced && !options.around.paths.empty()) {
         throw UsageError{"--around cannot be combined with --trace: there is no map to cut"};
     }
+    if (options.update && !options.around.paths.empty()) {
+        throw UsageError{
+            "--around cannot be combined with --update: roads away from these trips would be "
+            "removed with their passes; expected --update with a map of the whole area"};
+    }
     options.json = arguments.flag("--json");
     if (options.json && !options.update) {
         throw UsageError{"--json requires --update, which reports the changes of the roads"};
@@ -89,6 +94,11 @@ InitOptions parse_init(const Arguments& arguments) {
         throw UsageError{
             "--trace cannot be combined with --privacy crowd: roads traced from trips end "
             "where the trips end; expected --network"};
+    }
+    if (options.privacy == PrivacyProfile::crowd && !options.around.paths.empty()) {
+        throw UsageError{
+            "--around cannot be combined with --privacy crowd: the outline of the roads would "
+            "show where the trips went; expected a map of the whole area"};
     }
     options.segment_length_m = arguments.number("--segment-length", RoadNetwork{}.segment_length_m);
     if (!(options.segment_length_m >= min_segment_m && options.segment_length_m <= max_segment_m)) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 namespace macadam {
@@ -22,15 +23,17 @@ struct TripArea {
 TripArea area_of(const TripPaths& trips, const Console& console) {
     TripArea area;
     visit_trips(trips, console, [&](const TripSource& trip) {
+        std::optional<TripLog> log;
         try {
-            const auto log = read_trip(trip, needs_of_match());
-            for (const auto& fix : log.fixes) {
-                area.around.add(fix.at);
-            }
-            area.trips += log.fixes.empty() ? 0 : 1;
+            log = read_trip(trip, needs_of_match());
         } catch (const InputError& error) {
             console.warn(error.what());
+            return;
         }
+        for (const auto& fix : log->fixes) {
+            area.around.add(fix.at);
+        }
+        area.trips += log->fixes.empty() ? 0 : 1;
     });
     if (area.around.empty()) {
         throw InputError{

@@ -72,6 +72,20 @@ Vehicle asked_vehicle(const std::string& name, const Arguments& arguments) {
         nearest.empty() ? "; 'macadam vehicles' lists all, or give a TOML file" : nearest)};
 }
 
+/// Returns the vehicle files that the rows may come of.
+std::vector<fs::path> files_read(const std::string& car, const Arguments& arguments) {
+    std::vector<fs::path> files;
+    if (!car.empty()) {
+        files.emplace_back(car);
+    }
+    if (const auto folder = arguments.value("--vehicles"); folder && fs::is_directory(*folder)) {
+        for (const auto& entry : fs::directory_iterator{*folder}) {
+            files.push_back(entry.path());
+        }
+    }
+    return files;
+}
+
 double number_in(const Arguments& arguments,
                  std::string_view name,
                  const ValueRange& range,
@@ -210,6 +224,9 @@ void run_vehicles(const Arguments& arguments, const Console& console) {
     expect_no_data_of_owner(arguments);
     const auto format = row_format_of(arguments);
     const auto file = row_file_of(arguments);
+    if (file) {
+        refuse_to_replace(*file, files_read(car, arguments));
+    }
     RowOutput output{file};
     if (car.empty()) {
         print_words(vehicles_text(asked_vehicles(arguments), format));

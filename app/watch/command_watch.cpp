@@ -104,6 +104,7 @@ constexpr std::array operands{
 constexpr std::array options{
     vehicle_option,
     vehicles_option,
+    vehicle_id_option,
     mapping_option,
     trim_option,
     jobs_option,

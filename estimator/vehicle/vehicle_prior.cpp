@@ -15,16 +15,16 @@ constexpr int wheels = 4;
 
 // Frequencies of the body: 1.0 to 1.5 Hz in passenger cars (T. D. Gillespie, "Fundamentals of
 // Vehicle Dynamics", SAE 1992, chapter 5); soft in saloons, harder where a load is to be carried.
-// Ranges hold every car of the kind on sale, electric ones included.
+// Ranges hold the usual cars of the kind, heavy electric ones and crew cabs included.
 // clang-format off
 constexpr std::array<BodyType, 7> types{{
     {"small",   {600, 1600},  {1.70, 2.65}, 1.35, 0.72, 0.60, 0.125},
     {"compact", {800, 2200},  {2.35, 2.90}, 1.30, 0.77, 0.60, 0.120},
     {"saloon",  {900, 2700},  {2.35, 3.40}, 1.20, 0.79, 0.55, 0.115},
     {"estate",  {900, 2700},  {2.35, 3.20}, 1.25, 0.79, 0.56, 0.120},
-    {"suv",     {1000, 3300}, {2.20, 3.40}, 1.30, 0.80, 0.55, 0.125},
+    {"suv",     {1000, 4300}, {2.20, 4.60}, 1.30, 0.80, 0.55, 0.125},
     {"van",     {1100, 3500}, {2.50, 4.70}, 1.45, 0.83, 0.56, 0.125},
-    {"pickup",  {1300, 3500}, {2.60, 4.20}, 1.50, 0.81, 0.56, 0.130},
+    {"pickup",  {1300, 4300}, {2.60, 4.60}, 1.50, 0.81, 0.56, 0.130},
 }};
 // clang-format on
 
@@ -87,6 +87,16 @@ double take_number(std::string_view& text) {
     return error == std::errc{} ? number : 0;
 }
 
+/// Tells whether text is what may follow a size on a tyre, if anything: C, and load index and
+/// speed, such as " 91V", "C 107/105T" or " 95(W) XL".
+bool is_service(std::string_view text) {
+    constexpr std::size_t max_bytes = 20;
+    text.remove_prefix(text.starts_with('C') || text.starts_with('c') ? 1 : 0);
+    return text.empty() || (text.starts_with(' ') && text.size() <= max_bytes &&
+                            text.find_first_not_of("0123456789/ ()ABCDEFGHJKLMNPQRSTUVWXYZ"
+                                                   "abcdefghjklmnpqrstuvwxyz") == text.npos);
+}
+
 double square(double x) {
     return x * x;
 }
@@ -121,17 +131,20 @@ std::optional<TyreSize> parse_tyre_size(std::string_view text) {
     constexpr ValueRange aspects{25, 85};
     constexpr ValueRange rims_in{12, 24};
     TyreSize tyre{};
+    for (const std::string_view kind : {"P", "LT", "p", "lt"}) { // passenger car, light truck
+        text.remove_prefix(text.starts_with(kind) ? kind.size() : 0);
+    }
     tyre.width_mm = take_number(text);
     if (!text.starts_with('/')) {
         return {};
     }
     text.remove_prefix(1);
     tyre.aspect_percent = take_number(text);
-    for (const char letter : {' ', 'Z', 'R', ' '}) {
+    for (const char letter : {' ', 'Z', 'z', 'R', 'r', ' '}) {
         text.remove_prefix(text.starts_with(letter) ? 1 : 0);
     }
     tyre.rim_in = take_number(text);
-    const bool is_tyre = text.empty() && widths_mm.contains(tyre.width_mm) &&
+    const bool is_tyre = is_service(text) && widths_mm.contains(tyre.width_mm) &&
                          aspects.contains(tyre.aspect_percent) && rims_in.contains(tyre.rim_in);
     return is_tyre ? std::optional{tyre} : std::nullopt;
 }

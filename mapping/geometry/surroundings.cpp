@@ -1,5 +1,9 @@
 #include "mapping/geometry/surroundings.hpp"
 
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,10 +32,12 @@ double Surroundings::lon_step_deg(std::int64_t row) const {
     return row_deg_ / std::max(least_cosine, cosine);
 }
 
-std::uint64_t Surroundings::cell_of(std::int64_t row, std::int64_t column) {
-    constexpr unsigned half_bits = 32;
-    return static_cast<std::uint64_t>(row) << half_bits |
-           (static_cast<std::uint64_t>(column) & 0xffffffffU);
+std::int64_t Surroundings::row_of(const GeoPoint& place) const {
+    return static_cast<std::int64_t>(std::floor(place.lat_deg / row_deg_));
+}
+
+std::int64_t Surroundings::column_of(const GeoPoint& place, std::int64_t row) const {
+    return static_cast<std::int64_t>(std::floor(place.lon_deg / lon_step_deg(row)));
 }
 
 void Surroundings::add(const GeoPoint& position) {
@@ -40,27 +46,32 @@ void Surroundings::add(const GeoPoint& position) {
         return;
     }
     box_ = including(box_, position);
-    const auto row = static_cast<std::int64_t>(std::floor(position.lat_deg / row_deg_));
-    const auto column_in = [&](std::int64_t of_row) {
-        return static_cast<std::int64_t>(std::floor(position.lon_deg / lon_step_deg(of_row)));
-    };
-    if (!occupied_.insert(cell_of(row, column_in(row))).second) {
-        return;
-    }
-    // One column more, as another position in this cell may lie in another column of other rows.
-    constexpr auto columns = cells_per_reach + 1;
-    for (auto near_row = row - cells_per_reach; near_row <= row + cells_per_reach; ++near_row) {
-        const auto column = column_in(near_row);
-        for (auto near_column = column - columns; near_column <= column + columns; ++near_column) {
-            cells_.insert(cell_of(near_row, near_column));
-        }
+    const auto row = row_of(position);
+    if (occupied_[row].insert(column_of(position, row)).second && ++cells_ > max_cells) {
+        throw InputError{
+            fmt::format("trips are at more than {} places {:.0f} m apart, too many to take the "
+                        "roads around them: expected fewer trips, or a smaller map taken whole",
+                        max_cells,
+                        reach_m_ / cells_per_reach)};
     }
 }
 
 bool Surroundings::contains(const GeoPoint& place) const {
-    const auto row = static_cast<std::int64_t>(std::floor(place.lat_deg / row_deg_));
-    const auto column = static_cast<std::int64_t>(std::floor(place.lon_deg / lon_step_deg(row)));
-    return cells_.contains(cell_of(row, column));
+    // One column more, as columns of rows nearer to the equator are narrower.
+    constexpr auto columns = cells_per_reach + 1;
+    const auto row = row_of(place);
+    for (auto near_row = row - cells_per_reach; near_row <= row + cells_per_reach; ++near_row) {
+        const auto found = occupied_.find(near_row);
+        if (found == occupied_.end()) {
+            continue;
+        }
+        const auto column = column_of(place, near_row);
+        const auto first = found->second.lower_bound(column - columns);
+        if (first != found->second.end() && *first <= column + columns) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace macadam

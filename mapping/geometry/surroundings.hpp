@@ -2,8 +2,10 @@
 
 #include "estimator/common/geo.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <unordered_set>
+#include <set>
+#include <unordered_map>
 
 namespace macadam {
 
@@ -15,24 +17,28 @@ public:
     ///                 places up to 2.5 times as far, some do.
     explicit Surroundings(double reach_m);
 
+    static constexpr std::size_t max_cells = 1'000'000;
+
     /// Adds the surroundings of a position; none for a position that is not on the globe.
+    /// \throws InputError  if positions are in more than `max_cells` cells of a third of the reach.
     void add(const GeoPoint& position);
 
     bool contains(const GeoPoint& place) const;
 
-    bool empty() const { return cells_.empty(); }
+    bool empty() const { return cells_ == 0; }
     double reach_m() const { return reach_m_; }
     const GeoBox& box() const { return box_; } ///< of the positions
 
 private:
     double lon_step_deg(std::int64_t row) const;
-    static std::uint64_t cell_of(std::int64_t row, std::int64_t column);
+    std::int64_t row_of(const GeoPoint& place) const;
+    std::int64_t column_of(const GeoPoint& place, std::int64_t row) const;
 
     double reach_m_;
     double row_deg_; ///< height of a cell
     GeoBox box_;
-    std::unordered_set<std::uint64_t> occupied_; ///< cells of the positions
-    std::unordered_set<std::uint64_t> cells_;
+    std::size_t cells_ = 0;                                             ///< that hold positions
+    std::unordered_map<std::int64_t, std::set<std::int64_t>> occupied_; ///< columns of rows
 };
 
 } // namespace macadam

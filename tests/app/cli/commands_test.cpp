@@ -68,6 +68,20 @@ TEST(Options, WithChoicesNameThemInTheirHelpAndHaveTheFirstByDefault) {
     EXPECT_GT(count, 20U);
 }
 
+TEST(Commands, ThatChooseTheCarOfALogCanBeToldWhichItIs) {
+    std::size_t count = 0;
+    for (const auto& command : commands()) {
+        const auto has = [&](std::string_view name) {
+            return std::ranges::count(command.options, name, &Option::name) == 1;
+        };
+        if (has("--vehicle")) {
+            EXPECT_TRUE(has("--vehicles") && has("--vehicle-id")) << command.name;
+            ++count;
+        }
+    }
+    EXPECT_GE(count, 5U);
+}
+
 TEST(Commands, ThatPrintRowsHaveAFormatAFileAndTheShortFormOfJson) {
     std::vector<std::string_view> found;
     for (const auto& command : commands()) {

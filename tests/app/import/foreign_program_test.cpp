@@ -82,10 +82,19 @@ TEST(ForeignLogs, AreOfTheCarThatVehicleIdNames) {
     EXPECT_THAT(import({"--vehicle-id", "golf"}).out, Not(HasSubstr("note:")));
     const auto other = import({"--vehicle-id", "polo"});
     EXPECT_EQ(other.exit_status, 0) << other.err;
-    EXPECT_THAT(other.out, HasSubstr("is in the database with another car or none, which stays"));
-    EXPECT_THAT(
-        run_macadam({"reprocess", store, phone, "--method", "kf", "--vehicle-id", "polo"}).out,
-        AllOf(HasSubstr("reprocessed"), HasSubstr("with another car or none, which stays")));
+    EXPECT_THAT(other.out,
+                AllOf(HasSubstr("was imported for another car, or for none; its car is unchanged"),
+                      HasSubstr("macadam forget " + store + " --trip ")));
+    const auto reprocess = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"reprocess", store, phone, "--method", "kf"});
+        return run_macadam(more);
+    };
+    const auto contradicted = reprocess({"--vehicle-id", "polo"});
+    EXPECT_EQ(contradicted.exit_status, 1);
+    EXPECT_THAT(contradicted.out + contradicted.err, HasSubstr("its car is unchanged"));
+    const auto again = reprocess({});
+    EXPECT_EQ(again.exit_status, 0) << again.err;
+    EXPECT_THAT(again.out, AllOf(HasSubstr("car 'golf'"), Not(HasSubstr("car unknown"))));
 
     EXPECT_EQ(run_macadam({"forget", store, "--vehicle-id", "polo"}).exit_status, 1);
     EXPECT_EQ(run_macadam({"forget", store, "--vehicle-id", "golf"}).exit_status, 0);

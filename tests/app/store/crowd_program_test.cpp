@@ -146,6 +146,21 @@ TEST_F(Crowd, IsNeverMadeOfRoadsTracedFromTrips) {
         HasSubstr("--trace cannot be combined with --privacy crowd"));
 }
 
+TEST_F(Crowd, IsNeverMadeOfTheRoadsNearTrips) {
+    EXPECT_THAT(run({"init",
+                     store_,
+                     "--network",
+                     MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf",
+                     "--around",
+                     at("trips/0.trip.csv"),
+                     "--privacy",
+                     "crowd"},
+                    2)
+                    .err,
+                HasSubstr("--around cannot be combined with --privacy crowd: the outline of the "
+                          "roads would show where the trips went"));
+}
+
 TEST_F(Crowd, ComesOfOnesOwnCarsByTrimmingThem) {
     make("own");
     const auto before = exported_ways();

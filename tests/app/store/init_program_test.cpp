@@ -135,6 +135,13 @@ TEST_F(Init, RefusesTripsWithoutPositions) {
                 HasSubstr("--around cannot be combined with --trace"));
 }
 
+TEST_F(Init, RefusesToUpdateFromTheRoadsNearTripsOnly) {
+    write_file(at("a.gpx"), gpx_at(48.410, 15.610));
+    EXPECT_THAT(refusal({"--update", krems, "--around", at("a.gpx")}, 2),
+                HasSubstr("--around cannot be combined with --update: roads away from these trips "
+                          "would be removed with their passes"));
+}
+
 TEST_F(Init, RefusesAMapWithoutRoadsAndSaysWhatIsThere) {
     write_file(at("paths.osm"), osm_of_way("<tag k='highway' v='footway'/>"));
     EXPECT_THAT(refusal({"--network", at("paths.osm")}),

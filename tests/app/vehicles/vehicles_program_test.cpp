@@ -75,6 +75,29 @@ TEST(VehiclesCommand, SaysWhatNoCarHas) {
                 HasSubstr("odd: track width is 3 m, usual are 1.1 to 2.2 m: l_m is half"));
 }
 
+TEST(VehiclesCommand, NeverReplacesARoadDatabaseOrTheCarItReads) {
+    const auto folder = fresh_folder();
+    const auto store = (folder / "roads.gpkg").string();
+    ASSERT_EQ(
+        run_macadam(
+            {"init", store, "--network", MACADAM_SOURCE_DIR "/sample_data/fleet/network.osm.pbf"})
+            .exit_status,
+        0);
+    const auto refused = run_macadam({"vehicles", "--format", "csv", "-o", store});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("roads.gpkg: is a road database, expected another file"));
+
+    const auto car = (folder / "golf.toml").string();
+    ASSERT_EQ(run_macadam(add({"-o", car})).exit_status, 0);
+    const auto before = read_file(car);
+    const auto of_file = run_macadam({"vehicles", car, "--format", "csv", "-o", car});
+    EXPECT_THAT(of_file.err, HasSubstr("golf.toml: is also an input"));
+    const auto of_folder =
+        run_macadam({"vehicles", "--vehicles", folder.string(), "--format", "csv", "-o", car});
+    EXPECT_THAT(of_folder.err, HasSubstr("golf.toml: is also an input"));
+    EXPECT_EQ(read_file(car), before);
+}
+
 TEST(VehiclesCommand, RefusesUnknownCarsWithTheNearestName) {
     const auto refused = [](const std::vector<std::string>& words) {
         const auto run = run_macadam(words);

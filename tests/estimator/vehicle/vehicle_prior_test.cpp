@@ -78,16 +78,43 @@ TEST(VehiclesOfOwners, AreSurerTheMoreTheOwnerKnows) {
     EXPECT_EQ(vehicle_of(known, "golf").imu.x_m, 2.62 * 0.39 - 1.2);
 }
 
+TEST(BodyTypes, HoldHeavyElectricCarsAndPickupsWithLongCabs) {
+    std::size_t count = 0;
+    for (const auto& body : body_types()) {
+        if (body.name == "suv" || body.name == "pickup") {
+            EXPECT_TRUE(body.mass_kg.contains(4250)) << body.name;
+            EXPECT_TRUE(body.wheelbase_m.contains(4.5)) << body.name;
+            ++count;
+        }
+    }
+    EXPECT_EQ(count, 2U);
+}
+
 TEST(TyreSizes, AreReadAsTheyStandOnTyres) {
-    for (const auto* const text : {"205/55R16", "205/55 R16", "205/55ZR16", "205/55 R 16"}) {
+    for (const auto* const text : {"205/55R16",
+                                   "205/55 R16",
+                                   "205/55ZR16",
+                                   "205/55 R 16",
+                                   "205/55r16",
+                                   "205/55 R16 91V",
+                                   "205/55ZR16 95(W) XL",
+                                   "205/55R16C 107/105T",
+                                   "P205/55R16",
+                                   "LT205/55R16"}) {
         const auto tyre = parse_tyre_size(text);
         ASSERT_TRUE(tyre) << text;
         EXPECT_EQ(tyre->width_mm, 205);
         EXPECT_EQ(tyre->aspect_percent, 55);
         EXPECT_EQ(tyre->rim_in, 16);
     }
-    for (const auto* const text :
-         {"", "205", "205/55", "55/205R16", "205/55R160", "205/55R16 91V"}) {
+    for (const auto* const text : {"",
+                                   "205",
+                                   "205/55",
+                                   "55/205R16",
+                                   "205/55R160",
+                                   "205/55R16x",
+                                   "205/55R16 91V;",
+                                   "X205/55R16"}) {
         EXPECT_FALSE(parse_tyre_size(text)) << text;
     }
 }

@@ -1,8 +1,11 @@
 #include "mapping/geometry/surroundings.hpp"
 
+#include "estimator/common/error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 namespace macadam {
 namespace {
@@ -39,6 +42,22 @@ TEST(Surroundings, HoldAllThatIsWithinReachAndNothingFarBeyondItAtAnyLatitude) {
             }
         }
     }
+}
+
+TEST(Surroundings, RefusePositionsThatAreScatteredOverTheGlobe) {
+    Surroundings around{1000};
+    std::string words;
+    std::size_t count = 0;
+    try {
+        for (; count < 4 * Surroundings::max_cells; ++count) {
+            around.add({static_cast<double>(count / 2000) * 0.01, // rows 1.1 km apart
+                        static_cast<double>(count % 2000) * 0.02});
+        }
+    } catch (const InputError& error) {
+        words = error.what();
+    }
+    EXPECT_EQ(count, Surroundings::max_cells);
+    EXPECT_NE(words.find("more than 1000000 places 333 m apart"), std::string::npos) << words;
 }
 
 TEST(Surroundings, TakeNoPositionThatIsNotOnTheGlobe) {
