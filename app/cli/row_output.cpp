@@ -48,7 +48,8 @@ std::optional<std::filesystem::path> row_file_of(const Arguments& arguments,
     std::optional<std::filesystem::path> row_file;
     for (const auto& file : arguments.values("--output")) {
         const auto suffix = suffix_of(file);
-        if (std::ranges::find(others, "." + suffix) != others.end()) {
+        if (std::ranges::find(others, std::filesystem::path{file}.extension().string()) !=
+            others.end()) {
             continue;
         }
         const bool names_format = suffix.empty() || suffix == "txt" ||

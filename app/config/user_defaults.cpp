@@ -260,13 +260,15 @@ config_defaults(const TomlTable& config, const fs::path& folder, const Command& 
     std::vector<Default> own;
     std::vector<std::string> general;
     for (const auto& key : config.keys()) {
-        if (const auto* const other = command_named(key)) {
+        const auto* const other = command_named(key);
+        const bool is_preference = preferences().contains(key) && !config.is_table(key);
+        if (other != nullptr && !is_preference) {
             const auto table = config.table(key);
             auto defaults = defaults_in(*table, folder, keys_of_command(*table, *other));
             if (other->name == command.name) {
                 own = std::move(defaults);
             }
-        } else if (preferences().contains(key)) {
+        } else if (is_preference) {
             general.push_back(key);
         } else {
             refuse_unknown_key(config, key, known_keys());

@@ -56,22 +56,6 @@ DatabaseAppearance appearance_of(const std::filesystem::path& store, const Conso
     return {};
 }
 
-/// Sets the colours that are not set yet.
-void add_colours(ThemeColours& colours, const ThemeColours& more) {
-    for (const auto colour : {&ThemeColours::page,
-                              &ThemeColours::ground,
-                              &ThemeColours::border,
-                              &ThemeColours::ink,
-                              &ThemeColours::quiet_ink,
-                              &ThemeColours::casing,
-                              &ThemeColours::unmeasured,
-                              &ThemeColours::few_passes}) {
-        if (!(colours.*colour)) {
-            colours.*colour = more.*colour;
-        }
-    }
-}
-
 } // namespace
 
 MapStyle style_of(MapLook look) {
@@ -107,9 +91,14 @@ parse_look(const Arguments& arguments, const std::filesystem::path& store, const
     const auto suggested = appearance_of(store, console);
     const auto add = [](auto& value, const auto& more) { value = value ? value : more; };
     add(chosen.look.unit, suggested.unit);
-    add(chosen.look.theme, suggested.theme);
     add(chosen.language, suggested.language);
-    add_colours(chosen.look.colours, suggested.colours);
+    if (arguments.has("--theme")) {
+        add(chosen.look.theme, suggested.theme);
+    }
+    const auto suits = suggested.theme.value_or("light");
+    if (!arguments.value("--style") && chosen.look.theme.value_or("light") == suits) {
+        chosen.look.colours = suggested.colours; // chosen for the ground of that theme
+    }
     return chosen;
 }
 

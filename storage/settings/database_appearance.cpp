@@ -20,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> keys{"unit", "language", "theme", "colours"};
+constexpr std::array<std::string_view, 6> ground_colours{
+    "page", "ground", "border", "ink", "quiet_ink", "casing"};
 constexpr std::array<std::string_view, 2> languages{"en", "de"};
 
 /// Descriptor of an open file.
@@ -104,6 +106,7 @@ DatabaseAppearance parse_appearance(std::string_view text, const std::string& na
         appearance.theme = word_among(top, "theme", theme_words);
     }
     if (const auto colours = top.table("colours")) {
+        colours->expect_only(ground_colours); // none in which roads without a value are drawn
         appearance.colours = read_colours(*colours);
     }
     return appearance;

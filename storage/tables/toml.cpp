@@ -217,6 +217,10 @@ std::optional<bool> TomlTable::maybe_flag(std::string_view key) const {
     return has(key) ? std::optional{flag(key)} : std::nullopt;
 }
 
+bool TomlTable::is_table(std::string_view key) const {
+    return has(key) && node_->at(key).is_table();
+}
+
 bool TomlTable::is_text(std::string_view key) const {
     return has(key) && node_->at(key).is_string();
 }

@@ -48,6 +48,7 @@ public:
     std::optional<std::string> maybe_text(std::string_view key) const;
     std::optional<bool> maybe_flag(std::string_view key) const;
 
+    bool is_table(std::string_view key) const;
     bool is_text(std::string_view key) const;
     bool is_number(std::string_view key) const;
     bool is_number_array(std::string_view key) const;

@@ -44,6 +44,8 @@ TEST(DatabaseAppearance, RefusesAllOtherKeys) {
         EXPECT_THAT(refusal_of_text(text), EndsWith("expected unit, language, theme, colours"))
             << text;
     }
+    EXPECT_THAT(refusal_of_text("[colours]\nunmeasured = \"#2c7bb6\"\n"),
+                HasSubstr("unknown key 'unmeasured'"));
     EXPECT_THAT(refusal_of_text("[colours]\nclass = \"#000000\"\n"),
                 HasSubstr("macadam.toml:2: unknown key"));
     EXPECT_THAT(refusal_of_text("unit = \"furlong\"\n"), HasSubstr("one of mm/m, in/mi"));
