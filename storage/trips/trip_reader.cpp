@@ -90,7 +90,7 @@ private:
 } // namespace
 
 OpenTrip::OpenTrip(TripSource source) : source_{std::move(source)} {
-    if (may_be_detected(source_)) {
+    if (may_be_detected(source_) && std::filesystem::is_regular_file(source_.file)) {
         detected_ = detect_log(source_.file);
         source_ = detected_ ? with_mapping(std::move(source_), sure_mapping(*detected_))
                             : std::move(source_);

@@ -1,5 +1,6 @@
 #include "storage/trips/trip_search.hpp"
 
+#include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/archived_trips.hpp"
@@ -11,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -60,13 +62,18 @@ TripSource mapped_trip(const fs::path& path, const std::shared_ptr<const TripMap
 
 /// Trip of a CSV file whose layout is detected for sure.
 std::optional<TripSource> detected_trip(const fs::path& path) {
-    const auto name = path.filename().string();
-    if (!(name.ends_with(".csv") || name.ends_with(".csv.gz")) || !fs::is_regular_file(path)) {
+    constexpr std::array<std::string_view, 5> suffixes{
+        ".csv", ".csv.gz", ".csv.zst", ".txt", ".vbo"};
+    const auto name = in_lower_case(path.filename().string());
+    const bool is_asked =
+        std::ranges::any_of(suffixes, [&](auto suffix) { return name.ends_with(suffix); });
+    if (!is_asked || !fs::is_regular_file(path)) {
         return std::nullopt;
     }
     try {
         const auto log = detect_log(path);
-        auto mapping = log ? sure_mapping(*log) : nullptr;
+        const bool is_result = log && std::ranges::find(log->names, "iri") != log->names.end();
+        auto mapping = log && !is_result ? sure_mapping(*log) : nullptr;
         return mapping ? std::optional{mapped_trip(path, mapping)} : std::nullopt;
     } catch (const InputError&) { // an unreadable file, which is counted with the others
         return std::nullopt;

@@ -115,8 +115,9 @@ struct Acceleration {
 };
 
 /// Tests whether gravity shows which way is up: by all three axes, or because z points along it.
+/// (Of the axes of a vehicle, the vertical one may be read alone.)
 bool has_vertical(const Sensor& sensor, double mean) {
-    return sensor.count() == 3 ||
+    return (sensor.count() == 3 && !sensor.of_vehicle) ||
            (sensor.axes[2] != nullptr && is_near(std::abs(mean_of(sensor.axes[2])), mean));
 }
 

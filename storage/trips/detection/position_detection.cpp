@@ -56,18 +56,23 @@ bool varies(const LogColumn& column) {
     return high > low;
 }
 
-/// Column that holds only the two letters of a hemisphere.
-std::optional<std::size_t> hemisphere_column(const LogTable& table, std::string_view letters) {
-    for (const auto& column : table.columns) {
-        const auto is_letter = [&](const std::string& text) {
-            return text.empty() ||
-                   (text.size() == 1 && letters.find(text.front()) != std::string_view::npos);
-        };
-        if (!column.texts.empty() && std::ranges::all_of(column.texts, is_letter)) {
-            return column.number;
-        }
+/// Column beside a coordinate that holds only the two letters of a hemisphere; null if there is
+/// none, or if the coordinate has a sign already.
+const LogColumn*
+hemisphere_column(const LogTable& table, const LogColumn& coordinate, std::string_view letters) {
+    if (range_of(coordinate.values).first < 0) {
+        return nullptr;
     }
-    return std::nullopt;
+    const auto is_letter = [&](const std::string& text) {
+        return text.empty() ||
+               (text.size() == 1 && letters.find(text.front()) != std::string_view::npos);
+    };
+    const auto found = std::ranges::find_if(table.columns, [&](const LogColumn& column) {
+        const bool is_beside =
+            column.number == coordinate.number + 1 || column.number + 1 == coordinate.number;
+        return is_beside && !column.texts.empty() && std::ranges::all_of(column.texts, is_letter);
+    });
+    return found == table.columns.end() ? nullptr : &*found;
 }
 
 /// One coordinate: how its numbers become degrees.
@@ -84,10 +89,30 @@ double degrees_of(double value, const DetectedChannel& channel) {
     return whole + (value - 100 * whole) / 60;
 }
 
-void set_degrees(Coordinate& coordinate, const LogColumn& column) {
-    for (const double value : column.values) {
-        coordinate.deg.push_back(value == 0 ? unknown : degrees_of(value, coordinate.channel));
+/// \param hemisphere  its column; null: none
+void set_degrees(Coordinate& coordinate, const LogColumn& column, const LogColumn* hemisphere) {
+    constexpr std::string_view negative{"SWsw"};
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+        const double value = column.values[i];
+        const bool is_negated = hemisphere != nullptr && !hemisphere->texts[i].empty() &&
+                                negative.find(hemisphere->texts[i].front()) != negative.npos;
+        const double deg = value == 0 ? unknown : degrees_of(value, coordinate.channel);
+        coordinate.deg.push_back(is_negated ? -deg : deg);
     }
+}
+
+double largest_of(const LogColumn& column) {
+    const auto [low, high] = range_of(column.values);
+    return std::max(std::abs(low), std::abs(high));
+}
+
+/// Tests whether two columns can be degrees. Both are written alike: near Greenwich, minutes of a
+/// longitude would pass for degrees.
+bool may_be_degrees(const LogColumn& lat, const LogColumn& lon) {
+    const auto fits = [](double largest, double limit) {
+        return largest <= limit || std::isinf(largest);
+    };
+    return fits(largest_of(lat), 90) && fits(largest_of(lon), 180);
 }
 
 bool are_minutes(const std::vector<double>& values) {
@@ -99,6 +124,7 @@ bool are_minutes(const std::vector<double>& values) {
 Coordinate coordinate_of(const LogTable& table,
                          const LogColumn& column,
                          bool is_latitude,
+                         bool may_be_degrees,
                          double whole_scale) {
     const double limit = is_latitude ? 90 : 180;
     const auto [low, high] = range_of(column.values);
@@ -108,12 +134,15 @@ Coordinate coordinate_of(const LogTable& table,
                                 .unit = ""},
                     .deg = {}};
     auto& channel = read.channel;
-    channel.hemisphere = hemisphere_column(table, is_latitude ? "NSns" : "EWew");
+    const auto* const hemisphere = hemisphere_column(table, column, is_latitude ? "NSns" : "EWew");
+    if (hemisphere != nullptr) {
+        channel.hemisphere = hemisphere->number;
+    }
     const bool is_whole = std::ranges::all_of(
         column.values, [](double v) { return std::isnan(v) || v == std::floor(v); });
     const bool is_vbox = table.dialect.names.front() == "sats";
-    if (largest <= limit && (!is_whole || !varies(column))) {
-        channel.confidence = Confidence::sure;
+    if (may_be_degrees && largest <= limit && (!is_whole || !varies(column))) {
+        channel.confidence = is_vbox ? Confidence::likely : Confidence::sure;
         channel.reason = fmt::format("{:.2f} to {:.2f} degrees", low, high);
     } else if (is_vbox && largest <= limit * 60) {
         channel.scale = 1.0 / 60;
@@ -133,7 +162,7 @@ Coordinate coordinate_of(const LogTable& table,
     } else {
         channel.reason = fmt::format("{:g} to {:g} are no degrees", low, high);
     }
-    set_degrees(read, column);
+    set_degrees(read, column, hemisphere);
     if (high - low > largest_extent_deg / channel.scale) {
         channel.confidence = Confidence::likely;
         channel.reason += "; further apart than a trip is";
@@ -144,12 +173,8 @@ Coordinate coordinate_of(const LogTable& table,
 /// Scale of whole numbers, the same of both: the largest that is a position. That of 1e-7 is sure,
 /// as others would lie beyond the poles or the antimeridian.
 double whole_scale_of(const LogColumn& lat, const LogColumn& lon) {
-    const auto largest = [](const LogColumn& column) {
-        const auto [low, high] = range_of(column.values);
-        return std::max(std::abs(low), std::abs(high));
-    };
     for (const double scale : {1e-5, 1e-6}) {
-        if (largest(lat) * scale <= 90 && largest(lon) * scale <= 180) {
+        if (largest_of(lat) * scale <= 90 && largest_of(lon) * scale <= 180) {
             return scale;
         }
     }
@@ -225,7 +250,9 @@ speed_of(const LogColumn& column, std::string channel, const std::vector<Way>& w
         speed.unit = std::isnan(ratio) ? "" : std::string{nearest.word};
         speed.confidence = error(nearest) < near_ratio ? Confidence::sure : Confidence::likely;
         speed.reason = std::isnan(ratio) ? "no unit in its name, and no positions to compare with"
-                                         : "by the way between positions";
+                       : error(nearest) < close_ratio
+                           ? "by the way between positions"
+                           : "contradicts the way between positions in every unit";
     } else if (std::isnan(ratio)) {
         speed.confidence = Confidence::sure;
         speed.reason = "unit in its name";
@@ -300,7 +327,7 @@ void add_speeds(const LogTable& table,
     }
 }
 
-/// Tests whether a speed that names its unit contradicts the way: then time or positions are wrong.
+/// Tests whether a speed contradicts the way: then time or positions are wrong.
 bool is_contradicted(const std::vector<DetectedChannel>& speeds) {
     return std::ranges::any_of(speeds, [](const DetectedChannel& speed) {
         return speed.reason.starts_with("contradicts");
@@ -317,8 +344,9 @@ std::vector<DetectedChannel> detect_positions(const LogTable& table, const Detec
     const bool has_positions = lat != nullptr && lon != nullptr;
     if (has_positions) {
         const double scale = whole_scale_of(*lat, *lon);
-        auto latitude = coordinate_of(table, *lat, true, scale);
-        auto longitude = coordinate_of(table, *lon, false, scale);
+        const bool in_degrees = may_be_degrees(*lat, *lon);
+        auto latitude = coordinate_of(table, *lat, true, in_degrees, scale);
+        auto longitude = coordinate_of(table, *lon, false, in_degrees, scale);
         if (time != nullptr) {
             ways = ways_of(latitude, longitude, *time);
         }

@@ -35,8 +35,9 @@ struct NumberUnit {
 constexpr std::array<NumberUnit, 4> number_units{
     NumberUnit{"s", 1}, NumberUnit{"ms", 1e-3}, NumberUnit{"us", 1e-6}, NumberUnit{"ns", 1e-9}};
 
-// Seconds since 1970 from 1990 to 2100: the range that trips may have.
-constexpr double earliest_s = 631152000;
+// Seconds since 1970 from 2008 to 2100. Counts since 1980 (GPS) or 2001 (Apple) would be dates
+// before, until 2008 comes up in them.
+constexpr double earliest_s = 1199145600;
 constexpr double latest_s = 4102444800;
 
 struct TextFormat {
@@ -158,6 +159,20 @@ DetectedTime as_epoch(const LogColumn& column, const NumberUnit& unit) {
             .t_s = scaled(column.values, unit.unit_s)};
 }
 
+/// Tests whether a name speaks of GPS time, which counts from 1980 or from the beginning of a week.
+bool is_gps_count(const std::string& name) {
+    const auto lower = ascii_lower(name);
+    const auto has = [&](std::string_view word) { return lower.find(word) != std::string::npos; };
+    return (has("gps") || has("gnss") || has("tow")) && !has("unix") && !has("utc");
+}
+
+/// Tests whether a name speaks of a unit of time that is none of number_units.
+bool names_other_unit(const std::string& name) {
+    const auto lower = ascii_lower(name);
+    const auto has = [&](std::string_view word) { return lower.find(word) != std::string::npos; };
+    return has("minute") || has("[min]") || has("(min)") || has("hour") || has("tick");
+}
+
 std::optional<DetectedTime> as_number(const LogColumn& column) {
     const double middle = known_median(column.values);
     const auto steps = steps_of(column.values);
@@ -173,7 +188,7 @@ std::optional<DetectedTime> as_number(const LogColumn& column) {
         const double step_s = steps.median_s * unit.unit_s;
         const bool contradicts_name = fits_name && unit.word != named->word;
         if (middle_s >= earliest_s && middle_s <= latest_s && step_s <= longest_epoch_step_s &&
-            !contradicts_name) {
+            !contradicts_name && !is_gps_count(column.name)) {
             return as_epoch(column, unit);
         }
     }
@@ -186,7 +201,7 @@ std::optional<DetectedTime> as_number(const LogColumn& column) {
         confidence = named_step_s >= shortest_step_s && named_step_s <= longest_step_s
                          ? Confidence::sure
                          : Confidence::likely;
-    } else if (steps.median_s * unit.unit_s < shortest_step_s) {
+    } else if (names_other_unit(column.name) || steps.median_s * unit.unit_s < shortest_step_s) {
         confidence = Confidence::likely; // a longitude rises, too
     } else if (ascii_lower(column.name).find("milli") != std::string::npos) {
         confidence = unit.word == "ms" ? Confidence::sure : Confidence::likely;
@@ -251,6 +266,10 @@ std::optional<DetectedTime> as_any_text(const std::vector<std::string>& texts, c
             first->confidence = Confidence::sure;
             first->reason = first->has_date ? "date and time with a time zone"
                                             : "a time of day without a time zone";
+            if (steps_of(first->t_s).median_s > longest_step_s) { // minutes and seconds
+                first->confidence = Confidence::likely;
+                first->reason += "; rows are far apart";
+            }
         }
     }
     return first;

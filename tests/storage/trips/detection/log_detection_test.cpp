@@ -405,6 +405,74 @@ TEST(LogDetection, RecognisesTheLoggersOfBuiltInMappings) {
     EXPECT_THAT(read_trip(source, needs_of_match()).fixes, SizeIs(::testing::Gt(2)));
 }
 
+/// Coordinates and what stands beside them, with time and speed.
+std::string position_log(const std::string& header,
+                         const std::function<std::string(const Reading&)>& positions) {
+    return log_text(
+        "time(ms)," + header + ",speed(km/h)\n", [&](const Reading& now, const Reading& fix) {
+            return fmt::format("{:.0f},{},{:.2f}", now.t_s * 1000, positions(fix), fix.v_mps * 3.6);
+        });
+}
+
+const DetectedChannel& channel_of(const DetectedLog& log, std::string_view name) {
+    const auto found = std::ranges::find(log.channels, name, &DetectedChannel::channel);
+    EXPECT_NE(found, log.channels.end()) << name;
+    return *found;
+}
+
+TEST(LogDetection, TakesALetterForAHemisphereOnlyBesideACoordinateWithoutASign) {
+    const auto surface =
+        detect_log(log_file(position_log("lat,surface,humidity,lon", [](const Reading& fix) {
+            return fmt::format("{:.6f},W,40,{:.6f}", fix.lat_deg, fix.lon_deg);
+        })));
+    EXPECT_FALSE(channel_of(*surface, "lon_deg").hemisphere);
+    const auto file = log_file(position_log("lat,N/S,lon,E/W", [](const Reading& fix) {
+        return fmt::format("{:.6f},S,{:.6f},E", -fix.lat_deg, fix.lon_deg);
+    }));
+    EXPECT_FALSE(channel_of(*detect_log(file), "lat_deg").hemisphere);
+    EXPECT_NEAR(read_trip({.file = file, .member = {}}, needs_of_match()).fixes[5].at.lat_deg,
+                -47.69,
+                0.01);
+}
+
+TEST(LogDetection, ReadsMinutesOfALongitudeNearGreenwich) {
+    const auto file = log_file(position_log("lat,lat_dir,lon,lon_dir", [](const Reading& fix) {
+        const double west_deg = 0.3 - (fix.lon_deg - 17.6346);
+        return fmt::format("{:.5f},N,{:.5f},W",
+                           4700 + (fix.lat_deg - 47) * 60,
+                           west_deg * 60); // 00018.00000 as a number
+    }));
+    EXPECT_EQ(channel_of(*detect_log(file), "lon_deg").unit, "ddmm.mmmm");
+    EXPECT_NEAR(
+        read_trip({.file = file, .member = {}}, needs_of_match()).fixes[5].at.lon_deg, -0.3, 0.01);
+}
+
+TEST(LogDetection, TakesNoCountSinceAnotherYearForADate) {
+    const auto log_of = [](const std::string& name, double begin_s) {
+        return detect_log(
+            log_file(log_text(name + ",lat,lon\n", [&](const Reading& now, const Reading& fix) {
+                return fmt::format(
+                    "{:.3f},{:.6f},{:.6f}", begin_s + now.t_s, fix.lat_deg, fix.lon_deg);
+            })));
+    };
+    EXPECT_FALSE(log_of("timestamp", 814'000'000)->time->has_date);  // since 2001
+    EXPECT_FALSE(log_of("gps_time", 1'479'000'000)->time->has_date); // since 1980
+    EXPECT_TRUE(log_of("timestamp", 1'715'926'530)->time->has_date);
+}
+
+TEST(LogDetection, IsNotSureOfMinutesAndOfTheVerticalOfATiltedSensor) {
+    const auto log = detect_log(log_file(log_text(
+        "elapsed minutes,LongAcc(g),LatAcc(g),VertAcc(g)\n", [](const Reading& now, auto&) {
+            return fmt::format("{:.6f},{:.4f},{:.4f},{:.4f}",
+                               now.t_s / 60,
+                               0.866 * now.vertical_mps2 / g,
+                               0.0,
+                               0.5 * now.vertical_mps2 / g);
+        })));
+    EXPECT_EQ(log->time->confidence, Confidence::likely);
+    EXPECT_EQ(channel_of(*log, "acc_z_mps2").confidence, Confidence::likely);
+}
+
 TEST(LogDetection, TakesNoOtherTableForALog) {
     const auto log =
         detect_log(log_file("product;price;count\nbread;3,50;7\nmilk;1,20;2\nsalt;0,80;1\n"));
@@ -426,6 +494,17 @@ TEST(TripWalk, TakesDetectedLogsOfAFolderThatHasNoOthers) {
     TripWalk beside{folder};
     EXPECT_EQ(beside.count(), 1U);
     EXPECT_EQ(beside.next()->file.filename(), "b.trip.csv");
+}
+
+TEST(TripWalk, TakesNamesInCapitalsAndNoTraceForALog) {
+    const auto folder = test_folder();
+    written(folder, "LOG001.CSV", log_text(androsensor_header, androsensor_line));
+    written(folder, "trace.csv", log_text("t_s,lat_deg,lon_deg,iri\n", [](auto& now, auto& fix) {
+                return fmt::format("{:.2f},{:.6f},{:.6f},2.5", now.t_s, fix.lat_deg, fix.lon_deg);
+            }));
+    TripWalk walk{folder};
+    EXPECT_EQ(walk.count(), 1U);
+    EXPECT_EQ(walk.next()->file.filename(), "LOG001.CSV");
 }
 
 TEST(OpenTrip, NamesInspectForATableThatIsNotSure) {
