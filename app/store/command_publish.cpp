@@ -3,7 +3,9 @@
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
 
+#include "estimator/common/error.hpp"
 #include "storage/networks/network_file.hpp"
+#include "storage/store/connection/import_lock.hpp"
 
 #include <fmt/format.h>
 
@@ -21,6 +23,12 @@ std::int64_t now_utc_ms() {
 void run_publish(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     auto store = opened_store(file, console);
+    if (is_import_running(file)) {
+        throw InputError{
+            fmt::format("{}: an import is running; a publication holds for a month, so "
+                        "publish when it has ended",
+                        file.string())};
+    }
     const auto progress = console.progress("publishing");
     const auto done =
         store.maintenance.publish(load_or_build_network(store), now_utc_ms(), progress);

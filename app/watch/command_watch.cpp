@@ -44,14 +44,24 @@ void import_batch(const fs::path& file,
     }
 }
 
-/// Returns the trips that are complete; empty if a folder below the watched one vanished meanwhile.
-std::vector<fs::path>
-take(SettledTrips& trips, const fs::path& folder, const std::set<fs::path>& closed) {
+/// Returns the trips that are complete; empty if the folder cannot be read as it is now, such as
+/// while a folder below it vanishes. A reason that lasts is told once.
+std::vector<fs::path> take(SettledTrips& trips,
+                           const fs::path& folder,
+                           const std::set<fs::path>& closed,
+                           std::string& reason,
+                           const Console& console) {
     try {
-        return trips.take(closed);
-    } catch (const InputError&) {
+        auto complete = trips.take(closed);
+        reason.clear();
+        return complete;
+    } catch (const InputError& error) {
         if (!fs::is_directory(folder)) {
             throw;
+        }
+        if (reason != error.what()) {
+            reason = error.what();
+            console.warn(fmt::format("{}; no trip of the folder is imported until then", reason));
         }
         return {};
     }
@@ -80,8 +90,9 @@ void run_watch(const Arguments& arguments, const Console& console) {
                                   changes.blindness(),
                                   look_blindly_every.count()));
     std::set<fs::path> closed;
+    std::string reason;
     while (!console.stop().stop_requested()) {
-        if (const auto complete = take(trips, folder, closed); !complete.empty()) {
+        if (const auto complete = take(trips, folder, closed, reason, console); !complete.empty()) {
             try {
                 import_batch(file, complete, options, arguments, console);
             } catch (const InputError&) {

@@ -50,16 +50,19 @@ SettledTrips::Version SettledTrips::version_of(const fs::path& trip) {
 
 bool SettledTrips::is_complete(const fs::path& trip,
                                const Candidate& candidate,
-                               Clock::time_point now) {
+                               Clock::time_point now) const {
     if (candidate.version == Version{}) {
         return false; // it vanished meanwhile
     }
-    const auto age = std::max<Clock::duration>(
-        now - candidate.since, fs::file_time_type::clock::now() - candidate.version.changed);
-    if (trip.filename().string().ends_with(".trip.csv") && age < patience) {
-        return (candidate.is_closed || age >= settling) && has_end_row(trip);
+    Clock::duration age = now - candidate.since;
+    if (is_first_look_) { // later, an old time of change may be that of a copy in progress
+        age = std::max<Clock::duration>(
+            age, fs::file_time_type::clock::now() - candidate.version.changed);
     }
-    return candidate.is_closed || age >= settling;
+    if (trip.filename().string().ends_with(".trip.csv")) {
+        return has_end_row(trip) ? candidate.is_closed || age >= settling : age >= patience;
+    }
+    return age >= (candidate.has_changed ? settling_after_change : settling);
 }
 
 std::vector<fs::path> SettledTrips::take(const std::set<fs::path>& closed, Clock::time_point now) {
@@ -69,8 +72,10 @@ std::vector<fs::path> SettledTrips::take(const std::set<fs::path>& closed, Clock
     for (const auto& trip : TripWalk{folder_, config_}.files()) {
         const auto before = candidates_.find(trip);
         Candidate candidate{.version = version_of(trip), .since = now};
-        if (before != candidates_.end() && before->second.version == candidate.version) {
-            candidate = before->second;
+        if (before != candidates_.end()) {
+            const bool is_same = before->second.version == candidate.version;
+            candidate.has_changed = true;
+            candidate = is_same ? before->second : candidate;
         }
         candidate.is_closed = candidate.is_closed || closed.contains(trip);
         if (!candidate.is_taken) {
@@ -84,6 +89,7 @@ std::vector<fs::path> SettledTrips::take(const std::set<fs::path>& closed, Clock
         found.insert_or_assign(trip, candidate);
     }
     candidates_ = std::move(found);
+    is_first_look_ = false;
     return complete;
 }
 

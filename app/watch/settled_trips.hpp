@@ -11,14 +11,17 @@
 
 namespace macadam {
 
-/// Finds the trips of a folder that are complete, each once. A trip is complete if its file was
-/// closed by its writer or moved here, or did not change for ten seconds; a plain macadam-trip log
-/// also needs its end row, for which it gets five minutes. A file that changes later counts as new.
+/// Finds the trips of a folder that are complete, each once. A plain macadam-trip log is complete
+/// if it has its end row and was closed or moved here, or did not change for ten seconds; without
+/// an end row, after five minutes. Other trips are complete if they did not change for ten seconds,
+/// or for a minute once they were seen to grow: some loggers close their file after each row. A
+/// file that changes later counts as new.
 class SettledTrips {
 public:
     using Clock = std::chrono::steady_clock;
 
     static constexpr std::chrono::seconds settling{10};
+    static constexpr std::chrono::minutes settling_after_change{1};
     static constexpr std::chrono::minutes patience{5};
 
     SettledTrips(std::filesystem::path folder, TripWalkConfig config);
@@ -44,18 +47,20 @@ private:
         Version version;
         Clock::time_point since; ///< when this version was first seen
         bool is_closed = false;
+        bool has_changed = false; ///< while it was watched
         bool is_taken = false;
     };
 
     static Version version_of(const std::filesystem::path& trip);
-    static bool is_complete(const std::filesystem::path& trip,
-                            const Candidate& candidate,
-                            Clock::time_point now);
+    bool is_complete(const std::filesystem::path& trip,
+                     const Candidate& candidate,
+                     Clock::time_point now) const;
 
     std::filesystem::path folder_;
     TripWalkConfig config_;
     std::map<std::filesystem::path, Candidate> candidates_;
     bool has_incomplete_ = false;
+    bool is_first_look_ = true;
 };
 
 } // namespace macadam

@@ -34,9 +34,11 @@ NameTest name_test(const TripWalkConfig& config) {
     return config.tracks ? is_track_name : is_trip_name;
 }
 
+/// Returns the files of a folder and of the folders below it that may be read.
 std::vector<std::string> files_under(const fs::path& folder) {
     std::vector<std::string> names;
-    for (const auto& entry : fs::recursive_directory_iterator{folder}) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator{folder, fs::directory_options::skip_permission_denied}) {
         if (!entry.is_directory()) {
             names.push_back(entry.path().lexically_relative(folder).generic_string());
         }

@@ -27,7 +27,7 @@ TEST(SettledTrips, AreTakenAtOnceWhenTheirWriterHasClosedThem) {
     EXPECT_FALSE(trips.has_incomplete());
 }
 
-TEST(SettledTrips, AreTakenWhenTheyDidNotChangeForTenSeconds) {
+TEST(SettledTrips, AreTakenWhenTheyDidNotChangeForTenSecondsOrAMinuteAfterTheyGrew) {
     const auto folder = fresh_folder();
     const auto trip = folder / "day" / "a.trip.csv.gz";
     fs::create_directories(trip.parent_path());
@@ -35,17 +35,26 @@ TEST(SettledTrips, AreTakenWhenTheyDidNotChangeForTenSeconds) {
     SettledTrips trips{folder, {}};
     EXPECT_THAT(trips.take({}, now), IsEmpty());
     write_file(trip, "three");
-    EXPECT_THAT(trips.take({}, now + 10s), IsEmpty());
-    EXPECT_THAT(trips.take({}, now + 19s), IsEmpty());
-    EXPECT_THAT(trips.take({}, now + 20s), ElementsAre(trip));
+    EXPECT_THAT(trips.take({trip}, now + 10s), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 69s), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 70s), ElementsAre(trip));
+    const auto other = folder / "other.rawlog";
+    write_file(other, "whole");
+    EXPECT_THAT(trips.take({other}, now + 80s), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 90s), ElementsAre(other));
 }
 
-TEST(SettledTrips, AreTakenAtOnceIfTheyAreOld) {
+TEST(SettledTrips, AreTakenAtOnceIfTheyAreOldAtTheFirstLook) {
     const auto folder = fresh_folder();
     const auto trip = folder / "a.rawlog";
     write_file(trip, "old");
     fs::last_write_time(trip, fs::file_time_type::clock::now() - 1h);
-    EXPECT_THAT(SettledTrips(folder, {}).take({}, now), ElementsAre(trip));
+    SettledTrips trips{folder, {}};
+    EXPECT_THAT(trips.take({}, now), ElementsAre(trip));
+    const auto unpacked = folder / "b.rawlog"; // unpacking keeps times of change
+    write_file(unpacked, "half");
+    fs::last_write_time(unpacked, fs::file_time_type::clock::now() - 1h);
+    EXPECT_THAT(trips.take({unpacked}, now + 1s), IsEmpty());
 }
 
 TEST(SettledTrips, WaitFiveMinutesForTheirEndRow) {
