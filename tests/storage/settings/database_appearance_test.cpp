@@ -45,7 +45,7 @@ TEST(DatabaseAppearance, RefusesAllOtherKeys) {
             << text;
     }
     EXPECT_THAT(refusal_of_text("[colours]\nunmeasured = \"#2c7bb6\"\n"),
-                HasSubstr("unknown key 'unmeasured'"));
+                HasSubstr("unknown key 'colours.unmeasured'"));
     EXPECT_THAT(refusal_of_text("[colours]\nclass = \"#000000\"\n"),
                 HasSubstr("macadam.toml:2: unknown key"));
     EXPECT_THAT(refusal_of_text("unit = \"furlong\"\n"), HasSubstr("one of mm/m, in/mi"));
