@@ -5,7 +5,7 @@
 
 namespace macadam {
 
-/// What a file is, by its first bytes and, where these do not say it, its name.
+/// Kind of a file, by its first bytes and, where these do not tell, by its name.
 struct FileKind {
     enum class Use {
         trip,  ///< the readers of trips take it

@@ -41,13 +41,13 @@ struct TyreSize {
 /// that no car has.
 std::optional<TyreSize> parse_tyre_size(std::string_view text);
 
-/// How firmly the sensor sits in the car.
+/// Mounting of the sensor in the car: firm or in a holder.
 enum class SensorMount {
     fixed,  ///< screwed, glued or taped to the body
     holder, ///< a holder of phones
 };
 
-/// What the owner of a car knows about it.
+/// Facts that the owner of a car knows.
 struct OwnersData {
     double mass_kg; ///< kerb mass, as in the registration papers
     double wheelbase_m;
