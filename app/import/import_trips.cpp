@@ -1,9 +1,9 @@
 #include "app/import/import_trips.hpp"
 
 #include "app/import/commit_batch.hpp"
-#include "app/import/ordered_worker_pool.hpp"
 #include "app/import/trip_processing.hpp"
 #include "app/import/trip_progress.hpp"
+#include "app/parallel/ordered_worker_pool.hpp"
 #include "app/pipeline/privacy_trim.hpp"
 
 #include "storage/networks/network_file.hpp"

@@ -70,7 +70,7 @@ TEST(ImportLock, KnowsOtherImportsButNotItself) {
 TEST(ImportLock, IsTakenOnAFileThatMayOnlyBeRead) {
     const auto [store, file] = new_place();
     std::ofstream{file} << "";
-    fs::permissions(file, fs::perms::owner_read | fs::perms::others_read);
+    fs::permissions(file, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
     const auto child = fork();
     if (child == 0) {
         const bool is_other_user = setuid(65534) == 0 || getuid() != 0;
