@@ -5,11 +5,11 @@
 #include "app/import/import_references.hpp"
 #include "app/import/import_run.hpp"
 #include "app/import/trip_inputs.hpp"
-#include "app/pipeline/column_mapping_option.hpp"
-#include "app/pipeline/estimation_options.hpp"
+#include "app/import/trip_options.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/networks/network_file.hpp"
+#include "storage/store/connection/import_lock.hpp"
 #include "storage/surveys/control_reader.hpp"
 
 #include <fmt/format.h>
@@ -64,11 +64,12 @@ void run_import(const Arguments& arguments, const Console& console) {
     VehicleChoice vehicles{arguments};
     auto store = opened_store(file, console);
     if (known.survey || known.control) {
+        const ImportLock others_are_told{file, "reference"};
         import_known(store, known, options.json, console);
-    }
-    if (paths.empty()) {
-        fuse_new(store, console);
-        return;
+        if (paths.empty()) {
+            fuse_new(store, console);
+            return;
+        }
     }
     const auto totals =
         import_paths(store, {paths.begin(), paths.end()}, options, vehicles, console);
@@ -96,26 +97,15 @@ constexpr std::array operands{
             "",
             true}};
 
-constexpr std::array options{
-    vehicle_option,
-    vehicles_option,
-    vehicle_id_option,
-    mapping_option,
-    trim_option,
-    jobs_option,
-    method_option,
-    channels_option,
-    no_filters_option,
-    rate_option,
-    max_members_option,
-    Option{"--take-back", "", "Re-admit trips that 'macadam forget' deleted."},
-    reference_option,
-    accuracy_option,
-    reference_date_option,
-    reference_name_option,
-    control_option,
-    known_unit_option,
-    Option{"--json", "", "One JSON object per trip on standard output, one per line."}};
+constexpr auto options = trip_options_and(
+    std::array{trim_option,
+               Option{"--take-back", "", "Re-admit trips that 'macadam forget' deleted."},
+               reference_option,
+               accuracy_option,
+               reference_date_option,
+               reference_name_option,
+               control_option,
+               known_unit_option});
 
 } // namespace
 

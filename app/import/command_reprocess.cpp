@@ -4,6 +4,7 @@
 #include "app/import/import_outcome.hpp"
 #include "app/import/import_trips.hpp"
 #include "app/import/trip_inputs.hpp"
+#include "app/import/trip_options.hpp"
 #include "app/import/trip_progress.hpp"
 #include "app/import/trip_report_output.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
@@ -65,19 +66,6 @@ constexpr std::array operands{
     store_operand,
     Operand{"PATH", "Logs of trips that are already in the database, in any folders.", true}};
 
-constexpr std::array options{
-    vehicle_option,
-    vehicles_option,
-    vehicle_id_option,
-    mapping_option,
-    jobs_option,
-    max_members_option,
-    method_option,
-    channels_option,
-    no_filters_option,
-    rate_option,
-    Option{"--json", "", "One JSON object per trip on standard output, one per line."}};
-
 } // namespace
 
 const Command reprocess_command{
@@ -93,7 +81,7 @@ const Command reprocess_command{
     .example = "  macadam reprocess roads.gpkg trips/ --vehicles better-cars/\n"
                "  macadam reprocess roads.gpkg trips/ --method kf --jobs 2",
     .operands = operands,
-    .options = options,
+    .options = trip_options,
     .run = run_reprocess};
 
 } // namespace macadam

@@ -6,32 +6,37 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace macadam {
 namespace {
 
 /// Returns the distinct rounded positions of trips: "47.69, 17.67 and 48.20, 16.37".
-std::string places_text(std::span<const GeoPoint> trips) {
+std::string places_text(std::span<const GeoPoint> trips, int decimals) {
     constexpr std::size_t max_places = 3;
-    std::vector<std::string> places;
+    std::set<std::string> known;
+    std::vector<std::string> first;
     for (const auto& [lat_deg, lon_deg] : trips) {
-        auto place = fmt::format("{:.2f}, {:.2f}", lat_deg, lon_deg);
-        if (std::ranges::find(places, place) == places.end()) {
-            places.push_back(std::move(place));
+        auto place = fmt::format("{:.{}f}, {:.{}f}", lat_deg, decimals, lon_deg, decimals);
+        if (known.insert(place).second && first.size() < max_places) {
+            first.push_back(std::move(place));
         }
     }
-    if (places.size() <= max_places) {
-        return fmt::format("{}", fmt::join(places, " and "));
+    if (known.size() <= max_places) {
+        return fmt::format("{}", fmt::join(first, " and "));
     }
-    const auto others = counted(places.size() - 1, "other place");
-    return fmt::format("{} and {}", places.front(), others);
+    const auto others = counted(known.size() - 1, "other place");
+    return fmt::format("{} and {}", first.front(), others);
 }
 
 } // namespace
 
-std::string
-outside_text(std::span<const GeoPoint> outside, std::size_t looked_at, const GeoBox& map) {
+std::string outside_text(std::span<const GeoPoint> outside,
+                         std::size_t looked_at,
+                         const GeoBox& map,
+                         PrivacyProfile privacy) {
     const auto who = outside.size() < looked_at ? fmt::format("{} of {} {} outside this map",
                                                               outside.size(),
                                                               counted(looked_at, "trip"),
@@ -47,7 +52,7 @@ outside_text(std::span<const GeoPoint> outside, std::size_t looked_at, const Geo
     return fmt::format("{}: {} near {}; map covers {:.2f},{:.2f} to {:.2f},{:.2f} (W,S to E,N){}",
                        who,
                        outside.size() == 1 ? "trip" : "trips",
-                       places_text(outside),
+                       places_text(outside, privacy == PrivacyProfile::crowd ? 1 : 2),
                        map.west_deg,
                        map.south_deg,
                        map.east_deg,
@@ -77,7 +82,8 @@ void expect_on_map(const ImportTotals& totals, const StoreReader& store, const C
     if (totals.outside.empty()) {
         return;
     }
-    const auto text = outside_text(totals.outside, totals.looked_at(), store.map_box());
+    const auto text =
+        outside_text(totals.outside, totals.looked_at(), store.map_box(), store.settings().privacy);
     if (totals.outside.size() == totals.looked_at()) {
         throw InputError{text};
     }

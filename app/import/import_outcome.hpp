@@ -12,13 +12,15 @@
 namespace macadam {
 
 /// Describes the trips outside a map in one sentence: "none of 6 trips touches this map: trips near
-/// 47.69, 17.67; map covers ...". Positions are rounded to 0.01 degrees (1 km), because they show
-/// where people drive.
+/// 47.69, 17.67; map covers ...". Positions are rounded, because they show where people drive: to
+/// 0.01 degrees (1 km), those of cars of others to 0.1 degrees.
 ///
 /// \param outside    middle of each such trip; not empty
 /// \param looked_at  number of all trips
-std::string
-outside_text(std::span<const GeoPoint> outside, std::size_t looked_at, const GeoBox& map);
+std::string outside_text(std::span<const GeoPoint> outside,
+                         std::size_t looked_at,
+                         const GeoBox& map,
+                         PrivacyProfile privacy);
 
 /// Warns of trips that were imported before with other settings, in one line.
 ///

@@ -59,15 +59,14 @@ std::string spoken(const OpenImport& earlier) {
 void begin_import(RoadStore& store,
                   const std::string& name,
                   std::size_t trips_asked,
+                  const ImportLock& lock,
                   const Console& console) {
-    const auto& file = store.file();
-    const bool others_run = is_import_running(file);
-    const bool same_runs = is_import_running(file, name);
+    const bool same_runs = lock.is_other_running(name);
     const auto earlier = store.importer.begin_import(name, trips_asked);
     if (same_runs) {
         console.say("another import of these paths is running; trips that it has stored are "
                     "skipped");
-    } else if (others_run) {
+    } else if (lock.is_other_running()) {
         console.say("another import into this database is running");
     }
     if (earlier && !same_runs) {
@@ -89,10 +88,12 @@ Progress until_it_takes_long(Progress fusing) {
     return fusing;
 }
 
-std::size_t fuse(RoadStore& store, const Console& console) {
+/// \returns the number of segments, with those of the earlier fusions of the import.
+std::size_t fuse(RoadStore& store, const Console& console, FusionRecord record) {
     auto fusing = console.progress("fusing");
-    return store.importer.refresh(
-        console.stop().stop_requested() ? until_it_takes_long(std::move(fusing)) : fusing);
+    store.importer.refresh(
+        console.stop().stop_requested() ? until_it_takes_long(std::move(fusing)) : fusing, record);
+    return record.segments.size();
 }
 
 void expect_all_fused(const StoreReader& store, const Console& console) {
@@ -149,8 +150,9 @@ ImportTotals import_paths(RoadStore& store,
         paths, {.mapping = options.mapping, .max_files = options.max_members}, console};
     const auto name =
         name_of_import(options.named_after.empty() ? paths : std::vector{options.named_after});
-    begin_import(store, name, trips.count().value_or(0), console);
-    const ImportLock others_are_told{store.file(), name};
+    const ImportLock lock{store.file(), name}; // before the journal: others would find an entry
+                                               // that seems to be that of a killed import
+    begin_import(store, name, trips.count().value_or(0), lock, console);
 
     auto totals = import_trips(
         store,
@@ -166,7 +168,7 @@ ImportTotals import_paths(RoadStore& store,
                 print_report(trip, options.json, console);
             }
         });
-    const auto fused = totals.fused + fuse(store, console);
+    const auto fused = fuse(store, console, totals.fusion);
     say_totals(totals, fused, console);
     if (const auto words = alignment_summary_text(store.laid()); fused > 0 && !words.empty()) {
         console.say(words);
@@ -179,7 +181,7 @@ ImportTotals import_paths(RoadStore& store,
 }
 
 std::size_t fuse_new_passes(RoadStore& store, const Console& console) {
-    const auto fused = fuse(store, console);
+    const auto fused = fuse(store, console, {});
     expect_all_fused(store, console);
     return fused;
 }

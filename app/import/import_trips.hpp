@@ -31,6 +31,7 @@ struct TripReport {
     std::vector<std::string> warnings;
     std::string error;                    ///< reason for rejection
     std::optional<GeoPoint> outside_at{}; ///< middle of a trip whose result is `outside`
+    bool is_stored = false;               ///< its earlier passes are in the database
     /// Settings with which a known trip was imported, if others are asked for: "--method kf".
     std::string earlier_settings{};
 };
@@ -42,7 +43,7 @@ struct ImportTotals {
     std::size_t known = 0;    ///< or unknown: unchanged
     std::size_t rejected = 0;
     std::size_t passes = 0;
-    std::size_t fused = 0;                               ///< segments fused meanwhile
+    FusionRecord fusion;                                 ///< what was fused meanwhile
     std::vector<GeoPoint> outside;                       ///< middle of each trip outside the map
     std::map<std::string, std::size_t> earlier_settings; ///< known trips by TripReport's settings
     bool interrupted = false; ///< progress.stop was requested before the rest was processed
@@ -57,7 +58,8 @@ struct ImportWork {
     bool reprocess = false; ///< only trips that are in the database, which stages them anew
                             ///< (StoreMaintenance::stage_trip); otherwise only trips that are not
     bool readmit = false;   ///< include trips that were forgotten
-    /// Limit for the time until committed trips are fused, so that readers see them.
+    /// Pause between fusions of committed trips, which show them to readers. Longer where fusing
+    /// takes long, so that it takes at most a fifth of the time.
     std::chrono::milliseconds fuse_every{45'000};
     /// Receives warnings about the network beside the database.
     std::function<void(const std::string&)> warn{};

@@ -33,8 +33,19 @@ AskedTrips::AskedTrips(const std::vector<std::filesystem::path>& paths,
         } catch (const InputError& error) {
             asked.refusal = error.what();
         }
+        const auto [at_least, unknown] = count_of(asked);
+        count_.at_least += at_least;
+        count_.unknown += unknown;
         paths_.push_back(std::move(asked));
     }
+}
+
+AskedTrips::Count AskedTrips::count_of(const Path& path) {
+    if (!path.walk) {
+        return {.at_least = 1};
+    }
+    const auto count = path.walk->count();
+    return {.at_least = count.value_or(path.walk->given() + 1), .unknown = count ? 0U : 1U};
 }
 
 std::optional<TripSource> AskedTrips::next() {
@@ -48,7 +59,15 @@ std::optional<TripSource> AskedTrips::next() {
                               .contents = std::make_shared<const TripContents>(
                                   TripContents{{{"", "", refusal}}})};
         }
-        if (auto trip = walk->next()) {
+        const auto before = count_of(paths_[at_]);
+        auto trip = walk->next();
+        const auto after = count_of(paths_[at_]);
+        {
+            const std::scoped_lock counting{counting_};
+            count_.at_least += after.at_least - before.at_least;
+            count_.unknown += after.unknown - before.unknown;
+        }
+        if (trip) {
             return trip;
         }
     }
@@ -56,25 +75,13 @@ std::optional<TripSource> AskedTrips::next() {
 }
 
 std::optional<std::size_t> AskedTrips::count() const {
-    const std::scoped_lock lock{asking_};
-    std::size_t sum = 0;
-    for (const auto& path : paths_) {
-        const auto count = path.walk ? path.walk->count() : std::optional<std::size_t>{1};
-        if (!count) {
-            return std::nullopt;
-        }
-        sum += *count;
-    }
-    return sum;
+    const std::scoped_lock lock{counting_};
+    return count_.unknown > 0 ? std::nullopt : std::optional{count_.at_least};
 }
 
 std::size_t AskedTrips::at_least() const {
-    const std::scoped_lock lock{asking_};
-    std::size_t sum = 0;
-    for (const auto& path : paths_) {
-        sum += path.walk ? path.walk->count().value_or(path.walk->given() + 1) : 1;
-    }
-    return sum;
+    const std::scoped_lock lock{counting_};
+    return count_.at_least;
 }
 
 void AskedTrips::tell(const Path& path, const Console& console) {

@@ -53,11 +53,20 @@ private:
         bool told = false;
     };
 
+    /// Trips of paths, as far as they are known.
+    struct Count {
+        std::size_t at_least = 0;
+        std::size_t unknown = 0; ///< paths with an archive that may hold more
+    };
+
+    static Count count_of(const Path& path);
     static void tell(const Path& path, const Console& console);
 
-    mutable std::mutex asking_;
+    std::mutex asking_; ///< also while a trip is extracted from an archive
     std::vector<Path> paths_;
     std::size_t at_ = 0;
+    mutable std::mutex counting_; ///< never held for long
+    Count count_;                 ///< of all paths
 };
 
 } // namespace macadam

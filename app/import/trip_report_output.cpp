@@ -83,9 +83,10 @@ std::string text_lines(const TripReport& trip) {
         return fmt::format("{:<9} {}\n", result, printable_name(trip.error));
     }
     if (trip.result == TripReport::Result::outside) {
-        return fmt::format("{:<9} {}: touches no road of this map, not stored\n",
+        return fmt::format("{:<9} {}: touches no road of this map, {}\n",
                            result,
-                           printable_name(trip.file));
+                           printable_name(trip.file),
+                           trip.is_stored ? "its earlier passes stay" : "not stored");
     }
     if (trip.result == TripReport::Result::known || trip.result == TripReport::Result::unknown) {
         const bool is_explained =

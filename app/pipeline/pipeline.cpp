@@ -277,7 +277,7 @@ TripTrace trace_of(const TripLog& trip,
     std::optional<TunedCar> car;
     if (config.estimator.method == Method::smoother && !found.spans.empty()) {
         const auto longest = std::ranges::max(found.spans, {}, samples_in);
-        car = car_in(stretch_of(longest), vehicle, config.estimator);
+        car = car_in(stretch_of(longest), vehicle, config.estimator, progress.stop);
     }
     IriTrace roughness{.runs = {},
                        .slow = slow_parts(motion.odometer, config.stretch.min_speed_mps)};

@@ -3,9 +3,7 @@
 #include "app/database/segment_options.hpp"
 #include "app/import/import_outcome.hpp"
 #include "app/import/import_run.hpp"
-#include "app/import/trip_inputs.hpp"
-#include "app/pipeline/column_mapping_option.hpp"
-#include "app/pipeline/estimation_options.hpp"
+#include "app/import/trip_options.hpp"
 #include "app/watch/folder_changes.hpp"
 #include "app/watch/settled_trips.hpp"
 
@@ -44,6 +42,15 @@ void import_batch(const fs::path& file,
     }
 }
 
+void say_how_watched(const fs::path& folder, const std::string& blindness, const Console& console) {
+    console.say(blindness.empty()
+                    ? fmt::format("watching {}; Ctrl-C ends", folder.string())
+                    : fmt::format("{}: {}; looking for new files every {} s; Ctrl-C ends",
+                                  folder.string(),
+                                  blindness,
+                                  look_blindly_every.count()));
+}
+
 /// Returns the trips that are complete; empty if the folder cannot be read as it is now, such as
 /// while a folder below it vanishes. A reason that lasts is told once.
 std::vector<fs::path> take(SettledTrips& trips,
@@ -57,7 +64,10 @@ std::vector<fs::path> take(SettledTrips& trips,
         return complete;
     } catch (const InputError& error) {
         if (!fs::is_directory(folder)) {
-            throw;
+            throw InputError{fmt::format("{}: the watched folder is gone: moved, removed, or on a "
+                                         "drive that was taken away; what was reported is in the "
+                                         "database. Start the command again when it is back",
+                                         folder.string())};
         }
         if (reason != error.what()) {
             reason = error.what();
@@ -83,12 +93,8 @@ void run_watch(const Arguments& arguments, const Console& console) {
 
     FolderChanges changes{folder};
     SettledTrips trips{folder, {.mapping = options.mapping, .max_files = options.max_members}};
-    console.say(changes.blindness().empty()
-                    ? fmt::format("watching {}; Ctrl-C ends", folder.string())
-                    : fmt::format("{}: {}; looking for new files every {} s; Ctrl-C ends",
-                                  folder.string(),
-                                  changes.blindness(),
-                                  look_blindly_every.count()));
+    auto blindness = changes.blindness();
+    say_how_watched(folder, blindness, console);
     std::set<fs::path> closed;
     std::string reason;
     while (!console.stop().stop_requested()) {
@@ -105,6 +111,10 @@ void run_watch(const Arguments& arguments, const Console& console) {
                            : changes.blindness().empty() ? look_every
                                                          : look_blindly_every;
         closed = changes.wait(pause, console.stop());
+        if (changes.blindness() != blindness) { // such as when there are too many folders
+            blindness = changes.blindness();
+            say_how_watched(folder, blindness, console);
+        }
     }
     console.say("stopped; what was reported is in the database");
 }
@@ -112,19 +122,7 @@ void run_watch(const Arguments& arguments, const Console& console) {
 constexpr std::array operands{
     store_operand, Operand{"FOLDER", "The folder in which trip logs appear, at any depth."}};
 
-constexpr std::array options{
-    vehicle_option,
-    vehicles_option,
-    vehicle_id_option,
-    mapping_option,
-    trim_option,
-    jobs_option,
-    method_option,
-    channels_option,
-    no_filters_option,
-    rate_option,
-    max_members_option,
-    Option{"--json", "", "One JSON object per trip on standard output, one per line."}};
+constexpr auto options = trip_options_and(std::array{trim_option});
 
 } // namespace
 

@@ -43,17 +43,14 @@ bool is_remote(const fs::path& folder) {
 
 } // namespace
 
-FolderChanges::FolderChanges(fs::path folder) {
-    if (is_remote(folder)) {
+FolderChanges::FolderChanges(fs::path folder, std::string blindness)
+    : folder_{std::move(folder)}, blindness_{std::move(blindness)} {
+    if (blindness_.empty() && is_remote(folder_)) {
         blindness_ = "is on a network file system";
-        return;
     }
-    inotify_ = ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
-    if (inotify_ < 0) {
-        give_up(std::strerror(errno));
-        return;
+    if (blindness_.empty()) {
+        watch_anew();
     }
-    watch_tree(folder);
 }
 
 FolderChanges::~FolderChanges() {
@@ -96,9 +93,24 @@ void FolderChanges::watch_tree(const fs::path& folder) {
     }
 }
 
+/// Watches the folder from the beginning, without the events that are queued.
+void FolderChanges::watch_anew() {
+    if (inotify_ >= 0) {
+        ::close(inotify_);
+    }
+    folders_.clear();
+    inotify_ = ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
+    if (inotify_ < 0) {
+        give_up(std::strerror(errno));
+    } else {
+        watch_tree(folder_);
+    }
+}
+
 void FolderChanges::read_events(std::set<fs::path>& closed) {
     alignas(inotify_event) std::array<char, 65536> buffer;
     ssize_t size = 0;
+    bool is_lost = false;
     while (inotify_ >= 0 && (size = ::read(inotify_, buffer.data(), buffer.size())) > 0) {
         for (std::size_t at = 0; at < static_cast<std::size_t>(size);) {
             inotify_event event{};
@@ -107,8 +119,11 @@ void FolderChanges::read_events(std::set<fs::path>& closed) {
             at += sizeof event + event.len;
             const auto folder = folders_.find(event.wd);
             if (folder == folders_.end()) {
+                is_lost = is_lost || (event.mask & IN_Q_OVERFLOW) != 0;
                 continue;
             }
+            const bool is_gone = (event.mask & (IN_IGNORED | IN_MOVE_SELF)) != 0;
+            is_lost = is_lost || (is_gone && folder->second == folder_);
             if ((event.mask & IN_IGNORED) != 0) {
                 folders_.erase(folder);
             } else if (event.len > 0 && (event.mask & IN_ISDIR) != 0) {
@@ -118,21 +133,23 @@ void FolderChanges::read_events(std::set<fs::path>& closed) {
             }
         }
     }
+    if (is_lost) {
+        watch_anew();
+    }
 }
 
 std::set<fs::path> FolderChanges::wait(std::chrono::milliseconds limit,
                                        const std::stop_token& stop) {
-    // A signal ends poll() unless it came just before.
-    constexpr std::chrono::milliseconds look_every{1000};
+    constexpr auto look_every = 1000ms; // a signal ends poll() unless it came just before
+    constexpr auto together = 500ms;    // a burst of files is looked at once
     std::set<fs::path> closed;
-    const auto end = Clock::now() + limit;
-    bool has_changed = false;
-    while (!has_changed && !stop.stop_requested() && Clock::now() < end) {
+    auto end = Clock::now() + limit;
+    while (!stop.stop_requested() && Clock::now() < end) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
         pollfd events{.fd = inotify_, .events = POLLIN, .revents = 0}; // -1 is ignored
         const auto pause = std::clamp(left, 0ms, look_every);
-        has_changed = ::poll(&events, 1, static_cast<int>(pause.count())) > 0;
-        if (has_changed) {
+        if (::poll(&events, 1, static_cast<int>(pause.count())) > 0) {
+            end = std::min(end, Clock::now() + together);
             read_events(closed);
         }
     }

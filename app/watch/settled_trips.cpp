@@ -31,6 +31,10 @@ SettledTrips::SettledTrips(fs::path folder, TripWalkConfig config)
 SettledTrips::Version SettledTrips::version_of(const fs::path& trip) {
     std::error_code gone;
     Version version;
+    if (fs::is_symlink(trip, gone) && !fs::exists(trip, gone)) {
+        version.changed = {}; // a link without a target is there, to be reported
+        return version;
+    }
     const auto add = [&](const fs::path& file) {
         const auto bytes = fs::file_size(file, gone);
         version.bytes += gone ? 0 : bytes;

@@ -1,5 +1,6 @@
 #include "estimator/smoother/car_tuning.hpp"
 
+#include "estimator/common/error.hpp"
 #include "estimator/smoother/friction.hpp"
 
 #include <Eigen/LU>
@@ -89,14 +90,22 @@ Point moved(Point point, const Unknowns& unknowns, const Eigen::VectorXd& by) {
     return point;
 }
 
+struct TuningConfig {
+    SmootherConfig smoother;
+    std::stop_token stop;
+};
+
 RoadEstimate run(const DriveRecord& passage,
                  const Point& point,
-                 const SmootherConfig& config,
+                 const TuningConfig& config,
                  int rounds,
                  const RoadEstimate* begin) {
+    if (config.stop.stop_requested()) {
+        throw InputError{"interrupted"};
+    }
     CarPassage car{passage, point.vehicle, point.friction_n};
     car.passage.cars = cars_with_friction(point.vehicle, passage.cars.front().step_s);
-    auto once = config;
+    auto once = config.smoother;
     once.rounds = rounds;
     once.settling = rounds - 1;
     return smooth_passages({std::move(car)}, once, begin);
@@ -153,7 +162,7 @@ struct Friction {
     double iri_per_n; ///< relative
 };
 
-Friction friction_of(const DriveRecord& passage, Point point, const SmootherConfig& config) {
+Friction friction_of(const DriveRecord& passage, Point point, const TuningConfig& config) {
     const double size = point.vehicle.half_car.ms_kg / usual_mass_kg;
     const double step_n = friction_step_n * size;
     std::vector<RoadEstimate> at; // each from an even road, to treat all alike
@@ -181,7 +190,7 @@ Friction friction_of(const DriveRecord& passage, Point point, const SmootherConf
 Slope slope_about(const DriveRecord& passage,
                   const Point& at,
                   const Unknowns& unknowns,
-                  const SmootherConfig& config,
+                  const TuningConfig& config,
                   RoadEstimate& here) {
     std::vector<RoadEstimate> beside;
     for (const auto& unknown : unknowns) {
@@ -203,7 +212,7 @@ struct Peak {
 Peak peak_about(const DriveRecord& passage,
                 const Point& start,
                 const Unknowns& unknowns,
-                const SmootherConfig& config) {
+                const TuningConfig& config) {
     const auto n = static_cast<Eigen::Index>(unknowns.size());
     Eigen::VectorXd prior_sd(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -225,8 +234,11 @@ Peak peak_about(const DriveRecord& passage,
 
 } // namespace
 
-TunedCar
-tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config) {
+TunedCar tuned_car(const DriveRecord& passage,
+                   const Vehicle& vehicle,
+                   const SmootherConfig& smoother,
+                   const std::stop_token& stop) {
+    const TuningConfig config{smoother, stop};
     Point point{.vehicle = vehicle, .friction_n = vehicle.half_car.friction_n.value_or(0)};
     TunedCar tuned{.vehicle = vehicle};
     if (!vehicle.half_car.friction_n) {

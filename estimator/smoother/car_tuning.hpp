@@ -2,6 +2,8 @@
 
 #include "estimator/smoother/joint_smoother.hpp"
 
+#include <stop_token>
+
 namespace macadam {
 
 /// Car with parameters estimated from its own readings.
@@ -23,8 +25,11 @@ struct TunedCar {
 /// mass and damping above all, goes into iri_sd.
 ///
 /// \param passage  some 1,000 to 5,000 samples; its `cars` are ignored
-TunedCar
-tuned_car(const DriveRecord& passage, const Vehicle& vehicle, const SmootherConfig& config);
+/// \throws InputError  after a stop request.
+TunedCar tuned_car(const DriveRecord& passage,
+                   const Vehicle& vehicle,
+                   const SmootherConfig& smoother,
+                   const std::stop_token& stop = {});
 
 /// Returns the relative standard deviation of every IRI of a car that is due to uncertain
 /// parameters: all of them, or only those that tuned_car() does not move.

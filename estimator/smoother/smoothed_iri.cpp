@@ -162,7 +162,10 @@ Piece piece_at(const DriveRecord& passage,
 
 } // namespace
 
-TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
+TunedCar car_in(const Stretch& stretch,
+                const Vehicle& vehicle,
+                const EstimatorConfig& config,
+                const std::stop_token& stop) {
     auto passage = passage_of(stretch, vehicle, config);
     if (passage.travel_m.size() < min_tuning_samples || !is_felt(passage)) {
         return {.vehicle = vehicle,
@@ -178,7 +181,7 @@ TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorC
     }
     auto piece = piece_of(passage, from, from + count);
     piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
-    auto tuned = tuned_car(piece, tunable, {});
+    auto tuned = tuned_car(piece, tunable, {}, stop);
     tuned.vehicle.imu.height_above_roll_axis_m = vehicle.imu.height_above_roll_axis_m;
     if (tunable.uncertainty.empty()) {
         tuned.iri_sd = std::hypot(tuned.iri_sd, untuned_iri_sd(vehicle, false));

@@ -11,7 +11,11 @@ namespace macadam {
 /// \returns  the car for the whole trip. Friction is estimated; the stated parameters are moved
 ///           where vertical acceleration and pitch rate were both sampled, since one of them alone
 ///           is not sufficient. The vehicle itself if the stretch is too short.
-TunedCar car_in(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config);
+/// \throws InputError  after a stop request.
+TunedCar car_in(const Stretch& stretch,
+                const Vehicle& vehicle,
+                const EstimatorConfig& config,
+                const std::stop_token& stop = {});
 
 /// Division of a stretch into pieces for smoothing.
 struct PieceConfig {

@@ -11,8 +11,9 @@ namespace macadam {
 /// ends in whatever way, so that a running import differs from a killed one, also between
 /// containers that share the file system.
 ///
-/// It excludes nobody: several imports may run. Without effect where the file cannot be created.
-/// The file of a killed import stays until the next one ends.
+/// It excludes nobody: several imports may run. Without effect where the file can neither be
+/// created nor read, or the file system has no locks. The file of a killed import, or of another
+/// user who lets nobody else write it, stays until the next import of its owner ends.
 ///
 /// Source: open file description locks, fcntl(2). SQLite's own files cannot be used: closing one
 /// drops SQLite's locks on it.
@@ -23,6 +24,11 @@ public:
     ImportLock(const ImportLock&) = delete;
     ImportLock& operator=(const ImportLock&) = delete;
     ~ImportLock();
+
+    /// Tests whether another import of the database is running, in any process; with a name,
+    /// whether one of that name is. Of two imports that start together at least one learns of the
+    /// other.
+    bool is_other_running(const std::optional<std::string>& import = {}) const;
 
 private:
     std::filesystem::path file_;

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <thread>
@@ -35,7 +36,8 @@ constexpr const char* last_of_chunk =
     "SELECT fid FROM segment WHERE fid >= ?1 AND fid < ?1 + ?2 AND strip = ?1"
     " ORDER BY fid DESC LIMIT 1";
 
-constexpr const char* clean_segments = "DELETE FROM segment_dirty WHERE segment BETWEEN ? AND ?";
+constexpr const char* clean_segments =
+    "DELETE FROM segment_dirty WHERE segment BETWEEN ? AND ? RETURNING segment";
 
 constexpr const char* states_of_chunk =
     "SELECT fid, iri, iri_sd, passes FROM segment_state WHERE fid BETWEEN ? AND ?";
@@ -74,21 +76,25 @@ public:
           segments_in_chunk_{segments_per_chunk}, classes_{&classes}, audit_{audit} {}
 
     /// \param fused  result, if already known.
-    /// \returns the number of its segments that were dirty; 0 if another importer was faster.
-    std::size_t clean_chunk(std::int64_t chunk, const std::optional<FusedChunk>& fused) {
+    void clean_chunk(std::int64_t chunk, const std::optional<FusedChunk>& fused) {
         const auto last = last_of(chunk);
-        clean_.run(chunk, last);
-        const auto cleaned = database_->changes();
+        const auto cleaned_before = cleaned_.size();
+        for (clean_.bind(chunk, last); clean_.step();) {
+            cleaned_.push_back(clean_.integer(0));
+        }
+        clean_.reset();
         clean_chunk_.run(chunk);
-        if (cleaned > 0 || database_->changes() > 0) {
+        if (cleaned_.size() > cleaned_before || database_->changes() > 0) {
             if (fused) {
                 write(chunk, last, *fused);
             } else {
                 write(chunk, last, states().of(chunk, segments_in_chunk_));
             }
         }
-        return static_cast<std::size_t>(cleaned);
     }
+
+    /// Rows of the segments that were dirty, each once.
+    const std::vector<std::int64_t>& cleaned() const { return cleaned_; }
 
     /// Writes the buffered rows; call it before the commit.
     void flush() {
@@ -175,6 +181,7 @@ private:
     std::int64_t segments_in_chunk_;
     const ClassTable* classes_;
     std::optional<std::int64_t> audit_;
+    std::vector<std::int64_t> cleaned_;
 };
 
 /// Chunk to be fused, with the number of attempts so far.
@@ -242,56 +249,65 @@ std::deque<WaitingChunk> waiting_chunks(Database& database) {
 std::size_t fuse_dirty(Database& database,
                        std::int64_t segments_per_chunk,
                        const ClassTable& classes,
-                       const Progress& progress) {
+                       const Progress& progress,
+                       FusionRecord& record) {
     const ForeignKeysOff rows_are_those_read{database};
     auto waiting = waiting_chunks(database);
     const auto whole = waiting.size();
-    std::optional<std::int64_t> audit;
-    std::size_t cleaned = 0;
-    while (!waiting.empty() && !progress.stop.stop_requested()) {
+    std::vector<std::int64_t> cleaned;
+    for (bool is_first = true; !waiting.empty() && !progress.stop.stop_requested();
+         is_first = false) {
         const auto ahead = fused_ahead(database, waiting, segments_per_chunk, progress);
         Transaction turn{database, Transaction::Kind::write};
         const Changes changes{database, ahead.moment};
-        DirtyChunkFusion fusion{database, segments_per_chunk, classes, audit};
+        if (is_first && record.audit && !renew_audit(database, *record.audit)) {
+            record.audit.reset();
+        }
+        DirtyChunkFusion fusion{database, segments_per_chunk, classes, record.audit};
         for (const auto& fused : ahead.chunks) {
             auto [chunk, tries] = waiting.front();
             waiting.pop_front();
             if (!changes.hold(chunk)) {
-                cleaned += fused ? fusion.clean_chunk(chunk, fused) : 0;
+                if (fused) {
+                    fusion.clean_chunk(chunk, fused);
+                }
             } else if (++tries < max_tries) {
                 waiting.push_back({chunk, tries});
             } else {
-                cleaned += fusion.clean_chunk(chunk, std::nullopt);
+                fusion.clean_chunk(chunk, std::nullopt);
             }
         }
         fusion.flush();
-        audit = fusion.audit();
+        record.audit = fusion.audit();
+        std::ranges::copy(fusion.cleaned(), std::back_inserter(cleaned));
         turn.commit();
         progress(whole - std::min(whole, waiting.size()), whole);
         if (!waiting.empty()) {
             std::this_thread::sleep_for(pause_between_turns);
         }
     }
-    return cleaned;
+    std::ranges::sort(cleaned);
+    std::vector<std::int64_t> all;
+    std::ranges::set_union(record.segments, cleaned, std::back_inserter(all));
+    record.segments = std::move(all);
+    return cleaned.size();
 }
 
 std::size_t
 fuse_dirty_at_once(Database& database, const FusionWork& work, const Progress& progress) {
     const auto chunks = dirty_chunks(database);
     DirtyChunkFusion fusion{database, work.segments_per_chunk, *work.classes, work.audit};
-    std::size_t cleaned = 0;
     for (std::size_t done = 0; done < chunks.size();) {
         if (progress.stop.stop_requested()) {
             throw InputError{fmt::format("{}: interrupted; the database is unchanged",
                                          database.file().string())};
         }
         const auto chunk = chunks[done++];
-        cleaned += fusion.clean_chunk(
-            chunk, work.staged != nullptr ? work.staged->find(chunk) : std::nullopt);
+        fusion.clean_chunk(chunk, work.staged != nullptr ? work.staged->find(chunk) : std::nullopt);
         progress(done, chunks.size());
     }
     fusion.flush();
-    return cleaned;
+    return fusion.cleaned().size();
 }
 
 } // namespace macadam

@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "storage/sqlite/sqlite.hpp"
+#include "storage/store/records/fusion_record.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,11 +24,13 @@ class StagedChunks;
 ///
 /// Changes are recorded in the audit as the effect of an import.
 ///
+/// \param record  of the earlier fusions of the same import; this one is added
 /// \returns  the number of dirty segments that are now clean
 std::size_t fuse_dirty(Database& database,
                        std::int64_t segments_per_chunk,
                        const ClassTable& classes,
-                       const Progress& progress);
+                       const Progress& progress,
+                       FusionRecord& record);
 
 /// Input of fuse_dirty_at_once().
 struct FusionWork {

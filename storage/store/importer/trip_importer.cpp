@@ -124,7 +124,13 @@ void TripImporter::end_import(const std::string& name) {
 }
 
 std::size_t TripImporter::refresh(const Progress& progress) {
-    return fuse_dirty(store_->database, store_->segments_per_chunk(), store_->classes(), progress);
+    FusionRecord alone;
+    return refresh(progress, alone);
+}
+
+std::size_t TripImporter::refresh(const Progress& progress, FusionRecord& record) {
+    return fuse_dirty(
+        store_->database, store_->segments_per_chunk(), store_->classes(), progress, record);
 }
 
 } // namespace macadam

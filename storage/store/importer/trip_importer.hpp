@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/common/progress.hpp"
+#include "storage/store/records/fusion_record.hpp"
 #include "storage/store/records/store_records.hpp"
 
 #include <cstddef>
@@ -50,6 +51,9 @@ public:
     /// (mapping/alignment/alignment.hpp, mapping/fusion/fusion.hpp), by the rules of the current
     /// generation. \returns the number of segments with new passes.
     std::size_t refresh(const Progress& progress = {});
+
+    /// Does so as a part of an import that fuses several times.
+    std::size_t refresh(const Progress& progress, FusionRecord& record);
 
 private:
     std::shared_ptr<StoreConnection> store_;

@@ -21,4 +21,10 @@ std::int64_t add_audit(Database& database, std::string_view what, std::string_vi
     return database.number("SELECT last_insert_rowid()");
 }
 
+bool renew_audit(Database& database, std::int64_t entry) {
+    database.prepare("UPDATE audit SET at = ?1 WHERE id = ?2 AND id = (SELECT max(id) FROM audit)")
+        .run(datetime_text(now_ms()), entry);
+    return database.changes() > 0;
+}
+
 } // namespace macadam

@@ -13,4 +13,8 @@ namespace macadam {
 /// Adds an audit entry with the current time. \returns its row.
 std::int64_t add_audit(Database& database, std::string_view what, std::string_view detail);
 
+/// Moves the latest audit entry to the current time, so that more changes can be recorded under it.
+/// \returns false for any other entry: the changes would seem to precede those of later ones.
+bool renew_audit(Database& database, std::int64_t entry);
+
 } // namespace macadam

@@ -19,7 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::SizeIs;
+using namespace std::chrono_literals;
 
 constexpr std::size_t trip_count = 4;
 
@@ -65,14 +68,30 @@ TEST(ImportThatFusesMeanwhile, EndsWithTheDigestOfOneThatFusesAtItsEnd) {
     const auto totals =
         import_all(meanwhile, folder, std::chrono::milliseconds{0}, {}, [](auto&) {});
     EXPECT_EQ(totals.imported, trip_count);
-    EXPECT_GT(totals.fused, 0U);
-    meanwhile.importer.refresh();
+    EXPECT_GT(totals.fusion.segments.size(), 0U);
+    auto record = totals.fusion;
+    meanwhile.importer.refresh({}, record);
 
     auto at_end = RoadStore::open(folder / "at-end.gpkg");
-    EXPECT_EQ(import_all(at_end, folder, std::chrono::hours{1}, {}, [](auto&) {}).fused, 0U);
+    EXPECT_THAT(import_all(at_end, folder, std::chrono::hours{1}, {}, [](auto&) {}).fusion.segments,
+                IsEmpty());
     EXPECT_GT(at_end.waiting(), 0U);
-    at_end.importer.refresh();
+    const auto fused = at_end.importer.refresh();
     EXPECT_EQ(meanwhile.digest(), at_end.digest());
+    EXPECT_EQ(record.segments.size(), fused); // each segment once
+}
+
+TEST(ImportThatFusesMeanwhile, IsOneEntryInTheAudit) {
+    const auto folder = world();
+    auto store = RoadStore::open(folder / "meanwhile.gpkg");
+    std::size_t changed = 0;
+    auto totals = import_all(store, folder, 0ms, {}, [&](const TripReport&) {
+        changed += store.audit().empty() ? 0 : 1;
+    });
+    EXPECT_GT(changed, 0U); // readers are shown something meanwhile
+    store.importer.refresh({}, totals.fusion);
+    ASSERT_THAT(store.audit(), SizeIs(1));
+    EXPECT_EQ(store.audit().front().segments, totals.fusion.segments.size());
 }
 
 TEST(ImportThatFusesMeanwhile, ShowsReadersTheFirstTripsBeforeTheLastOnes) {

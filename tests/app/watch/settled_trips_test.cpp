@@ -78,6 +78,21 @@ TEST(SettledTrips, AreReturnedOnceUntilTheyChange) {
     EXPECT_THAT(trips.take({trip}, now + 1h), ElementsAre(trip));
 }
 
+TEST(SettledTrips, AreLinksWithoutATargetOnceAndTheirTargetsLater) {
+    const auto folder = fresh_folder();
+    const auto link = folder / "watched" / "a.rawlog";
+    fs::create_directories(link.parent_path());
+    fs::create_symlink(folder / "target", link);
+    SettledTrips trips{link.parent_path(), {}};
+    EXPECT_THAT(trips.take({}, now), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 10s), ElementsAre(link));
+    EXPECT_THAT(trips.take({}, now + 20s), IsEmpty());
+    EXPECT_FALSE(trips.has_incomplete());
+    write_file(folder / "target", "log");
+    EXPECT_THAT(trips.take({}, now + 30s), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 90s), ElementsAre(link));
+}
+
 TEST(SettledTrips, OfAFolderThatIsGoneAreAnError) {
     SettledTrips trips{fresh_folder() / "gone", {}};
     EXPECT_THROW(trips.take({}, now), InputError);

@@ -84,6 +84,17 @@ TEST(Watch, ContinuesAfterARestartWithoutNamingWhatIsKnown) {
     }
 }
 
+TEST(Watch, EndsWhenItsFolderIsGone) {
+    const auto made = world();
+    move_in(made, "a.trip.csv", log_named("a"));
+    PipedProgram watch{made.words};
+    EXPECT_THAT(watch.line(enough).value_or(""), HasSubstr("\"imported\""));
+    fs::rename(made.incoming, made.folder / "elsewhere");
+    const auto end = watch.wait();
+    EXPECT_EQ(end.exit_status, 1);
+    EXPECT_THAT(end.err, HasSubstr("incoming: the watched folder is gone: moved, removed, or "));
+}
+
 TEST(Watch, RefusesWhatIsNoFolder) {
     const auto made = world();
     const auto run = run_macadam(

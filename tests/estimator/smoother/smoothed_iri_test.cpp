@@ -1,3 +1,4 @@
+#include "estimator/common/error.hpp"
 #include "estimator/roughness/roughness_mean.hpp"
 #include "estimator/smoother/smoothed_iri.hpp"
 
@@ -255,6 +256,14 @@ TEST(CarIn, ATooShortStretchIsTheVehicleItselfAndNotWellKnown) {
     EXPECT_EQ(tuned.vehicle.half_car.cs_ns_per_m, car().half_car.cs_ns_per_m);
     EXPECT_EQ(tuned.friction_n, usual_friction_n(car().half_car).mean);
     EXPECT_EQ(tuned.iri_sd, 0.1);
+}
+
+TEST(CarIn, IsNotTunedAfterAStopRequest) {
+    const auto drive =
+        driven_road({.road = {.iri_mm_per_m = 2}, .car = linear_car_of(car()), .length_m = 1300});
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(car_in(drive.stretch, car(), smoother_config(), stop.get_token()), InputError);
 }
 
 } // namespace macadam::testing

@@ -240,6 +240,33 @@ TEST(RoadStore, CountsWhatWaitsToBeFused) {
     EXPECT_EQ(store.info().waiting, 0U);
 }
 
+TEST(RoadStore, RecordsTheFusionsOfOneImportTogetherAndItsSegmentsOnce) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    FusionRecord record;
+    for (int number = 0; number < 3; ++number) {
+        add_trip(store, trip_record(number), passes_of(number));
+        EXPECT_EQ(store.importer.refresh({}, record), 20U);
+    }
+    EXPECT_THAT(record.segments, SizeIs(20));
+    ASSERT_THAT(store.audit(), SizeIs(1));
+    EXPECT_EQ(store.audit().front().segments, 20U);
+}
+
+TEST(RoadStore, RecordsWhatAnImportChangesAfterAnotherOperationAfterIt) {
+    auto store = new_store(test_folder() / "a.gpkg");
+    FusionRecord record;
+    add_trip(store, trip_record(0), passes_of(0));
+    store.importer.refresh({}, record);
+    const auto segment = passes_of(0).front().segment;
+    store.maintenance.set_valid_from({&segment, 1}, 0, "resurfaced");
+    add_trip(store, trip_record(1), passes_of(1));
+    store.importer.refresh({}, record);
+    const auto entries = store.audit();
+    ASSERT_THAT(entries, SizeIs(3));
+    EXPECT_EQ(entries[0].what, "import");
+    EXPECT_EQ(entries[2].what, "import");
+}
+
 TEST(RoadStore, FusesNoMoreThanIsWanted) {
     auto store = new_store(test_folder() / "a.gpkg");
     add_trip(store, trip_record(0), passes_of(0));

@@ -52,6 +52,38 @@ TEST(ImportLock, OfTheLastOfSeveralImportsRemovesTheFile) {
     EXPECT_FALSE(fs::exists(file));
 }
 
+TEST(ImportLock, KnowsOtherImportsButNotItself) {
+    const auto [store, file] = new_place();
+    const ImportLock one{store, "a"};
+    EXPECT_FALSE(one.is_other_running());
+    {
+        const ImportLock other{store, "b"};
+        EXPECT_TRUE(one.is_other_running());
+        EXPECT_TRUE(one.is_other_running("b"));
+        EXPECT_FALSE(one.is_other_running("a"));
+        EXPECT_TRUE(other.is_other_running("a"));
+    }
+    EXPECT_FALSE(one.is_other_running());
+}
+
+// The file was left by the killed import of a user whose umask is 022.
+TEST(ImportLock, IsTakenOnAFileThatMayOnlyBeRead) {
+    const auto [store, file] = new_place();
+    std::ofstream{file} << "";
+    fs::permissions(file, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
+    const auto child = fork();
+    if (child == 0) {
+        const bool is_other_user = setuid(65534) == 0 || getuid() != 0;
+        const ImportLock import{store, "a"};
+        _exit(is_other_user && is_import_running(store, "a") ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    EXPECT_FALSE(is_import_running(store));
+    EXPECT_TRUE(fs::exists(file));
+}
+
 TEST(ImportLock, IsReleasedByTheKernelWhenTheProcessIsKilled) {
     const auto [store, file] = new_place();
     int ready[2];
