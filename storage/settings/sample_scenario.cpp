@@ -118,6 +118,9 @@ imu_y_m = 0.1               # to the left
 imu_height_m = 0.35         # above the roll axis
 friction_n = 30             # of each suspension
 rebound_ratio = 1.4         # of the dampers, over the mean of both ways
+# antiroll_n_per_m = 8000      # anti-roll bars, at each wheel
+# cg_above_roll_axis_m = 0.45  # lever arm of the lean in curves
+# pitch_arm_m = 0.35           # lever arm of the dive in braking
 
 [[car]]
 id = "hatchback"

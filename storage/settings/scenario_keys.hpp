@@ -151,6 +151,8 @@ inline constexpr std::array car_numbers{
     NumberKey<CarRecipe>{"rebound_ratio", positive_number, [](auto& r) -> double& { return r.rebound_ratio; }},
     NumberKey<CarRecipe>{"bump_stop_gap_m", positive_number, [](auto& r) -> double& { return r.bump_stop_gap_m; }},
     NumberKey<CarRecipe>{"tyre_nonuniformity_n", not_negative_number, [](auto& r) -> double& { return r.tyre_nonuniformity_n; }},
+    NumberKey<CarRecipe>{"cg_above_roll_axis_m", not_negative_number, [](auto& r) -> double& { return r.cg_above_roll_axis_m; }},
+    NumberKey<CarRecipe>{"pitch_arm_m", not_negative_number, [](auto& r) -> double& { return r.pitch_arm_m; }},
     NumberKey<CarRecipe>{"antiroll_n_per_m", not_negative_number, [](auto& r) -> double& { return r.antiroll_n_per_m; }},
 };
 // clang-format on

@@ -55,13 +55,16 @@ TEST(Recipe, ChangesOnlyWhatItSays) {
 
 TEST(Recipe, MakesACarLikeAnother) {
     const auto recipe = read_text("[[car]]\nid = \"mine\"\nlike = \"suv\"\nms_kg = 2000\n"
-                                  "wheelbase_m = 2.9\nimu_rate_hz = 50\nsensors = [\"acc\"]\n");
+                                  "wheelbase_m = 2.9\nimu_rate_hz = 50\nsensors = [\"acc\"]\n"
+                                  "cg_above_roll_axis_m = 0.6\npitch_arm_m = 0.2\n");
     ASSERT_EQ(recipe.cars.size(), 1U);
     const auto& car = recipe.cars.front();
     EXPECT_EQ(car.car.vehicle.name, "mine");
     EXPECT_EQ(car.car.vehicle.half_car.ms_kg, 2000);
     EXPECT_EQ(car.car.vehicle.half_car.mu_kg, built_in_vehicle("suv")->half_car.mu_kg);
     EXPECT_EQ(car.car.vehicle.axles->wheelbase_m, 2.9);
+    EXPECT_EQ(car.car.cg_above_roll_axis_m, 0.6);
+    EXPECT_EQ(car.car.pitch_arm_m, 0.2);
     EXPECT_EQ(car.imu.rate_hz, 50);
     EXPECT_TRUE(car.acc);
     EXPECT_FALSE(car.gyro);
