@@ -259,15 +259,15 @@ constexpr std::array options{
 const Command simulate_command{
     .name = "simulate",
     .summary = "Simulate trips of known cars over known roads, with the true IRI",
-    .about =
-        "Gives every way of the network a surface in each direction, drives cars with two "
-        "axles, dampers, friction\n"
-        "and tyres over it and writes what their sensors would log: DIR/trips/, "
-        "DIR/vehicles/,\n"
-        "DIR/network.osm.pbf, DIR/truth.csv with the true IRI of every segment,\n"
-        "DIR/truth-potholes.csv with the potholes that the recipe asked for, and\n"
-        "DIR/truth-vehicles/ with the cars as they are (DIR/vehicles/ errs as the recipe says).\n"
-        "The same network, recipe and seed give the same bytes on every machine.",
+    .about = "Gives every way of the network a surface in each direction, drives cars with two "
+             "axles, dampers, friction\n"
+             "and tyres over it and writes what their sensors would log: DIR/trips/, "
+             "DIR/vehicles/,\n"
+             "DIR/network.osm.pbf, DIR/truth.csv with the true IRI of every segment,\n"
+             "DIR/truth-potholes.csv with the potholes that the recipe asked for, and\n"
+             "DIR/truth-vehicles/ with the true cars; DIR/vehicles/ has the errors that the recipe "
+             "states.\n"
+             "The same network, recipe and seed give the same bytes on every machine.",
     .example = "  macadam simulate -o fleet --network town.osm.pbf\n"
                "  macadam simulate --show-recipe > mine.toml            a recipe to start "
                "from\n"
