@@ -150,12 +150,17 @@ void write_truth(const Fleet& fleet,
     write_lanes(folder / "truth-potholes.csv", pothole_truth_header, potholes);
 }
 
+/// Writes the vehicle files with their errors, and beside them those of the true cars.
 void write_vehicles(const Fleet& fleet, const fs::path& folder) {
-    make_folder(folder);
+    make_folder(folder / "vehicles");
+    make_folder(folder / "truth-vehicles");
     for (const auto& car : fleet.cars) {
-        write_file(folder / (car.written.name + ".toml"),
+        const auto name = car.written.name + ".toml";
+        write_file(folder / "vehicles" / name,
                    "# Written by 'macadam simulate': the true car, as wrong as the recipe says.\n" +
                        vehicle_text(car.written));
+        write_file(folder / "truth-vehicles" / name,
+                   "# Written by 'macadam simulate': the true car.\n" + vehicle_text(car.truth));
     }
 }
 
@@ -206,7 +211,7 @@ simulated(const SimulateOptions& options, const fs::path& folder, const Console&
     }
     const auto fleet = with_trip_name(
         options.network.string(), [&] { return make_fleet(options.recipe, roads, options.seed); });
-    write_vehicles(fleet, folder / "vehicles");
+    write_vehicles(fleet, folder);
     LaneStore surfaces{
         [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
         max_lane_bytes};
@@ -258,8 +263,10 @@ const Command simulate_command{
              "axles, dampers, friction\n"
              "and tyres over it and writes what their sensors would log: DIR/trips/, "
              "DIR/vehicles/,\n"
-             "DIR/network.osm.pbf, DIR/truth.csv with the true IRI of every segment, and\n"
-             "DIR/truth-potholes.csv with the potholes that the recipe asked for.\n"
+             "DIR/network.osm.pbf, DIR/truth.csv with the true IRI of every segment,\n"
+             "DIR/truth-potholes.csv with the potholes that the recipe asked for, and\n"
+             "DIR/truth-vehicles/ with the true cars; DIR/vehicles/ has the errors that the recipe "
+             "states.\n"
              "The same network, recipe and seed give the same bytes on every machine.",
     .example = "  macadam simulate -o fleet --network town.osm.pbf\n"
                "  macadam simulate --show-recipe > mine.toml            a recipe to start "

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
+#include <span>
 
 namespace macadam {
 
@@ -154,25 +156,80 @@ double solved(const std::function<double(double)>& rising, double aim, double mo
     return (low + high) / 2;
 }
 
-} // namespace
+/// Steepness of the amplitude, beyond that of waviness 2, at each pole-zero pair.
+using Steepness = std::array<double, RoadFilter::pair_count>;
 
 /// Source: A. Oustaloup et al., "Frequency-band complex noninteger differentiator: characterization
 /// and synthesis", IEEE Transactions on Circuits and Systems I 47 (2000), pp. 25-39.
-RoadFilter road_filter(double waviness, double step_m) {
+RoadFilter filter_of(const Steepness& steepness, double step_m) {
     RoadFilter filter{};
     filter.step_m = step_m;
     filter.leak = exact::exp(-2 * pi * step_m / longest_wave_m);
-    const double steepness = (waviness - 2) / 2; // of the amplitude
     const double ratio = exact::pow(bent_to_per_m / bent_from_per_m, 1.0 / RoadFilter::pair_count);
-    for (int i = 0; i < RoadFilter::pair_count; ++i) {
+    for (std::size_t i = 0; i < steepness.size(); ++i) {
         const auto at = [&](double shift) {
             return exact::exp(-2 * pi * step_m * bent_from_per_m *
-                              exact::pow(ratio, i + 0.5 + shift));
+                              exact::pow(ratio, static_cast<double>(i) + 0.5 + shift));
         };
-        filter.pole[static_cast<std::size_t>(i)] = at(-steepness / 2);
-        filter.zero[static_cast<std::size_t>(i)] = at(steepness / 2);
+        filter.pole[i] = at(-steepness[i] / 2);
+        filter.zero[i] = at(steepness[i] / 2);
     }
     return filter;
+}
+
+/// Returns the mean spectral density of slope, in m, over the octave from a wavelength upwards.
+double mean_slope_density_m(const RoadFilter& filter, double shortest_wave_m) {
+    constexpr int points = 16;
+    double sum = 0;
+    for (int i = 0; i < points; ++i) {
+        const double n = (1 + (i + 0.5) / points) / (2 * shortest_wave_m);
+        sum += 4 * pi * pi * n * n * density_m3(filter, n);
+    }
+    return sum / points;
+}
+
+/// Octave whose level relative to that of 4 to 8 m is stated, and the pairs that set it.
+struct BentOctave {
+    double shortest_wave_m;
+    std::size_t first_pair, second_pair;
+    std::optional<double> ratio;
+};
+
+/// Changes the steepness of pairs until the stated ratios hold.
+RoadFilter bent_filter(Steepness steepness, std::span<const BentOctave> octaves, double step_m) {
+    constexpr double middle_m = 4;
+    constexpr int rounds = 60; // 10 suffice but at the limits of both ratios
+    RoadFilter filter = filter_of(steepness, step_m);
+    for (int round = 0; round < rounds; ++round) {
+        const double middle = mean_slope_density_m(filter, middle_m);
+        for (const auto& octave : octaves) {
+            if (octave.ratio) {
+                const double wave = octave.shortest_wave_m;
+                const double now = mean_slope_density_m(filter, wave) / middle;
+                const double by =
+                    exact::log(*octave.ratio / now) / (2 * exact::log(wave / middle_m));
+                steepness[octave.first_pair] += by;
+                steepness[octave.second_pair] += by;
+            }
+        }
+        filter = filter_of(steepness, step_m);
+    }
+    return filter;
+}
+
+} // namespace
+
+RoadFilter road_filter(const RoadRecipe& recipe, double step_m) {
+    Steepness steepness{};
+    steepness.fill((recipe.waviness - 2) / 2);
+    if (!recipe.long_wave_ratio && !recipe.short_wave_ratio) {
+        return filter_of(steepness, step_m);
+    }
+    const std::array octaves{
+        BentOctave{15, 1, 2, recipe.long_wave_ratio}, // waves of 63 to 6.3 m
+        BentOctave{1, 3, 4, recipe.short_wave_ratio}, // waves of 6.3 to 0.63 m
+    };
+    return bent_filter(steepness, octaves, step_m);
 }
 
 double density_m3(const RoadFilter& filter, double waves_per_m) {

@@ -10,7 +10,7 @@ namespace macadam {
 
 /// Filter that shapes white noise at equidistant stations into a road: y = leak y[-1] + x, then
 /// pole-zero pairs, y = x - zero x[-1] + pole y[-1], evenly spaced over the logarithm of wave
-/// number, that change the slope from 2 to the waviness.
+/// number, that change the slope from 2 to the waviness, or bend the spectrum.
 struct RoadFilter {
     static constexpr int pair_count = 6;
 
@@ -20,7 +20,9 @@ struct RoadFilter {
     std::array<double, pair_count> zero;
 };
 
-RoadFilter road_filter(double waviness, double step_m);
+/// Returns the filter of a recipe's spectrum. Stated ratios bend it between waves of 63 and 0.63 m;
+/// beyond, it falls with the waviness.
+RoadFilter road_filter(const RoadRecipe& recipe, double step_m);
 
 /// Returns the one-sided spectral density of elevation in m^3, for noise of variance 1 m^2.
 double density_m3(const RoadFilter& filter, double waves_per_m);

@@ -47,6 +47,8 @@ void check(const RoadRecipe& recipe, double length_m) {
     refuse("length in metres", length_m, min_length_m, max_length_m);
     refuse("iri", recipe.iri_mm_per_m, 0.01, 50);
     refuse("waviness", recipe.waviness, 1.2, 3.2);
+    refuse("long_wave_ratio", recipe.long_wave_ratio.value_or(1), min_wave_ratio, max_wave_ratio);
+    refuse("short_wave_ratio", recipe.short_wave_ratio.value_or(1), min_wave_ratio, max_wave_ratio);
     refuse("level_sd", recipe.level_sd, 0, 1.5);
     refuse("level_length_m", recipe.level_length_m, 5, 10'000);
     refuse("coherency_length_m", recipe.coherency_length_m, 0.1, 100);
@@ -202,7 +204,7 @@ RoadSurface flat_surface(double length_m) {
 
 RoadSurface random_surface(const RoadRecipe& recipe, double length_m, std::uint64_t seed) {
     RoadSurface surface = flat_surface(length_m);
-    const RoadFilter filter = road_filter(recipe.waviness, surface.step_m);
+    const RoadFilter filter = road_filter(recipe, surface.step_m);
     const double sd_m = noise_sd_m(recipe, filter);
     const auto weight = taps();
     Shaper shaper{filter, recipe.coherency_length_m};

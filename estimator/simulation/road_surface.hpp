@@ -1,14 +1,25 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace macadam {
 
+/// Limits of the ratios of a RoadRecipe, within which its filter can bend.
+inline constexpr double min_wave_ratio = 0.2;
+inline constexpr double max_wave_ratio = 8;
+
 /// Parameters of a simulated road. A recipe and a seed always give the same surface.
 struct RoadRecipe {
-    double iri_mm_per_m = 2;       ///< target mean over a long road; the true value is measured
-    double waviness = 2;           ///< ISO 8608: G(n) = G(n0) (n / n0)^-waviness
+    double iri_mm_per_m = 2; ///< target mean over a long road; the true value is measured
+    double waviness = 2;     ///< ISO 8608: G(n) = G(n0) (n / n0)^-waviness
+
+    /// Mean spectral density of slope over waves of 15 to 30 m, and over waves of 1 to 2 m,
+    /// relative to that over waves of 4 to 8 m. `std::nullopt`: as the waviness gives.
+    std::optional<double> long_wave_ratio = std::nullopt;
+    std::optional<double> short_wave_ratio = std::nullopt;
+
     double level_sd = 0.25;        ///< of the natural logarithm of roughness along the road, ...
     double level_length_m = 150;   ///< ... which changes over this distance
     double coherency_length_m = 3; ///< the two tracks agree in waves longer than a few of these

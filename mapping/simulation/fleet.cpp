@@ -39,24 +39,16 @@ std::array<double, 3> three(Random& random, double sd) {
     return {sd * x, sd * y, sd * z};
 }
 
-/// Draws a documented parameter with relative error `sd`, limited to 2.5 sd.
+/// Draws a documented parameter with relative error `sd`, limited to 2.5 sd and to a tenth.
 double written(Random& random, double truth, double sd) {
-    return truth * (1 + sd * std::clamp(random.normal(), -2.5, 2.5));
+    return truth * std::max(0.1, 1 + sd * std::clamp(random.normal(), -2.5, 2.5));
 }
 
-Vehicle written_vehicle(const CarRecipe& car, const ImuRecipe& imu, double sd, std::uint64_t seed) {
-    Random random{seed};
+/// Returns the vehicle file of a car as it is simulated.
+Vehicle true_vehicle(const CarRecipe& car, const ImuRecipe& imu) {
     Vehicle vehicle = car.vehicle;
-    auto& body = vehicle.half_car;
-    body.antiroll_n_per_m = car.antiroll_n_per_m;
-    for (auto* const number : {&body.ms_kg,
-                               &body.mu_kg,
-                               &body.ks_n_per_m,
-                               &body.cs_ns_per_m,
-                               &body.kt_n_per_m,
-                               &body.is_kgm2}) {
-        *number = written(random, *number, sd);
-    }
+    vehicle.half_car.antiroll_n_per_m = car.antiroll_n_per_m;
+    vehicle.half_car.friction_n = car.friction_n;
     vehicle.gain = 1;
     vehicle.one_axle_gain = one_axle_gain;
     vehicle.imu.lowpass_hz = imu.lowpass_hz;
@@ -64,9 +56,32 @@ Vehicle written_vehicle(const CarRecipe& car, const ImuRecipe& imu, double sd, s
     vehicle.imu.noise_mps2 = imu.noise_mps2;
     vehicle.imu.noise_radps = imu.noise_radps;
     vehicle.uncertainty.clear();
-    for (const char* const name :
-         {"ms_kg", "mu_kg", "ks_n_per_m", "cs_ns_per_m", "kt_n_per_m", "is_kgm2"}) {
+    return vehicle;
+}
+
+/// Returns what is known of a car: its parameters with the errors of the recipe, not its friction.
+Vehicle
+written_vehicle(const Vehicle& truth, const KnowledgeRecipe& knowledge, std::uint64_t seed) {
+    Random random{seed};
+    Vehicle vehicle = truth;
+    auto& body = vehicle.half_car;
+    body.friction_n.reset();
+    const auto write = [&](const char* name, double& number, double sd) {
+        number = written(random, number, sd);
         vehicle.uncertainty[name] = sd;
+    };
+    write("ms_kg", body.ms_kg, knowledge.ms_kg);
+    write("mu_kg", body.mu_kg, knowledge.mu_kg);
+    write("ks_n_per_m", body.ks_n_per_m, knowledge.ks_n_per_m);
+    write("cs_ns_per_m", body.cs_ns_per_m, knowledge.cs_ns_per_m);
+    write("kt_n_per_m", body.kt_n_per_m, knowledge.kt_n_per_m);
+    write("is_kgm2", body.is_kgm2, knowledge.is_kgm2);
+    if (vehicle.axles && knowledge.dynamic_index > 0) {
+        write("dynamic_index", vehicle.axles->dynamic_index, knowledge.dynamic_index);
+    }
+    if (knowledge.gain > 0) {
+        write("gain", vehicle.gain, knowledge.gain);
+        vehicle.one_axle_gain = one_axle_gain * vehicle.gain;
     }
     return vehicle;
 }
@@ -74,17 +89,18 @@ Vehicle written_vehicle(const CarRecipe& car, const ImuRecipe& imu, double sd, s
 FleetCar made_car(const FleetScenario& recipe, std::size_t number, std::uint64_t seed) {
     const auto& plan = recipe.cars[number];
     Random random{seed_of({seed, draw_faults, number})};
-    FleetCar car{
-        .car = plan.car,
-        .imu = plan.imu,
-        .gnss = recipe.gnss,
-        .gnss_latency_s = 0,
-        .odometer_scale = 1,
-        .acc = plan.acc,
-        .gyro = plan.gyro,
-        .wheel_speed = plan.wheel_speed,
-        .written = written_vehicle(
-            plan.car, plan.imu, recipe.knowledge_sd, seed_of({seed, draw_knowledge, number}))};
+    FleetCar car{.car = plan.car,
+                 .imu = plan.imu,
+                 .gnss = recipe.gnss,
+                 .gnss_latency_s = 0,
+                 .odometer_scale = 1,
+                 .acc = plan.acc,
+                 .gyro = plan.gyro,
+                 .wheel_speed = plan.wheel_speed,
+                 .truth = true_vehicle(plan.car, plan.imu),
+                 .written = {}};
+    car.written =
+        written_vehicle(car.truth, recipe.knowledge, seed_of({seed, draw_knowledge, number}));
     car.imu.acc_bias_mps2 = three(random, recipe.spread.acc_bias_mps2);
     car.imu.gyro_bias_radps = three(random, recipe.spread.gyro_bias_radps);
     car.imu.tilt_rpy_deg = three(random, recipe.spread.tilt_deg);

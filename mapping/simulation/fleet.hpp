@@ -21,7 +21,8 @@ struct FleetCar {
     bool acc;
     bool gyro;
     bool wheel_speed;
-    Vehicle written; ///< the true linear car with the errors of the recipe
+    Vehicle truth;   ///< the car as it is simulated, but for what no vehicle file can state
+    Vehicle written; ///< the same with the errors of the recipe
 };
 
 /// Immutable input of all trips, so that trips may be simulated in parallel.

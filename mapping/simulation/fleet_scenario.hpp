@@ -23,10 +23,12 @@ struct Bounds {
 struct RoadRule {
     std::vector<std::string> highways; ///< OSM classes; empty: every class
     std::optional<std::int64_t> way_id;
-    std::string name;                   ///< full name of the road; "": any
-    double share = 1;                   ///< of the matching ways, drawn by their ids
-    std::optional<Bounds> iri_mm_per_m; ///< drawn for each way and direction
-    std::optional<double> waviness;     ///< this and the following as in RoadRecipe
+    std::string name;                       ///< full name of the road; "": any
+    double share = 1;                       ///< of the matching ways, drawn by their ids
+    std::optional<Bounds> iri_mm_per_m;     ///< drawn for each way and direction
+    std::optional<Bounds> long_wave_ratio;  ///< drawn for each way, its logarithm uniformly, ...
+    std::optional<Bounds> short_wave_ratio; ///< ... as is this
+    std::optional<double> waviness;         ///< this and the following as in RoadRecipe
     std::optional<double> level_sd;
     std::optional<double> level_length_m;
     std::optional<double> coherency_length_m;
@@ -100,6 +102,18 @@ struct FleetCarRecipe {
     bool wheel_speed = true; ///< if false, only the receiver's speed
 };
 
+/// Errors of the vehicle files: relative standard deviations of what they state from the true car.
+struct KnowledgeRecipe {
+    double ms_kg = 0.05; ///< this and the following are stated in the files as uncertainties
+    double mu_kg = 0.05;
+    double ks_n_per_m = 0.05;
+    double cs_ns_per_m = 0.05;
+    double kt_n_per_m = 0.05;
+    double is_kgm2 = 0.05;
+    double dynamic_index = 0; ///< 0: stated as it is, without an uncertainty
+    double gain = 0;          ///< as for dynamic_index
+};
+
 /// Complete input of a simulated fleet, except for the network and the seed.
 struct FleetScenario {
     std::vector<FleetCarRecipe> cars;
@@ -108,7 +122,7 @@ struct FleetScenario {
     GnssRecipe gnss;
     SensorSpread spread;
     OdometerRecipe odometer;
-    double knowledge_sd = 0.05; ///< relative, of the parameters stated in the vehicle files
+    KnowledgeRecipe knowledge;
 };
 
 } // namespace macadam

@@ -1,6 +1,7 @@
 #include "mapping/simulation/lane.hpp"
 
 #include "estimator/iri/iri.hpp"
+#include "estimator/simulation/portable_math.hpp"
 #include "estimator/simulation/random.hpp"
 #include "estimator/simulation/road_features.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr double shortest_lane_m = 2;
 
 // Purposes of seeds, so that no two draws of a way are the same.
-enum Draw : std::uint64_t { draw_share = 1, draw_level = 2, draw_surface = 3 };
+enum Draw : std::uint64_t { draw_share = 1, draw_level = 2, draw_surface = 3, draw_waves = 4 };
 
 std::uint64_t bits_of(std::int64_t id) {
     return static_cast<std::uint64_t>(id);
@@ -31,10 +32,34 @@ bool fits(const RoadRule& rule, std::size_t number, const WayView& way, std::uin
     return Random{seed_of({seed, draw_share, number, bits_of(way.id)})}.uniform() < rule.share;
 }
 
-RoadRecipe with_rule(RoadRecipe road, const RoadRule& rule, double level) {
+/// Quantiles that a lane has of the distributions of the rules, 0 to 1.
+struct LaneDraws {
+    double level, long_waves, short_waves;
+};
+
+LaneDraws draws_of(const WayView& way, bool forward, std::uint64_t seed) {
+    Random waves{seed_of({seed, draw_waves, bits_of(way.id)})};
+    const double long_waves = waves.uniform();
+    const double short_waves = waves.uniform();
+    return {Random{seed_of({seed, draw_level, bits_of(way.id), forward})}.uniform(),
+            long_waves,
+            short_waves};
+}
+
+double log_uniform(const Bounds& bounds, double quantile) {
+    return bounds.low * exact::pow(bounds.high / bounds.low, quantile);
+}
+
+RoadRecipe with_rule(RoadRecipe road, const RoadRule& rule, const LaneDraws& draws) {
     if (rule.iri_mm_per_m) {
-        road.iri_mm_per_m =
-            rule.iri_mm_per_m->low + level * (rule.iri_mm_per_m->high - rule.iri_mm_per_m->low);
+        road.iri_mm_per_m = rule.iri_mm_per_m->low +
+                            draws.level * (rule.iri_mm_per_m->high - rule.iri_mm_per_m->low);
+    }
+    if (rule.long_wave_ratio) {
+        road.long_wave_ratio = log_uniform(*rule.long_wave_ratio, draws.long_waves);
+    }
+    if (rule.short_wave_ratio) {
+        road.short_wave_ratio = log_uniform(*rule.short_wave_ratio, draws.short_waves);
     }
     road.waviness = rule.waviness.value_or(road.waviness);
     road.level_sd = rule.level_sd.value_or(road.level_sd);
@@ -96,11 +121,11 @@ double lane_length_m(const RoadNetwork& roads, const Lane& lane) {
 
 RoadRecipe
 road_recipe(const FleetScenario& recipe, const WayView& way, bool forward, std::uint64_t seed) {
-    const double level = Random{seed_of({seed, draw_level, bits_of(way.id), forward})}.uniform();
+    const LaneDraws draws = draws_of(way, forward, seed);
     RoadRecipe road;
     for (std::size_t i = 0; i < recipe.roads.size(); ++i) {
         if (fits(recipe.roads[i], i, way, seed)) {
-            road = with_rule(road, recipe.roads[i], level);
+            road = with_rule(road, recipe.roads[i], draws);
         }
     }
     return road;

@@ -63,7 +63,11 @@ noise_mps = 0.01
 quantum_mps = 0.01
 
 [knowledge]
-relative_sd = 0.05          # how wrong the vehicle files are that are written
+relative_sd = 0.05          # how wrong the vehicle files are that are written, and state that they are;
+                            # ms_kg, mu_kg, ks_n_per_m, cs_ns_per_m, kt_n_per_m and is_kgm2 may each
+                            # have another
+# dynamic_index = 0         # the same of these two, which are right without it
+# gain = 0
 
 # Roads. Every rule that fits a way says what it has to say, the later ones over the earlier ones.
 # Conditions: highway (one or several), way_id, name, share (of the ways that fit).
@@ -71,6 +75,8 @@ relative_sd = 0.05          # how wrong the vehicle files are that are written
 [[road]]
 iri_mm_per_m = [1.5, 3.5]   # drawn for each way and direction
 waviness = 2.0              # of the spectrum (ISO 8608)
+# long_wave_ratio = [0.4, 7.8]    # bend the spectrum: slopes in waves of 15 to 30 m and ...
+# short_wave_ratio = [0.24, 0.76] # ... of 1 to 2 m over those of 4 to 8 m (power), drawn for each way
 level_sd = 0.25             # of the logarithm of roughness along a road, ...
 level_length_m = 150        # ... which changes over this distance
 coherency_length_m = 3      # both tracks are alike in waves longer than a few of these
@@ -112,6 +118,9 @@ imu_y_m = 0.1               # to the left
 imu_height_m = 0.35         # above the roll axis
 friction_n = 30             # of each suspension
 rebound_ratio = 1.4         # of the dampers, over the mean of both ways
+# antiroll_n_per_m = 8000      # anti-roll bars, at each wheel
+# cg_above_roll_axis_m = 0.45  # lever arm of the lean in curves
+# pitch_arm_m = 0.35           # lever arm of the dive in braking
 
 [[car]]
 id = "hatchback"

@@ -132,6 +132,18 @@ GnssRecipe gnss_of(Reader reader, GnssRecipe gnss) {
     return gnss;
 }
 
+/// `relative_sd` stands for the keys that are not given, except for dynamic_index and gain.
+KnowledgeRecipe knowledge_of(Reader reader, KnowledgeRecipe knowledge) {
+    if (reader.has("relative_sd")) {
+        const double sd = reader.table().number("relative_sd", share);
+        knowledge.ms_kg = knowledge.mu_kg = knowledge.ks_n_per_m = knowledge.cs_ns_per_m =
+            knowledge.kt_n_per_m = knowledge.is_kgm2 = sd;
+    }
+    knowledge = reader.numbers(knowledge, knowledge_numbers);
+    reader.finish();
+    return knowledge;
+}
+
 std::vector<std::string> one_or_several(const TomlTable& table, std::string_view key) {
     return table.is_text(key) ? std::vector{table.text(key)} : table.texts(key);
 }
@@ -141,6 +153,8 @@ RoadRule road_of(Reader reader) {
     const auto& table = reader.table();
     auto rule = reader.numbers(RoadRule{}, road_numbers);
     rule.iri_mm_per_m = reader.bounds("iri_mm_per_m", iri);
+    rule.long_wave_ratio = reader.bounds("long_wave_ratio", wave_ratio);
+    rule.short_wave_ratio = reader.bounds("short_wave_ratio", wave_ratio);
     if (reader.has("highway")) {
         rule.highways = one_or_several(table, "highway");
     }
@@ -281,10 +295,7 @@ Draft with_tables(Draft draft, const TomlTable& top) {
         }
     }
     if (const auto knowledge = top.table("knowledge")) {
-        constexpr std::array<std::string_view, 1> keys{"relative_sd"};
-        knowledge->expect_only(keys);
-        recipe.knowledge_sd =
-            knowledge->maybe_number("relative_sd", share).value_or(recipe.knowledge_sd);
+        recipe.knowledge = knowledge_of(Reader{*knowledge}, recipe.knowledge);
     }
     if (const auto roads = top.tables("road"); !roads.empty()) {
         recipe.roads.clear();

@@ -20,6 +20,8 @@ inline constexpr TomlRange trip_km{[](double x) { return x >= 0 && x <= 300; },
                                    "a number from 0 to 300"}; // ten hours in a town
 inline constexpr TomlRange iri{[](double x) { return x >= 0.01 && x <= 50; },
                                "a number from 0.01 to 50"}; // as in check() of a RoadRecipe
+inline constexpr TomlRange wave_ratio{
+    [](double x) { return x >= min_wave_ratio && x <= max_wave_ratio; }, "a number from 0.2 to 8"};
 // Limits that keep the duration of a drive, and the number of events in it, within memory.
 inline constexpr TomlRange gain{[](double x) { return x >= 0.05 && x <= 100; },
                                 "m/s2, from 0.05 to 100"};
@@ -110,6 +112,16 @@ inline constexpr std::array odometer_numbers{
     NumberKey<OdometerRecipe>{"noise_mps", not_negative_number, [](auto& r) -> double& { return r.noise_mps; }},
     NumberKey<OdometerRecipe>{"quantum_mps", not_negative_number, [](auto& r) -> double& { return r.quantum_mps; }},
 };
+inline constexpr std::array knowledge_numbers{
+    NumberKey<KnowledgeRecipe>{"ms_kg", share, [](auto& r) -> double& { return r.ms_kg; }},
+    NumberKey<KnowledgeRecipe>{"mu_kg", share, [](auto& r) -> double& { return r.mu_kg; }},
+    NumberKey<KnowledgeRecipe>{"ks_n_per_m", share, [](auto& r) -> double& { return r.ks_n_per_m; }},
+    NumberKey<KnowledgeRecipe>{"cs_ns_per_m", share, [](auto& r) -> double& { return r.cs_ns_per_m; }},
+    NumberKey<KnowledgeRecipe>{"kt_n_per_m", share, [](auto& r) -> double& { return r.kt_n_per_m; }},
+    NumberKey<KnowledgeRecipe>{"is_kgm2", share, [](auto& r) -> double& { return r.is_kgm2; }},
+    NumberKey<KnowledgeRecipe>{"dynamic_index", share, [](auto& r) -> double& { return r.dynamic_index; }},
+    NumberKey<KnowledgeRecipe>{"gain", share, [](auto& r) -> double& { return r.gain; }},
+};
 inline constexpr std::array road_numbers{
     OptionalKey<RoadRule>{"waviness", positive_number, [](auto& r) -> std::optional<double>& { return r.waviness; }},
     OptionalKey<RoadRule>{"level_sd", not_negative_number, [](auto& r) -> std::optional<double>& { return r.level_sd; }},
@@ -139,6 +151,8 @@ inline constexpr std::array car_numbers{
     NumberKey<CarRecipe>{"rebound_ratio", positive_number, [](auto& r) -> double& { return r.rebound_ratio; }},
     NumberKey<CarRecipe>{"bump_stop_gap_m", positive_number, [](auto& r) -> double& { return r.bump_stop_gap_m; }},
     NumberKey<CarRecipe>{"tyre_nonuniformity_n", not_negative_number, [](auto& r) -> double& { return r.tyre_nonuniformity_n; }},
+    NumberKey<CarRecipe>{"cg_above_roll_axis_m", not_negative_number, [](auto& r) -> double& { return r.cg_above_roll_axis_m; }},
+    NumberKey<CarRecipe>{"pitch_arm_m", not_negative_number, [](auto& r) -> double& { return r.pitch_arm_m; }},
     NumberKey<CarRecipe>{"antiroll_n_per_m", not_negative_number, [](auto& r) -> double& { return r.antiroll_n_per_m; }},
 };
 // clang-format on

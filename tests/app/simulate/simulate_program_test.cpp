@@ -126,6 +126,8 @@ TEST_F(Simulate, LeavesTripsVehiclesNetworkAndTruth) {
                             "trips/one-0002.trip.csv.gz",
                             "trips/two-0003.trip.csv.gz",
                             "truth-potholes.csv",
+                            "truth-vehicles/one.toml",
+                            "truth-vehicles/two.toml",
                             "truth.csv",
                             "vehicles/one.toml",
                             "vehicles/two.toml"));
@@ -275,9 +277,13 @@ std::vector<std::string> names_in(const fs::path& folder) {
 TEST_F(Simulate, FillsAFolderThatIsThereAndEmpty) {
     fs::create_directory(folder_ / "fleet");
     ASSERT_EQ(simulate("fleet/", {"--trips", "1"}).exit_status, 0);
-    EXPECT_THAT(
-        names_in(folder_ / "fleet"),
-        ElementsAre("network.osm.pbf", "trips", "truth-potholes.csv", "truth.csv", "vehicles"));
+    EXPECT_THAT(names_in(folder_ / "fleet"),
+                ElementsAre("network.osm.pbf",
+                            "trips",
+                            "truth-potholes.csv",
+                            "truth-vehicles",
+                            "truth.csv",
+                            "vehicles"));
 }
 
 TEST_F(Simulate, LeavesNothingWhenItFails) {

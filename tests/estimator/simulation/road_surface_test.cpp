@@ -125,19 +125,66 @@ TEST(RoadSurface, OfAnotherSeedIsAnotherRoad) {
 /// Closed form: a road of waviness 2 and G(0.1 / m) = 16e-6 m^3 (ISO 8608, middle of class A) has
 /// an IRI of 2.1726 mm/m.
 TEST(RoadSpectrum, OfAnIsoRoadMeetsTheClosedFormOfItsIri) {
-    const auto filter = road_filter(2, 0.05);
+    const auto filter = road_filter(RoadRecipe{}, 0.05);
     const double sd_m = noise_sd_m(steady(2.1726), filter);
     EXPECT_NEAR(density_m3(filter, 0.1) * sd_m * sd_m, 16e-6, 0.01 * 16e-6);
 }
 
 TEST(RoadSpectrum, FallsWithTheWavinessAsked) {
     for (const double waviness : {1.5, 2.0, 2.5, 3.0}) {
-        const auto filter = road_filter(waviness, 0.05);
+        const auto filter = road_filter({.waviness = waviness}, 0.05);
         for (const double n : {0.02, 0.05, 0.1, 0.3, 1.0}) { // in octaves from 50 m to 0.5 m
             const double slope = std::log2(density_m3(filter, n) / density_m3(filter, 2 * n));
             EXPECT_NEAR(slope, waviness, 0.12)
                 << n; // the ripple of six pairs, the ends of the band
         }
+    }
+}
+
+/// Road whose spectrum bends, waves of 15 to 30 m and of 1 to 2 m relative to those of 4 to 8 m.
+RoadRecipe bent(double long_wave_ratio, double short_wave_ratio) {
+    RoadRecipe recipe = steady(2);
+    recipe.long_wave_ratio = long_wave_ratio;
+    recipe.short_wave_ratio = short_wave_ratio;
+    return recipe;
+}
+
+/// Mean density of slope, up to a factor, over the octave from a wavelength upwards.
+double octave_level(const std::function<double(double)>& slope_density, double wave_m, int points) {
+    double sum = 0;
+    for (int i = 0; i < points; ++i) {
+        sum += slope_density((1 + (i + 0.5) / points) / (2 * wave_m)) / points;
+    }
+    return sum;
+}
+
+/// Levels of measured roads, and the limits of a recipe.
+TEST(RoadSpectrum, BendsToTheStatedOctaves) {
+    constexpr double levels[][2] = {
+        {1.6, 0.40}, {7.8, 0.24}, {0.42, 0.76}, {1, 1}, {0.2, 0.2}, {0.2, 8}, {8, 0.2}, {8, 8}};
+    for (const auto& [long_waves, short_waves] : levels) {
+        for (const double waviness : {1.2, 2.0, 3.2}) {
+            auto recipe = bent(long_waves, short_waves);
+            recipe.waviness = waviness;
+            const auto filter = road_filter(recipe, 0.05);
+            const auto slope = [&](double n) { return n * n * density_m3(filter, n); };
+            const double middle = octave_level(slope, 4, 500);
+            const double long_level = octave_level(slope, 15, 500) / middle;
+            const double short_level = octave_level(slope, 1, 500) / middle;
+            EXPECT_NEAR(long_level / long_waves, 1, 0.01) << long_waves << ' ' << short_waves;
+            EXPECT_NEAR(short_level / short_waves, 1, 0.01) << long_waves << ' ' << short_waves;
+        }
+    }
+}
+
+TEST(RoadSpectrum, BendsOnlyWhereTheRecipeSays) {
+    RoadRecipe recipe = steady(2);
+    recipe.short_wave_ratio = 0.3;
+    const auto filter = road_filter(recipe, 0.05);
+    const auto straight = road_filter(steady(2), 0.05);
+    for (const double n : {0.02, 0.05, 2.5, 5.0}) { // the waviness is 2: slopes are level
+        const double step = density_m3(filter, n) / density_m3(filter, 1.25 * n);
+        EXPECT_NEAR(step * density_m3(straight, 1.25 * n) / density_m3(straight, n), 1, 0.12) << n;
     }
 }
 
@@ -167,6 +214,19 @@ TEST(RoadSurface, HasTheSpectrumOfItsRecipe) {
     EXPECT_NEAR(std::log2(from / to) / 5, 0.6, 0.1); // 60 windows of few bins: 0.06 per octave
 }
 
+TEST(RoadSurface, HasTheOctavesOfItsRecipe) {
+    const auto paths = wheel_paths(make_surface(bent(5, 0.3), 6000, 8));
+    const auto slope = [&](double n) {
+        const auto spectrum = slope_spectrum(paths, n);
+        return spectrum.left + spectrum.right;
+    };
+    constexpr int points = 8;
+    const double middle = octave_level(slope, 4, points);
+    // 200 waves and more in 6 km, left and right alike in the long ones: 7 % is one sd.
+    EXPECT_NEAR(octave_level(slope, 15, points) / middle, 5, 1);
+    EXPECT_NEAR(octave_level(slope, 1, points) / middle, 0.3, 0.03);
+}
+
 TEST(RoadSurface, TracksAreAlikeInLongWavesOnly) {
     const auto paths = wheel_paths(make_surface(steady(2), 6000, 6));
     for (const double n : {0.03, 0.1, 0.33, 1.0, 2.0}) {
@@ -187,6 +247,12 @@ TEST(RoadSurface, MeanIriIsNearTheRecipesWhateverTheWaviness) {
         RoadRecipe recipe = steady(2);
         recipe.waviness = waviness;
         EXPECT_NEAR(mri(make_surface(recipe, 5000, 12)), 2, 0.06) << waviness;
+    }
+}
+
+TEST(RoadSurface, MeanIriIsNearTheRecipesHoweverTheSpectrumBends) {
+    for (const auto& recipe : {bent(7.8, 0.24), bent(0.42, 0.76)}) {
+        EXPECT_NEAR(mri(make_surface(recipe, 5000, 12)), 2, 0.08) << *recipe.long_wave_ratio;
     }
 }
 
@@ -409,6 +475,10 @@ TEST(RoadSurface, RefusesARecipeOutOfItsRange) {
     recipe.waviness = 5;
     EXPECT_EQ(refusal([&] { make_surface(recipe, 10, 1); }),
               "road: waviness is 5, expected 1.2 to 3.2");
+    EXPECT_EQ(refusal([&] { make_surface(bent(11, 1), 10, 1); }),
+              "road: long_wave_ratio is 11, expected 0.2 to 8");
+    EXPECT_EQ(refusal([&] { make_surface(bent(1, 0.05), 10, 1); }),
+              "road: short_wave_ratio is 0.05, expected 0.2 to 8");
     recipe = steady(-1);
     EXPECT_EQ(refusal([&] { make_surface(recipe, 10, 1); }),
               "road: iri is -1, expected 0.01 to 50");

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -51,7 +52,8 @@ LaneSource lanes_of(const Fleet& fleet, const RoadNetwork& roads) {
 
 TEST(Fleet, WritesTheTruthOfItsCarsIfItKnowsIt) {
     auto recipe = recipe_of(1);
-    recipe.knowledge_sd = 0;
+    recipe.knowledge = {
+        .ms_kg = 0, .mu_kg = 0, .ks_n_per_m = 0, .cs_ns_per_m = 0, .kt_n_per_m = 0, .is_kgm2 = 0};
     const auto art = town();
     const auto car = make_fleet(recipe, art.roads, 1).cars.front();
     EXPECT_EQ(car.written.half_car.ks_n_per_m, car.car.vehicle.half_car.ks_n_per_m);
@@ -63,17 +65,63 @@ TEST(Fleet, WritesTheTruthOfItsCarsIfItKnowsIt) {
 
 TEST(Fleet, WritesItsCarsAsWrongAsStated) {
     auto recipe = recipe_of(400);
-    recipe.knowledge_sd = 0.05;
+    recipe.knowledge = {.ms_kg = 0.08,
+                        .mu_kg = 0.03,
+                        .ks_n_per_m = 0.02,
+                        .cs_ns_per_m = 0.15,
+                        .kt_n_per_m = 0.1,
+                        .is_kgm2 = 0.04,
+                        .dynamic_index = 0.07,
+                        .gain = 0.05};
+    const std::map<std::string, double> stated{{"ms_kg", 0.08},
+                                               {"mu_kg", 0.03},
+                                               {"ks_n_per_m", 0.02},
+                                               {"cs_ns_per_m", 0.15},
+                                               {"kt_n_per_m", 0.1},
+                                               {"is_kgm2", 0.04},
+                                               {"dynamic_index", 0.07},
+                                               {"gain", 0.05}};
+    const auto numbers_of = [](const Vehicle& vehicle) {
+        const auto& body = vehicle.half_car;
+        return std::map<std::string, double>{{"ms_kg", body.ms_kg},
+                                             {"mu_kg", body.mu_kg},
+                                             {"ks_n_per_m", body.ks_n_per_m},
+                                             {"cs_ns_per_m", body.cs_ns_per_m},
+                                             {"kt_n_per_m", body.kt_n_per_m},
+                                             {"is_kgm2", body.is_kgm2},
+                                             {"dynamic_index", vehicle.axles->dynamic_index},
+                                             {"gain", vehicle.gain}};
+    };
     const auto art = town();
-    double squares = 0;
+    std::map<std::string, double> squares;
     for (const auto& car : make_fleet(recipe, art.roads, 1).cars) {
-        const double off = car.written.half_car.cs_ns_per_m / car.car.vehicle.half_car.cs_ns_per_m;
-        squares += (off - 1) * (off - 1);
-        EXPECT_EQ(car.written.uncertainty.at("cs_ns_per_m"), 0.05);
+        const auto truth = numbers_of(car.truth);
+        for (const auto& [name, number] : numbers_of(car.written)) {
+            squares[name] += std::pow(number / truth.at(name) - 1, 2);
+        }
+        EXPECT_EQ(car.written.uncertainty, stated);
         EXPECT_EQ(car.written.axles->wheelbase_m, 2.7);
+        EXPECT_FALSE(car.written.half_car.friction_n);
+        EXPECT_EQ(car.written.one_axle_gain, 0.72 * car.written.gain);
+        EXPECT_EQ(car.truth.half_car.ms_kg, car.car.vehicle.half_car.ms_kg);
+        EXPECT_EQ(car.truth.half_car.friction_n, car.car.friction_n);
+        EXPECT_TRUE(car.truth.uncertainty.empty());
     }
-    // Cut at 2.5 sd it keeps 97 %; 400 draws know it to 3.5 %, three times that.
-    EXPECT_NEAR(std::sqrt(squares / 400), 0.0485, 0.005);
+    ASSERT_EQ(squares.size(), 8U);
+    for (const auto& [name, square] : squares) {
+        // Cut at 2.5 sd it keeps 97 %; 400 draws know it to 3.5 %, three times that.
+        EXPECT_NEAR(std::sqrt(square / 400) / stated.at(name), 0.97, 0.105) << name;
+    }
+}
+
+TEST(Fleet, WritesNoCarWithoutMassHoweverLittleIsKnown) {
+    auto recipe = recipe_of(200);
+    recipe.knowledge.ms_kg = 1;
+    double least_kg = 1e9;
+    for (const auto& car : make_fleet(recipe, town().roads, 1).cars) {
+        least_kg = std::min(least_kg, car.written.half_car.ms_kg / car.truth.half_car.ms_kg);
+    }
+    EXPECT_DOUBLE_EQ(least_kg, 0.1);
 }
 
 TEST(Fleet, GivesEveryCarItsTurnAndTheWayBackToTheSame) {

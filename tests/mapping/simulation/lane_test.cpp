@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 using namespace macadam;
@@ -83,6 +84,28 @@ TEST(Lane, OfARuleForAShareIsDrawnByItsWay) {
         chosen += iri_of(recipe, way_of(id, "primary")) == 5 ? 1 : 0;
     }
     EXPECT_NEAR(chosen, 400, 54); // three standard deviations of a binomial
+}
+
+TEST(Lane, DrawsTheBendOfItsSpectrumByItsWayAlike) {
+    auto bent = rule(2);
+    bent.long_wave_ratio = Bounds{0.5, 8};
+    bent.short_wave_ratio = Bounds{0.3, 0.3};
+    const auto recipe = recipe_of({bent});
+    double sum = 0;
+    double square = 0;
+    for (std::int64_t id = 0; id < 2000; ++id) {
+        const auto way = way_of(id, "primary");
+        const auto road = road_recipe(recipe, way, true, 1);
+        EXPECT_EQ(road.long_wave_ratio, road_recipe(recipe, way, false, 1).long_wave_ratio);
+        EXPECT_EQ(road.short_wave_ratio, 0.3);
+        ASSERT_TRUE(*road.long_wave_ratio >= 0.5 && *road.long_wave_ratio <= 8);
+        sum += std::log2(*road.long_wave_ratio);
+        square += std::pow(std::log2(*road.long_wave_ratio), 2);
+    }
+    // Uniform from -1 to 3: sd 4 / sqrt(12), known to 2.6 % and 1.2 %; three times that.
+    EXPECT_NEAR(sum / 2000, 1, 0.08);
+    EXPECT_NEAR(std::sqrt(square / 2000 - std::pow(sum / 2000, 2)), 1.155, 0.042);
+    EXPECT_FALSE(road_recipe(recipe_of({rule(2)}), way_of(1, "primary"), true, 1).long_wave_ratio);
 }
 
 TEST(LaneTruth, AddsUpToTheIriOfTheWholeLane) {

@@ -96,18 +96,22 @@ TEST(DrivenPath, LooksWhereItGoes) {
     EXPECT_NEAR(place_at(path, 500).heading.east_m, -1, 1e-9);
 }
 
-TEST(DrivenPath, WandersAsFarAsStated) {
+TEST(DrivenPath, WandersToBothSidesAsFarAsStated) {
     const auto art = road_art("A---------B", 3000, {"AB"});
     auto driving = steady();
     driving.wander_m = 0.2;
     driving.wander_length_m = 200;
     const auto path = driven_path(art.roads, {edge_of(LinkId{0}, true)}, driving, 3);
     double squares = 0;
+    std::ptrdiff_t left = 0;
     for (const double wander_m : path.wander_m) {
+        left += wander_m > 0 ? 1 : 0;
         squares += wander_m * wander_m;
     }
-    const double sd = std::sqrt(squares / static_cast<double>(path.wander_m.size()));
+    const auto count = static_cast<double>(path.wander_m.size());
+    const double sd = std::sqrt(squares / count);
     EXPECT_NEAR(sd, 0.2, 0.04); // 150 independent ones, a tenth smoothed away
+    EXPECT_NEAR(static_cast<double>(left) / count, 0.5, 0.12);
 }
 
 TEST(RoadUnderWheels, IsTheLanesAtTheirStations) {

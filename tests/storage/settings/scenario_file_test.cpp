@@ -29,7 +29,8 @@ TEST(Recipe, OfNothingIsTheSample) {
     EXPECT_EQ(recipe.roads.size(), 5U);
     EXPECT_EQ(recipe.driving.trips, 20U);
     EXPECT_EQ(recipe.driving.to_utc_s - recipe.driving.from_utc_s, 364 * 86400);
-    EXPECT_EQ(recipe.knowledge_sd, 0.05);
+    EXPECT_EQ(recipe.knowledge.ms_kg, 0.05);
+    EXPECT_EQ(recipe.knowledge.gain, 0);
 }
 
 TEST(Recipe, OfTheSampleIsTheSample) {
@@ -54,13 +55,16 @@ TEST(Recipe, ChangesOnlyWhatItSays) {
 
 TEST(Recipe, MakesACarLikeAnother) {
     const auto recipe = read_text("[[car]]\nid = \"mine\"\nlike = \"suv\"\nms_kg = 2000\n"
-                                  "wheelbase_m = 2.9\nimu_rate_hz = 50\nsensors = [\"acc\"]\n");
+                                  "wheelbase_m = 2.9\nimu_rate_hz = 50\nsensors = [\"acc\"]\n"
+                                  "cg_above_roll_axis_m = 0.6\npitch_arm_m = 0.2\n");
     ASSERT_EQ(recipe.cars.size(), 1U);
     const auto& car = recipe.cars.front();
     EXPECT_EQ(car.car.vehicle.name, "mine");
     EXPECT_EQ(car.car.vehicle.half_car.ms_kg, 2000);
     EXPECT_EQ(car.car.vehicle.half_car.mu_kg, built_in_vehicle("suv")->half_car.mu_kg);
     EXPECT_EQ(car.car.vehicle.axles->wheelbase_m, 2.9);
+    EXPECT_EQ(car.car.cg_above_roll_axis_m, 0.6);
+    EXPECT_EQ(car.car.pitch_arm_m, 0.2);
     EXPECT_EQ(car.imu.rate_hz, 50);
     EXPECT_TRUE(car.acc);
     EXPECT_FALSE(car.gyro);
@@ -77,6 +81,32 @@ TEST(Recipe, RuleSaysNothingOfWhatItLeavesOut) {
     EXPECT_EQ(recipe.roads[1].way_id, 12);
     EXPECT_EQ(recipe.roads[1].name, "A 9");
     EXPECT_FALSE(recipe.roads[1].iri_mm_per_m);
+}
+
+TEST(Recipe, BendsTheSpectrumOfARule) {
+    const auto recipe = read_text("[[road]]\nlong_wave_ratio = [0.4, 7.8]\n[[road]]\n"
+                                  "short_wave_ratio = [0.3, 0.3]\n");
+    ASSERT_EQ(recipe.roads.size(), 2U);
+    EXPECT_EQ(recipe.roads[0].long_wave_ratio, (Bounds{0.4, 7.8}));
+    EXPECT_FALSE(recipe.roads[0].short_wave_ratio);
+    EXPECT_EQ(recipe.roads[1].short_wave_ratio, (Bounds{0.3, 0.3}));
+    EXPECT_THAT(refusal_of_text("[[road]]\nlong_wave_ratio = [0, 2]\n"),
+                HasSubstr("mine.toml:2: 'road.long_wave_ratio' is an array, expected two numbers, "
+                          "the first not above the second, each a number from 0.2 to 8"));
+}
+
+TEST(Recipe, StatesHowWrongVehicleFilesAre) {
+    const auto knowledge =
+        read_text("[knowledge]\nrelative_sd = 0.1\ncs_ns_per_m = 0.2\ngain = 0.03\n").knowledge;
+    EXPECT_EQ(knowledge.ms_kg, 0.1);
+    EXPECT_EQ(knowledge.is_kgm2, 0.1);
+    EXPECT_EQ(knowledge.cs_ns_per_m, 0.2);
+    EXPECT_EQ(knowledge.gain, 0.03);
+    EXPECT_EQ(knowledge.dynamic_index, 0);
+    EXPECT_EQ(read_text("[knowledge]\nkt_n_per_m = 0.2\n").knowledge.ms_kg, 0.05);
+    EXPECT_THAT(refusal_of_text("[knowledge]\n\nmass = 0.1\n"), HasSubstr("mine.toml:3: "));
+    EXPECT_THAT(refusal_of_text("[knowledge]\ngain = 2\n"),
+                HasSubstr("mine.toml:2: 'knowledge.gain' is '2', expected a number from 0 to 1"));
 }
 
 TEST(Recipe, RefusesWhatItDoesNotKnow) {
