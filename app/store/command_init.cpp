@@ -131,10 +131,11 @@ std::vector<Way> traced_ways(const InitOptions& options, const Console& console)
     auto ways = trace_network(trips, config, console.progress("tracing roads"));
     if (ways.empty()) {
         throw InputError{fmt::format("no road could be traced from {} trips, expected "
-                                     "positions along at least {} m, at most {} s apart",
+                                     "positions along at least {} m, at most {} s and {} m apart",
                                      trips.size(),
                                      config.min_way_m,
-                                     config.longest_gap_s)};
+                                     config.longest_gap_s,
+                                     config.longest_step_m)};
     }
     return ways;
 }

@@ -79,14 +79,18 @@ GeoPoint LocalFrame::to_geo(const PointEn& point) const {
 
     // The plane rises above the ellipsoid: descend along the frame's own vertical until the height
     // is 0, so that to_local returns exactly the same east and north.
+    constexpr int max_rounds = 50; // two suffice near the origin, twenty 60 degrees away
+    constexpr double level_m = 1e-7;
     double up = 0;
+    double height_m = 1;
     GeoPoint found = origin;
-    for (int round = 0; round < 5; ++round) {
+    for (int round = 0; round < max_rounds && std::abs(height_m) > level_m; ++round) {
         const double at[3] = {
             base.x + axes.east.x * point.east_m + axes.north.x * point.north_m + axes.up.x * up,
             base.y + axes.east.y * point.east_m + axes.north.y * point.north_m + axes.up.y * up,
             base.z + axes.east.z * point.east_m + axes.north.z * point.north_m + axes.up.z * up};
-        up -= geodetic(at, &found);
+        height_m = geodetic(at, &found);
+        up -= height_m;
     }
     return found;
 }

@@ -10,8 +10,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -21,34 +25,6 @@ constexpr int refinements = 2;  // per round; the second compares every line wit
 constexpr double beside_m = 60; // lines farther apart drove different roads
 constexpr std::size_t max_samples = 5000;    // points compared with all others around them
 constexpr double sd_per_median = 1 / 0.6745; // for absolute values of a normal distribution
-
-GeoBox extent_of(const TripLog& trip) {
-    GeoBox box;
-    for (const auto& fix : trip.fixes) {
-        if (std::isfinite(fix.at.lat_deg) && std::isfinite(fix.at.lon_deg)) {
-            box = including(box, fix.at);
-        }
-    }
-    return box;
-}
-
-LocalFrame frame_in_middle_of(const GeoBox& box) {
-    return is_empty(box) ? LocalFrame{{0, 0}}
-                         : LocalFrame{between(
-                               {box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}, 0.5)};
-}
-
-LocalFrame frame_of(std::span<const TripDrawing* const> trips) {
-    GeoBox box;
-    for (const auto* const trip : trips) {
-        for (const auto& line : trip->lines) {
-            for (const auto& point : line.points) {
-                box = including(box, point);
-            }
-        }
-    }
-    return frame_in_middle_of(box);
-}
 
 bool drew_before(const GeoPoint& a, const GeoPoint& b) {
     return std::tie(a.lat_deg, a.lon_deg) < std::tie(b.lat_deg, b.lon_deg);
@@ -83,13 +59,99 @@ std::vector<const TripDrawing*> in_order(std::span<const TripDrawing> trips) {
     return ordered;
 }
 
-std::vector<TraceLine> lines_of(std::span<const TripDrawing* const> trips,
-                                const LocalFrame& frame) {
-    std::vector<TraceLine> lines;
+/// Lines of roads that may meet.
+using Region = std::vector<const TripDrawing::Line*>;
+
+/// Groups lines: those in the same or in neighbouring cells of a degree belong to one region. The
+/// plane of a region is not distorted by roads on another continent.
+class RegionFinder {
+public:
+    void add(const TripDrawing::Line& line) {
+        const auto number = lines_.size();
+        lines_.push_back(&line);
+        parent_.push_back(number);
+        std::optional<Cell> last;
+        for (const auto& point : line.points) {
+            const Cell cell{std::floor(point.lat_deg), std::floor(point.lon_deg)};
+            if (cell != last) {
+                visit(cell, number);
+                last = cell;
+            }
+        }
+    }
+
+    /// Returns the regions in the order of their first lines.
+    std::vector<Region> regions() {
+        std::vector<Region> found;
+        std::vector<std::size_t> place(lines_.size());
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            const auto first = root_of(i);
+            if (first == i) {
+                place[i] = found.size();
+                found.emplace_back();
+            }
+            found[place[first]].push_back(lines_[i]);
+        }
+        return found;
+    }
+
+private:
+    using Cell = std::pair<double, double>; ///< whole degrees of latitude and longitude
+
+    void visit(const Cell& cell, std::size_t line) {
+        for (const double north : {-1, 0, 1}) {
+            for (const double east : {-1, 0, 1}) {
+                const auto found = line_in_.find({cell.first + north, cell.second + east});
+                if (found != line_in_.end()) {
+                    unite(line, found->second);
+                }
+            }
+        }
+        line_in_.emplace(cell, line);
+    }
+
+    void unite(std::size_t a, std::size_t b) {
+        const auto [first, second] = std::minmax({root_of(a), root_of(b)});
+        parent_[second] = first;
+    }
+
+    std::size_t root_of(std::size_t line) {
+        while (parent_[line] != line) {
+            parent_[line] = parent_[parent_[line]];
+            line = parent_[line];
+        }
+        return line;
+    }
+
+    std::vector<const TripDrawing::Line*> lines_;
+    std::vector<std::size_t> parent_; ///< first line of a region: itself
+    std::map<Cell, std::size_t> line_in_;
+};
+
+std::vector<Region> regions_of(std::span<const TripDrawing* const> trips) {
+    RegionFinder finder;
     for (const auto* const trip : trips) {
         for (const auto& line : trip->lines) {
-            lines.push_back({frame.to_local(line.points), line.sd_m, line.after_turn});
+            finder.add(line);
         }
+    }
+    return finder.regions();
+}
+
+LocalFrame frame_of(const Region& region) {
+    GeoBox box;
+    for (const auto* const line : region) {
+        for (const auto& point : line->points) {
+            box = including(box, point);
+        }
+    }
+    return frame_in_middle_of(box);
+}
+
+std::vector<TraceLine> lines_of(const Region& region, const LocalFrame& frame) {
+    std::vector<TraceLine> lines;
+    for (const auto* const line : region) {
+        lines.push_back({frame.to_local(line->points), line->sd_m, line->after_turn});
     }
     return lines;
 }
@@ -134,50 +196,32 @@ double median_sd_m(const std::vector<TraceLine>& lines) {
     return median(std::move(sds));
 }
 
-/// Converts the drawing to ways on the globe, with nodes numbered from 1 in the order of the ways.
-std::vector<Way> ways_of(const InferredNetwork& drawing, const LocalFrame& frame) {
+/// Adds the drawing to ways on the globe, with nodes numbered from `last_node` + 1 in the order of
+/// the ways.
+void add_ways(std::vector<Way>& ways,
+              std::int64_t& last_node,
+              const InferredNetwork& drawing,
+              const LocalFrame& frame) {
     std::vector<std::int64_t> node_ids(drawing.nodes.size(), 0);
-    std::int64_t last_id = 0;
-    std::vector<Way> ways;
     for (const auto& traced : drawing.ways) {
         Way way{static_cast<std::int64_t>(ways.size() + 1), "", "", Oneway::forward, {}, {}};
         for (const auto node : traced.nodes) {
             if (node_ids[node] == 0) {
-                node_ids[node] = ++last_id;
+                node_ids[node] = ++last_node;
             }
             way.node_ids.push_back(node_ids[node]);
             way.line.push_back(frame.to_geo(drawing.nodes[node]));
         }
         ways.push_back(std::move(way));
     }
-    return ways;
 }
 
-} // namespace
+constexpr std::size_t steps = rounds * (1 + refinements) + 1; // of draw_network()
 
-TripDrawing trip_drawing(const TripLog& trip, const TraceConfig& config) {
-    const auto frame = frame_in_middle_of(extent_of(trip));
-    TripDrawing drawing{trip.sha256, {}};
-    for (const auto& line : trace_lines(trip, frame, config)) {
-        TripDrawing::Line drawn{{}, line.sd_m, line.after_turn};
-        for (const auto& point : line.points) {
-            drawn.points.push_back(frame.to_geo(point));
-        }
-        drawing.lines.push_back(std::move(drawn));
-    }
-    return drawing;
-}
-
-std::vector<Way> trace_network(std::span<const TripDrawing> trips,
-                               const TraceConfig& config,
-                               const Progress& progress) {
-    constexpr std::size_t steps = rounds * (1 + refinements) + 1;
-    std::size_t done = 0;
-    const auto step = [&] { progress(++done, steps); };
-
-    const auto ordered = in_order(trips);
-    const auto frame = frame_of(ordered);
-    const auto lines = with_seen_sd(lines_of(ordered, frame), config);
+/// \param step  called after each of the steps.
+InferredNetwork draw_network(const std::vector<TraceLine>& lines,
+                             const TraceConfig& config,
+                             const std::function<void()>& step) {
     InferredNetwork drawing;
     for (int round = 0; round < rounds; ++round) {
         drawing = round == 0 ? drawing_of(lines, config)
@@ -191,7 +235,30 @@ std::vector<Way> trace_network(std::span<const TripDrawing> trips,
     }
     drawing = joined(std::move(drawing), lines, config);
     step();
-    return ways_of(drawing, frame);
+    return drawing;
+}
+
+} // namespace
+
+TripDrawing trip_drawing(const TripLog& trip, const TraceConfig& config) {
+    return {trip.sha256, trace_lines(trip, config)};
+}
+
+std::vector<Way> trace_network(std::span<const TripDrawing> trips,
+                               const TraceConfig& config,
+                               const Progress& progress) {
+    const auto ordered = in_order(trips);
+    const auto regions = regions_of(ordered);
+    std::size_t done = 0;
+    const auto step = [&] { progress(++done, steps * regions.size()); };
+    std::vector<Way> ways;
+    std::int64_t last_node = 0;
+    for (const auto& region : regions) {
+        const auto frame = frame_of(region);
+        const auto lines = with_seen_sd(lines_of(region, frame), config);
+        add_ways(ways, last_node, draw_network(lines, config, step), frame);
+    }
+    return ways;
 }
 
 std::vector<Way> trace_network(std::span<const TripLog> trips, const TraceConfig& config) {

@@ -17,7 +17,8 @@ struct TraceConfig {
     double joins_deg = 40; ///< largest difference of course of similar ways
     double min_way_m = 50; ///< shorter ways are noise
     double worst_accuracy_m = 30;
-    double longest_gap_s = 10; ///< longer gaps are not bridged
+    double longest_gap_s = 10;   ///< longer gaps are not bridged
+    double longest_step_m = 400; ///< nor farther ones, so that a fix draws at most 40 points
 };
 
 /// Lines of a trip: everything that tracing needs of it.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -68,23 +69,49 @@ void mark_clusters(Fixes& fixes) {
     }
 }
 
-Fixes serving(const TripLog& trip, const LocalFrame& frame, const TraceConfig& config) {
-    Fixes fixes;
+/// Usable fixes without a jump between them.
+struct Part {
+    std::vector<GnssFix> fix;
+    std::vector<bool> stands;
+};
+
+/// Selects the usable fixes of a trip, in parts between which the positions jump.
+std::vector<Part> parts_of(const TripLog& trip, const TraceConfig& config) {
+    std::vector<Part> parts;
     const auto faults = faults_of(trip.fixes, config.worst_accuracy_m);
-    std::vector<GeoPoint> places;
+    const GnssFix* last = nullptr;
     for (std::size_t i = 0; i < faults.size(); ++i) {
         const auto& fix = trip.fixes[i];
-        const bool is_new = fixes.fix.empty() || fix.t_s - fixes.fix.back().t_s >= min_step_s;
-        if (!faults[i] && is_new) {
-            fixes.fix.push_back(fix);
-            places.push_back(fix.at);
-            fixes.stands.push_back(fix.speed_mps < standing_mps ||
-                                   wheels_stand(trip.speed, fix.t_s - trip.meta.gnss_latency_s));
+        if (faults[i] || (last != nullptr && fix.t_s - last->t_s < min_step_s)) {
+            continue;
         }
+        if (last == nullptr || distance_m(last->at, fix.at) > config.longest_step_m) {
+            parts.emplace_back();
+        }
+        parts.back().fix.push_back(fix);
+        parts.back().stands.push_back(fix.speed_mps < standing_mps ||
+                                      wheels_stand(trip.speed, fix.t_s - trip.meta.gnss_latency_s));
+        last = &fix;
     }
-    fixes.at = frame.to_local(places);
+    return parts;
+}
+
+Fixes in_plane(Part part, const LocalFrame& frame) {
+    std::vector<GeoPoint> places;
+    for (const auto& fix : part.fix) {
+        places.push_back(fix.at);
+    }
+    Fixes fixes{std::move(part.fix), frame.to_local(places), std::move(part.stands)};
     mark_clusters(fixes);
     return fixes;
+}
+
+GeoBox extent_of(const Part& part) {
+    GeoBox box;
+    for (const auto& fix : part.fix) {
+        box = including(box, fix.at);
+    }
+    return box;
 }
 
 /// Returns true if a point extends the line: far enough, and not behind where the car stood.
@@ -128,13 +155,15 @@ std::vector<Points> runs_of(const Fixes& fixes, const TraceConfig& config) {
 }
 
 /// Returns the root mean square of the receiver's stated accuracy.
-double sd_of(const Fixes& fixes) {
+double sd_of(const std::vector<Part>& parts) {
     double squares = 0;
     std::size_t count = 0;
-    for (const auto& fix : fixes.fix) {
-        if (std::isfinite(fix.accuracy_m)) {
-            squares += fix.accuracy_m * fix.accuracy_m;
-            ++count;
+    for (const auto& part : parts) {
+        for (const auto& fix : part.fix) {
+            if (std::isfinite(fix.accuracy_m)) {
+                squares += fix.accuracy_m * fix.accuracy_m;
+                ++count;
+            }
         }
     }
     return count == 0 ? usual_sd_m
@@ -281,6 +310,20 @@ void add_cut(std::vector<TraceLine>& lines, const Points& line, double sd_m) {
     add(line.size());
 }
 
+std::vector<TraceLine> lines_of(const Fixes& fixes, double sd_m, const TraceConfig& config) {
+    std::vector<TraceLine> lines;
+    for (const auto& run : runs_of(fixes, config)) {
+        if (run.size() < 2) {
+            continue;
+        }
+        const auto smooth = smoothed(run, config.spacing_m);
+        if (distances_along(smooth).back() >= config.min_way_m) {
+            add_cut(lines, resampled(smooth, config.spacing_m), sd_m);
+        }
+    }
+    return lines;
+}
+
 } // namespace
 
 double apart_m(const PointEn& a, const PointEn& b) {
@@ -293,21 +336,26 @@ double course_rad(const std::vector<PointEn>& line, std::size_t i) {
     return std::atan2(b.east_m - a.east_m, b.north_m - a.north_m);
 }
 
-std::vector<TraceLine>
-trace_lines(const TripLog& trip, const LocalFrame& frame, const TraceConfig& config) {
-    const auto fixes = serving(trip, frame, config);
-    const double sd_m = sd_of(fixes);
-    std::vector<TraceLine> lines;
-    for (const auto& run : runs_of(fixes, config)) {
-        if (run.size() < 2) {
-            continue;
-        }
-        const auto smooth = smoothed(run, config.spacing_m);
-        if (distances_along(smooth).back() >= config.min_way_m) {
-            add_cut(lines, resampled(smooth, config.spacing_m), sd_m);
+LocalFrame frame_in_middle_of(const GeoBox& box) {
+    return is_empty(box) ? LocalFrame{{0, 0}}
+                         : LocalFrame{between(
+                               {box.south_deg, box.west_deg}, {box.north_deg, box.east_deg}, 0.5)};
+}
+
+std::vector<TripDrawing::Line> trace_lines(const TripLog& trip, const TraceConfig& config) {
+    auto parts = parts_of(trip, config);
+    const double sd_m = sd_of(parts);
+    std::vector<TripDrawing::Line> drawn;
+    for (auto& part : parts) {
+        const auto frame = frame_in_middle_of(extent_of(part));
+        for (const auto& line : lines_of(in_plane(std::move(part), frame), sd_m, config)) {
+            drawn.push_back({{}, line.sd_m, line.after_turn});
+            for (const auto& point : line.points) {
+                drawn.back().points.push_back(frame.to_geo(point));
+            }
         }
     }
-    return lines;
+    return drawn;
 }
 
 } // namespace macadam

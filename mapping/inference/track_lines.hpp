@@ -17,8 +17,10 @@ struct TraceLine {
 
 /// Extracts the lines of a trip. A line ends at a gap or jump of the positions, and where the car
 /// turns round on its own road. Standing draws no line, nor does moving back after it.
-std::vector<TraceLine>
-trace_lines(const TripLog& trip, const LocalFrame& frame, const TraceConfig& config);
+std::vector<TripDrawing::Line> trace_lines(const TripLog& trip, const TraceConfig& config);
+
+/// Returns a frame around the middle of a box; around 0, 0 if it is empty.
+LocalFrame frame_in_middle_of(const GeoBox& box);
 
 double apart_m(const PointEn& a, const PointEn& b);
 

@@ -1,9 +1,10 @@
 #include "estimator/common/error.hpp"
 #include "mapping/privacy/release_batches.hpp"
 #include "storage/store/connection/store_connection.hpp"
+#include "storage/store/fusion/store_version.hpp"
 #include "storage/store/maintenance/store_maintenance.hpp"
 #include "storage/store/publication/publication_rows.hpp"
-#include "storage/store/publication/publication_work.hpp"
+#include "storage/store/publication/staged_publication.hpp"
 #include "storage/store/rows/audit.hpp"
 #include "storage/text/utc.hpp"
 
@@ -32,22 +33,35 @@ Published StoreMaintenance::publish(const RoadNetwork& roads,
                            "publishes",
                            key_file_of(database.file()).string()));
     }
-    Transaction all{database, Transaction::Kind::write};
-    store_->expect_same_network();
     const auto month = utc_text(now_utc_ms).substr(0, month_letters);
-    if (const auto latest = macadam::latest_publication(database);
-        latest && latest->month >= month) {
-        refuse(fmt::format("was already published in {}, and can be published once a month; the "
-                           "next publication is possible from {} on",
-                           latest->month,
-                           utc_text(next_month_ms(now_utc_ms)).substr(0, month_letters)));
+    const auto expect_due = [&] {
+        store_->expect_same_network();
+        if (const auto latest = macadam::latest_publication(database);
+            latest && latest->month >= month) {
+            refuse(
+                fmt::format("was already published in {}, and can be published once a month; the "
+                            "next publication is possible from {} on",
+                            latest->month,
+                            utc_text(next_month_ms(now_utc_ms)).substr(0, month_letters)));
+        }
+    };
+    const PublicationWork work{
+        &roads, &*store_->key, &store_->classes(), store_->segments_per_chunk()};
+    StagedPublication staged{database};
+    StoreVersion version{};
+    {
+        Transaction snapshot{database, Transaction::Kind::read};
+        expect_due();
+        version = moment_of(database);
+        staged.compute(work, progress);
+        snapshot.commit();
     }
-    Published done;
-    done.changed =
-        publish_pending(database,
-                        {&roads, &*store_->key, &store_->classes(), store_->segments_per_chunk()},
-                        progress);
-    done.publication = add_publication(database, month);
+    Transaction all{database, Transaction::Kind::write};
+    expect_due();
+    if (moment_of(database).maintenance != version.maintenance) {
+        staged.compute(work, progress); // passes or rules changed meanwhile
+    }
+    auto done = staged.apply(month);
     add_audit(database, "publish", fmt::format("publication {}", done.publication.number));
     all.commit();
     return done;

@@ -1,24 +1,9 @@
 #include "storage/store/publication/publication_rows.hpp"
 
-#include "mapping/privacy/published_state.hpp"
-
-#include <cmath>
-
 namespace macadam {
 namespace {
 
 constexpr double m_per_km = 1000;
-
-/// Segments with passes of cars that the publication omits.
-constexpr const char* left_out_segments =
-    "SELECT count(*), coalesce(sum(segment.to_m - segment.from_m), 0) FROM"
-    " (SELECT DISTINCT segment FROM pass CROSS JOIN trip ON trip.id = pass.trip"
-    " WHERE trip.reference_ppm IS NULL EXCEPT SELECT fid FROM published_state) AS left_out"
-    " CROSS JOIN segment ON segment.fid = left_out.segment";
-
-constexpr const char* shown_segments =
-    "SELECT count(*), coalesce(sum(segment.to_m - segment.from_m), 0) FROM published_state AS state"
-    " CROSS JOIN segment ON segment.fid = state.fid";
 
 // Tables that appear empty, or without cars, to readers `anyone`.
 constexpr const char* hide_all_but_published = R"(
@@ -70,29 +55,6 @@ PublicationReach reach_of(Database& database, std::int64_t number) {
         database.prepare("SELECT last_trip, last_segment FROM publication WHERE number = ?");
     return select.bind(number).step() ? PublicationReach{select.integer(0), select.integer(1)}
                                       : PublicationReach{};
-}
-
-Publication add_publication(Database& database, const std::string& month) {
-    auto shown = database.prepare(shown_segments);
-    shown.step();
-    auto left = database.prepare(left_out_segments);
-    left.step();
-    const auto count = [&](const char* sql) {
-        return std::int64_t{published_count(static_cast<std::int32_t>(database.number(sql)))};
-    };
-    database
-        .prepare("INSERT INTO publication VALUES"
-                 " ((SELECT coalesce(max(number), 0) + 1 FROM publication), ?,"
-                 " (SELECT coalesce(max(id), 0) FROM trip),"
-                 " (SELECT coalesce(max(fid), 0) FROM segment), ?, ?, ?, ?, ?, ?)")
-        .run(month,
-             shown.integer(0),
-             shown.real(1),
-             (left.integer(0) + 9) / 10 * 10,
-             100 * std::ceil(left.real(1) / 100),
-             count("SELECT count(*) FROM trip WHERE reference_ppm IS NULL"),
-             count("SELECT count(*) FROM vehicle"));
-    return *latest_publication(database);
 }
 
 void show_published_alone(Database& database) {

@@ -21,9 +21,6 @@ std::optional<Publication> latest_publication(Database& database);
 /// Extent of publication `number`; zero for 0, before the first.
 PublicationReach reach_of(Database& database, std::int64_t number);
 
-/// Adds the row of a publication, with the totals of tables published_state and published_figure.
-Publication add_publication(Database& database, const std::string& month);
-
 /// Shadows all tables with data of cars for this connection: from now on it reads only the latest
 /// publication.
 void show_published_alone(Database& database);

@@ -100,21 +100,18 @@ public:
           before_{reach_of(database, number_ - 1)}, rule_{.last_of_key =
                                                               read_last_of_keys(database)},
           until_{database.prepare("SELECT last_trip FROM published_until WHERE segment = ?")},
-          put_until_{database.prepare("INSERT OR REPLACE INTO published_until VALUES (?, ?)")},
+          put_until_{database.prepare("INSERT INTO temp.staged_until VALUES (?, ?)")},
           pending_{
               database.prepare("SELECT trip, occurrence FROM published_pending WHERE segment = ?")},
-          drop_pending_{database.prepare("DELETE FROM published_pending WHERE segment = ?")},
-          put_pending_{database.prepare("INSERT INTO published_pending VALUES (?, ?, ?)")},
+          put_pending_{database.prepare("INSERT INTO temp.staged_pending VALUES (?, ?, ?)")},
           figures_{database.prepare(
               "SELECT coalesce(max(number), 0) FROM published_figure WHERE segment = ?")},
-          put_figure_{database.prepare("INSERT INTO published_figure VALUES"
+          put_figure_{database.prepare("INSERT INTO temp.staged_figure VALUES"
                                        " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")},
-          drop_events_{database.prepare("DELETE FROM published_event WHERE segment IN"
-                                        " (SELECT fid FROM segment WHERE fid >= ?1"
-                                        " AND fid < ?1 + ?2 AND strip = ?1)")},
-          put_event_{database.prepare("INSERT INTO published_event VALUES"
+          put_chunk_{database.prepare("INSERT INTO temp.staged_chunk VALUES (?)")},
+          put_event_{database.prepare("INSERT INTO temp.staged_event VALUES"
                                       " (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")},
-          put_state_{database, "INSERT OR REPLACE INTO published_state", state_column_count},
+          put_state_{database, "INSERT INTO temp.staged_state", state_column_count},
           last_trip_{database.number("SELECT coalesce(max(id), 0) FROM trip")} {
         for (std::int64_t hold = 0; hold <= longest_hold; ++hold) {
             reach_.push_back(reach_of(database, number_ - hold).last_trip);
@@ -227,6 +224,7 @@ private:
                 told.push_back(std::move(passes[i]));
             }
         }
+        put_chunk_.run(chunk);
         write_events(chunk, told);
         states_.align_with_each_other(chunk, told);
         for (const auto& segment : segments) {
@@ -236,9 +234,8 @@ private:
         }
     }
 
-    /// Replaces the events of a chunk by those that enough cars report in published passes.
+    /// Stages the events of a chunk that enough cars report in published passes.
     void write_events(std::int64_t chunk, const std::vector<ChunkPass>& told) {
-        drop_events_.run(chunk, work_.segments_per_chunk);
         EventInputs inputs;
         events_.add(chunk, told, inputs);
         std::int64_t number = 0;
@@ -251,7 +248,6 @@ private:
 
     void put_until(const SegmentPasses& segment, const std::vector<ChunkPass>& passes) {
         put_until_.run(segment.fid, last_trip_);
-        drop_pending_.run(segment.fid);
         for (const auto i : segment.release.left) {
             const auto& input = passes[segment.pending[i]].input;
             put_pending_.run(
@@ -262,12 +258,13 @@ private:
     void write_segment(const SegmentPasses& segment,
                        const std::vector<ChunkPass>& told,
                        const std::vector<std::size_t>& place) {
+        auto number = last_figure_of(segment.fid);
         for (const auto& batch : segment.release.batches) {
             std::vector<FusionInput> inputs;
             for (const auto i : batch.passes) {
                 inputs.push_back(told[place[segment.pending[i]]].input);
             }
-            write_figure(segment.fid, batch, state_of(inputs));
+            write_figure(segment.fid, ++number, batch, state_of(inputs));
         }
         std::vector<FusionInput> inputs;
         for (std::size_t i = place[segment.first]; i < told.size() && told[i].fid == segment.fid;
@@ -281,10 +278,18 @@ private:
         return published(fuse(inputs, states_.config()), inputs, rule_);
     }
 
-    void write_figure(std::int64_t fid, const ReleaseBatch& batch, const SegmentState& state) {
+    /// Number of a segment's last published figure; 0 if there is none.
+    std::int64_t last_figure_of(std::int64_t fid) {
         figures_.bind(fid).step();
-        const auto number = figures_.integer(0) + 1;
+        const auto number = figures_.integer(0);
         figures_.reset();
+        return number;
+    }
+
+    void write_figure(std::int64_t fid,
+                      std::int64_t number,
+                      const ReleaseBatch& batch,
+                      const SegmentState& state) {
         const auto known = [](const std::optional<IriUm>& um) {
             return um ? std::optional<std::int64_t>{*um} : std::nullopt;
         };
@@ -320,27 +325,19 @@ private:
     Statement until_;
     Statement put_until_;
     Statement pending_;
-    Statement drop_pending_;
     Statement put_pending_;
     Statement figures_;
     Statement put_figure_;
-    Statement drop_events_;
+    Statement put_chunk_;
     Statement put_event_;
     BulkInsert put_state_;
     std::int64_t last_trip_;
 };
 
-/// Withdraws segments whose road was rebuilt after the published passes.
-constexpr const char* withdraw_roads_that_are_no_more =
-    "DELETE FROM published_state WHERE fid IN (SELECT valid_from.segment FROM valid_from"
-    " WHERE NOT EXISTS (SELECT 1 FROM published_figure AS figure"
-    " WHERE figure.segment = valid_from.segment AND figure.until_ms > valid_from.from_ms));"
-    "DELETE FROM published_event WHERE segment NOT IN (SELECT fid FROM published_state)";
-
 } // namespace
 
 std::size_t
-publish_pending(Database& database, const PublicationWork& work, const Progress& progress) {
+stage_pending(Database& database, const PublicationWork& work, const Progress& progress) {
     const auto chunks = driven_chunks(database);
     PublicationMaker maker{database, work};
     std::size_t changed = 0;
@@ -353,7 +350,6 @@ publish_pending(Database& database, const PublicationWork& work, const Progress&
         progress(++done, chunks.size());
     }
     maker.flush();
-    database.run(withdraw_roads_that_are_no_more);
     return changed;
 }
 

@@ -19,14 +19,15 @@ struct PublicationWork {
     std::int64_t segments_per_chunk;
 };
 
-/// Publishes pending passes into tables published_state and published_figure, in batches that
+/// Stages the publication of pending passes in the tables of StagedPublication, in batches that
 /// satisfy the release rule (mapping/privacy/release_batches.hpp); a segment without such a batch
-/// keeps its last published values. Within the caller's transaction.
+/// keeps its last published values. Reads the database as the caller's transaction sees it.
 ///
 /// Passes in the first and last block of a drive are never published.
 ///
 /// \returns  the number of segments with new values
+/// \throws InputError  if a stop is requested.
 std::size_t
-publish_pending(Database& database, const PublicationWork& work, const Progress& progress);
+stage_pending(Database& database, const PublicationWork& work, const Progress& progress);
 
 } // namespace macadam

@@ -31,8 +31,15 @@ TEST(LocalFrame, ComesBackFromThePlane) {
     const LocalFrame frame{{-33.9, 151.2}};
     for (const PointEn& there : {PointEn{30000, -20000}, PointEn{-1, 5}, PointEn{0, 80000}}) {
         const auto back = frame.to_local(frame.to_geo(there));
-        EXPECT_NEAR(back.east_m, there.east_m, 1e-4); // 0.1 mm: five rounds of the inverse
+        EXPECT_NEAR(back.east_m, there.east_m, 1e-4); // 0.1 mm
         EXPECT_NEAR(back.north_m, there.north_m, 1e-4);
+    }
+}
+
+TEST(LocalFrame, FindsPointsOfAnotherContinent) {
+    const LocalFrame frame{{44, -29}};
+    for (const GeoPoint& there : {GeoPoint{48.2, 16.4}, GeoPoint{40.7, -74}, GeoPoint{-10, -35}}) {
+        EXPECT_LT(distance_m(frame.to_geo(frame.to_local(there)), there), 0.001);
     }
 }
 

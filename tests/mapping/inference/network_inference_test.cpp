@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace macadam {
 namespace {
@@ -127,6 +128,78 @@ TEST(TraceNetwork, DrawsNoRoadThroughAJump) {
         drawn_m += length_of(way.line);
     }
     EXPECT_LT(drawn_m, before_m); // two ways across would add 400 m
+}
+
+std::vector<std::vector<GeoPoint>> lines_of(const std::vector<Way>& ways) {
+    std::vector<std::vector<GeoPoint>> lines;
+    for (const auto& way : ways) {
+        lines.push_back(way.line);
+    }
+    return lines;
+}
+
+/// The same fixes on the other side of the globe.
+void move_to_antipodes(std::span<GnssFix> fixes) {
+    for (auto& fix : fixes) {
+        fix.at = {-fix.at.lat_deg, fix.at.lon_deg - 179};
+    }
+}
+
+TEST(TraceNetwork, DrawsRoadsOfTwoContinentsAsIfEachWereAlone) {
+    const auto art = block();
+    const auto here = testing::drive(line_through(art, "ABC"), {.noise_m = 2});
+    auto there = testing::drive(line_through(art, "ABEF"), {.noise_m = 2, .seed = 2});
+    move_to_antipodes(there.fixes);
+    auto alone = lines_of(traced({here}));
+    const auto others = lines_of(traced({there}));
+    ASSERT_FALSE(alone.empty());
+    ASSERT_FALSE(others.empty());
+    alone.insert(alone.end(), others.begin(), others.end());
+    const auto both = traced({here, there});
+    EXPECT_THAT(lines_of(both), ::testing::UnorderedElementsAreArray(alone));
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        EXPECT_EQ(both[i].id, static_cast<std::int64_t>(i + 1));
+    }
+    EXPECT_NE(both.front().node_ids.front(), both.back().node_ids.front());
+}
+
+TEST(TraceNetwork, DrawsNoRoadThroughAFlightAndKeepsItsSpacing) {
+    const auto art = block();
+    auto trip = testing::drive(line_through(art, "ABC"), {.noise_m = 1});
+    const double before_m = length_of(traced({trip}).front().line);
+    move_to_antipodes(std::span{trip.fixes}.subspan(trip.fixes.size() / 2));
+    const auto ways = traced({trip});
+    ASSERT_THAT(ways, SizeIs(2));
+    double drawn_m = 0;
+    for (const auto& way : ways) {
+        drawn_m += length_of(way.line);
+        for (std::size_t i = 1; i < way.line.size(); ++i) {
+            EXPECT_NEAR(distance_m(way.line[i - 1], way.line[i]), 10, 2);
+        }
+    }
+    EXPECT_NEAR(drawn_m, before_m, 40); // without the step of the flight
+}
+
+/// A fix each 9.9 s.
+TripLog sparse_trip(std::size_t fixes, double step_m) {
+    TripLog trip;
+    for (std::size_t i = 0; i < fixes; ++i) {
+        const auto step = static_cast<double>(i);
+        trip.fixes.push_back({9.9 * step, {47 + step * step_m / 111'200, 8}, NAN, NAN, NAN});
+    }
+    return trip;
+}
+
+TEST(TraceNetwork, DrawsAtMostFortyPointsForAFix) {
+    constexpr std::size_t fixes = 100;
+    const auto ways = traced({sparse_trip(fixes, 395)});
+    ASSERT_THAT(ways, SizeIs(1));
+    EXPECT_GT(ways[0].line.size(), 35 * fixes);
+    EXPECT_LE(ways[0].line.size(), 40 * fixes);
+}
+
+TEST(TraceNetwork, BridgesNoStepOfOverFourHundredMetres) {
+    EXPECT_THAT(traced({sparse_trip(100, 405)}), IsEmpty());
 }
 
 TEST(TraceNetwork, DoesNotBelieveAReceiverThatDoesNotBelieveItself) {

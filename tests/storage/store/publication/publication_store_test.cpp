@@ -6,7 +6,10 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+#include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -49,6 +52,10 @@ struct Crowd {
 
     /// \param holes  also reports a pothole at 55 m of the second road and one of the first
     void drive(int car, std::int64_t utc_ms, IriUm iri_um = 2000, bool holes = false) {
+        drive_into(store, car, utc_ms, iri_um, holes);
+    }
+    void drive_into(
+        RoadStore& to, int car, std::int64_t utc_ms, IriUm iri_um = 2000, bool holes = false) {
         auto record = testing::trip_record(1000 + trips_++);
         record.vehicle_id = "car " + std::to_string(car);
         record.t0_utc_ms = utc_ms;
@@ -75,7 +82,7 @@ struct Crowd {
                               .size_um = 31'000,
                               .sd_um = 9'000});
         }
-        add_trip(store, record, passes, {}, events);
+        add_trip(to, record, passes, {}, events);
     }
     void drive_all(int cars, std::int64_t utc_ms, IriUm iri_um = 2000) {
         for (int car = 0; car < cars; ++car) {
@@ -83,8 +90,16 @@ struct Crowd {
         }
         store.importer.refresh();
     }
-    Published publish(std::int64_t now_ms) {
-        return store.maintenance.publish(three_roads(), now_ms);
+    /// Six cars drive by another program.
+    void drive_beside(std::int64_t utc_ms, IriUm iri_um) {
+        auto other = RoadStore::open(file);
+        for (int car = 0; car < 6; ++car) {
+            drive_into(other, car, utc_ms, iri_um);
+        }
+        other.importer.refresh();
+    }
+    Published publish(std::int64_t now_ms, const Progress& progress = {}) {
+        return store.maintenance.publish(three_roads(), now_ms, progress);
     }
 
     std::vector<SegmentRecord> seen(const std::optional<Period>& period = {},
@@ -261,6 +276,88 @@ TEST(Publication, KeepsItsFiguresWhenACarIsForgottenUntilOthersDrove) {
     crowd.drive_all(6, march_ms, 2000);
     crowd.publish(march_ms + 40 * day_ms);
     EXPECT_EQ(crowd.seen().front().state->iri_um, 2000);
+}
+
+// ---------------------------------------------------------------------------- beside other writers
+
+/// Calls `act` once, while a publication is computed.
+Progress meanwhile(const std::function<void()>& act) {
+    return {.report =
+                [act, is_first = true](std::size_t, std::size_t) mutable {
+                    if (std::exchange(is_first, false)) {
+                        act();
+                    }
+                },
+            .stop = {}};
+}
+
+TEST(PublicationBesideOthers, LetsTripsComeInAndLeavesThemToTheNextOne) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    bool came = false;
+    const auto first = crowd.publish(february_ms, meanwhile([&] {
+                                         crowd.drive_beside(february_ms, 5000);
+                                         came = true;
+                                     }));
+    ASSERT_TRUE(came); // before it ended: it held no lock
+    EXPECT_EQ(first.publication.trips, 5);
+    ASSERT_EQ(crowd.seen().size(), 10U);
+    EXPECT_EQ(crowd.seen().front().state->iri_um, 2000);
+    const auto second = crowd.publish(march_ms);
+
+    Crowd serial;
+    serial.drive_all(6, january_ms);
+    serial.publish(february_ms);
+    serial.drive_beside(february_ms, 5000);
+    const auto expected = serial.publish(march_ms);
+    EXPECT_EQ(second.changed, expected.changed);
+    EXPECT_EQ(second.publication.left_out, expected.publication.left_out);
+    const auto seen = crowd.seen();
+    const auto wanted = serial.seen();
+    ASSERT_EQ(seen.size(), wanted.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        EXPECT_EQ(seen[i].state, wanted[i].state);
+    }
+}
+
+TEST(PublicationBesideOthers, IsComputedAgainWhenCarsWereForgottenMeanwhile) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    const auto done = crowd.publish(february_ms, meanwhile([&] {
+                                        ForgetRequest request;
+                                        request.vehicles = {"car 1", "car 2"};
+                                        RoadStore::open(crowd.file).maintenance.forget(request);
+                                    }));
+    EXPECT_EQ(done.changed, 0U); // four cars are left
+    EXPECT_THAT(crowd.seen(), IsEmpty());
+}
+
+TEST(PublicationBesideOthers, IsRefusedWhenAnotherOneOfTheMonthWasQuicker) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    EXPECT_THAT(
+        refusal_of([&] {
+            crowd.publish(
+                february_ms, meanwhile([&] {
+                    RoadStore::open(crowd.file).maintenance.publish(three_roads(), february_ms);
+                }));
+        }),
+        HasSubstr("was already published in 2026-02"));
+    EXPECT_EQ(crowd.store.latest_publication()->number, 1);
+    EXPECT_EQ(crowd.seen().size(), 10U);
+}
+
+TEST(PublicationBesideOthers, LeavesNothingBehindWhenItIsStopped) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    std::stop_source source;
+    auto progress = meanwhile([&] { source.request_stop(); });
+    progress.stop = source.get_token();
+    EXPECT_THAT(refusal_of([&] { crowd.publish(february_ms, progress); }),
+                HasSubstr("crowd.gpkg: interrupted; the database is unchanged"));
+    EXPECT_FALSE(crowd.store.latest_publication());
+    EXPECT_EQ(crowd.publish(february_ms).changed, 10U); // by the same connection
+    EXPECT_EQ(crowd.seen().size(), 10U);
 }
 
 TEST(Publication, NeedsACrowdAndItsKey) {
