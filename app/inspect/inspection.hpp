@@ -2,7 +2,7 @@
 
 #include "app/inspect/file_kind.hpp"
 #include "app/inspect/trip_summary.hpp"
-#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
 #include <filesystem>

@@ -42,7 +42,7 @@ std::string columns_text(const DetectedLog& log) {
         text += line("time",
                      fmt::format("{}, {}; {}: {}",
                                  names,
-                                 log.time->format,
+                                 unit_words(*log.time),
                                  word(log.time->confidence),
                                  log.time->reason));
     }
@@ -202,7 +202,7 @@ std::string json_of(const DetectedLog& log) {
     };
     if (log.time) {
         for (const auto column : log.time->columns) {
-            add("t_s", column, log.time->format, log.time->confidence, log.time->reason);
+            add("t_s", column, unit_words(*log.time), log.time->confidence, log.time->reason);
         }
     }
     for (const auto& channel : log.channels) {

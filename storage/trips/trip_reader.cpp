@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/files/byte_stream.hpp"
 #include "storage/files/decompress.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/foreign_trip.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
 #include "storage/trips/foreign/trip_files.hpp"

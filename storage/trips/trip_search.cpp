@@ -4,7 +4,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/archived_trips.hpp"
-#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
 #include "storage/trips/trip_file_names.hpp"

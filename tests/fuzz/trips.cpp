@@ -6,7 +6,7 @@
 #include "app/pipeline/pipeline.hpp"
 #include "estimator/motion/trip_motion.hpp"
 #include "mapping/inference/network_inference.hpp"
-#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/log/trip_writer.hpp"

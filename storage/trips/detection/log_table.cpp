@@ -116,6 +116,22 @@ LogTable parse_log_table(const TextSample& sample, CsvDialect dialect) {
     return table;
 }
 
+std::pair<double, double> nonzero_range(const std::vector<double>& values) {
+    std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                    -std::numeric_limits<double>::infinity()};
+    for (const double value : values) {
+        if (value != 0 && !std::isnan(value)) {
+            range = {std::min(range.first, value), std::max(range.second, value)};
+        }
+    }
+    return range;
+}
+
+bool are_whole(const std::vector<double>& values) {
+    return std::ranges::all_of(values,
+                               [](double v) { return std::isnan(v) || v == std::floor(v); });
+}
+
 double known_median(std::vector<double> values) {
     std::erase_if(values, [](double value) { return std::isnan(value); });
     if (values.empty()) {

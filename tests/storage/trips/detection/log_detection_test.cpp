@@ -1,6 +1,6 @@
 // Logs in the styles of several makers, written here from one drive.
 
-#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "storage/trips/trip_search.hpp"
@@ -471,6 +471,109 @@ TEST(LogDetection, IsNotSureOfMinutesAndOfTheVerticalOfATiltedSensor) {
         })));
     EXPECT_EQ(log->time->confidence, Confidence::likely);
     EXPECT_EQ(channel_of(*log, "acc_z_mps2").confidence, Confidence::likely);
+}
+
+TEST(LogDetection, ConfirmsTheUnitOfACountBySpeedAndPositions) {
+    const auto log_of = [](double counts_per_s, const std::string& more, bool has_speed) {
+        return detect_log(log_file(
+            log_text("time,latitude,longitude" + more + "\n", [&](auto& now, const Reading& fix) {
+                return fmt::format("{:.0f},{:.7f},{:.7f},{:.2f}",
+                                   now.t_s * counts_per_s,
+                                   fix.lat_deg,
+                                   fix.lon_deg,
+                                   has_speed ? fix.v_mps * 3.6 : 5);
+            })));
+    };
+    for (const auto* const speed : {",speed", ",speed (km/h)"}) {
+        const auto ms = log_of(1000, speed, true);
+        EXPECT_EQ(unit_words(*ms->time), "ms");
+        EXPECT_EQ(ms->time->confidence, Confidence::sure);
+        const auto tenths = log_of(10'000, speed, true);
+        EXPECT_EQ(unit_words(*tenths->time), "0.1 ms");
+        EXPECT_EQ(tenths->time->confidence, Confidence::sure) << tenths->time->reason;
+        EXPECT_THAT(missing_columns(*tenths, needs_of_match(), Confidence::sure), IsEmpty());
+    }
+    const auto ticks = log_of(10'000, ",temperature", false);
+    EXPECT_EQ(ticks->time->confidence, Confidence::likely);
+    EXPECT_THAT(ticks->time->reason, HasSubstr("a guess"));
+    EXPECT_EQ(sure_mapping(*ticks), nullptr);
+}
+
+TEST(LogDetection, ReadsStepsOfATenthOfAMillisecond) {
+    const auto file = log_file(log_text("time,lat,lon,speed\n", [](auto& now, auto& fix) {
+        return fmt::format(
+            "{:.0f},{:.7f},{:.7f},{:.2f}", now.t_s * 10'000, fix.lat_deg, fix.lon_deg, fix.v_mps);
+    }));
+    EXPECT_THAT(mapping_toml(*detect_log(file), Confidence::sure, "*.csv"),
+                HasSubstr("format = \"ms\"\nscale = 0.1\n"));
+    const auto trip = read_trip({.file = file, .member = {}}, needs_of_match());
+    EXPECT_NEAR(trip.fixes.back().t_s - trip.fixes.front().t_s, seconds - 1, 1e-6);
+}
+
+TEST(LogDetection, IsNotSureOfATimeThatContradictsSpeedAndPositions) {
+    const auto log = detect_log(log_file(position_log("lat,lon", [](const Reading& fix) {
+        return fmt::format("{:.7f},{:.7f}", 47 + 10 * (fix.lat_deg - 47), fix.lon_deg);
+    })));
+    EXPECT_EQ(log->time->confidence, Confidence::likely);
+    EXPECT_THAT(log->time->reason, HasSubstr("contradicts speed or positions"));
+    EXPECT_EQ(channel_of(*log, "lat_deg").confidence, Confidence::likely);
+}
+
+TEST(LogDetection, IsNotSureOfLatitudeAndLongitudeUnderEachOthersNames) {
+    const auto northward = [](const Reading& fix) { return 47.6 + fix.t_s * 12 / 111195; };
+    const auto log_of = [&](const std::string& more, bool exchanged) {
+        return detect_log(log_file(log_text(
+            "time(ms),latitude,longitude" + more + "\n", [&](const Reading& now, auto& fix) {
+                const double lat_deg = northward(fix);
+                const double lon_deg = 17.6346;
+                return fmt::format("{:.0f},{:.7f},{:.7f},{}",
+                                   now.t_s * 1000,
+                                   exchanged ? lon_deg : lat_deg,
+                                   exchanged ? lat_deg : lon_deg,
+                                   more == ",course" ? "0.4" : "12.0");
+            })));
+    };
+    for (const auto* const column : {",course", ",GPS speed (m/s)", ",GPS speed"}) {
+        const auto as_named = log_of(column, false);
+        EXPECT_EQ(channel_of(*as_named, "lat_deg").column, 2U) << column;
+        EXPECT_EQ(channel_of(*as_named, "lat_deg").confidence, Confidence::sure) << column;
+        const auto exchanged = log_of(column, true);
+        EXPECT_EQ(channel_of(*exchanged, "lat_deg").column, 3U) << column;
+        EXPECT_EQ(channel_of(*exchanged, "lat_deg").confidence, Confidence::likely) << column;
+        EXPECT_THAT(channel_of(*exchanged, "lon_deg").reason, HasSubstr("names of latitude"));
+        EXPECT_EQ(sure_mapping(*exchanged), nullptr);
+    }
+}
+
+TEST(LogDetection, TakesACourseFromEastForNoExchangeOfLatitudeAndLongitude) {
+    const auto log = detect_log(log_file(position_log("lat,lon,heading", [](const Reading& fix) {
+        return fmt::format("{:.7f},{:.7f},{:.1f}", fix.lat_deg, fix.lon_deg, 90 - fix.course_deg);
+    })));
+    EXPECT_EQ(channel_of(*log, "lat_deg").column, 2U);
+    EXPECT_EQ(channel_of(*log, "lat_deg").confidence, Confidence::sure);
+    EXPECT_EQ(channel_of(*log, "course_deg").confidence, Confidence::likely);
+}
+
+TEST(LogDetection, TellsTheUnitOfSmallRatesOnlyOfACarThatMoves) {
+    const auto log_of = [](double radps_unit, double v_share) {
+        return detect_log(log_file(
+            log_text("time(ms),wx,wy,wz,lat,lon,speed (m/s)\n", [&](auto& now, const Reading& fix) {
+                return fmt::format("{:.0f},{:.4f},{:.4f},{:.4f},{:.7f},{:.7f},{:.2f}",
+                                   now.t_s * 1000,
+                                   now.wx * radps_unit,
+                                   now.wy * radps_unit,
+                                   now.wz * radps_unit,
+                                   47 + (fix.lat_deg - 47) * v_share,
+                                   17 + (fix.lon_deg - 17) * v_share,
+                                   fix.v_mps * v_share);
+            })));
+    };
+    EXPECT_EQ(channel_of(*log_of(1, 1), "gyro_z_radps").unit, "rad/s");
+    EXPECT_EQ(channel_of(*log_of(1, 1), "gyro_z_radps").confidence, Confidence::sure);
+    const auto parked = log_of(2, 0); // deg/s that are as small as rad/s of a drive
+    EXPECT_EQ(channel_of(*parked, "gyro_z_radps").unit, "");
+    EXPECT_EQ(channel_of(*parked, "gyro_z_radps").confidence, Confidence::likely);
+    EXPECT_THAT(channel_of(*parked, "gyro_z_radps").reason, HasSubstr("of a car that stands"));
 }
 
 TEST(LogDetection, TakesNoOtherTableForALog) {
