@@ -29,7 +29,7 @@ std::string column_name(const DetectedLog& log, std::size_t column) {
 
 /// Columns that serve an import and were not found, or not for sure.
 std::string missing_of(const DetectedLog& log, Confidence least) {
-    return missing_columns(log, needs_of_import(), least);
+    return missing_measurements(log, needs_of_import(), least);
 }
 
 std::string columns_text(const DetectedLog& log) {

@@ -145,8 +145,7 @@ bool can_be_told_apart(const TripLog& trip) {
 /// Our own writing is never refused.
 TripLog read_written(const TripSource& source) {
     try {
-        return read_trip(source,
-                         {.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}});
+        return read_trip(source, {.acc = true, .gyro = true, .speed = true, .fixes = true});
     } catch (const InputError& refusal) {
         throw std::logic_error{refusal.what()};
     }

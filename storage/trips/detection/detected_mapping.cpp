@@ -1,5 +1,6 @@
 #include "storage/trips/detection/detected_mapping.hpp"
 
+#include "estimator/common/utf8.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/foreign/built_in_mappings.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
@@ -14,13 +15,28 @@
 namespace macadam {
 namespace {
 
-/// Text that a TOML remark may hold.
-std::string remark(std::string_view text) {
+/// Replaces what a TOML file may not hold, or what would steer a terminal, letter by letter.
+std::string printable_letters(std::string_view text, char instead) {
     std::string safe;
-    for (const char letter : text) {
-        safe += letter >= ' ' && letter <= '~' ? letter : '?';
+    while (!text.empty()) {
+        const auto length = utf8_length(text);
+        const auto letter = text.substr(0, std::max<std::size_t>(1, length));
+        const auto code = utf8_letter(letter);
+        const bool is_printable =
+            length == 1 ? code >= ' ' && code <= '~' : length > 1 && code >= 0xA0;
+        if (is_printable) {
+            safe += letter;
+        } else {
+            safe += instead;
+        }
+        text.remove_prefix(letter.size());
     }
     return safe;
+}
+
+/// Text that a TOML remark may hold.
+std::string remark(std::string_view text) {
+    return printable_letters(text, '?');
 }
 
 std::string toml_text(std::string_view text) {
@@ -34,8 +50,8 @@ std::string toml_text(std::string_view text) {
     return quoted + '"';
 }
 
-/// Pattern for the name of a column: '*' for letters beyond ASCII, whose encoding is not known;
-/// "" if it is no name of this column alone.
+/// Pattern for the name of a column, with '*' for letters that cannot be shown; "" if it is no name
+/// of this column alone.
 std::string pattern_of(const DetectedLog& log, std::size_t column) {
     const auto& names = log.dialect.names;
     constexpr std::size_t max_length = 200; // comparing long names with several '*' takes long
@@ -45,13 +61,7 @@ std::string pattern_of(const DetectedLog& log, std::size_t column) {
     if (!log.dialect.has_header || column > names.size() || !are_short) {
         return "";
     }
-    std::string pattern;
-    for (const char letter : names[column - 1]) {
-        const bool is_plain = letter >= ' ' && letter <= '~';
-        if (is_plain || !pattern.ends_with('*')) {
-            pattern += is_plain ? letter : '*';
-        }
-    }
+    const auto pattern = printable_letters(names[column - 1], '*');
     if (std::ranges::count(pattern, '*') > max_stars) {
         return "";
     }
@@ -80,8 +90,9 @@ std::string layout_toml(const DetectedLog& log, const std::string& files) {
     if (dialect.decimal != '.') {
         toml += "decimal = \",\"\n";
     }
-    if (log.encoding == TextEncoding::utf16le) {
-        toml += "encoding = \"utf-16le\"\n";
+    if (log.encoding != TextEncoding::utf8) {
+        toml += fmt::format("encoding = \"{}\"\n",
+                            log.encoding == TextEncoding::latin1 ? "latin-1" : "utf-16le");
     }
     if (!dialect.comment.empty()) {
         toml += fmt::format("comment = {}\n", toml_text(dialect.comment));
@@ -213,7 +224,7 @@ std::string other_columns(const DetectedLog& log) {
         const bool is_time =
             log.time && std::ranges::find(log.time->columns, i + 1) != log.time->columns.end();
         if (!is_channel && !is_time && !log.names[i].empty()) {
-            others.push_back(remark(log.names[i].substr(0, max_shown)));
+            others.push_back(remark(std::string_view{log.names[i]}.substr(0, max_shown)));
         }
     }
     const auto more = others.size() > max_shown ? others.size() - max_shown : 0;
@@ -237,13 +248,18 @@ std::string mapping_toml(const DetectedLog& log, Confidence least, const std::st
 }
 
 std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log) {
-    if (!missing_columns(log, needs_of_match(), Confidence::sure).empty() &&
-        !missing_columns(log, needs_of_trace(), Confidence::sure).empty()) {
+    if (!missing_measurements(log, needs_of_match(), Confidence::sure).empty() &&
+        !missing_measurements(log, needs_of_trace(), Confidence::sure).empty()) {
         return nullptr;
     }
     auto mapping = parse_mapping(mapping_toml(log, Confidence::sure, "*"), "detected mapping");
     mapping.meta.other[detected_key] = words_of(log);
     return std::make_shared<const TripMapping>(std::move(mapping));
+}
+
+std::shared_ptr<const TripMapping> mapping_of_found(const std::optional<DetectedLog>& log) {
+    const bool is_result = log && std::ranges::find(log->names, "iri") != log->names.end();
+    return log && !is_result ? sure_mapping(*log) : nullptr;
 }
 
 } // namespace macadam

@@ -16,6 +16,10 @@ std::string mapping_toml(const DetectedLog& log, Confidence least, const std::st
 /// Mapping of what is sure; null unless that serves `match` or `trace`.
 std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log);
 
+/// As sure_mapping, for a file that was found rather than named: null also for results with a
+/// column `iri`.
+std::shared_ptr<const TripMapping> mapping_of_found(const std::optional<DetectedLog>& log);
+
 /// Key of the meta data of a trip that was read by a detected mapping: its words.
 inline constexpr const char* detected_key = "read_as";
 

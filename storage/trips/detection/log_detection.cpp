@@ -187,8 +187,8 @@ std::optional<DetectedLog> detect_log(const std::filesystem::path& file) {
     return sample ? detect_log(*sample) : std::nullopt;
 }
 
-std::string missing_columns(const DetectedLog& log, const TripNeeds& needs, Confidence least) {
-    return missing_columns(
+std::string missing_measurements(const DetectedLog& log, const TripNeeds& needs, Confidence least) {
+    return missing_measurements(
         needs, [&](const std::string& column) { return has_usable(log, column, least); });
 }
 

@@ -43,9 +43,8 @@ std::optional<DetectedLog> detect_log(const TextSample& sample);
 /// \throws InputError  if the file cannot be read.
 std::optional<DetectedLog> detect_log(const std::filesystem::path& file);
 
-/// Names the columns of the trip log that are needed and were not found, or not for sure; "" if
-/// there is none. They read as "t_s and acc_z_mps2 or acc_y_mps2".
-std::string missing_columns(const DetectedLog& log, const TripNeeds& needs, Confidence least);
+/// Names what is needed and was not found, or not for sure (missing_measurements).
+std::string missing_measurements(const DetectedLog& log, const TripNeeds& needs, Confidence least);
 
 /// Describes a reading: "semicolons, decimal commas, time in ms, acceleration in g, ...".
 std::string words_of(const DetectedLog& log);

@@ -1,8 +1,8 @@
 #include "storage/trips/detection/time_detection.hpp"
 
 #include "storage/text/text.hpp"
-#include "storage/trips/detection/unit_names.hpp"
 #include "storage/trips/foreign/time_parsing.hpp"
+#include "storage/trips/foreign/unit_names.hpp"
 
 #include <fmt/format.h>
 

@@ -244,7 +244,9 @@ TableMapping with_text_keys(TableMapping mapping, const TomlTable& table) {
         {",", ','}, {";", ';'}, {"tab", '\t'}, {"blank", ' '}, {"|", '|'}};
     static constexpr std::pair<std::string_view, char> decimals[] = {{".", '.'}, {",", ','}};
     static constexpr std::pair<std::string_view, TextEncoding> encodings[] = {
-        {"utf-8", TextEncoding::utf8}, {"utf-16le", TextEncoding::utf16le}};
+        {"utf-8", TextEncoding::utf8},
+        {"utf-16le", TextEncoding::utf16le},
+        {"latin-1", TextEncoding::latin1}};
 
     if (table.has("separator")) {
         mapping.separator = one_of(table, "separator", separators);

@@ -1,4 +1,5 @@
 #include "support/program/program.hpp"
+#include "support/program/shell.hpp"
 #include "support/roads/drive.hpp"
 
 #include <fmt/format.h>
@@ -77,12 +78,11 @@ TEST(Inspect, IsNamedByCommandsThatAreNotSureOfAColumn) {
     const auto traced = run_macadam({"trace", log});
     EXPECT_EQ(traced.exit_status, 1);
     EXPECT_THAT(traced.err,
-                AllOf(HasSubstr("it lacks acc_z_mps2 or acc_y_mps2, or it is not sure which column "
-                                "has it: 'macadam inspect "),
+                AllOf(HasSubstr("not found or not sure: vertical acceleration. 'macadam inspect "),
                       HasSubstr("writes a mapping for --mapping")));
-    EXPECT_THAT(
-        run_macadam({"inspect", log}).out,
-        AllOf(HasSubstr("not found      acc_z_mps2"), HasSubstr("# acc_z_mps2 = {column = \"?\"")));
+    EXPECT_THAT(run_macadam({"inspect", log}).out,
+                AllOf(HasSubstr("not found      vertical acceleration\n"),
+                      HasSubstr("# acc_z_mps2 = {column = \"?\"")));
 }
 
 TEST(Inspect, SaysOfEveryKindOfFileWhichCommandTakesIt) {
@@ -154,6 +154,25 @@ TEST(Inspect, FailsForWhatItDoesNotKnowAndGoesOn) {
                       HasSubstr("empty.csv: empty file"),
                       HasSubstr("missing.csv: cannot be read")));
     EXPECT_THAT(run.err, HasSubstr("4 of 4 files not recognised or not readable"));
+}
+
+TEST(Inspect, ShowsTheCsvFilesOfAnArchive) {
+    const auto folder = fresh_folder();
+    fs::create_directory(folder / "may");
+    write_file(folder / "may/drive.csv", foreign_log(plain_header));
+    write_file(folder / "may/other.csv", foreign_log("a;b;c;d;e"));
+    ASSERT_EQ(output_of(folder, fmt::format("cd '{}' && tar cf logs.tar may", folder.string())),
+              "");
+    const auto archive = folder / "logs.tar";
+    const auto shown = run_macadam({"inspect", archive.string()});
+    EXPECT_EQ(shown.exit_status, 0) << shown.err;
+    EXPECT_THAT(
+        shown.out,
+        AllOf(HasSubstr("logs.tar/may/drive.csv: CSV file of another program\n"),
+              HasSubstr("[channels]\nacc_z_mps2 = {column = \"acc z (g)\", unit = \"g\"}"),
+              HasSubstr("logs.tar/may/other.csv: CSV file of another program\n"),
+              HasSubstr("not found      time; vertical acceleration; speed of the car or of the "
+                        "receiver; position (latitude, longitude)\n")));
 }
 
 TEST(Inspect, WritesOneMappingAndReplacesNoInput) {
