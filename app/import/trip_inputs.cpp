@@ -22,10 +22,12 @@ std::size_t max_members_of(const Arguments& arguments) {
 AskedTrips::AskedTrips(const std::vector<std::filesystem::path>& paths,
                        const TripWalkConfig& config,
                        const Console& console) {
+    auto walking = config;
+    walking.search = console.progress("looking for logs", {.name = "file"});
     for (const auto& path : paths) {
         Path asked{.path = path, .walk = {}, .refusal = {}};
         try {
-            asked.walk.emplace(path, config);
+            asked.walk.emplace(path, walking);
             if (asked.walk->count()) {
                 tell(asked, console);
                 asked.told = true;

@@ -70,7 +70,8 @@ void run_inspect(const Arguments& arguments, const Console& console) {
     }
     Inspected inspected;
     for (const auto& path : paths) {
-        inspect(path, max_files, console.stop(), [&](const Inspection& found) {
+        const auto search = console.progress("looking for logs", {.name = "file"});
+        inspect(path, max_files, search, [&](const Inspection& found) {
             add(found, json, !output, inspected);
         });
     }

@@ -1,5 +1,6 @@
 #include "app/inspect/file_kind.hpp"
 
+#include "app/inspect/can_kind.hpp"
 #include "app/inspect/table_kind.hpp"
 
 #include "estimator/common/error.hpp"
@@ -51,12 +52,24 @@ constexpr std::array signatures{
               "MDF     ",
               "measurement file (ASAM MDF)",
               "export its channels as CSV, then inspect that"},
+    Signature{0,
+              "UnFinMF",
+              "measurement file (ASAM MDF, not finalised)",
+              "export its channels as CSV, then inspect that"},
     Signature{
         0, "TDSm", "measurement file (TDMS)", "export its channels as CSV, then inspect that"},
     Signature{0,
               "#ROSBAG",
               "recording of ROS",
               "write its IMU and GNSS topics as CSV, then inspect that"},
+    Signature{0,
+              "\x89MCAP",
+              "recording of ROS 2 (MCAP)",
+              "write its IMU and GNSS topics as CSV, then inspect that"},
+    Signature{0,
+              "\xb5\x62",
+              "recording of a u-blox receiver (UBX)",
+              "positions only; convert it to GPX, for example with u-center"},
     Signature{0, "\x89HDF", "HDF5 file", "export its data as CSV, then inspect that"},
     Signature{0, "MATLAB", "MATLAB file", "export its data as CSV, then inspect that"},
     Signature{0, "PAR1", "Parquet file", "export its data as CSV, then inspect that"},
@@ -96,6 +109,9 @@ FileKind other(std::string_view name, std::string_view advice) {
 }
 
 std::optional<FileKind> by_signature(std::string_view head) {
+    if (head.starts_with("LOGG")) {
+        return can_log_kind("Vector BLF");
+    }
     for (const auto& [at, bytes, name, advice] : signatures) {
         if (head.size() > at && head.substr(at).starts_with(bytes)) {
             return other(name, advice);
@@ -226,6 +242,9 @@ FileKind kind_of_file(const fs::path& file) {
         return *kind;
     }
     if (auto kind = by_element(head)) {
+        return *kind;
+    }
+    if (auto kind = kind_of_can_text(head)) { // a DBC file begins like a MapInfo file
         return *kind;
     }
     if (auto kind = by_map_kind(file)) {

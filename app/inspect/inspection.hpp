@@ -2,13 +2,13 @@
 
 #include "app/inspect/file_kind.hpp"
 #include "app/inspect/trip_summary.hpp"
-#include "storage/trips/detection/log_detection.hpp"
+#include "estimator/common/progress.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 
 namespace macadam {
@@ -28,10 +28,13 @@ struct Inspection {
 
 /// Inspects a path: a file, or all trips and other files of a folder or an archive.
 ///
-/// \param tell  called for each of them; errors are part of the result.
+/// CSV files in an archive are inspected if it holds no other trips.
+///
+/// \param search  of the search for trips in a folder; its stop token ends the inspection.
+/// \param tell    called for each of them; errors are part of the result.
 void inspect(const std::filesystem::path& path,
              std::size_t max_files,
-             const std::stop_token& stop,
+             const Progress& search,
              const std::function<void(const Inspection&)>& tell);
 
 } // namespace macadam

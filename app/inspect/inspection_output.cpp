@@ -29,7 +29,7 @@ std::string column_name(const DetectedLog& log, std::size_t column) {
 
 /// Columns that serve an import and were not found, or not for sure.
 std::string missing_of(const DetectedLog& log, Confidence least) {
-    return missing_columns(log, needs_of_import(), least);
+    return missing_measurements(log, needs_of_import(), least);
 }
 
 std::string columns_text(const DetectedLog& log) {
@@ -42,7 +42,7 @@ std::string columns_text(const DetectedLog& log) {
         text += line("time",
                      fmt::format("{}, {}; {}: {}",
                                  names,
-                                 log.time->format,
+                                 unit_words(*log.time),
                                  word(log.time->confidence),
                                  log.time->reason));
     }
@@ -202,7 +202,7 @@ std::string json_of(const DetectedLog& log) {
     };
     if (log.time) {
         for (const auto column : log.time->columns) {
-            add("t_s", column, log.time->format, log.time->confidence, log.time->reason);
+            add("t_s", column, unit_words(*log.time), log.time->confidence, log.time->reason);
         }
     }
     for (const auto& channel : log.channels) {

@@ -4,7 +4,7 @@
 #include "estimator/common/gravity.hpp"
 #include "estimator/motion/gnss_latency.hpp"
 #include "estimator/motion/stretch.hpp"
-#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 
 #include <fmt/format.h>
 

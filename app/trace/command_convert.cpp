@@ -286,7 +286,7 @@ void make_folder(const fs::path& folder) {
 }
 
 void convert(const Task& task, const ConvertOptions& options, const Console& console) {
-    const TripNeeds all{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
+    const TripNeeds all{.acc = true, .gyro = true, .speed = true, .fixes = true};
     const auto& stop = console.stop();
     const auto trip = read_trip(task.trip, all, console.progress("reading"));
     if (const auto words = detected_text(trip.meta)) {

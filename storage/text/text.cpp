@@ -1,7 +1,10 @@
 #include "storage/text/text.hpp"
 
+#include "estimator/common/utf8.hpp"
+
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -17,13 +20,17 @@ std::string_view trimmed(std::string_view text) {
 
 std::string in_quotes(std::string_view text, std::size_t longest) {
     std::string result = "'";
-    for (const char c : text.substr(0, longest)) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte > 0x7e) {
-            result += fmt::format("\\x{:02x}", byte);
+    for (auto rest = text.substr(0, longest); !rest.empty();) {
+        const auto letter = rest.substr(0, std::max<std::size_t>(1, utf8_length(rest)));
+        const auto code = utf8_letter(letter);
+        if ((code >= 0x20 && code <= 0x7e) || (letter.size() > 1 && code >= 0xa0)) {
+            result += letter;
         } else {
-            result += c;
+            for (const char c : letter) {
+                result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+            }
         }
+        rest.remove_prefix(letter.size());
     }
     return result + (text.size() > longest ? "...'" : "'");
 }

@@ -9,8 +9,8 @@ namespace macadam {
 /// Strips blanks and tabs from both ends of `text`.
 std::string_view trimmed(std::string_view text);
 
-/// Quotes `text` for messages: at most `longest` bytes, with "..." where it is cut. Bytes other
-/// than printable ASCII appear as \x00.
+/// Quotes `text` for messages: at most `longest` bytes, with "..." where it is cut. Bytes that are
+/// neither printable ASCII nor letters in UTF-8 appear as \x00.
 std::string in_quotes(std::string_view text, std::size_t longest = 40);
 
 /// Parses the whole of `text` as a number; blanks around it and a leading '+' are allowed, and

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/tables/csv_cells.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/source/phone_export_files.hpp"
 #include "storage/trips/source/trip_contents.hpp"
@@ -73,6 +74,7 @@ std::optional<TripSource> ArchivedTrips::next() {
                 take(*name);
             } else {
                 end();
+                search_again();
             }
         }
     } catch (const InputError& error) {
@@ -82,13 +84,16 @@ std::optional<TripSource> ArchivedTrips::next() {
     if (ready_.empty()) {
         return std::nullopt;
     }
+    has_trips_ = true;
     auto trip = std::move(ready_.front());
     ready_.pop_front();
     return trip;
 }
 
 void ArchivedTrips::take(const std::string& name) {
-    if (sought_.mapping) {
+    if (detects_) {
+        take_detected(name);
+    } else if (sought_.mapping) {
         take_for_mapping(name);
     } else if (sought_.is_log != nullptr && sought_.is_log(name)) {
         take_log(name);
@@ -106,6 +111,7 @@ void ArchivedTrips::take(const std::string& name) {
 }
 
 void ArchivedTrips::pass_over(const std::string& name) {
+    has_tables_ = has_tables_ || is_table_name(name);
     if (other_files_++ == 0) {
         first_other_file_ = name;
     }
@@ -115,6 +121,44 @@ void ArchivedTrips::take_log(const std::string& name) {
     Files files;
     files.push_back(read(*files_, ""));
     ready_.push_back({.file = archive_, .member = name, .contents = contents_of(std::move(files))});
+}
+
+void ArchivedTrips::take_detected(const std::string& name) {
+    if (!is_table_name(name)) {
+        pass_over(name);
+        return;
+    }
+    const auto file = folder_and_file(name).second;
+    Files files;
+    files.push_back(read(*files_, file));
+    const auto contents = contents_of(std::move(files));
+    std::shared_ptr<const TripMapping> mapping;
+    if (contents->files.front().refusal.empty()) { // a damaged file is none of a known make
+        const auto sample = read_text_sample(*bytes_of(contents, file), name);
+        mapping = mapping_of_found(sample ? detect_log(*sample) : std::nullopt);
+    }
+    if (!mapping) {
+        pass_over(name);
+        return;
+    }
+    ready_.push_back({.file = archive_,
+                      .member = name,
+                      .files = {file},
+                      .mapping = std::move(mapping),
+                      .contents = contents});
+}
+
+/// Begins the second pass, if the first found CSV files alone.
+void ArchivedTrips::search_again() {
+    const bool is_wanted = sought_.is_log != nullptr && !sought_.mapping && !detects_ &&
+                           !has_trips_ && ready_.empty() && has_tables_;
+    if (is_wanted) {
+        detects_ = true;
+        ended_ = false;
+        other_files_ = 0;
+        first_other_file_.clear();
+        files_ = std::make_unique<ArchiveFiles>(archive_, sought_.max_files);
+    }
 }
 
 /// Adds a file to its export; a second file of the same name begins another export.

@@ -16,8 +16,9 @@ namespace macadam {
 struct TripContents;
 
 /// Finds the trips of an archive in one pass: single logs immediately, trips of several files when
-/// all of them were read. Each trip carries its contents. Reading a trip that could not be
-/// extracted throws the reason.
+/// all of them were read. Where logs are sought and there are none, a second pass takes the CSV
+/// files whose layout is detected for sure. Each trip carries its contents. Reading a trip that
+/// could not be extracted throws the reason.
 class ArchivedTrips {
 public:
     /// Selection of trips.
@@ -43,6 +44,7 @@ private:
 
     void take(const std::string& name);
     void take_log(const std::string& name);
+    void take_detected(const std::string& name);
     void take_for_export(const std::string& name);
     void take_for_mapping(const std::string& name);
     void hand_out_export(const std::string& folder);
@@ -50,6 +52,7 @@ private:
     void refuse(const std::string& member, const std::string& words);
     void pass_over(const std::string& name);
     void end();
+    void search_again();
 
     std::filesystem::path archive_;
     Sought sought_;
@@ -59,6 +62,9 @@ private:
     std::size_t other_files_ = 0;
     std::string first_other_file_;
     bool begun_ = false;
+    bool has_trips_ = false;
+    bool has_tables_ = false; ///< among the files that were passed over
+    bool detects_ = false;    ///< in the second pass
     bool ended_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "storage/trips/trip_file_names.hpp"
 
+#include "estimator/common/ascii.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/rawlog/rawlog_reader.hpp"
@@ -30,6 +31,11 @@ bool is_trip_name(std::string_view name) {
 bool is_archive_name(std::string_view name) {
     static constexpr std::string_view suffixes[] = {".zip", ".tar", ".tar.gz", ".tgz", ".tar.zst"};
     return ends_with_one(name, suffixes);
+}
+
+bool is_table_name(std::string_view name) {
+    static constexpr std::string_view suffixes[] = {".csv", ".csv.gz", ".csv.zst", ".txt", ".vbo"};
+    return ends_with_one(in_lower_case(name), suffixes);
 }
 
 std::pair<std::string, std::string> folder_and_file(const std::string& path) {

@@ -15,6 +15,10 @@ struct TripMapping;
 /// Tests for *.trip.csv[.gz|.zst] and *.rawlog.
 bool is_trip_name(std::string_view name);
 
+/// Tests for names that logs of other programs may have: *.csv[.gz|.zst], *.txt and *.vbo, in upper
+/// or lower case.
+bool is_table_name(std::string_view name);
+
 /// Tests for .zip, .tar, .tar.gz, .tgz, .tar.zst.
 bool is_archive_name(std::string_view name);
 

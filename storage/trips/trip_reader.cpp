@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/files/byte_stream.hpp"
 #include "storage/files/decompress.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/foreign_trip.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
 #include "storage/trips/foreign/trip_files.hpp"
@@ -53,11 +54,12 @@ TripSource with_mapping(TripSource source, std::shared_ptr<const TripMapping> ma
 }
 
 void expect_sure(const DetectedLog& log, const TripNeeds& needs, const std::string& name) {
-    if (const auto missing = missing_columns(log, needs, Confidence::sure); !missing.empty()) {
+    const auto missing = missing_measurements(log, needs, Confidence::sure);
+    if (!missing.empty()) {
         throw InputError{
-            fmt::format("{0}: not a Macadam log; read as a CSV file ({1}), it lacks {2}, or "
-                        "it is not sure which column has it: 'macadam inspect {0}' "
-                        "shows what was found and writes a mapping for --mapping",
+            fmt::format("{0}: not a Macadam log; read as a CSV file ({1}), not found or not sure: "
+                        "{2}. 'macadam inspect {0}' shows what was found and writes a mapping for "
+                        "--mapping",
                         name,
                         words_of(log),
                         missing)};

@@ -1,10 +1,9 @@
 #include "storage/trips/trip_search.hpp"
 
-#include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/archived_trips.hpp"
-#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
 #include "storage/trips/trip_file_names.hpp"
@@ -12,9 +11,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
-#include <string_view>
 #include <utility>
 
 namespace macadam {
@@ -64,18 +61,11 @@ TripSource mapped_trip(const fs::path& path, const std::shared_ptr<const TripMap
 
 /// Trip of a CSV file whose layout is detected for sure.
 std::optional<TripSource> detected_trip(const fs::path& path) {
-    constexpr std::array<std::string_view, 5> suffixes{
-        ".csv", ".csv.gz", ".csv.zst", ".txt", ".vbo"};
-    const auto name = in_lower_case(path.filename().string());
-    const bool is_asked =
-        std::ranges::any_of(suffixes, [&](auto suffix) { return name.ends_with(suffix); });
-    if (!is_asked || !fs::is_regular_file(path)) {
+    if (!is_table_name(path.filename().string()) || !fs::is_regular_file(path)) {
         return std::nullopt;
     }
     try {
-        const auto log = detect_log(path);
-        const bool is_result = log && std::ranges::find(log->names, "iri") != log->names.end();
-        auto mapping = log && !is_result ? sure_mapping(*log) : nullptr;
+        auto mapping = mapping_of_found(detect_log(path));
         return mapping ? std::optional{mapped_trip(path, mapping)} : std::nullopt;
     } catch (const InputError&) { // an unreadable file, which is counted with the others
         return std::nullopt;
@@ -153,11 +143,12 @@ void TripWalk::find_in_folder(const fs::path& folder) {
     }
     auto exports = exports_in(names);
     if (items.empty() && exports.empty() && !config_.mapping) { // perhaps the logs of another make
-        for (const auto& name : names) {
-            if (auto source = detected_trip(folder / name)) {
-                items.emplace_back(name, Item{.source = std::move(*source)});
-                others.erase(name);
+        for (std::size_t i = 0; i < names.size() && !config_.search.stop.stop_requested(); ++i) {
+            if (auto source = detected_trip(folder / names[i])) {
+                items.emplace_back(names[i], Item{.source = std::move(*source)});
+                others.erase(names[i]);
             }
+            config_.search(i + 1, names.size());
         }
     }
     for (auto& [inside, files] : exports) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/common/progress.hpp"
 #include "storage/files/archive.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
@@ -20,13 +21,17 @@ struct TripWalkConfig {
 
     bool tracks = false; ///< every *.gpx[.gz|.zst] is a trip as well: positions suffice
     std::size_t max_files = max_archive_files; ///< in an archive
+
+    /// Of the search for CSV files whose layout is detected, by files; ends it on request.
+    Progress search{};
 };
 
 /// Iterates over the trips of a path: the file itself, every *.trip.csv[.gz|.zst] below a folder in
 /// byte order of the relative paths, or every such file of a .zip, .tar, .tar.gz or .tar.zst
 /// archive in its order; and every export of phyphox or Sensor Logger, which is a folder, below a
-/// folder, in an archive, or in a .zip below a folder. In a folder without any of these, CSV files
-/// whose layout is detected for sure are trips (storage/trips/detection/log_detection.hpp).
+/// folder, in an archive, or in a .zip below a folder. In a folder or archive without any of these,
+/// CSV files whose layout is detected for sure are trips
+/// (storage/trips/detection/log_detection.hpp).
 ///
 /// An archive is read once, as far as trips are requested; its trips carry their contents.
 class TripWalk {

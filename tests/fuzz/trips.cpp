@@ -6,7 +6,7 @@
 #include "app/pipeline/pipeline.hpp"
 #include "estimator/motion/trip_motion.hpp"
 #include "mapping/inference/network_inference.hpp"
-#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/log/trip_writer.hpp"
@@ -145,8 +145,7 @@ bool can_be_told_apart(const TripLog& trip) {
 /// Our own writing is never refused.
 TripLog read_written(const TripSource& source) {
     try {
-        return read_trip(source,
-                         {.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}});
+        return read_trip(source, {.acc = true, .gyro = true, .speed = true, .fixes = true});
     } catch (const InputError& refusal) {
         throw std::logic_error{refusal.what()};
     }

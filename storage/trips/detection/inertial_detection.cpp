@@ -245,7 +245,7 @@ double large_rate(const Sensor& sensor) {
     return *at;
 }
 
-void add_rates(const Sensor& sensor, DetectedInertia& to) {
+void add_rates(const Sensor& sensor, bool is_moving, DetectedInertia& to) {
     // In a car, one rate in twenty exceeds 0.02 to 0.3 rad/s, which is 1 to 17 deg/s.
     constexpr double max_radps = 1.5;
     constexpr double sure_radps = 0.35;
@@ -253,7 +253,7 @@ void add_rates(const Sensor& sensor, DetectedInertia& to) {
     const double rate = large_rate(sensor);
     const bool may_be_rad = rate < max_radps;
     const bool may_be_deg = rate > sure_radps && rate < max_degps;
-    const bool is_rad = rate < sure_radps && rate > 0;
+    const bool is_rad = rate < sure_radps && rate > 0 && is_moving;
     const bool is_deg = rate >= max_radps && may_be_deg;
     const auto unit = !sensor.unit.empty() ? sensor.unit
                       : is_rad             ? "rad/s"
@@ -270,14 +270,16 @@ void add_rates(const Sensor& sensor, DetectedInertia& to) {
                  .confidence = agrees && !sensor.of_vehicle ? Confidence::sure : Confidence::likely,
                  .reason = sensor.of_vehicle ? "check its sign"
                            : agrees          ? "its values are those of a car"
-                                    : fmt::format("one value in twenty exceeds {:.3g}", rate)});
+                           : unit.empty() && rate < sure_radps
+                               ? "rad/s of a drive, or deg/s of a car that stands"
+                               : fmt::format("one value in twenty exceeds {:.3g}", rate)});
         }
     }
 }
 
 } // namespace
 
-DetectedInertia detect_inertia(const LogTable& table) {
+DetectedInertia detect_inertia(const LogTable& table, bool is_moving) {
     auto sensors = sensors_of(table, {Quantity::acceleration, Quantity::linear_acceleration});
     auto rates = sensors_of(table, {Quantity::angular_rate, Quantity::angular_rate_or_g});
     const auto g_or_rate = std::ranges::find(rates, Quantity::angular_rate_or_g, &Sensor::quantity);
@@ -303,7 +305,7 @@ DetectedInertia detect_inertia(const LogTable& table) {
         return sensors.empty() || sensor.of_vehicle != found.of_device;
     });
     if (rate != rates.end()) {
-        add_rates(*rate, found);
+        add_rates(*rate, is_moving, found);
     }
     return found;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "storage/trips/detection/position_detection.hpp"
+#include "storage/trips/detection/detected_channel.hpp"
+#include "storage/trips/detection/log_table.hpp"
 
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct DetectedInertia {
 
 /// Finds the accelerations and angular rates. Units follow from names and from gravity: the mean
 /// acceleration of a drive is 9.81 m/s2, 1 g or 1000 mg, and 0 if the logger has removed it.
-DetectedInertia detect_inertia(const LogTable& table);
+///
+/// \param is_moving  whether the car is known to move: rad/s of a drive are as small as deg/s of a
+///                   parked car.
+DetectedInertia detect_inertia(const LogTable& table, bool is_moving);
 
 } // namespace macadam

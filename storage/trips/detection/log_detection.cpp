@@ -3,6 +3,8 @@
 #include "estimator/common/error.hpp"
 #include "storage/files/decompress.hpp"
 #include "storage/tables/csv_cells.hpp"
+#include "storage/trips/detection/inertial_detection.hpp"
+#include "storage/trips/detection/position_detection.hpp"
 #include "storage/trips/foreign/built_in_mappings.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/log/trip_row.hpp"
@@ -67,250 +69,47 @@ bool is_own_log(const TextSample& sample) {
     return !sample.lines.empty() && sample.lines.front().starts_with("# macadam-trip");
 }
 
-bool is_sure_enough(Confidence confidence, Confidence least) {
-    return confidence == Confidence::sure || least == Confidence::likely;
-}
-
-const DetectedChannel* channel_in(const DetectedLog& log, std::string_view name) {
-    const auto found = std::ranges::find(log.channels, name, &DetectedChannel::channel);
-    return found == log.channels.end() ? nullptr : &*found;
-}
-
 /// Tests for channels whose numbers mean nothing without a unit.
 bool needs_unit(std::string_view channel) {
     return channel.starts_with("acc_") || channel.starts_with("gyro_") ||
            channel.ends_with("speed_mps");
 }
 
-bool has(const DetectedLog& log, std::string_view column, Confidence least) {
-    if (column == "t_s") {
-        return log.time && is_sure_enough(log.time->confidence, least);
-    }
-    const auto* const channel = channel_in(log, column);
-    return channel != nullptr &&
-           (!channel->unit.empty() || !needs_unit(column) || !log.built_in.empty()) &&
-           is_sure_enough(channel->confidence, least);
-}
-
 /// Tests for a column of which an import can make use. Lateral acceleration alone is no reason to
 /// read a file by what was detected.
 bool has_usable(const DetectedLog& log, std::string_view column, Confidence least) {
-    return column != "acc_y_mps2" && has(log, column, least);
+    return column != "acc_y_mps2" && log.has(column, least);
 }
 
-// --- the mapping file
-
-/// Text that a TOML remark may hold.
-std::string remark(std::string_view text) {
-    std::string safe;
-    for (const char letter : text) {
-        safe += letter >= ' ' && letter <= '~' ? letter : '?';
+/// Detects the positions; speeds along them settle a unit of the time that is a guess, and show
+/// that a time is wrong.
+DetectedPositions positions_with_time(const LogTable& table, std::optional<DetectedTime>& time) {
+    auto positions = detect_positions(table, time ? &*time : nullptr);
+    if (!time) {
+        return positions;
     }
-    return safe;
-}
-
-std::string toml_text(std::string_view text) {
-    std::string quoted = "\"";
-    for (const char letter : text) {
-        if (letter == '"' || letter == '\\') {
-            quoted += '\\';
-        }
-        quoted += letter;
-    }
-    return quoted + '"';
-}
-
-/// Pattern for the name of a column: '*' for letters beyond ASCII, whose encoding is not known;
-/// "" if it is no name of this column alone.
-std::string pattern_of(const DetectedLog& log, std::size_t column) {
-    const auto& names = log.dialect.names;
-    constexpr std::size_t max_length = 200; // comparing long names with several '*' takes long
-    constexpr std::ptrdiff_t max_stars = 2;
-    const bool are_short = std::ranges::all_of(
-        names, [](const std::string& name) { return name.size() <= max_length; });
-    if (!log.dialect.has_header || column > names.size() || !are_short) {
-        return "";
-    }
-    std::string pattern;
-    for (const char letter : names[column - 1]) {
-        const bool is_plain = letter >= ' ' && letter <= '~';
-        if (is_plain || !pattern.ends_with('*')) {
-            pattern += is_plain ? letter : '*';
+    if (time->is_guess && !positions.speed_agrees) {
+        for (auto& other : other_units_of(*time)) {
+            auto by_other = detect_positions(table, &other);
+            if (by_other.speed_agrees && !by_other.speed_contradicts) {
+                time = std::move(other);
+                positions = std::move(by_other);
+                break;
+            }
         }
     }
-    if (std::ranges::count(pattern, '*') > max_stars) {
-        return "";
+    if (time->is_guess && positions.speed_agrees) {
+        time->confidence = Confidence::sure;
+        time->reason = fmt::format("steps of {:.4g} s, by speed and positions", time->step_s);
+    } else if (positions.speed_contradicts && !positions.speed_agrees) {
+        time->confidence = Confidence::likely;
+        time->reason += "; contradicts speed or positions";
     }
-    const auto first =
-        std::ranges::find_if(names, [&](const auto& name) { return fits(name, pattern); });
-    const bool is_own = first - names.begin() + 1 == static_cast<std::ptrdiff_t>(column);
-    const bool says_something = pattern.find_first_not_of("* ") != std::string::npos;
-    return is_own && says_something ? pattern : "";
-}
-
-std::string column_text(const DetectedLog& log, std::size_t column) {
-    const auto pattern = pattern_of(log, column);
-    return pattern.empty() ? fmt::format("{}", column) : toml_text(pattern);
-}
-
-std::string separator_word(char separator) {
-    return separator == '\t' ? "tab" : separator == ' ' ? "blank" : std::string{separator};
-}
-
-std::string layout_toml(const DetectedLog& log, const std::string& files) {
-    const auto& dialect = log.dialect;
-    auto toml = files == "*.csv" ? "" : fmt::format("files = {}\n", toml_text(files));
-    if (dialect.separator != ',') {
-        toml += fmt::format("separator = {}\n", toml_text(separator_word(dialect.separator)));
-    }
-    if (dialect.decimal != '.') {
-        toml += "decimal = \",\"\n";
-    }
-    if (log.encoding == TextEncoding::utf16le) {
-        toml += "encoding = \"utf-16le\"\n";
-    }
-    if (!dialect.comment.empty()) {
-        toml += fmt::format("comment = {}\n", toml_text(dialect.comment));
-    }
-    if (!dialect.has_header) {
-        toml += "header = false\n";
-        toml += dialect.first_row > 0 ? fmt::format("skip_lines = {}\n", dialect.first_row) : "";
-    } else if (dialect.header_line > 0) {
-        toml += dialect.header_begins.empty()
-                    ? fmt::format("skip_lines = {}\n", dialect.header_line)
-                    : fmt::format("header_begins = {}\n", toml_text(dialect.header_begins));
-    }
-    if (dialect.has_header && dialect.rows_under_header > 0) {
-        toml += fmt::format("rows_under_header = {}\n", dialect.rows_under_header);
-    }
-    std::vector<std::string> empty;
-    std::ranges::transform(log.empty, std::back_inserter(empty), toml_text);
-    return toml + (empty.empty() ? "" : fmt::format("empty = [{}]\n", fmt::join(empty, ", ")));
-}
-
-std::string mounting_toml(const DetectedLog& log) {
-    if (log.gravity.empty()) {
-        return "";
-    }
-    if (!log.has_gravity) {
-        return "gravity = \"removed\"\n";
-    }
-    const bool has_all = channel_in(log, "acc_x_mps2") != nullptr &&
-                         channel_in(log, "acc_y_mps2") != nullptr &&
-                         channel_in(log, "acc_z_mps2") != nullptr;
-    return log.of_device && has_all
-               ? "frame = \"sensor\"\nmount = \"auto\"   # found from gravity and braking\n"
-               : "";
-}
-
-std::string confidence_word(Confidence confidence) {
-    return confidence == Confidence::sure ? "sure" : "likely, check";
-}
-
-std::string time_toml(const DetectedLog& log, Confidence least) {
-    if (!log.time || !is_sure_enough(log.time->confidence, least)) {
-        return "\n[time]\n# column = \"?\"   # not found: a column that increases from row to row\n"
-               "# format = \"s\"\n";
-    }
-    const auto& time = *log.time;
-    auto toml =
-        fmt::format("\n[time]   # {}: {}\n", confidence_word(time.confidence), remark(time.reason));
-    if (time.columns.size() == 1) {
-        toml += fmt::format("column = {}\n", column_text(log, time.columns.front()));
-    } else {
-        const bool named = std::ranges::none_of(
-            time.columns, [&](std::size_t column) { return pattern_of(log, column).empty(); });
-        std::vector<std::string> columns;
-        for (const auto column : time.columns) {
-            columns.push_back(named ? column_text(log, column) : fmt::format("{}", column));
-        }
-        toml += fmt::format("columns = [{}]\n", fmt::join(columns, ", "));
-    }
-    toml += fmt::format("format = {}\n", toml_text(time.format));
-    toml += time.since_1970 ? "epoch = \"unix\"\n" : "";
-    const bool is_local = !time.has_date && time.format.size() > 8;
-    return toml + (is_local ? "# utc_offset_h = 1   # local time minus UTC, for a date\n" : "");
-}
-
-std::string channel_toml(const DetectedLog& log, const DetectedChannel& channel) {
-    auto toml =
-        fmt::format("{} = {{column = {}", channel.channel, column_text(log, channel.column));
-    toml += channel.unit.empty() ? "" : fmt::format(", unit = {}", toml_text(channel.unit));
-    toml += channel.scale == 1 ? "" : fmt::format(", scale = {}", channel.scale);
-    toml += channel.sign == 1 ? "" : ", sign = -1";
-    toml += channel.minus_one_is_none ? ", invalid = [-1]" : "";
-    if (channel.hemisphere) {
-        toml += fmt::format(", hemisphere = {}", column_text(log, *channel.hemisphere));
-    }
-    return toml + fmt::format("}}   # {}: {}\n",
-                              confidence_word(channel.confidence),
-                              remark(channel.reason));
-}
-
-struct WantedColumn {
-    std::string_view channel;
-    std::string_view instead; ///< serves as well; "": none
-    std::string_view line;
-};
-
-constexpr WantedColumn wanted[] = {
-    {"acc_z_mps2",
-     "",
-     "acc_z_mps2 = {column = \"?\", unit = \"m/s2\"}   # not found: vertical acceleration"},
-    {"gnss_speed_mps",
-     "speed_mps",
-     "gnss_speed_mps = {column = \"?\", unit = \"km/h\"}   # not found: speed of the receiver, or "
-     "of the "
-     "wheels as speed_mps"},
-    {"lat_deg", "", "lat_deg = {column = \"?\"}   # not found: latitude"},
-    {"lon_deg", "", "lon_deg = {column = \"?\"}   # not found: longitude"},
-};
-
-std::string channels_toml(const DetectedLog& log, Confidence least) {
-    std::string toml = "\n[channels]\n";
-    for (const auto& channel : log.channels) {
-        const bool is_usable = has(log, channel.channel, least);
-        toml += is_usable ? channel_toml(log, channel) : "";
-        if (!is_usable && least == Confidence::likely) { // without a unit
-            toml += fmt::format("# {} = {{column = {}, unit = \"?\"}}   # {}\n",
-                                channel.channel,
-                                column_text(log, channel.column),
-                                remark(channel.reason));
-        }
-    }
-    for (const auto& [channel, instead, line] : wanted) {
-        if (channel_in(log, channel) == nullptr &&
-            (instead.empty() || channel_in(log, instead) == nullptr)) {
-            toml += fmt::format("# {}\n", line);
-        }
-    }
-    return toml;
-}
-
-/// Names of the columns that were not taken, for the reader of the mapping.
-std::string other_columns(const DetectedLog& log) {
-    constexpr std::size_t max_shown = 60;
-    std::vector<std::string> others;
-    for (std::size_t i = 0; i < log.names.size(); ++i) {
-        const bool is_channel = std::ranges::any_of(log.channels, [&](const auto& c) {
-            return c.column == i + 1 || c.hemisphere == i + 1;
-        });
-        const bool is_time =
-            log.time && std::ranges::find(log.time->columns, i + 1) != log.time->columns.end();
-        if (!is_channel && !is_time && !log.names[i].empty()) {
-            others.push_back(remark(log.names[i].substr(0, max_shown)));
-        }
-    }
-    const auto more = others.size() > max_shown ? others.size() - max_shown : 0;
-    others.resize(others.size() - more);
-    return others.empty() ? ""
-                          : fmt::format("\n# not used: {}{}\n",
-                                        fmt::join(others, "; "),
-                                        more > 0 ? fmt::format("; and {} more", more) : "");
+    return positions;
 }
 
 std::string unit_words(const DetectedLog& log, std::string_view channel, std::string_view name) {
-    const auto* const found = channel_in(log, channel);
+    const auto* const found = log.channel(channel);
     if (found == nullptr || found->confidence != Confidence::sure || found->unit.empty()) {
         return "";
     }
@@ -323,6 +122,20 @@ std::string unit_words(const DetectedLog& log, std::string_view channel, std::st
 }
 
 } // namespace
+
+const DetectedChannel* DetectedLog::channel(std::string_view name) const {
+    const auto found = std::ranges::find(channels, name, &DetectedChannel::channel);
+    return found == channels.end() ? nullptr : &*found;
+}
+
+bool DetectedLog::has(std::string_view column, Confidence least) const {
+    if (column == "t_s") {
+        return time && is_at_least(time->confidence, least);
+    }
+    const auto* const found = channel(column);
+    return found != nullptr && (!found->unit.empty() || !needs_unit(column) || !built_in.empty()) &&
+           is_at_least(found->confidence, least);
+}
 
 std::optional<DetectedLog> detect_log(const TextSample& sample) {
     auto dialect = is_own_log(sample) ? std::nullopt : detect_csv_dialect(sample.lines);
@@ -354,13 +167,13 @@ std::optional<DetectedLog> detect_log(const TextSample& sample) {
             log.time->confidence = Confidence::sure;
         }
     } else {
-        const auto inertia = detect_inertia(table);
+        auto positions = positions_with_time(table, log.time);
+        const auto inertia = detect_inertia(table, positions.is_moving);
         log.channels = inertia.channels;
         log.has_gravity = inertia.has_gravity;
         log.of_device = inertia.of_device;
         log.gravity = inertia.gravity;
-        std::ranges::move(detect_positions(table, log.time ? &*log.time : nullptr),
-                          std::back_inserter(log.channels));
+        std::ranges::move(positions.channels, std::back_inserter(log.channels));
     }
     if (log.time) {
         log.time->t_s = {};
@@ -374,8 +187,8 @@ std::optional<DetectedLog> detect_log(const std::filesystem::path& file) {
     return sample ? detect_log(*sample) : std::nullopt;
 }
 
-std::string missing_columns(const DetectedLog& log, const TripNeeds& needs, Confidence least) {
-    return missing_columns(
+std::string missing_measurements(const DetectedLog& log, const TripNeeds& needs, Confidence least) {
+    return missing_measurements(
         needs, [&](const std::string& column) { return has_usable(log, column, least); });
 }
 
@@ -392,33 +205,13 @@ std::string words_of(const DetectedLog& log) {
     words += dialect.decimal == ',' ? ", decimal commas" : "";
     words += dialect.has_header ? "" : ", no header";
     if (log.time) {
-        words += fmt::format(", time in {}", log.time->format);
+        words += fmt::format(", time in {}", unit_words(*log.time));
     }
     words += unit_words(log, "acc_z_mps2", "acceleration");
     words += unit_words(log, "gyro_z_radps", "rates");
     words += unit_words(log, "gnss_speed_mps", "GNSS speed");
     words += unit_words(log, "speed_mps", "speed");
     return words;
-}
-
-std::string mapping_toml(const DetectedLog& log, Confidence least, const std::string& files) {
-    if (!log.built_in.empty()) {
-        const auto built_in =
-            std::ranges::find(built_in_mappings(), log.built_in, &BuiltInMapping::name);
-        return std::string{built_in->toml};
-    }
-    return layout_toml(log, files) + mounting_toml(log) + time_toml(log, least) +
-           channels_toml(log, least) + other_columns(log);
-}
-
-std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log) {
-    if (!missing_columns(log, needs_of_match(), Confidence::sure).empty() &&
-        !missing_columns(log, needs_of_trace(), Confidence::sure).empty()) {
-        return nullptr;
-    }
-    auto mapping = parse_mapping(mapping_toml(log, Confidence::sure, "*"), "detected mapping");
-    mapping.meta.other[detected_key] = words_of(log);
-    return std::make_shared<const TripMapping>(std::move(mapping));
 }
 
 } // namespace macadam

@@ -3,7 +3,7 @@
 #include "estimator/common/statistics.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/text/text.hpp"
-#include "storage/trips/detection/unit_names.hpp"
+#include "storage/trips/foreign/unit_names.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -114,6 +114,22 @@ LogTable parse_log_table(const TextSample& sample, CsvDialect dialect) {
         table.columns.push_back(column_of(rows, i, table));
     }
     return table;
+}
+
+std::pair<double, double> nonzero_range(const std::vector<double>& values) {
+    std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                    -std::numeric_limits<double>::infinity()};
+    for (const double value : values) {
+        if (value != 0 && !std::isnan(value)) {
+            range = {std::min(range.first, value), std::max(range.second, value)};
+        }
+    }
+    return range;
+}
+
+bool are_whole(const std::vector<double>& values) {
+    return std::ranges::all_of(values,
+                               [](double v) { return std::isnan(v) || v == std::floor(v); });
 }
 
 double known_median(std::vector<double> values) {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace macadam {
@@ -33,6 +34,13 @@ struct LogTable {
 
 /// Parses the rows of a sample: at most a million cells.
 LogTable parse_log_table(const TextSample& sample, CsvDialect dialect);
+
+/// Smallest and largest value other than 0, which stands for no position; infinities if there is
+/// none.
+std::pair<double, double> nonzero_range(const std::vector<double>& values);
+
+/// Tests whether all values that are known are whole numbers.
+bool are_whole(const std::vector<double>& values);
 
 /// Median of the values that are numbers; NaN if there are none.
 double known_median(std::vector<double> values);

@@ -1,5 +1,7 @@
 #include "storage/trips/detection/position_detection.hpp"
 
+#include "storage/trips/detection/coordinate_detection.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,16 +20,18 @@ constexpr double metres_per_degree = 111'195; // of a great circle
 constexpr double deg_in_rad = std::numbers::pi / 180;
 
 constexpr double min_moving_mps = 3;    // slower fixes have no course
-constexpr double longest_step_s = 15;   // between fixes
+constexpr double shortest_step_s = 0.5; // between fixes; shorter ways are rounded off
+constexpr double longest_step_s = 15;
 constexpr std::size_t min_samples = 15; // of a comparison
 constexpr double near_ratio = 0.06;     // a knot is 15 % more than a mile per hour
 constexpr double close_ratio = 0.2;     // of a unit that is named
+constexpr double exact_ratio = 0.02;    // of a receiver's speed and the way
 constexpr double max_course_error_deg = 20;
-constexpr double largest_extent_deg = 10; // of a trip
 
 /// Way between two fixes that differ.
 struct Way {
     std::size_t row; ///< of the later one
+    double duration_s;
     double speed_mps;
     double course_deg;
 };
@@ -39,169 +43,29 @@ const LogColumn* first_of(const LogTable& table, Quantity quantity) {
     return found == table.columns.end() ? nullptr : &*found;
 }
 
-/// Extreme values other than 0, which stands for no position.
-std::pair<double, double> range_of(const std::vector<double>& values) {
-    std::pair<double, double> range{std::numeric_limits<double>::infinity(),
-                                    -std::numeric_limits<double>::infinity()};
-    for (const double value : values) {
-        if (value != 0 && !std::isnan(value)) {
-            range = {std::min(range.first, value), std::max(range.second, value)};
-        }
-    }
-    return range;
-}
-
-bool varies(const LogColumn& column) {
-    const auto [low, high] = range_of(column.values);
-    return high > low;
-}
-
-/// Column beside a coordinate that holds only the two letters of a hemisphere; null if there is
-/// none, or if the coordinate has a sign already.
-const LogColumn*
-hemisphere_column(const LogTable& table, const LogColumn& coordinate, std::string_view letters) {
-    if (range_of(coordinate.values).first < 0) {
-        return nullptr;
-    }
-    const auto is_letter = [&](const std::string& text) {
-        return text.empty() ||
-               (text.size() == 1 && letters.find(text.front()) != std::string_view::npos);
-    };
-    const auto found = std::ranges::find_if(table.columns, [&](const LogColumn& column) {
-        const bool is_beside =
-            column.number == coordinate.number + 1 || column.number + 1 == coordinate.number;
-        return is_beside && !column.texts.empty() && std::ranges::all_of(column.texts, is_letter);
-    });
-    return found == table.columns.end() ? nullptr : &*found;
-}
-
-/// One coordinate: how its numbers become degrees.
-struct Coordinate {
-    DetectedChannel channel{};
-    std::vector<double> deg{}; ///< by row
-};
-
-double degrees_of(double value, const DetectedChannel& channel) {
-    if (channel.unit != "ddmm.mmmm") {
-        return value * channel.scale * channel.sign;
-    }
-    const double whole = std::trunc(value / 100);
-    return whole + (value - 100 * whole) / 60;
-}
-
-/// \param hemisphere  its column; null: none
-void set_degrees(Coordinate& coordinate, const LogColumn& column, const LogColumn* hemisphere) {
-    constexpr std::string_view negative{"SWsw"};
-    for (std::size_t i = 0; i < column.values.size(); ++i) {
-        const double value = column.values[i];
-        const bool is_negated = hemisphere != nullptr && !hemisphere->texts[i].empty() &&
-                                negative.find(hemisphere->texts[i].front()) != negative.npos;
-        const double deg = value == 0 ? unknown : degrees_of(value, coordinate.channel);
-        coordinate.deg.push_back(is_negated ? -deg : deg);
-    }
-}
-
-double largest_of(const LogColumn& column) {
-    const auto [low, high] = range_of(column.values);
-    return std::max(std::abs(low), std::abs(high));
-}
-
-/// Tests whether two columns can be degrees. Both are written alike: near Greenwich, minutes of a
-/// longitude would pass for degrees.
-bool may_be_degrees(const LogColumn& lat, const LogColumn& lon) {
-    const auto fits = [](double largest, double limit) {
-        return largest <= limit || std::isinf(largest);
-    };
-    return fits(largest_of(lat), 90) && fits(largest_of(lon), 180);
-}
-
-bool are_minutes(const std::vector<double>& values) {
-    return std::ranges::all_of(
-        values, [](double v) { return std::isnan(v) || std::fmod(std::abs(v), 100) < 60; });
-}
-
-/// Reads degrees, ddmm.mmmm, minutes of VBOX files, and whole degrees times 1e7, 1e6 or 1e5.
-Coordinate coordinate_of(const LogTable& table,
-                         const LogColumn& column,
-                         bool is_latitude,
-                         bool may_be_degrees,
-                         double whole_scale) {
-    const double limit = is_latitude ? 90 : 180;
-    const auto [low, high] = range_of(column.values);
-    const double largest = std::max(std::abs(low), std::abs(high));
-    Coordinate read{.channel = {.channel = is_latitude ? "lat_deg" : "lon_deg",
-                                .column = column.number,
-                                .unit = ""},
-                    .deg = {}};
-    auto& channel = read.channel;
-    const auto* const hemisphere = hemisphere_column(table, column, is_latitude ? "NSns" : "EWew");
-    if (hemisphere != nullptr) {
-        channel.hemisphere = hemisphere->number;
-    }
-    const bool is_whole = std::ranges::all_of(
-        column.values, [](double v) { return std::isnan(v) || v == std::floor(v); });
-    const bool is_vbox = table.dialect.names.front() == "sats";
-    if (may_be_degrees && largest <= limit && (!is_whole || !varies(column))) {
-        channel.confidence = is_vbox ? Confidence::likely : Confidence::sure;
-        channel.reason = fmt::format("{:.2f} to {:.2f} degrees", low, high);
-    } else if (is_vbox && largest <= limit * 60) {
-        channel.scale = 1.0 / 60;
-        channel.sign = is_latitude ? 1 : -1; // west is positive
-        channel.confidence = Confidence::sure;
-        channel.reason = "minutes, as VBOX writes them";
-    } else if (largest < limit * 100 && are_minutes(column.values) && !is_whole) {
-        channel.unit = "ddmm.mmmm";
-        channel.confidence = channel.hemisphere ? Confidence::sure : Confidence::likely;
-        channel.reason = "degrees and minutes as in NMEA";
-    } else if (is_whole && largest >= 1e5) {
-        channel.scale = whole_scale;
-        channel.confidence = largest * whole_scale <= limit && whole_scale == 1e-7
-                                 ? Confidence::sure
-                                 : Confidence::likely;
-        channel.reason = fmt::format("whole numbers of {:g} degrees", channel.scale);
-    } else {
-        channel.reason = fmt::format("{:g} to {:g} are no degrees", low, high);
-    }
-    set_degrees(read, column, hemisphere);
-    if (high - low > largest_extent_deg / channel.scale) {
-        channel.confidence = Confidence::likely;
-        channel.reason += "; further apart than a trip is";
-    }
-    return read;
-}
-
-/// Scale of whole numbers, the same of both: the largest that is a position. That of 1e-7 is sure,
-/// as others would lie beyond the poles or the antimeridian.
-double whole_scale_of(const LogColumn& lat, const LogColumn& lon) {
-    for (const double scale : {1e-5, 1e-6}) {
-        if (largest_of(lat) * scale <= 90 && largest_of(lon) * scale <= 180) {
-            return scale;
-        }
-    }
-    return 1e-7;
-}
-
-/// Ways from each fix to the next one that differs.
-std::vector<Way> ways_of(const Coordinate& lat, const Coordinate& lon, const DetectedTime& time) {
+/// Ways from each fix to the next one that differs and is at least half a second later.
+std::vector<Way> ways_of(const Coordinates& at, const DetectedTime& time) {
+    const auto& lat_deg = at.latitude.deg;
+    const auto& lon_deg = at.longitude.deg;
     std::vector<Way> ways;
     std::optional<std::size_t> last;
     for (std::size_t i = 0; i < time.t_s.size(); ++i) {
-        if (std::isnan(lat.deg[i]) || std::isnan(lon.deg[i]) || std::isnan(time.t_s[i])) {
+        if (std::isnan(lat_deg[i]) || std::isnan(lon_deg[i]) || std::isnan(time.t_s[i])) {
             continue;
         }
-        if (last && lat.deg[i] == lat.deg[*last] && lon.deg[i] == lon.deg[*last]) {
+        const double step_s = last ? time.t_s[i] - time.t_s[*last] : -1;
+        const bool is_new = last && (lat_deg[i] != lat_deg[*last] || lon_deg[i] != lon_deg[*last]);
+        if (last && step_s >= 0 && (!is_new || step_s < shortest_step_s)) {
             continue;
         }
-        if (last) {
-            const double north_m = (lat.deg[i] - lat.deg[*last]) * metres_per_degree;
-            const double east_m = (lon.deg[i] - lon.deg[*last]) * metres_per_degree *
-                                  std::cos(lat.deg[i] * deg_in_rad);
-            const double step_s = time.t_s[i] - time.t_s[*last];
-            if (step_s > 0.02 && step_s < longest_step_s) {
-                ways.push_back({i,
-                                std::hypot(north_m, east_m) / step_s,
-                                std::atan2(east_m, north_m) / deg_in_rad});
-            }
+        if (is_new && step_s >= shortest_step_s && step_s < longest_step_s) {
+            const double north_m = (lat_deg[i] - lat_deg[*last]) * metres_per_degree;
+            const double east_m = (lon_deg[i] - lon_deg[*last]) * metres_per_degree *
+                                  std::cos(lat_deg[i] * deg_in_rad);
+            ways.push_back({i,
+                            step_s,
+                            std::hypot(north_m, east_m) / step_s,
+                            std::atan2(east_m, north_m) / deg_in_rad});
         }
         last = i;
     }
@@ -236,40 +100,57 @@ bool has_minus_one(const LogColumn& column) {
     return low == -1 && std::ranges::find(column.values, -1) != column.values.end();
 }
 
+/// Relative error of a unit, if the speeds are `ratio` times those of the way.
+double unit_error(double ratio, const SpeedUnit& unit) {
+    return std::abs(ratio * unit.mps - 1);
+}
+
+/// Unit that a name states, else the one that fits the way best.
+SpeedUnit unit_of(const LogColumn& column, double ratio) {
+    const auto* const named = std::ranges::find(speed_units, column.named.unit, &SpeedUnit::word);
+    return named != speed_units.end()
+               ? *named
+               : std::ranges::min(speed_units, std::less{}, [&](const SpeedUnit& unit) {
+                     return unit_error(ratio, unit);
+                 });
+}
+
 /// Decides the unit of a speed by its name, and by the way where that is known.
-DetectedChannel
-speed_of(const LogColumn& column, std::string channel, const std::vector<Way>& ways) {
+DetectedChannel speed_of(const LogColumn& column,
+                         std::string channel,
+                         const std::vector<Way>& ways,
+                         DetectedPositions& found) {
     DetectedChannel speed{.channel = std::move(channel),
                           .column = column.number,
                           .unit = column.named.unit,
                           .minus_one_is_none = has_minus_one(column)};
+    const bool is_named = !speed.unit.empty();
     const double ratio = speed_ratio(column, ways);
-    const auto error = [&](const SpeedUnit& unit) { return std::abs(ratio * unit.mps - 1); };
-    const auto nearest = std::ranges::min(speed_units, std::less{}, error);
-    if (speed.unit.empty()) {
-        speed.unit = std::isnan(ratio) ? "" : std::string{nearest.word};
-        speed.confidence = error(nearest) < near_ratio ? Confidence::sure : Confidence::likely;
-        speed.reason = std::isnan(ratio) ? "no unit in its name, and no positions to compare with"
-                       : error(nearest) < close_ratio
-                           ? "by the way between positions"
-                           : "contradicts the way between positions in every unit";
-    } else if (std::isnan(ratio)) {
-        speed.confidence = Confidence::sure;
-        speed.reason = "unit in its name";
-    } else {
-        const auto named = *std::ranges::find(speed_units, speed.unit, &SpeedUnit::word);
-        const bool agrees = error(named) < close_ratio;
-        speed.confidence = agrees ? Confidence::sure : Confidence::likely;
-        speed.reason = agrees
-                           ? "unit in its name, and by the way between positions"
-                           : fmt::format("contradicts the way between positions, which is {:.2f} "
-                                         "times as long",
-                                         1 / (ratio * named.mps));
+    if (std::isnan(ratio)) {
+        speed.confidence = is_named ? Confidence::sure : Confidence::likely;
+        speed.reason =
+            is_named ? "unit in its name" : "no unit in its name, and no positions to compare with";
+        return speed;
     }
+    const auto unit = unit_of(column, ratio);
+    const double error = unit_error(ratio, unit);
+    speed.unit = unit.word;
+    const bool agrees = error < (is_named ? close_ratio : near_ratio);
+    speed.confidence = agrees ? Confidence::sure : Confidence::likely;
+    speed.reason = is_named && agrees ? "unit in its name, and by the way between positions"
+                   : is_named
+                       ? fmt::format("contradicts the way between positions, which is {:.2f} "
+                                     "times as long",
+                                     1 / (ratio * unit.mps))
+                   : error < close_ratio ? "by the way between positions"
+                                         : "contradicts the way between positions in every unit";
+    found.speed_agrees = found.speed_agrees || agrees;
+    found.speed_contradicts = found.speed_contradicts || error >= close_ratio;
     return speed;
 }
 
-DetectedChannel course_of(const LogColumn& column, const std::vector<Way>& ways) {
+/// Median angle between a column of courses and the way; NaN if too few are known.
+double course_error_deg(const LogColumn& column, const std::vector<Way>& ways) {
     std::vector<double> errors_deg;
     for (const auto& way : ways) {
         const double value = column.values[way.row];
@@ -277,7 +158,11 @@ DetectedChannel course_of(const LogColumn& column, const std::vector<Way>& ways)
             errors_deg.push_back(std::abs(std::remainder(value - way.course_deg, 360)));
         }
     }
-    const double error_deg = errors_deg.size() < min_samples ? unknown : known_median(errors_deg);
+    return errors_deg.size() < min_samples ? unknown : known_median(std::move(errors_deg));
+}
+
+DetectedChannel course_of(const LogColumn& column, const std::vector<Way>& ways) {
+    const double error_deg = course_error_deg(column, ways);
     const bool agrees = error_deg < max_course_error_deg;
     return {.channel = "course_deg",
             .column = column.number,
@@ -291,7 +176,7 @@ DetectedChannel course_of(const LogColumn& column, const std::vector<Way>& ways)
 }
 
 DetectedChannel accuracy_of(const LogColumn& column) {
-    const auto [low, high] = range_of(column.values);
+    const auto [low, high] = nonzero_range(column.values);
     const bool plausible = (low > 0 || has_minus_one(column)) && known_median(column.values) < 500;
     return {.channel = "hacc_m",
             .column = column.number,
@@ -301,76 +186,142 @@ DetectedChannel accuracy_of(const LogColumn& column) {
             .reason = fmt::format("up to {:.0f}", high)};
 }
 
-/// Finds the speeds: the receiver's and the car's; one that does not say whose it is belongs to the
-/// receiver if there are positions.
-void add_speeds(const LogTable& table,
-                bool has_positions,
-                const std::vector<Way>& ways,
-                std::vector<DetectedChannel>& found) {
+/// Speeds of a log: the receiver's and the car's; null: none.
+struct Speeds {
+    const LogColumn* gnss = nullptr;
+    const LogColumn* car = nullptr;
+};
+
+/// Finds the speeds; one that does not say whose it is belongs to the receiver if there are
+/// positions.
+Speeds speeds_in(const LogTable& table, bool has_positions) {
     const auto* const plain = first_of(table, Quantity::speed);
-    const auto* gnss = first_of(table, Quantity::gnss_speed);
-    const auto* car = first_of(table, Quantity::vehicle_speed);
-    if (plain != nullptr && has_positions && gnss == nullptr) {
-        gnss = plain;
-    } else if (plain != nullptr && car == nullptr) {
-        car = plain;
+    Speeds speeds{first_of(table, Quantity::gnss_speed), first_of(table, Quantity::vehicle_speed)};
+    if (plain != nullptr && has_positions && speeds.gnss == nullptr) {
+        speeds.gnss = plain;
+    } else if (plain != nullptr && speeds.car == nullptr) {
+        speeds.car = plain;
     }
-    if (gnss != nullptr) {
-        found.push_back(speed_of(*gnss, "gnss_speed_mps", ways));
+    return speeds;
+}
+
+void add_speeds(const Speeds& speeds, const std::vector<Way>& ways, DetectedPositions& found) {
+    if (speeds.gnss != nullptr) {
+        found.channels.push_back(speed_of(*speeds.gnss, "gnss_speed_mps", ways, found));
     }
-    if (car != nullptr) {
-        found.push_back(speed_of(*car, "speed_mps", ways));
-        if (found.back().unit == "kn") { // no car counts in knots
-            found.back().unit = "";
-            found.back().confidence = Confidence::likely;
+    if (speeds.car != nullptr) {
+        auto speed = speed_of(*speeds.car, "speed_mps", ways, found);
+        if (speed.unit == "kn") { // no car counts in knots
+            speed.unit = "";
+            speed.confidence = Confidence::likely;
         }
+        found.channels.push_back(std::move(speed));
     }
 }
 
-/// Tests whether a speed contradicts the way: then time or positions are wrong.
-bool is_contradicted(const std::vector<DetectedChannel>& speeds) {
-    return std::ranges::any_of(speeds, [](const DetectedChannel& speed) {
-        return speed.reason.starts_with("contradicts");
-    });
+/// Which of two readings of the positions another column fits.
+enum class Verdict { open, as_named, exchanged };
+
+Verdict verdict_of(double error_as_named, double error_exchanged, double max_error, double margin) {
+    if (error_as_named < max_error && error_as_named + margin < error_exchanged) {
+        return Verdict::as_named;
+    }
+    return error_exchanged < max_error && error_exchanged + margin < error_as_named
+               ? Verdict::exchanged
+               : Verdict::open;
+}
+
+/// Tests whether course and speed fit only if the columns of latitude and longitude carry each
+/// other's names. Along a meridian or parallel the speed alone may leave that open.
+bool are_exchanged(const std::vector<Way>& as_named,
+                   const std::vector<Way>& exchanged,
+                   const LogColumn* course,
+                   const LogColumn* speed) {
+    const auto by_course = course == nullptr ? Verdict::open
+                                             : verdict_of(course_error_deg(*course, as_named),
+                                                          course_error_deg(*course, exchanged),
+                                                          max_course_error_deg,
+                                                          max_course_error_deg / 2);
+    const auto speed_error = [&](const std::vector<Way>& ways) {
+        const double ratio = speed_ratio(*speed, ways);
+        return unit_error(ratio, unit_of(*speed, ratio));
+    };
+    const auto by_speed =
+        speed == nullptr
+            ? Verdict::open
+            : verdict_of(speed_error(as_named), speed_error(exchanged), exact_ratio, exact_ratio);
+    const bool speaks_for = by_course == Verdict::exchanged || by_speed == Verdict::exchanged;
+    const bool speaks_against = by_course == Verdict::as_named || by_speed == Verdict::as_named;
+    return speaks_for && !speaks_against;
+}
+
+/// Reads the positions by the names of their columns, or with the names exchanged if course or
+/// speed show it.
+Coordinates positions_of(const LogTable& table,
+                         const LogColumn& lat,
+                         const LogColumn& lon,
+                         const DetectedTime& time,
+                         const LogColumn* speed) {
+    auto as_named = read_coordinates(table, lat, lon);
+    auto exchanged = read_coordinates(table, lon, lat);
+    if (!are_exchanged(ways_of(as_named, time),
+                       ways_of(exchanged, time),
+                       first_of(table, Quantity::course),
+                       speed)) {
+        return as_named;
+    }
+    for (auto* const channel : {&exchanged.latitude.channel, &exchanged.longitude.channel}) {
+        channel->confidence = Confidence::likely;
+        channel->reason += "; course or speed fit only if the names of latitude and longitude are "
+                           "exchanged";
+    }
+    return exchanged;
+}
+
+/// Tests whether a speed, or else the ways show that the car moved for at least half of the time.
+bool is_moving(const Speeds& speeds, const std::vector<Way>& ways, const DetectedTime* time) {
+    for (const auto* const column : {speeds.gnss, speeds.car}) {
+        if (column != nullptr) {
+            const auto unit = unit_of(*column, speed_ratio(*column, ways));
+            return known_median(column->values) * unit.mps > min_moving_mps;
+        }
+    }
+    double moving_s = 0;
+    for (const auto& way : ways) {
+        moving_s += way.speed_mps > min_moving_mps ? way.duration_s : 0;
+    }
+    const auto [first_s, last_s] = time == nullptr ? std::pair{0.0, 0.0} : nonzero_range(time->t_s);
+    return time != nullptr && !time->is_guess && moving_s * 2 > last_s - first_s;
 }
 
 } // namespace
 
-std::vector<DetectedChannel> detect_positions(const LogTable& table, const DetectedTime* time) {
-    std::vector<DetectedChannel> found;
+DetectedPositions detect_positions(const LogTable& table, const DetectedTime* time) {
+    DetectedPositions found;
     const auto* const lat = first_of(table, Quantity::latitude);
     const auto* const lon = first_of(table, Quantity::longitude);
-    std::vector<Way> ways;
     const bool has_positions = lat != nullptr && lon != nullptr;
+    const auto speeds = speeds_in(table, has_positions);
+    std::vector<Way> ways;
     if (has_positions) {
-        const double scale = whole_scale_of(*lat, *lon);
-        const bool in_degrees = may_be_degrees(*lat, *lon);
-        auto latitude = coordinate_of(table, *lat, true, in_degrees, scale);
-        auto longitude = coordinate_of(table, *lon, false, in_degrees, scale);
-        if (time != nullptr) {
-            ways = ways_of(latitude, longitude, *time);
-        }
-        found.push_back(std::move(latitude.channel));
-        found.push_back(std::move(longitude.channel));
+        const auto at = time == nullptr ? read_coordinates(table, *lat, *lon)
+                                        : positions_of(table, *lat, *lon, *time, speeds.gnss);
+        ways = time == nullptr ? ways : ways_of(at, *time);
+        found.channels = {at.latitude.channel, at.longitude.channel};
     }
-    if (has_positions && !varies(*lat) && !varies(*lon)) {
-        for (auto& channel : found) {
-            channel.confidence = Confidence::likely;
-            channel.reason += "; always the same";
-        }
-    }
-    add_speeds(table, has_positions, ways, found);
-    if (has_positions && is_contradicted(found)) {
+    add_speeds(speeds, ways, found);
+    if (has_positions && found.speed_contradicts) {
         for (std::size_t i = 0; i < 2; ++i) {
-            found[i].confidence = Confidence::likely;
-            found[i].reason += "; contradicts the speed";
+            found.channels[i].confidence = Confidence::likely;
+            found.channels[i].reason += "; contradicts the speed";
         }
     }
+    found.is_moving = is_moving(speeds, ways, time);
     if (const auto* const course = first_of(table, Quantity::course)) {
-        found.push_back(course_of(*course, ways));
+        found.channels.push_back(course_of(*course, ways));
     }
     if (const auto* const accuracy = first_of(table, Quantity::accuracy)) {
-        found.push_back(accuracy_of(*accuracy));
+        found.channels.push_back(accuracy_of(*accuracy));
     }
     return found;
 }

@@ -2,29 +2,23 @@
 
 #include "storage/trips/detection/time_detection.hpp"
 
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace macadam {
 
-/// Column that was read as a channel of the trip log.
-struct DetectedChannel {
-    std::string channel{}; ///< "acc_z_mps2"
-    std::size_t column;    ///< number, from 1
-    std::string unit{};    ///< word of mapping files; "": none
-    double scale = 1;
-    int sign = 1;
-    bool minus_one_is_none = false;          ///< -1 stands for an unknown value
-    std::optional<std::size_t> hemisphere{}; ///< number of its column
-    Confidence confidence = Confidence::likely;
-    std::string reason{}; ///< for people
+/// Positions, speeds, courses and accuracies of a log.
+struct DetectedPositions {
+    std::vector<DetectedChannel> channels{};
+    bool speed_agrees = false;      ///< with the way between positions, which confirms the time
+    bool speed_contradicts = false; ///< then time, positions or speed are wrong
+    bool is_moving = false;         ///< for at least half of the time
 };
 
 /// Finds positions, speeds, courses and accuracies. Speeds and courses are compared with the way
-/// from position to position.
+/// from position to position. They also tell latitude from longitude where the names of the two
+/// are exchanged.
 ///
 /// \param time  null if the log has none.
-std::vector<DetectedChannel> detect_positions(const LogTable& table, const DetectedTime* time);
+DetectedPositions detect_positions(const LogTable& table, const DetectedTime* time);
 
 } // namespace macadam

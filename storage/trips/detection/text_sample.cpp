@@ -1,6 +1,7 @@
 #include "storage/trips/detection/text_sample.hpp"
 
 #include "estimator/common/error.hpp"
+#include "estimator/common/utf8.hpp"
 #include "storage/tables/text_lines.hpp"
 #include "storage/trips/foreign/text_decoding.hpp"
 #include "storage/trips/source/trip_contents.hpp"
@@ -40,6 +41,21 @@ bool is_unmarked_utf16(std::string_view bytes) {
     return size >= 16 && ascii * 10 >= size / 2 * 9;
 }
 
+/// Tests whether most letters beyond ASCII are no UTF-8; then the lines are taken for ISO 8859-1.
+bool is_latin1(const std::vector<std::string>& lines) {
+    std::size_t letters = 0;
+    std::size_t stray_bytes = 0;
+    for (std::string_view line : lines) {
+        while (!line.empty()) {
+            const auto length = utf8_length(line);
+            letters += length > 1 ? 1U : 0U;
+            stray_bytes += length == 0 ? 1U : 0U;
+            line.remove_prefix(std::max<std::size_t>(1, length));
+        }
+    }
+    return stray_bytes > letters;
+}
+
 } // namespace
 
 std::optional<TextSample> read_text_sample(ByteStream& bytes, const std::string& name) {
@@ -54,17 +70,19 @@ std::optional<TextSample> read_text_sample(ByteStream& bytes, const std::string&
     const auto kept = std::make_shared<const TripContents>(std::move(contents));
     try {
         TextLines lines{decoded(bytes_of(kept, ""), sample.encoding, name), name};
-        while (const auto line = lines.next()) {
+        for (auto line = lines.next(); line && sample.lines.size() < max_lines;) {
             sample.lines.emplace_back(*line);
-            if (sample.lines.size() == max_lines) {
-                return sample;
-            }
+            line = lines.next();
         }
     } catch (const InputError&) { // a NUL byte, or a line without end
         return std::nullopt;
     }
-    if (is_cut && !sample.lines.empty()) {
+    if (is_cut && sample.lines.size() < max_lines && !sample.lines.empty()) {
         sample.lines.pop_back();
+    }
+    if (is_latin1(sample.lines)) {
+        sample.encoding = TextEncoding::latin1;
+        std::ranges::transform(sample.lines, sample.lines.begin(), utf8_of_latin1);
     }
     return sample;
 }

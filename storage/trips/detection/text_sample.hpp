@@ -12,7 +12,7 @@ namespace macadam {
 
 /// First lines of a text file, from which its layout is detected.
 struct TextSample {
-    std::vector<std::string> lines{}; ///< without line ends, in UTF-8 or a superset of ASCII
+    std::vector<std::string> lines{};           ///< without line ends, in UTF-8
     TextEncoding encoding = TextEncoding::utf8; ///< what a mapping has to state
 };
 

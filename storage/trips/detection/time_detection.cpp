@@ -1,8 +1,8 @@
 #include "storage/trips/detection/time_detection.hpp"
 
 #include "storage/text/text.hpp"
-#include "storage/trips/detection/unit_names.hpp"
 #include "storage/trips/foreign/time_parsing.hpp"
+#include "storage/trips/foreign/unit_names.hpp"
 
 #include <fmt/format.h>
 
@@ -88,11 +88,6 @@ bool is_like_time(const Steps& steps) {
     return steps.rising >= min_rising_share && steps.falling <= max_falling_share;
 }
 
-bool are_whole(const std::vector<double>& values) {
-    return std::ranges::all_of(values,
-                               [](double v) { return std::isnan(v) || v == std::floor(v); });
-}
-
 std::vector<double> scaled(std::vector<double> values, double factor) {
     for (auto& value : values) {
         value *= factor;
@@ -100,25 +95,13 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
     return values;
 }
 
-/// Unit of a count by its steps, as rows come at 0.5 to 1000 Hz.
-struct CountUnit {
-    NumberUnit unit;
-    Confidence confidence;
-};
-
-CountUnit unit_by_steps(double step, bool whole) {
+/// Unit of a count by its steps, as rows come at 0.5 to 1000 Hz. It is a guess but for small steps
+/// with decimals, which are seconds.
+NumberUnit unit_by_steps(double step, bool whole) {
     if (!whole) {
-        const bool is_ms = step >= 5; // 5.03 ms, not 5.03 s
-        return {number_units[is_ms ? 1 : 0], step > 1.5 ? Confidence::likely : Confidence::sure};
+        return number_units[step >= 5 ? 1 : 0]; // 5.03 ms, not 5.03 s
     }
-    if (step <= 1) {
-        return {number_units[0], Confidence::likely};
-    }
-    if (step <= 1500) {
-        return {number_units[1], step <= 500 ? Confidence::sure : Confidence::likely};
-    }
-    return step < 2e5 ? CountUnit{number_units[2], Confidence::sure}
-                      : CountUnit{number_units[3], Confidence::sure};
+    return number_units[step <= 1 ? 0 : step <= 1500 ? 1 : step < 2e5 ? 2 : 3];
 }
 
 /// Reads a column as hhmmss, if all its values are such.
@@ -195,23 +178,27 @@ std::optional<DetectedTime> as_number(const LogColumn& column) {
     if (auto clock = as_compact_clock(column)) {
         return clock;
     }
-    auto [unit, confidence] = unit_by_steps(steps.median_s, are_whole(column.values));
-    if (is_named) {
-        unit = *named;
-        confidence = named_step_s >= shortest_step_s && named_step_s <= longest_step_s
-                         ? Confidence::sure
-                         : Confidence::likely;
-    } else if (names_other_unit(column.name) || steps.median_s * unit.unit_s < shortest_step_s) {
-        confidence = Confidence::likely; // a longitude rises, too
-    } else if (ascii_lower(column.name).find("milli") != std::string::npos) {
-        confidence = unit.word == "ms" ? Confidence::sure : Confidence::likely;
-        unit = number_units[1];
-    }
-    return DetectedTime{.columns = {column.number},
-                        .format = std::string{unit.word},
-                        .confidence = confidence,
-                        .reason = fmt::format("steps of {:.4g} s", steps.median_s * unit.unit_s),
-                        .t_s = scaled(column.values, unit.unit_s)};
+    const bool is_whole = are_whole(column.values);
+    const bool is_milli = ascii_lower(column.name).find("milli") != std::string::npos;
+    const auto by_steps = unit_by_steps(steps.median_s, is_whole);
+    const auto unit = is_named ? *named : is_milli ? number_units[1] : by_steps;
+    const double step_s = steps.median_s * unit.unit_s;
+    const bool is_guess = !is_named && !is_milli && !names_other_unit(column.name) &&
+                          step_s >= shortest_step_s && // a longitude rises, too
+                          (is_whole || steps.median_s > 1.5);
+    const bool is_sure =
+        is_named   ? step_s >= shortest_step_s && step_s <= longest_step_s
+        : is_milli ? by_steps.word == unit.word
+                   : !is_guess && step_s >= shortest_step_s && !names_other_unit(column.name);
+    return DetectedTime{
+        .columns = {column.number},
+        .format = std::string{unit.word},
+        .is_guess = is_guess,
+        .confidence = is_sure ? Confidence::sure : Confidence::likely,
+        .step_s = step_s,
+        .reason =
+            fmt::format("steps of {:.4g} s{}", step_s, is_guess ? ", a guess by their size" : ""),
+        .t_s = scaled(column.values, unit.unit_s)};
 }
 
 std::vector<std::string> joined(const LogColumn& date, const LogColumn& clock) {
@@ -339,6 +326,29 @@ auto rank(const DetectedTime& time) {
 
 } // namespace
 
+std::vector<DetectedTime> other_units_of(const DetectedTime& time) {
+    std::vector<DetectedTime> others;
+    const auto guess = *std::ranges::find(number_units, time.format, &NumberUnit::word);
+    for (const auto& unit : number_units) {
+        for (const double scale : {1.0, 0.1, 0.01}) {
+            if (unit.word == "ns" || (unit.word == time.format && scale == 1)) {
+                continue;
+            }
+            auto other = time;
+            other.format = unit.word;
+            other.scale = scale;
+            other.t_s = scaled(time.t_s, scale * unit.unit_s / guess.unit_s);
+            other.step_s = steps_of(other.t_s).median_s;
+            others.push_back(std::move(other));
+        }
+    }
+    return others;
+}
+
+std::string unit_words(const DetectedTime& time) {
+    return time.scale == 1 ? time.format : fmt::format("{:g} {}", time.scale, time.format);
+}
+
 std::optional<DetectedTime> detect_time(const LogTable& table) {
     auto found = candidates_in(table);
     if (found.empty()) {
@@ -346,8 +356,9 @@ std::optional<DetectedTime> detect_time(const LogTable& table) {
     }
     auto best = std::ranges::max_element(
         found, [](const auto& a, const auto& b) { return rank(a) < rank(b); });
-    if (std::get<0>(rank(*best)) == false && best->confidence == Confidence::sure) {
+    if (!std::get<0>(rank(*best)) && (best->confidence == Confidence::sure || best->is_guess)) {
         best->confidence = Confidence::likely;
+        best->is_guess = false;
         best->reason += "; coarser than the rows";
     }
     return std::move(*best);

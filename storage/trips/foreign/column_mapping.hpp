@@ -54,6 +54,7 @@ struct ChannelMapping {
 enum class TextEncoding : std::uint8_t {
     utf8, ///< or any superset of ASCII; UTF-16 is recognised by its byte order mark
     utf16le,
+    latin1, ///< ISO 8859-1
 };
 
 /// File of a foreign log.

@@ -43,8 +43,8 @@ constexpr std::array<std::string_view, 13> table_keys{"files",
                                                       "axes",
                                                       "time",
                                                       "channels"};
-constexpr std::array<std::string_view, 7> time_keys{
-    "column", "columns", "format", "epoch", "utc_offset_h", "fraction_s", "shift_s"};
+constexpr std::array<std::string_view, 8> time_keys{
+    "column", "columns", "format", "scale", "epoch", "utc_offset_h", "fraction_s", "shift_s"};
 constexpr std::array<std::string_view, 7> channel_keys{
     "column", "unit", "scale", "offset", "sign", "invalid", "hemisphere"};
 
@@ -164,6 +164,14 @@ struct TimeWord {
     double unit_s;
 };
 
+/// Factor of a count: 0.1 and the format "ms" are steps of 0.1 ms.
+double time_scale_of(const TomlTable& table, TimeFormat format) {
+    if (table.has("scale") && format != TimeFormat::number) {
+        table.refuse("scale", "no such key except for the formats s, ms, us and ns");
+    }
+    return table.maybe_number("scale", positive_number).value_or(1);
+}
+
 TimeMapping time_of(const TomlTable& table) {
     static constexpr std::pair<std::string_view, TimeWord> formats[] = {
         {"s", {TimeFormat::number, 1}},
@@ -186,7 +194,7 @@ TimeMapping time_of(const TomlTable& table) {
     const auto [format, unit_s] = one_of(table, "format", formats);
     TimeMapping time{.columns = {},
                      .format = format,
-                     .unit_s = unit_s,
+                     .unit_s = unit_s * time_scale_of(table, format),
                      .since_1970 = table.has("epoch") && one_of(table, "epoch", epochs),
                      .utc_offset_s = table.maybe_number("utc_offset_h"),
                      .fraction_s = table.maybe_number("fraction_s", positive_number),
@@ -236,7 +244,9 @@ TableMapping with_text_keys(TableMapping mapping, const TomlTable& table) {
         {",", ','}, {";", ';'}, {"tab", '\t'}, {"blank", ' '}, {"|", '|'}};
     static constexpr std::pair<std::string_view, char> decimals[] = {{".", '.'}, {",", ','}};
     static constexpr std::pair<std::string_view, TextEncoding> encodings[] = {
-        {"utf-8", TextEncoding::utf8}, {"utf-16le", TextEncoding::utf16le}};
+        {"utf-8", TextEncoding::utf8},
+        {"utf-16le", TextEncoding::utf16le},
+        {"latin-1", TextEncoding::latin1}};
 
     if (table.has("separator")) {
         mapping.separator = one_of(table, "separator", separators);

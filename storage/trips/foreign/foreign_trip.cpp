@@ -49,13 +49,10 @@ bool gives(const TripHeader& header, const std::string& column) {
 }
 
 void expect_channels(const TripMapping& mapping, const TripHeader& header, const TripNeeds& needs) {
-    for (const auto& group : needs.columns) {
-        if (!std::any_of(group.begin(), group.end(), [&](const std::string& column) {
-                return gives(header, column);
-            })) {
-            throw InputError{fmt::format(
-                "{}: gives no {}, expected one", mapping.where, fmt::join(group, " or "))};
-        }
+    const auto has = [&](const std::string& column) { return gives(header, column); };
+    if (const auto missing = missing_measurements(needs, has); !missing.empty()) {
+        throw InputError{fmt::format(
+            "{}: gives no {}, expected {}", mapping.where, missing, missing_columns(needs, has))};
     }
 }
 

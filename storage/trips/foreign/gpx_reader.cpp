@@ -307,7 +307,7 @@ constexpr std::array<std::string_view, 6> given_columns{
     "t_s", "lat_deg", "lon_deg", "gnss_speed_mps", "course_deg", "hacc_m"};
 
 void expect_positions_to_do(const TripNeeds& needs, const std::string& name) {
-    const auto missing = missing_columns(needs, [](const std::string& column) {
+    const auto missing = missing_measurements(needs, [](const std::string& column) {
         return std::ranges::find(given_columns, column) != given_columns.end();
     });
     if (!missing.empty()) {

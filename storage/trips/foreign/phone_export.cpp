@@ -280,8 +280,8 @@ TripMapping logger_mapping(const TripSource& source) {
 
 void expect_files_of_export(const TripSource& source, const TripNeeds& needs) {
     const auto needed = [&](const std::string& column) {
-        return std::any_of(needs.columns.begin(), needs.columns.end(), [&](const auto& group) {
-            return std::find(group.begin(), group.end(), column) != group.end();
+        return std::ranges::any_of(needs.required, [&](const NeededMeasurement& one) {
+            return std::ranges::find(one.columns, column) != one.columns.end();
         });
     };
     if ((needed("lat_deg") || needed("gnss_speed_mps")) && found(source, location_files).empty()) {

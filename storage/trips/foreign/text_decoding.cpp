@@ -77,8 +77,7 @@ private:
 class DecodedBytes final : public ByteStream {
 public:
     DecodedBytes(std::unique_ptr<ByteStream> from, TextEncoding encoding, std::string name)
-        : from_{std::move(from)}, is_utf16_{encoding == TextEncoding::utf16le}, name_{std::move(
-                                                                                    name)} {}
+        : from_{std::move(from)}, encoding_{encoding}, name_{std::move(name)} {}
 
     std::size_t read(std::span<char> into) override {
         while (next_ == ready_.size() && !ended_) {
@@ -108,7 +107,9 @@ private:
         if (!begun_) {
             begin_with(bytes);
         }
-        ready_ = is_utf16_ ? decode_(bytes) : std::string{bytes};
+        ready_ = encoding_ == TextEncoding::utf16le  ? decode_(bytes)
+                 : encoding_ == TextEncoding::latin1 ? utf8_of_latin1(bytes)
+                                                     : std::string{bytes};
         next_ = 0;
     }
 
@@ -118,11 +119,11 @@ private:
             throw InputError{fmt::format(
                 "{}: is UTF-16 with the high byte first, expected UTF-8 or UTF-16LE", name_)};
         }
-        is_utf16_ = is_utf16_ || bytes.starts_with("\xff\xfe");
+        encoding_ = bytes.starts_with("\xff\xfe") ? TextEncoding::utf16le : encoding_;
     }
 
     std::unique_ptr<ByteStream> from_;
-    bool is_utf16_;
+    TextEncoding encoding_;
     std::string name_;
     Utf16Decoder decode_;
     std::string ready_;
@@ -132,6 +133,14 @@ private:
 };
 
 } // namespace
+
+std::string utf8_of_latin1(std::string_view text) {
+    std::string utf8;
+    for (const char letter : text) {
+        append_utf8(static_cast<unsigned char>(letter), utf8);
+    }
+    return utf8;
+}
 
 std::unique_ptr<ByteStream>
 decoded(std::unique_ptr<ByteStream> from, TextEncoding encoding, const std::string& name) {

@@ -5,11 +5,15 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace macadam {
 
+/// Converts a text in ISO 8859-1 to UTF-8.
+std::string utf8_of_latin1(std::string_view text);
+
 /// Converts `from` to UTF-8. Little-endian UTF-16 is decoded if stated or marked by a byte order
-/// mark; anything else passes through unchanged.
+/// mark, ISO 8859-1 if stated; anything else passes through unchanged.
 ///
 /// \throws InputError  on reading, if the mark is that of big-endian UTF-16.
 std::unique_ptr<ByteStream>

@@ -265,7 +265,7 @@ void expect_columns(const Columns& columns,
                     const Content& content,
                     const std::string& name) {
     const auto missing =
-        missing_columns(needs, [&](const std::string& column) { return columns.has(column); });
+        missing_measurements(needs, [&](const std::string& column) { return columns.has(column); });
     if (missing.empty()) {
         return;
     }

@@ -3,11 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace macadam {
 
+namespace {
+
+NeededMeasurement time() {
+    return {"time", "", {"t_s"}};
+}
+
+NeededMeasurement latitude() {
+    return {"position", "latitude", {"lat_deg"}};
+}
+
+NeededMeasurement longitude() {
+    return {"position", "longitude", {"lon_deg"}};
+}
+
+std::vector<NeededMeasurement> missing_in(const TripNeeds& needs, const ColumnTest& has) {
+    std::vector<NeededMeasurement> missing;
+    std::ranges::copy_if(
+        needs.required, std::back_inserter(missing), [&](const NeededMeasurement& needed) {
+            return std::ranges::none_of(needed.columns, has);
+        });
+    return missing;
+}
+
+} // namespace
+
 TripNeeds needs_of_match() {
-    return {.speed = true, .fixes = true, .columns = {{"t_s"}, {"lat_deg"}, {"lon_deg"}}};
+    return {.speed = true, .fixes = true, .required = {time(), latitude(), longitude()}};
 }
 
 TripNeeds needs_of_match_with_heading() {
@@ -21,32 +47,47 @@ TripNeeds needs_of_trace() {
             .gyro = true,
             .speed = true,
             .fixes = true,
-            .columns = {{"t_s"},
-                        {"acc_z_mps2", "acc_y_mps2"},
-                        {"speed_mps",
-                         "gnss_speed_mps",
-                         "wheel_fl_mps",
-                         "wheel_fr_mps",
-                         "wheel_rl_mps",
-                         "wheel_rr_mps"}}};
+            .required = {time(),
+                         {"vertical acceleration", "", {"acc_z_mps2", "acc_y_mps2"}},
+                         {"speed of the car or of the receiver",
+                          "",
+                          {"speed_mps",
+                           "gnss_speed_mps",
+                           "wheel_fl_mps",
+                           "wheel_fr_mps",
+                           "wheel_rl_mps",
+                           "wheel_rr_mps"}}}};
 }
 
 TripNeeds needs_of_import() {
     auto needs = needs_of_trace();
-    needs.columns.push_back({"lat_deg"});
-    needs.columns.push_back({"lon_deg"});
+    needs.required.push_back(latitude());
+    needs.required.push_back(longitude());
     return needs;
 }
 
-std::string missing_columns(const TripNeeds& needs,
-                            const std::function<bool(const std::string& column)>& has) {
-    std::vector<std::string> missing;
-    for (const auto& group : needs.columns) {
-        if (std::ranges::none_of(group, has)) {
-            missing.push_back(fmt::format("{}", fmt::join(group, " or ")));
+std::string missing_measurements(const TripNeeds& needs, const ColumnTest& has) {
+    std::vector<std::string> words;
+    std::string last;
+    for (const auto& [name, part, columns] : missing_in(needs, has)) {
+        if (!part.empty() && name == last) {
+            words.back().replace(words.back().size() - 1, 1, fmt::format(", {})", part));
+        } else {
+            words.push_back(part.empty() ? name : fmt::format("{} ({})", name, part));
         }
+        last = name;
     }
-    return fmt::format("{}", fmt::join(missing, " and "));
+    return fmt::format("{}", fmt::join(words, "; "));
+}
+
+std::string missing_columns(const TripNeeds& needs, const ColumnTest& has) {
+    std::vector<std::string> names;
+    for (const auto& needed : missing_in(needs, has)) {
+        const auto& columns = needed.columns;
+        names.push_back(columns.size() == 1 ? columns[0]
+                                            : fmt::format("{} or {}", columns[0], columns[1]));
+    }
+    return fmt::format("{}", fmt::join(names, " and "));
 }
 
 std::string TripSource::name() const {

@@ -11,16 +11,22 @@ namespace macadam {
 struct TripMapping;  // storage/trips/foreign/column_mapping.hpp
 struct TripContents; // storage/trips/source/trip_contents.hpp
 
+/// Measurement that a command requires.
+struct NeededMeasurement {
+    std::string name; ///< for people: "position"
+    std::string part; ///< "latitude"; "": all of it
+
+    /// Columns of the trip log of which one suffices, the preferred ones first.
+    std::vector<std::string> columns;
+};
+
 /// Sensors to keep; rows of other sensors are counted but not stored.
 struct TripNeeds {
     bool acc = false;
     bool gyro = false;
     bool speed = false;
     bool fixes = false;
-
-    /// Required columns, as groups of alternatives of which one suffices: {{"t_s"}, {"acc_z_mps2",
-    /// "acc_y_mps2"}}.
-    std::vector<std::vector<std::string>> columns;
+    std::vector<NeededMeasurement> required{};
 };
 
 TripNeeds needs_of_match();
@@ -28,10 +34,16 @@ TripNeeds needs_of_match_with_heading(); ///< including yaw rates, and gravity t
 TripNeeds needs_of_trace();
 TripNeeds needs_of_import();
 
-/// Names the required columns that a log lacks, as in "t_s and acc_z_mps2 or acc_y_mps2"; "" if it
-/// has all.
-std::string missing_columns(const TripNeeds& needs,
-                            const std::function<bool(const std::string& column)>& has);
+/// Tests for a column of the trip log.
+using ColumnTest = std::function<bool(const std::string& column)>;
+
+/// Names what a log lacks, for people: "vertical acceleration; position (latitude, longitude)"; ""
+/// if it has all.
+std::string missing_measurements(const TripNeeds& needs, const ColumnTest& has);
+
+/// Names the columns that a trip log lacks, of alternatives the first two: "lat_deg and lon_deg",
+/// "speed_mps or gnss_speed_mps"; "" if it has all.
+std::string missing_columns(const TripNeeds& needs, const ColumnTest& has);
 
 /// Origin of a trip: a file, a member of an archive, a folder or archive with the export of a
 /// phone, or a foreign file with its mapping.

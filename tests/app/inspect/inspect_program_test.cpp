@@ -1,4 +1,5 @@
 #include "support/program/program.hpp"
+#include "support/program/shell.hpp"
 #include "support/roads/drive.hpp"
 
 #include <fmt/format.h>
@@ -77,12 +78,11 @@ TEST(Inspect, IsNamedByCommandsThatAreNotSureOfAColumn) {
     const auto traced = run_macadam({"trace", log});
     EXPECT_EQ(traced.exit_status, 1);
     EXPECT_THAT(traced.err,
-                AllOf(HasSubstr("it lacks acc_z_mps2 or acc_y_mps2, or it is not sure which column "
-                                "has it: 'macadam inspect "),
+                AllOf(HasSubstr("not found or not sure: vertical acceleration. 'macadam inspect "),
                       HasSubstr("writes a mapping for --mapping")));
-    EXPECT_THAT(
-        run_macadam({"inspect", log}).out,
-        AllOf(HasSubstr("not found      acc_z_mps2"), HasSubstr("# acc_z_mps2 = {column = \"?\"")));
+    EXPECT_THAT(run_macadam({"inspect", log}).out,
+                AllOf(HasSubstr("not found      vertical acceleration\n"),
+                      HasSubstr("# acc_z_mps2 = {column = \"?\"")));
 }
 
 TEST(Inspect, SaysOfEveryKindOfFileWhichCommandTakesIt) {
@@ -108,6 +108,39 @@ TEST(Inspect, SaysOfEveryKindOfFileWhichCommandTakesIt) {
     }
 }
 
+TEST(Inspect, NamesLogsOfACanBusByTheirContentsAndSaysThatTheyAreNotRead) {
+    const auto folder = fresh_folder();
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"LOGG\x90 and 144 bytes", "CAN log (Vector BLF)"},
+        {"date Sat Sep 30 15:06:13.191 2017\r\nbase hex  timestamps absolute\r\n"
+         "internal events logged\r\n 0.01 1  123x  Rx   d 1 68\r\n 0.02 1  123x  Rx   d 1 68\r\n",
+         "CAN log (Vector ASC)"},
+        {";$FILEVERSION=2.1\n;$STARTTIME=44548.6\n;$COLUMNS=N,O,T,I,d,L,D\n"
+         "      1      1059.900 DT  0300 Rx 7  00 00\n",
+         "CAN log (PEAK TRC)"},
+        {";##########\n;   Start time: 11.09.2002 08:59:42.\n;   PCAN-Net: TestNet\n"
+         "1) 1841 0001 8 00 00 00 00 00 00 00 00\n",
+         "CAN log (PEAK TRC)"},
+        {"(1533226488.230547) can0 260#08FFFB0000001884\n"
+         "(1533226488.230560) vcan0 18FEF100##12C1\n",
+         "CAN log (candump)"},
+        {" (2018-08-02 16:14:48.23)  can0  260   [2]  08 FF\n  can0  2C1   [0]\n",
+         "CAN log (candump)"},
+        {"VERSION \"\"\n\nNS_ :\n\tCM_\n\nBS_:\n\nBU_: ESP\n\nBO_ 608 WHEELS: 8 ESP\n",
+         "description of CAN signals (DBC)"}};
+    for (const auto& [text, name] : cases) {
+        const auto file = folder / "recording.txt"; // the name does not matter
+        write_file(file, text);
+        const auto run = run_macadam({"inspect", file.string()});
+        EXPECT_EQ(run.exit_status, 0) << run.err;
+        EXPECT_THAT(run.out,
+                    AllOf(HasSubstr("recording.txt: " + name + ": "),
+                          HasSubstr(", not read\n"),
+                          HasSubstr("as CSV, then inspect that\n"),
+                          Not(HasSubstr("[channels]"))));
+    }
+}
+
 TEST(Inspect, FailsForWhatItDoesNotKnowAndGoesOn) {
     const auto folder = fresh_folder();
     write_file(folder / "a.bin", std::string("\x01\x00\x02 no idea", 12));
@@ -121,6 +154,25 @@ TEST(Inspect, FailsForWhatItDoesNotKnowAndGoesOn) {
                       HasSubstr("empty.csv: empty file"),
                       HasSubstr("missing.csv: cannot be read")));
     EXPECT_THAT(run.err, HasSubstr("4 of 4 files not recognised or not readable"));
+}
+
+TEST(Inspect, ShowsTheCsvFilesOfAnArchive) {
+    const auto folder = fresh_folder();
+    fs::create_directory(folder / "may");
+    write_file(folder / "may/drive.csv", foreign_log(plain_header));
+    write_file(folder / "may/other.csv", foreign_log("a;b;c;d;e"));
+    ASSERT_EQ(output_of(folder, fmt::format("cd '{}' && tar cf logs.tar may", folder.string())),
+              "");
+    const auto archive = folder / "logs.tar";
+    const auto shown = run_macadam({"inspect", archive.string()});
+    EXPECT_EQ(shown.exit_status, 0) << shown.err;
+    EXPECT_THAT(
+        shown.out,
+        AllOf(HasSubstr("logs.tar/may/drive.csv: CSV file of another program\n"),
+              HasSubstr("[channels]\nacc_z_mps2 = {column = \"acc z (g)\", unit = \"g\"}"),
+              HasSubstr("logs.tar/may/other.csv: CSV file of another program\n"),
+              HasSubstr("not found      time; vertical acceleration; speed of the car or of the "
+                        "receiver; position (latitude, longitude)\n")));
 }
 
 TEST(Inspect, WritesOneMappingAndReplacesNoInput) {

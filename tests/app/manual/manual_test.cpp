@@ -11,9 +11,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace macadam::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -120,6 +124,111 @@ TEST(ManualPage, NamesTheFileAndVariablesOfDefaults) {
     EXPECT_THAT(page, HasSubstr(".B MACADAM_LEFT_HAND\nDefault of \\-\\-left\\-hand.\n"));
     EXPECT_THAT(page, Not(HasSubstr("MACADAM_JOBS")));
     EXPECT_THAT(man_page_of_all("1"), HasSubstr("MACADAM_JOBS"));
+}
+
+TEST(BashCompletion, OffersTheChoicesOfEveryOption) {
+    std::size_t count = 0;
+    for (const auto& command : commands()) {
+        for (const auto& option : command.options) {
+            const auto hint = value_hint_of(option);
+            if (hint.kind == ValueHint::Kind::words) {
+                ++count;
+                EXPECT_EQ(offered({"macadam", std::string{command.name}, long_name(option), ""}),
+                          fmt::format("{}\n", fmt::join(hint.words, " ")))
+                    << command.name << long_name(option);
+            }
+        }
+    }
+    EXPECT_GT(count, 10U);
+}
+
+TEST(BashCompletion, OffersTheFilesOfEveryOptionBySuffix) {
+    std::size_t count = 0;
+    for (const auto& command : commands()) {
+        for (const auto& option : command.options) {
+            const auto suffixes = value_hint_of(option).suffixes;
+            if (!suffixes.empty()) {
+                ++count;
+                const auto fits = [&](std::string_view file) {
+                    return std::ranges::any_of(
+                        suffixes, [&](const auto& suffix) { return file.ends_with(suffix); });
+                };
+                std::string expected;
+                for (const std::string file : {"map.png", "map.txt", "roads.gpkg"}) {
+                    expected += fits(file) ? (expected.empty() ? "" : " ") + file : "";
+                }
+                EXPECT_EQ(offered({"macadam", std::string{command.name}, long_name(option), ""}),
+                          expected + "\n")
+                    << command.name << long_name(option);
+            }
+        }
+    }
+    EXPECT_GT(count, 10U);
+}
+
+/// Tests for a shell; it must be installed for ./run test --all.
+bool has_shell(const std::string& name) {
+    const bool is_installed = std::system(("command -v " + name + " >/dev/null").c_str()) == 0;
+    EXPECT_TRUE(is_installed || std::getenv("MACADAM_TEST_ALL") == nullptr) << name;
+    return is_installed;
+}
+
+TEST(Completions, AreReadByTheirShellsWithoutAnError) {
+    const auto folder = fresh_folder();
+    write_file(folder / "macadam.bash", bash_completion());
+    write_file(folder / "macadam.zsh", zsh_completion());
+    write_file(folder / "macadam.fish", fish_completion());
+    for (const std::string shell : {"bash -n", "zsh -n", "fish --no-execute"}) {
+        const auto name = shell.substr(0, shell.find(' '));
+        if (name == "bash" || has_shell(name)) {
+            EXPECT_EQ(output_of(folder, shell + " " + (folder / ("macadam." + name)).string()), "");
+        }
+    }
+}
+
+TEST(FishCompletion, OffersChoicesAndFilesBySuffixAlsoBelowTheHomeFolder) {
+    if (!has_shell("fish")) {
+        GTEST_SKIP() << "fish is not installed";
+    }
+    const auto folder = fresh_folder();
+    write_file(folder / "macadam.fish", fish_completion());
+    for (const auto* const name : {"roads.gpkg", "my roads.gpkg", "roads.txt"}) {
+        write_file(folder / name, "");
+    }
+    const auto offers = [&](const std::string& words) {
+        return output_of(folder,
+                         fmt::format("cd '{0}' && HOME='{0}' XDG_CONFIG_HOME='{0}' "
+                                     "XDG_DATA_HOME='{0}' fish -c 'source macadam.fish; "
+                                     "complete -C \"macadam {1}\" | cut -f 1'",
+                                     folder.string(),
+                                     words));
+    };
+    EXPECT_EQ(offers("rend"), "render\n");
+    EXPECT_EQ(offers("render --theme "), "dark\nlight\nprint\n");
+    EXPECT_EQ(offers("render roa"), "roads.gpkg\n");
+    EXPECT_EQ(offers("render ~/roa"), "~/roads.gpkg\n");
+    EXPECT_EQ(offers("render ~/my"), "~/my roads.gpkg\n");
+    EXPECT_EQ(offers("render roads.gpkg --title roa"), "");
+}
+
+TEST(ZshCompletion, DescribesChoicesAndFilesBySuffixToArguments) {
+    if (!has_shell("zsh")) {
+        GTEST_SKIP() << "zsh is not installed";
+    }
+    const auto folder = fresh_folder();
+    write_file(folder / "_macadam", zsh_completion());
+    write_file(folder / "script",
+               "_arguments() { print -rl -- \"$@\" }\n_describe() { print -rl -- $names }\n"
+               "CURRENT=$#\nwords=(\"$@\")\n. ./_macadam\n");
+    const auto told = [&](const std::string& words) {
+        return output_of(folder,
+                         fmt::format("cd '{}' && zsh -f ./script {}", folder.string(), words));
+    };
+    EXPECT_THAT(told("macadam rend"), HasSubstr("render:"));
+    EXPECT_THAT(told("macadam render x"),
+                AllOf(HasSubstr("\n--theme[light, dark or print.]:NAME:(light dark print)\n"),
+                      HasSubstr(":_files -g \"*(.png|.tif|.pdf)\"\n"),
+                      HasSubstr(":_files -g \"*.gpkg\"")));
 }
 
 TEST(Completions, NameEveryOptionAndNoEarlierSpelling) {

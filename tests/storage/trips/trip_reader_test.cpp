@@ -26,7 +26,7 @@ std::string log_of(const std::string& header, const std::vector<std::string>& ro
     return text + "# end rows: " + std::to_string(rows.size()) + "\n";
 }
 
-const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
+const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
 
 std::string hash_of(const TripSource& source) {
     return OpenTrip{source}.sha256();

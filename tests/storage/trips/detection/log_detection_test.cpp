@@ -1,11 +1,12 @@
 // Logs in the styles of several makers, written here from one drive.
 
-#include "storage/trips/detection/log_detection.hpp"
+#include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "storage/trips/trip_search.hpp"
 
 #include "estimator/common/error.hpp"
+#include "support/files/compressed.hpp"
 #include "support/files/files.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <stop_token>
 
 using namespace macadam;
 using namespace macadam::testing;
@@ -111,7 +113,7 @@ std::string in_latin1(const std::string& utf8) {
     return text;
 }
 
-const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
+const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
 
 fs::path log_file(const std::string& text, const std::string& name = "drive.csv") {
     return written(test_folder(), name, text);
@@ -122,7 +124,7 @@ void expect_read_as_the_drive(const fs::path& file, double acc_tolerance = 0.05)
     const auto log = detect_log(file);
     ASSERT_TRUE(log);
     SCOPED_TRACE(mapping_toml(*log, Confidence::likely, "*.csv"));
-    ASSERT_THAT(missing_columns(*log, needs_of_import(), Confidence::sure), IsEmpty());
+    ASSERT_THAT(missing_measurements(*log, needs_of_import(), Confidence::sure), IsEmpty());
     const auto trip = read_trip({.file = file, .member = {}}, everything);
     const auto readings = drive();
     ASSERT_THAT(trip.acc.t_s, SizeIs(row_count));
@@ -171,7 +173,22 @@ TEST(LogDetection, ReadsAndroSensorByTheUnitsInItsNames) {
 TEST(LogDetection, ReadsDecimalCommasAndLatin1) {
     const auto text =
         in_latin1(with_decimal_commas(log_text(androsensor_header, androsensor_line)));
-    expect_read_as_the_drive(log_file(text));
+    const auto file = log_file(text);
+    expect_read_as_the_drive(file);
+    const auto log = detect_log(file);
+    EXPECT_EQ(log->names[0], "ACCELEROMETER X (m/s²)");
+    const auto toml = mapping_toml(*log, Confidence::likely, "*.csv");
+    EXPECT_THAT(toml, HasSubstr("encoding = \"latin-1\"\n"));
+    EXPECT_THAT(toml, HasSubstr("acc_z_mps2 = {column = \"ACCELEROMETER Z (m/s²)\", "));
+}
+
+TEST(LogDetection, TakesTextWithAStrayByteForUtf8) {
+    const auto log =
+        detect_log(log_file(log_text("Zeit (s),Höhe (m),Länge\n", [](const Reading& now, auto&) {
+            return fmt::format(
+                "{:.2f},11{},17.{:.0f}", now.t_s, now.t_s == 3 ? "\xfc" : "0", now.ax);
+        })));
+    EXPECT_EQ(log->names[1], "Höhe (m)");
 }
 
 TEST(LogDetection, FindsUnitsByGravityAndByTheWayDriven) {
@@ -304,7 +321,7 @@ TEST(LogDetection, ReadsNamesBelowAPreambleAndUnitsBelowTheNames) {
     const auto file = log_file(text);
     const auto log = detect_log(file);
     ASSERT_TRUE(log);
-    EXPECT_THAT(missing_columns(*log, needs_of_import(), Confidence::sure), IsEmpty());
+    EXPECT_THAT(missing_measurements(*log, needs_of_import(), Confidence::sure), IsEmpty());
     EXPECT_NEAR(read_trip({.file = file, .member = {}}, everything).acc.z[3],
                 drive()[3].vertical_mps2,
                 0.01);
@@ -342,12 +359,12 @@ TEST(LogDetection, IsNotSureWhereNamesAndValuesContradict) {
     };
     // 1 g as m/s2
     const auto acc = log_with("t [s],ax [m/s2],ay [m/s2],az [m/s2],lat,lon,speed [m/s]\n", 1);
-    EXPECT_THAT(missing_columns(*acc, needs_of_trace(), Confidence::sure), HasSubstr("acc_z_mps2"));
+    EXPECT_THAT(missing_measurements(*acc, needs_of_trace(), Confidence::sure),
+                HasSubstr("vertical acceleration"));
     // km/h as m/s: then time or positions may be wrong as well
     const auto speed = log_with("t [s],ax [g],ay [g],az [g],lat,lon,speed [m/s]\n", 3.6);
-    EXPECT_THAT(missing_columns(*speed, needs_of_import(), Confidence::sure),
-                HasSubstr("gnss_speed_mps"));
-    EXPECT_THAT(missing_columns(*speed, needs_of_import(), Confidence::sure), HasSubstr("lat_deg"));
+    EXPECT_EQ(missing_measurements(*speed, needs_of_import(), Confidence::sure),
+              "time; speed of the car or of the receiver; position (latitude, longitude)");
 }
 
 TEST(LogDetection, IsNotSureWhichWayIsUpWithoutGravity) {
@@ -364,8 +381,9 @@ TEST(LogDetection, IsNotSureWhichWayIsUpWithoutGravity) {
                                      })));
     ASSERT_TRUE(log);
     EXPECT_FALSE(log->has_gravity);
-    EXPECT_THAT(missing_columns(*log, needs_of_trace(), Confidence::sure), HasSubstr("acc_z_mps2"));
-    EXPECT_THAT(missing_columns(*log, needs_of_trace(), Confidence::likely), IsEmpty());
+    EXPECT_THAT(missing_measurements(*log, needs_of_trace(), Confidence::sure),
+                HasSubstr("vertical acceleration"));
+    EXPECT_THAT(missing_measurements(*log, needs_of_trace(), Confidence::likely), IsEmpty());
 }
 
 TEST(LogDetection, WritesAMappingThatReadsTheSameTrip) {
@@ -392,9 +410,8 @@ TEST(LogDetection, MarksWhatItDidNotFind) {
     EXPECT_THAT(toml, HasSubstr("# lat_deg = {column = \"?\"}   # not found: latitude"));
     EXPECT_THAT(toml, HasSubstr("# not used: temperature"));
     EXPECT_NO_THROW(parse_mapping(toml, "m.toml"));
-    EXPECT_EQ(missing_columns(*log, needs_of_import(), Confidence::likely),
-              "speed_mps or gnss_speed_mps or wheel_fl_mps or wheel_fr_mps or wheel_rl_mps or "
-              "wheel_rr_mps and lat_deg and lon_deg");
+    EXPECT_EQ(missing_measurements(*log, needs_of_import(), Confidence::likely),
+              "speed of the car or of the receiver; position (latitude, longitude)");
 }
 
 TEST(LogDetection, RecognisesTheLoggersOfBuiltInMappings) {
@@ -473,6 +490,109 @@ TEST(LogDetection, IsNotSureOfMinutesAndOfTheVerticalOfATiltedSensor) {
     EXPECT_EQ(channel_of(*log, "acc_z_mps2").confidence, Confidence::likely);
 }
 
+TEST(LogDetection, ConfirmsTheUnitOfACountBySpeedAndPositions) {
+    const auto log_of = [](double counts_per_s, const std::string& more, bool has_speed) {
+        return detect_log(log_file(
+            log_text("time,latitude,longitude" + more + "\n", [&](auto& now, const Reading& fix) {
+                return fmt::format("{:.0f},{:.7f},{:.7f},{:.2f}",
+                                   now.t_s * counts_per_s,
+                                   fix.lat_deg,
+                                   fix.lon_deg,
+                                   has_speed ? fix.v_mps * 3.6 : 5);
+            })));
+    };
+    for (const auto* const speed : {",speed", ",speed (km/h)"}) {
+        const auto ms = log_of(1000, speed, true);
+        EXPECT_EQ(unit_words(*ms->time), "ms");
+        EXPECT_EQ(ms->time->confidence, Confidence::sure);
+        const auto tenths = log_of(10'000, speed, true);
+        EXPECT_EQ(unit_words(*tenths->time), "0.1 ms");
+        EXPECT_EQ(tenths->time->confidence, Confidence::sure) << tenths->time->reason;
+        EXPECT_THAT(missing_measurements(*tenths, needs_of_match(), Confidence::sure), IsEmpty());
+    }
+    const auto ticks = log_of(10'000, ",temperature", false);
+    EXPECT_EQ(ticks->time->confidence, Confidence::likely);
+    EXPECT_THAT(ticks->time->reason, HasSubstr("a guess"));
+    EXPECT_EQ(sure_mapping(*ticks), nullptr);
+}
+
+TEST(LogDetection, ReadsStepsOfATenthOfAMillisecond) {
+    const auto file = log_file(log_text("time,lat,lon,speed\n", [](auto& now, auto& fix) {
+        return fmt::format(
+            "{:.0f},{:.7f},{:.7f},{:.2f}", now.t_s * 10'000, fix.lat_deg, fix.lon_deg, fix.v_mps);
+    }));
+    EXPECT_THAT(mapping_toml(*detect_log(file), Confidence::sure, "*.csv"),
+                HasSubstr("format = \"ms\"\nscale = 0.1\n"));
+    const auto trip = read_trip({.file = file, .member = {}}, needs_of_match());
+    EXPECT_NEAR(trip.fixes.back().t_s - trip.fixes.front().t_s, seconds - 1, 1e-6);
+}
+
+TEST(LogDetection, IsNotSureOfATimeThatContradictsSpeedAndPositions) {
+    const auto log = detect_log(log_file(position_log("lat,lon", [](const Reading& fix) {
+        return fmt::format("{:.7f},{:.7f}", 47 + 10 * (fix.lat_deg - 47), fix.lon_deg);
+    })));
+    EXPECT_EQ(log->time->confidence, Confidence::likely);
+    EXPECT_THAT(log->time->reason, HasSubstr("contradicts speed or positions"));
+    EXPECT_EQ(channel_of(*log, "lat_deg").confidence, Confidence::likely);
+}
+
+TEST(LogDetection, IsNotSureOfLatitudeAndLongitudeUnderEachOthersNames) {
+    const auto northward = [](const Reading& fix) { return 47.6 + fix.t_s * 12 / 111195; };
+    const auto log_of = [&](const std::string& more, bool exchanged) {
+        return detect_log(log_file(log_text(
+            "time(ms),latitude,longitude" + more + "\n", [&](const Reading& now, auto& fix) {
+                const double lat_deg = northward(fix);
+                const double lon_deg = 17.6346;
+                return fmt::format("{:.0f},{:.7f},{:.7f},{}",
+                                   now.t_s * 1000,
+                                   exchanged ? lon_deg : lat_deg,
+                                   exchanged ? lat_deg : lon_deg,
+                                   more == ",course" ? "0.4" : "12.0");
+            })));
+    };
+    for (const auto* const column : {",course", ",GPS speed (m/s)", ",GPS speed"}) {
+        const auto as_named = log_of(column, false);
+        EXPECT_EQ(channel_of(*as_named, "lat_deg").column, 2U) << column;
+        EXPECT_EQ(channel_of(*as_named, "lat_deg").confidence, Confidence::sure) << column;
+        const auto exchanged = log_of(column, true);
+        EXPECT_EQ(channel_of(*exchanged, "lat_deg").column, 3U) << column;
+        EXPECT_EQ(channel_of(*exchanged, "lat_deg").confidence, Confidence::likely) << column;
+        EXPECT_THAT(channel_of(*exchanged, "lon_deg").reason, HasSubstr("names of latitude"));
+        EXPECT_EQ(sure_mapping(*exchanged), nullptr);
+    }
+}
+
+TEST(LogDetection, TakesACourseFromEastForNoExchangeOfLatitudeAndLongitude) {
+    const auto log = detect_log(log_file(position_log("lat,lon,heading", [](const Reading& fix) {
+        return fmt::format("{:.7f},{:.7f},{:.1f}", fix.lat_deg, fix.lon_deg, 90 - fix.course_deg);
+    })));
+    EXPECT_EQ(channel_of(*log, "lat_deg").column, 2U);
+    EXPECT_EQ(channel_of(*log, "lat_deg").confidence, Confidence::sure);
+    EXPECT_EQ(channel_of(*log, "course_deg").confidence, Confidence::likely);
+}
+
+TEST(LogDetection, TellsTheUnitOfSmallRatesOnlyOfACarThatMoves) {
+    const auto log_of = [](double radps_unit, double v_share) {
+        return detect_log(log_file(
+            log_text("time(ms),wx,wy,wz,lat,lon,speed (m/s)\n", [&](auto& now, const Reading& fix) {
+                return fmt::format("{:.0f},{:.4f},{:.4f},{:.4f},{:.7f},{:.7f},{:.2f}",
+                                   now.t_s * 1000,
+                                   now.wx * radps_unit,
+                                   now.wy * radps_unit,
+                                   now.wz * radps_unit,
+                                   47 + (fix.lat_deg - 47) * v_share,
+                                   17 + (fix.lon_deg - 17) * v_share,
+                                   fix.v_mps * v_share);
+            })));
+    };
+    EXPECT_EQ(channel_of(*log_of(1, 1), "gyro_z_radps").unit, "rad/s");
+    EXPECT_EQ(channel_of(*log_of(1, 1), "gyro_z_radps").confidence, Confidence::sure);
+    const auto parked = log_of(2, 0); // deg/s that are as small as rad/s of a drive
+    EXPECT_EQ(channel_of(*parked, "gyro_z_radps").unit, "");
+    EXPECT_EQ(channel_of(*parked, "gyro_z_radps").confidence, Confidence::likely);
+    EXPECT_THAT(channel_of(*parked, "gyro_z_radps").reason, HasSubstr("of a car that stands"));
+}
+
 TEST(LogDetection, TakesNoOtherTableForALog) {
     const auto log =
         detect_log(log_file("product;price;count\nbread;3,50;7\nmilk;1,20;2\nsalt;0,80;1\n"));
@@ -496,6 +616,50 @@ TEST(TripWalk, TakesDetectedLogsOfAFolderThatHasNoOthers) {
     EXPECT_EQ(beside.next()->file.filename(), "b.trip.csv");
 }
 
+TEST(TripWalk, TakesDetectedLogsOfAnArchiveThatHasNoOthers) {
+    const auto folder = test_folder();
+    const auto text = log_text(androsensor_header, androsensor_line);
+    const auto archive = written(folder,
+                                 "logs.zip",
+                                 archive_of("zip",
+                                            {{"readme.txt", "two drives\n"},
+                                             {"may/a.csv", text},
+                                             {"prices.csv", "a;b\n1;2\n3;4\n"}}));
+    TripWalk walk{archive};
+    const auto trip = walk.next();
+    ASSERT_TRUE(trip);
+    EXPECT_EQ(trip->name(), archive.string() + "/may/a.csv");
+    const auto plain = log_file(text);
+    EXPECT_EQ(read_trip(*trip, everything).acc.z,
+              read_trip({.file = plain, .member = {}}, everything).acc.z);
+    EXPECT_FALSE(walk.next());
+    EXPECT_EQ(walk.other_files(), 2U);
+
+    const auto mixed =
+        written(folder,
+                "mixed.zip",
+                archive_of("zip", {{"a.csv", text}, {"b.trip.csv", "# macadam-trip 1\n"}}));
+    TripWalk beside{mixed};
+    EXPECT_EQ(beside.next()->member, "b.trip.csv");
+    EXPECT_FALSE(beside.next());
+}
+
+TEST(TripWalk, ReportsTheSearchOfAFolderAndEndsItOnRequest) {
+    const auto folder = test_folder();
+    for (const auto* const name : {"a.csv", "b.csv", "c.csv"}) {
+        written(folder, name, log_text(androsensor_header, androsensor_line));
+    }
+    std::stop_source stop;
+    std::vector<std::size_t> done;
+    const auto report = [&](std::size_t count, std::size_t) {
+        done.push_back(count);
+        stop.request_stop();
+    };
+    TripWalk walk{folder, {.search = {.report = report, .stop = stop.get_token()}}};
+    EXPECT_THAT(done, ::testing::ElementsAre(1U));
+    EXPECT_EQ(walk.count(), 1U);
+}
+
 TEST(TripWalk, TakesNamesInCapitalsAndNoTraceForALog) {
     const auto folder = test_folder();
     written(folder, "LOG001.CSV", log_text(androsensor_header, androsensor_line));
@@ -509,9 +673,7 @@ TEST(TripWalk, TakesNamesInCapitalsAndNoTraceForALog) {
 
 TEST(OpenTrip, NamesInspectForATableThatIsNotSure) {
     const auto file = log_file("a,b,c\n1,2,3\n2,2,3\n3,2,3\n");
-    EXPECT_THAT(
-        refusal_of([&] { read_trip({.file = file, .member = {}}, needs_of_match()); }),
-        HasSubstr(
-            "drive.csv: not a Macadam log; read as a CSV file (commas), it lacks t_s and lat_deg "
-            "and lon_deg, or it is not sure which column has it: 'macadam inspect "));
+    EXPECT_THAT(refusal_of([&] { read_trip({.file = file, .member = {}}, needs_of_match()); }),
+                HasSubstr("drive.csv: not a Macadam log; read as a CSV file (commas), not found or "
+                          "not sure: time; position (latitude, longitude). 'macadam inspect "));
 }

@@ -24,7 +24,7 @@ using ::testing::SizeIs;
 
 namespace {
 
-const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
+const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
 
 std::filesystem::path defect(const std::string& name) {
     return std::filesystem::path{MACADAM_SOURCE_DIR} / "tests/data/defects" / name;

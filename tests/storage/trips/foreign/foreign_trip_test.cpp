@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
+const TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
 const fs::path loggers = fs::path{MACADAM_SOURCE_DIR} / "tests/data/loggers";
 
 const std::string acc_csv = "\"Time (s)\",\"X (m/s^2)\",\"Y (m/s^2)\",\"Z (m/s^2)\"\n"
@@ -224,6 +224,25 @@ TEST(Mapping, MissesAFileThatShouldLieBeside) {
     const auto file = written(test_folder() / "logs", "b_acc.csv", "t,az\n0,9.8\n");
     EXPECT_THAT(refusal_of([&] { find_trips(file, of); }),
                 EndsWith("b_gps.csv: no such file, expected it beside b_acc.csv"));
+}
+
+TEST(Mapping, NamesTheMeasurementsThatItDoesNotGive) {
+    const auto of = mapping(small_mapping);
+    const auto file = written(test_folder() / "logs", "x.csv", "t,az\n0,9.8\n1,9.8\n");
+    EXPECT_THAT(
+        refusal_of([&] { read_trip(find_trips(file, of).trips.at(0), needs_of_import()); }),
+        HasSubstr("gives no speed of the car or of the receiver; position (latitude, longitude), "
+                  "expected speed_mps or gnss_speed_mps and lat_deg and lon_deg"));
+}
+
+TEST(Mapping, ScalesCountsOfTimeAndNoDates) {
+    const std::string channels = "[channels]\nacc_z_mps2 = {column = \"az\"}\n";
+    const auto of = mapping("[time]\ncolumn = \"t\"\nformat = \"ms\"\nscale = 0.1\n" + channels);
+    const auto file = written(test_folder() / "logs", "x.csv", "t,az\n0,9.8\n100,9.8\n");
+    EXPECT_THAT(read_trip(find_trips(file, of).trips.at(0), everything).acc.t_s,
+                ElementsAre(0, 0.01));
+    EXPECT_THAT(mapping_refusal("[time]\ncolumn = \"t\"\nformat = \"iso\"\nscale = 2\n" + channels),
+                HasSubstr("no such key except for the formats s, ms, us and ns"));
 }
 
 TEST(Mapping, ReadsColumnsByNumberWithoutAHeader) {

@@ -187,7 +187,7 @@ TEST(Gpx, HasNoVibration) {
         test_folder(), "tour.gpx", head + track(point(47, 8) + point(47, 8.001)) + "</gpx>");
     EXPECT_THAT(refusal_of([&] { read_trip({.file = file, .member = {}}, needs_of_trace()); }),
                 HasSubstr("tour.gpx: is a GPX track, which has positions only, expected also "
-                          "acc_z_mps2 or acc_y_mps2"));
+                          "vertical acceleration"));
 }
 
 TEST(Gpx, IsFoundInAFolderByThoseWhoNeedPositionsAlone) {

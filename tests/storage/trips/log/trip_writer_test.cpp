@@ -17,8 +17,7 @@ using ::testing::SizeIs;
 
 namespace {
 
-constexpr TripNeeds everything{
-    .acc = true, .gyro = true, .speed = true, .fixes = true, .columns = {}};
+constexpr TripNeeds everything{.acc = true, .gyro = true, .speed = true, .fixes = true};
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 /// One of everything, at times of which some are shared.
