@@ -48,11 +48,17 @@ bool gives(const TripHeader& header, const std::string& column) {
     return column == "t_s" || (channel && header.has(*channel));
 }
 
-void expect_channels(const TripMapping& mapping, const TripHeader& header, const TripNeeds& needs) {
+void expect_channels(const TripSource& source,
+                     const TripMapping& mapping,
+                     const TripHeader& header,
+                     const TripNeeds& needs) {
     const auto has = [&](const std::string& column) { return gives(header, column); };
     if (const auto missing = missing_measurements(needs, has); !missing.empty()) {
-        throw InputError{fmt::format(
-            "{}: gives no {}, expected {}", mapping.where, missing, missing_columns(needs, has))};
+        throw InputError{fmt::format("{}: read by {}, which gives no {}, expected {}",
+                                     source.name(),
+                                     source.mapping ? mapping.where : "its sensors",
+                                     missing,
+                                     missing_columns(needs, has))};
     }
 }
 
@@ -228,7 +234,7 @@ read_foreign_trip(const TripSource& source, const TripNeeds& needs, const std::s
     if (!source.mapping) {
         expect_files_of_export(source, needs);
     }
-    expect_channels(mapping, header, needs);
+    expect_channels(source, mapping, header, needs);
 
     TripMerger collector{mapping, needs, header};
     for (std::size_t i = 0; i < mapping.tables.size(); ++i) {

@@ -229,10 +229,10 @@ TEST(Mapping, MissesAFileThatShouldLieBeside) {
 TEST(Mapping, NamesTheMeasurementsThatItDoesNotGive) {
     const auto of = mapping(small_mapping);
     const auto file = written(test_folder() / "logs", "x.csv", "t,az\n0,9.8\n1,9.8\n");
-    EXPECT_THAT(
-        refusal_of([&] { read_trip(find_trips(file, of).trips.at(0), needs_of_import()); }),
-        HasSubstr("gives no speed of the car or of the receiver; position (latitude, longitude), "
-                  "expected speed_mps or gnss_speed_mps and lat_deg and lon_deg"));
+    EXPECT_THAT(refusal_of([&] { read_trip(find_trips(file, of).trips.at(0), needs_of_import()); }),
+                HasSubstr("m.toml, which gives no speed of the car or of the receiver; position "
+                          "(latitude, longitude), "
+                          "expected speed_mps or gnss_speed_mps and lat_deg and lon_deg"));
 }
 
 TEST(Mapping, ScalesCountsOfTimeAndNoDates) {
