@@ -1,4 +1,4 @@
-"""Draws docs/architecture.svg, the plan of the house, from the tables of docs/architecture.md.
+"""Draws docs/architecture.svg, the plan of the house, from the lists of docs/architecture.md.
 
     python3 docs/architecture.py
 """
@@ -21,9 +21,9 @@ MAX_IN_ROW = 5
 
 def read_rows():
     text = (DOCS / "architecture.md").read_text()
-    rows = re.findall(r"^\| `([a-z/]+)` \|([^|]+)\|([^|]*)\|$", text, re.M)
+    rows = re.findall(r"^\* `([a-z/]+)`(?: \(([a-z/, ]*)\))?: .+$", text, re.M)
     return {folder: [f"{folder.split('/')[0]}/{use.strip()}" for use in uses.split(",") if use.strip()]
-            for folder, _, uses in rows if folder.split("/")[0] in FLOORS}
+            for folder, uses in rows if folder.split("/")[0] in FLOORS}
 
 
 def level(folder, uses):

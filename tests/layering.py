@@ -1,4 +1,4 @@
-"""Holds the plan of the house: which folder includes which (the tables of docs/architecture.md), and
+"""Holds the plan of the house: which folder includes which (the lists of docs/architecture.md), and
 which floor may touch the outside world.
 
     layering.py ROOT             0 if the sources under ROOT keep to it; else 1, and each breach on stderr
@@ -44,7 +44,7 @@ SLOW = {"CLI11": "<CLI/", "the JSON library": "<nlohmann/", "the TOML library": 
 
 def plan(root):
     """Folder -> folders of its floor that it may include."""
-    rows = re.findall(r"^\| `((?:%s)[a-z/]*)` \|[^|]+\|([^|]*)\|$" % "|".join(BELOW),
+    rows = re.findall(r"^\* `((?:%s)[a-z/]*)`(?: \(([a-z/, ]*)\))?: .+$" % "|".join(BELOW),
                       (root / "docs/architecture.md").read_text(), re.M)
     return {folder: {f"{folder.split('/')[0]}/{used.strip()}" for used in uses.split(",") if used.strip()}
             for folder, uses in rows}
@@ -103,9 +103,9 @@ def breaches(root):
         folder = str(pathlib.PurePosixPath(name).parent)
         counts[folder] = counts.get(folder, 0) + 1
     for folder in sorted(counts.keys() - allowed.keys()):
-        yield f"{folder}: has no row in docs/architecture.md"
+        yield f"{folder}: has no line in docs/architecture.md"
     for folder in sorted(allowed.keys() - counts.keys()):
-        yield f"{folder}: has a row in docs/architecture.md and no source"
+        yield f"{folder}: has a line in docs/architecture.md and no source"
     for folder, count in counts.items():
         if count > MAX_FILES:
             yield f"{folder}: holds {count} files, {MAX_FILES} at most: has it one purpose?"
@@ -137,9 +137,9 @@ BREACHES = [
     ("estimator/motion/new.cpp", "#include <iostream>", "estimator computes only"),
     ("render/map/new.cpp", "#include <nlohmann/json.hpp>", "more than one file includes the JSON library"),
     ("storage/rasters/new.cpp", "auto map = GDALDataset::Open(name);", f"only {GDAL_ACCESS} opens files by GDAL"),
-    ("storage/attic/new.cpp", "int x;", "storage/attic: has no row in docs/architecture.md"),
-    ("docs/architecture.md", "| `mapping/lost` | lost | |", "mapping/lost: has a row in docs/architecture.md"),
-    ("docs/architecture.md", "| `mapping/geometry` | all | fusion |", "folders use each other in a circle"),
+    ("storage/attic/new.cpp", "int x;", "storage/attic: has no line in docs/architecture.md"),
+    ("docs/architecture.md", "* `mapping/lost`: Lost", "mapping/lost: has a line in docs/architecture.md"),
+    ("docs/architecture.md", "* `mapping/geometry` (fusion): All", "folders use each other in a circle"),
 ]
 
 
