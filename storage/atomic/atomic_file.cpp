@@ -17,7 +17,6 @@
 namespace macadam {
 namespace {
 
-constexpr mode_t mode = 0666; // reduced by the umask
 constexpr const char* name_in_folder = "file";
 
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
@@ -52,9 +51,18 @@ int link_to(int descriptor, const std::filesystem::path& name) {
                : errno;
 }
 
+/// Renames a file unless the new name exists. \returns 0 or an errno.
+int rename_to_free(const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
+        return 0;
+    }
+    // Not every file system has this flag; those without have links.
+    return errno == EINVAL && ::link(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
 /// Opens an unnamed file; -1 if they are unsupported, or cannot be linked to a name later.
-int nameless_file(const std::filesystem::path& folder) {
-    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+int nameless_file(const std::filesystem::path& folder, unsigned permissions) {
+    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, permissions);
     if (descriptor >= 0 && ::access(way_to(descriptor).c_str(), F_OK) != 0) {
         ::close(descriptor);
         return -1;
@@ -64,8 +72,8 @@ int nameless_file(const std::filesystem::path& folder) {
 
 } // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path file) : file_{std::move(file)} {
-    const int descriptor = opened();
+AtomicFile::AtomicFile(std::filesystem::path file, unsigned permissions) : file_{std::move(file)} {
+    const int descriptor = opened(permissions);
     if (descriptor >= 0) {
         out_ = ::fdopen(descriptor, "wb");
     }
@@ -80,8 +88,8 @@ AtomicFile::~AtomicFile() {
     }
 }
 
-int AtomicFile::opened() {
-    const int descriptor = nameless_file(folder_of(file_));
+int AtomicFile::opened(unsigned permissions) {
+    const int descriptor = nameless_file(folder_of(file_), permissions);
     if (descriptor >= 0) {
         return descriptor;
     }
@@ -92,7 +100,7 @@ int AtomicFile::opened() {
     }
     return ::open((folder_->path() / name_in_folder).c_str(),
                   O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC,
-                  mode);
+                  permissions);
 }
 
 void AtomicFile::write(std::string_view text) {
@@ -130,16 +138,43 @@ void AtomicFile::put_in_place() {
     }
 }
 
-void AtomicFile::commit() {
+void AtomicFile::put_in_free_place() {
+    const int error = folder_ ? rename_to_free(folder_->path() / name_in_folder, file_)
+                              : link_to(::fileno(out_), file_);
+    if (error != 0) {
+        fail(file_, error);
+    }
+}
+
+void AtomicFile::sync() {
     if (std::fflush(out_) != 0 || ::fsync(::fileno(out_)) != 0) {
         fail(file_, errno);
     }
-    put_in_place();
+}
+
+void AtomicFile::close() {
     if (std::fclose(std::exchange(out_, nullptr)) != 0) {
         fail(file_, errno);
     }
     if (const int error = sync_folder(folder_of(file_))) {
         fail(file_, error);
+    }
+}
+
+void AtomicFile::commit() {
+    sync();
+    put_in_place();
+    close();
+}
+
+void AtomicFile::commit_new() {
+    sync();
+    put_in_free_place();
+    try {
+        close();
+    } catch (const InputError&) {
+        ::unlink(file_.c_str());
+        throw;
     }
 }
 

@@ -17,7 +17,8 @@ namespace macadam {
 /// \throws InputError  from every call that fails; the message names the file and the cause.
 class AtomicFile {
 public:
-    explicit AtomicFile(std::filesystem::path file);
+    /// \param permissions  reduced by the umask.
+    explicit AtomicFile(std::filesystem::path file, unsigned permissions = 0666);
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
     ~AtomicFile();
@@ -25,9 +26,15 @@ public:
     void write(std::string_view text);
     void commit();
 
+    /// Commits, but fails if a file of this name exists; after any failure none is left.
+    void commit_new();
+
 private:
-    int opened();
+    int opened(unsigned permissions);
+    void sync();
     void put_in_place();
+    void put_in_free_place();
+    void close();
 
     std::filesystem::path file_;
     std::optional<TemporaryFolder> folder_; ///< used where the file system has no unnamed files

@@ -1,6 +1,7 @@
 #include "storage/store/privacy/privacy_key.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/atomic/atomic_file.hpp"
 #include "storage/text/text.hpp"
 
 #include <fmt/format.h>
@@ -12,14 +13,12 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <span>
 #include <system_error>
 
 #include <fcntl.h>
 #include <sys/random.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace macadam {
@@ -68,30 +67,6 @@ std::string_view line_in(std::string_view text) {
 
 [[noreturn]] void fail(const fs::path& file, std::string_view what, int error) {
     throw InputError{fmt::format("{}: {}: {}", file.string(), what, std::strerror(error))};
-}
-
-/// Writes the whole text. \returns 0 or an errno.
-int write_all(int descriptor, std::string_view text) {
-    while (!text.empty()) {
-        const auto written = ::write(descriptor, text.data(), text.size());
-        if (written < 0 && errno != EINTR) {
-            return errno;
-        }
-        text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
-    }
-    return ::fsync(descriptor) == 0 ? 0 : errno;
-}
-
-/// Syncs the folder of a file, so that its name survives a power loss.
-int sync_folder_of(const fs::path& file) {
-    const auto folder = file.has_parent_path() ? file.parent_path() : fs::path{"."};
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) {
-        return errno;
-    }
-    const int error = ::fsync(descriptor) == 0 ? 0 : errno;
-    ::close(descriptor);
-    return error;
 }
 
 } // namespace
@@ -212,23 +187,13 @@ std::optional<PrivacyKey> read_key(const fs::path& file) {
 }
 
 void write_key(const fs::path& file, const PrivacyKey& key) {
-    const int descriptor =
-        ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
-    if (descriptor < 0) {
-        fail(file,
-             errno == EEXIST ? "exists, but this user may not read it" : "cannot be written",
-             errno);
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(file, ignored))) {
+        fail(file, "exists, but this user may not read it", EEXIST);
     }
-    int error = write_all(descriptor, fmt::format("{}{}\n", first_line, key.hex()));
-    ::close(descriptor);
-    if (error == 0) {
-        error = sync_folder_of(file);
-    }
-    if (error != 0) {
-        std::error_code ignored;
-        fs::remove(file, ignored);
-        fail(file, "cannot be written", error);
-    }
+    AtomicFile whole{file, 0600};
+    whole.write(fmt::format("{}{}\n", first_line, key.hex()));
+    whole.commit_new();
 }
 
 bool is_open_to_others(const fs::path& key_file) {

@@ -6,9 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <set>
 
+#include <sys/inotify.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace macadam::testing {
 namespace {
@@ -87,6 +91,31 @@ TEST(PrivacyKey, IsNeverWrittenOverAFileOrThroughALink) {
     fs::create_symlink(folder / "elsewhere", folder / "b.key");
     EXPECT_THAT(refusal_of([&] { write_key(folder / "b.key", key); }), HasSubstr("b.key: "));
     EXPECT_FALSE(fs::exists(folder / "elsewhere"));
+}
+
+/// What inotify(7) tells of a file meanwhile, as one mask.
+std::uint32_t events_of(const fs::path& file, const std::function<void()>& work) {
+    const int watch = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    ::inotify_add_watch(watch, file.parent_path().c_str(), IN_CREATE | IN_MOVED_TO | IN_MODIFY);
+    work();
+    alignas(inotify_event) std::array<char, 16'384> bytes{};
+    const auto size = ::read(watch, bytes.data(), bytes.size());
+    ::close(watch);
+    std::uint32_t seen = 0;
+    for (std::ptrdiff_t at = 0; at < size;) {
+        const auto* const event = reinterpret_cast<const inotify_event*>(bytes.data() + at);
+        seen |= event->len > 0 && file.filename() == event->name ? event->mask : 0;
+        at += static_cast<std::ptrdiff_t>(sizeof(inotify_event) + event->len);
+    }
+    return seen;
+}
+
+TEST(PrivacyKey, IsWholeFromTheMomentItsFileHasAName) { // else a kill could leave half a key
+    const auto file = test_folder() / "a.key";
+    const auto seen = events_of(file, [&] { write_key(file, key); });
+    EXPECT_NE(seen & (IN_CREATE | IN_MOVED_TO), 0U);
+    EXPECT_EQ(seen & IN_MODIFY, 0U);
+    EXPECT_EQ(read_key(file)->hex(), key.hex());
 }
 
 TEST(PrivacyKey, OfAnotherLengthOrFormIsRefusedWithWords) {
