@@ -37,6 +37,7 @@ struct Wish {
     std::optional<std::stop_source> stop;
     std::string acknowledgement; ///< "" when quiet
     std::string last_words;
+    std::string words_on_lost_file;
     int last_status = 1;
     pid_t process = 0; ///< forked processes handle signals themselves
     std::atomic<bool> is_known = false;
@@ -45,6 +46,7 @@ Wish wish;
 
 std::array<struct sigaction, interrupting.size()> before;
 struct sigaction before_of_pipe;
+struct sigaction before_of_lost_file;
 
 void wake_after(int time_ms) {
     itimerval timer{};
@@ -81,6 +83,12 @@ void end_of_wait(int /*signal*/) {
     ::_exit(wish.last_status);
 }
 
+void end_on_lost_file(int /*signal*/) {
+    remove_unfinished();
+    say(wish.words_on_lost_file);
+    ::_exit(1);
+}
+
 /// Installs a handler that blocks the other signals while it runs.
 void handle(int signal, void (*handler)(int), struct sigaction* replaced) {
     struct sigaction action {};
@@ -106,10 +114,16 @@ InterruptHandler::InterruptHandler(std::string_view command, InterruptConfig con
                                              command);
     wish.last_words = fmt::format(
         "{}macadam {}: interrupted; unfinished work was discarded\n", clear_bar, command);
+    wish.words_on_lost_file =
+        fmt::format("{}macadam {}: a file that it was reading was cut short or cannot be read any "
+                    "more; run the command again\n",
+                    clear_bar,
+                    command);
     wish.last_status = config.runs_until_stopped ? 0 : 1;
     wish.process = ::getpid();
     wish.is_known = false;
     handle(SIGALRM, end_of_wait, nullptr);
+    handle(SIGBUS, end_on_lost_file, &before_of_lost_file);
     handle(SIGPIPE, cut_off, &before_of_pipe);
     if (before_of_pipe.sa_handler == SIG_IGN) {
         std::signal(SIGPIPE, SIG_IGN);
@@ -129,6 +143,7 @@ InterruptHandler::~InterruptHandler() {
     wake_after(0);
     std::signal(SIGALRM, SIG_DFL);
     ::sigaction(SIGPIPE, &before_of_pipe, nullptr);
+    ::sigaction(SIGBUS, &before_of_lost_file, nullptr);
 }
 
 std::chrono::milliseconds InterruptHandler::grace_period() {

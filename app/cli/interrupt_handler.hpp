@@ -19,7 +19,8 @@ struct InterruptConfig {
 /// uncommitted database changes are rolled back when the database is opened next. A second signal
 /// terminates at once. Signals ignored at program start, as under `nohup`, stay ignored.
 ///
-/// SIGPIPE also removes unfinished files when the reader of the output has gone.
+/// SIGPIPE also removes unfinished files when the reader of the output has gone. SIGBUS ends the
+/// program with a message and exit status 1: a file mapped into memory was cut short by others.
 ///
 /// Uses no thread, so processes may be forked beside it. Only one object may exist at a time.
 class InterruptHandler {

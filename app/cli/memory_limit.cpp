@@ -47,7 +47,7 @@ void bear_memory_limit(std::string_view command) {
     struct sigaction action {};
     action.sa_handler = crashed;
     action.sa_flags = SA_ONSTACK;
-    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) {
+    for (const int signal : {SIGSEGV, SIGABRT}) {
         ::sigaction(signal, &action, nullptr);
     }
 #else

@@ -1,6 +1,7 @@
 // Commands that are asked to end while they wait or work, databases that go away below them, and
 // what they leave.
 
+#include "storage/networks/network_file.hpp"
 #include "storage/sqlite/sqlite.hpp"
 #include "storage/store/road_store.hpp"
 #include "support/program/program.hpp"
@@ -13,11 +14,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <future>
 #include <optional>
 #include <set>
 #include <thread>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace macadam::testing {
@@ -214,6 +217,27 @@ bool any_begun(const fs::path& folder) {
         }
     }
     return false;
+}
+
+TEST(NetworkFileInUse, CutShortByOthersEndsTheCommandWithWords) {
+    const auto folder = fresh_folder();
+    const auto network = folder / "network";
+    write_network_file(small_country(), std::string(64, '7'), network);
+    const auto trip = folder / "a.trip.csv";
+    ASSERT_EQ(::mkfifo(trip.c_str(), 0600), 0);
+    auto run = std::async(std::launch::async, [&] {
+        return run_macadam({"match", trip.string(), "--network", network.string()});
+    });
+    {
+        std::ofstream rows{trip}; // waits for the program, which has opened the network then
+        fs::resize_file(network, 0);
+        rows << read_file(MACADAM_SOURCE_DIR "/tests/fuzz/seeds/trip_trace/receiver.csv");
+    }
+    const auto ended = run.get();
+    EXPECT_EQ(ended.exit_status, 1);
+    EXPECT_EQ(ended.err,
+              "macadam match: a file that it was reading was cut short or cannot be read any "
+              "more; run the command again\n");
 }
 
 TEST(InterruptedOutput, LeavesNothingOfAnyKind) {
