@@ -130,8 +130,14 @@ std::vector<SectionReference> references_in_track(const std::filesystem::path& f
 }
 
 std::vector<SectionReference> references_in_layer(const std::filesystem::path& file) {
+    const auto refuse = [](const std::string& words) {
+        throw InputError{
+            fmt::format("{}; sections are read completely or not at all: add points to it, or "
+                        "remove it",
+                        words)};
+    };
     std::vector<SectionReference> references;
-    for (auto& way : read_network(file)) {
+    for (auto& way : read_network(file, {}, {}, refuse)) {
         references.push_back({.where = file.string(),
                               .name = way.name.empty() ? fmt::format("{}", way.id) : way.name,
                               .route = "",

@@ -26,7 +26,7 @@ struct SectionReference {
 /// (docs/reference/sections.md lists the columns).
 ///
 /// \throws InputError  "file:line: ..." for unexpected columns or invalid cells, or if the file
-///                     holds no section.
+///                     holds no section or a line with points too far apart (longest_step_m).
 std::vector<SectionReference> read_sections(const std::filesystem::path& file);
 
 } // namespace macadam

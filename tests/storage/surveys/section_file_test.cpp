@@ -40,3 +40,15 @@ TEST(SectionFile, RefusesATrackOfWhichOnePlaceCanBeRead) {
                 EndsWith("valley road.gpx: the track has 1 place with a time that can be read, "
                          "expected at least 2"));
 }
+
+TEST(SectionFile, WithALineThatJumpsFarIsRefusedRatherThanReadInPart) {
+    const auto file = written(
+        test_folder(),
+        "a.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":)"
+        R"({"type":"LineString","coordinates":[[4,45],[4.001,45]]}},{"type":"Feature",)"
+        R"("properties":{},"geometry":{"type":"LineString","coordinates":[[4,45],[5,45]]}}]})");
+    EXPECT_THAT(refusal_of([&] { read_sections(file); }),
+                EndsWith("a.geojson: skipped: 1 way with points more than 50 km apart; sections "
+                         "are read completely or not at all: add points to it, or remove it"));
+}
