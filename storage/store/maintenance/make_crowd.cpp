@@ -196,6 +196,7 @@ CrowdMade StoreMaintenance::make_crowd(const Progress& progress) {
             progress(++made.trips, trips.size());
         }
         database.run(begin_anew);
+        replace_roughness_layer(database, PrivacyProfile::crowd);
         const auto audit =
             add_audit(database, "crowd", fmt::format("ends of {} trips taken out", made.trips));
         fuse_dirty_at_once(

@@ -46,9 +46,9 @@ std::string kind_of(const std::string& type) {
     return "a " + (is_plain ? type : in_quotes(type));
 }
 
-Schema make_own_schema() {
+Schema make_own_schema(PrivacyProfile privacy) {
     Database database{"an empty database", Database::Access::memory};
-    make_store_tables(database);
+    make_store_tables(database, privacy);
     return read_schema(database);
 }
 
@@ -70,9 +70,13 @@ Schema read_schema(Database& database) {
     return schema;
 }
 
-const Schema& own_schema() {
-    static const Schema schema = make_own_schema();
-    return schema;
+const Schema& own_schema(PrivacyProfile privacy) {
+    if (privacy == PrivacyProfile::crowd) {
+        static const Schema crowd = make_own_schema(PrivacyProfile::crowd);
+        return crowd;
+    }
+    static const Schema own = make_own_schema(PrivacyProfile::own);
+    return own;
 }
 
 void expect_no_foreign_object(Database& database, const Schema& found, const Schema& expected) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "storage/sqlite/sqlite.hpp"
+#include "storage/store/records/privacy_profile.hpp"
 
 #include <map>
 #include <string>
@@ -25,7 +26,7 @@ using Schema = std::map<std::pair<std::string, std::string>, SchemaObject>;
 Schema read_schema(Database& database);
 
 /// All objects of a database that 'macadam init' creates.
-const Schema& own_schema();
+const Schema& own_schema(PrivacyProfile privacy = PrivacyProfile::own);
 
 /// Checks for foreign objects. Views and triggers of an untrusted database would run inside our own
 /// statements, so each object must equal one of `expected`, or be one of the few tables that SQLite

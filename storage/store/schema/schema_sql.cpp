@@ -1,5 +1,7 @@
 #include "storage/store/schema/schema_sql.hpp"
 
+#include <fmt/format.h>
+
 namespace macadam {
 
 // Column types are those of a GeoPackage; it forbids STRICT, which has other types.
@@ -287,6 +289,12 @@ CREATE TABLE published_event (
     last_seen_ms INTEGER,
     PRIMARY KEY (segment, number)
 ) WITHOUT ROWID;
+)";
+
+std::string roughness_layer(PrivacyProfile privacy) {
+    const auto* const states =
+        privacy == PrivacyProfile::crowd ? "published_state" : "segment_state";
+    return fmt::format(R"(
 CREATE VIEW roughness AS
     SELECT segment.fid AS OGC_FID, segment.geom, segment.segment, segment.way_id, way.name,
            way.highway, segment.direction, segment.from_m, segment.to_m,
@@ -294,9 +302,11 @@ CREATE VIEW roughness AS
            state."index", state.class, state.passes, state.vehicles, state.first_seen,
            state.last_seen, state.trend_per_year, state.trend_sd, state.changed, state.change,
            state.validity
-    FROM segment_state AS state
+    FROM {} AS state
     JOIN segment ON segment.fid = state.fid
     JOIN way ON way.way_id = segment.way_id;
-)";
+)",
+                       states);
+}
 
 } // namespace macadam

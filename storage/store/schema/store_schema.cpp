@@ -75,11 +75,21 @@ void index_store_tables(Database& database) {
 
 } // namespace
 
-void make_store_tables(Database& database) {
+void make_store_tables(Database& database, PrivacyProfile privacy) {
     make_geopackage(database);
     database.run(store_tables);
+    database.run(roughness_layer(privacy));
     add_style_table(database);
     index_store_tables(database);
+}
+
+void replace_roughness_layer(Database& database, PrivacyProfile privacy) {
+    database.run("DROP VIEW roughness");
+    database.run(roughness_layer(privacy));
+}
+
+PrivacyProfile claimed_privacy(Database& database) {
+    return privacy_profile_named(meta(database, "privacy")).value_or(PrivacyProfile::own);
 }
 
 void write_store(Database& database,
@@ -95,6 +105,7 @@ void write_store(Database& database,
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
     database.run(store_tables);
+    database.run(roughness_layer(settings.privacy));
     add_style_table(database);
     const auto network_hash = write_ways(database, roads);
     const auto written = write_segments(database, roads, progress);
@@ -147,16 +158,18 @@ int expect_store(Database& database, const Schema& found) {
 
 void check_store(Database& database) {
     const auto found = read_schema(database);
-    if (const int version = expect_store(database, found); version < store_version) {
-        expect_no_foreign_object(database, found, schema_of_version(version));
+    const int version = expect_store(database, found);
+    const auto privacy = claimed_privacy(database);
+    if (version < store_version) {
+        expect_no_foreign_object(database, found, schema_of_version(version, privacy));
         throw InputError{fmt::format("{0}: is a database of version {1}, expected version {2}: "
                                      "run 'macadam upgrade {0}', which keeps all content",
                                      database.file().string(),
                                      version,
                                      store_version)};
     }
-    expect_no_foreign_object(database, found, own_schema());
-    expect_whole_schema(database, found, own_schema());
+    expect_no_foreign_object(database, found, own_schema(privacy));
+    expect_whole_schema(database, found, own_schema(privacy));
 }
 
 StoreSettings read_settings(Database& database) {

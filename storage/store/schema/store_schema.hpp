@@ -3,6 +3,7 @@
 #include "estimator/common/progress.hpp"
 #include "mapping/network/road_network.hpp"
 #include "storage/sqlite/sqlite.hpp"
+#include "storage/store/records/privacy_profile.hpp"
 #include "storage/store/records/store_records.hpp"
 #include "storage/store/schema/schema_check.hpp"
 
@@ -23,7 +24,13 @@ void write_store(Database& database,
                  const Progress& progress);
 
 /// Creates all tables, indexes, views and triggers, with only the rows that a GeoPackage requires.
-void make_store_tables(Database& database);
+void make_store_tables(Database& database, PrivacyProfile privacy);
+
+/// Replaces the layer that QGIS shows by that of a privacy profile.
+void replace_roughness_layer(Database& database, PrivacyProfile privacy);
+
+/// Privacy profile that a database claims; own if it is none.
+PrivacyProfile claimed_privacy(Database& database);
 
 /// Identifies a road database by its markers.
 ///
@@ -39,7 +46,7 @@ void check_store(Database& database);
 
 /// Version of the database format that 'macadam init' creates, and the oldest one that can be
 /// upgraded.
-inline constexpr int store_version = 4;
+inline constexpr int store_version = 5;
 inline constexpr int oldest_store_version = 2;
 
 /// Reads the settings.

@@ -31,8 +31,9 @@ constexpr const char* segment_state_2 = R"(CREATE TABLE segment_state (
 
 } // namespace
 
-Schema schema_of_version(int version) {
-    auto schema = own_schema();
+Schema schema_of_version(int version, PrivacyProfile privacy) {
+    // Before version 5, the layer of every database had all fused values.
+    auto schema = own_schema(version <= 4 ? PrivacyProfile::own : privacy);
     if (version <= 2) {
         schema.at({"table", "segment_state"}).sql = segment_state_2;
     }

@@ -107,7 +107,8 @@ private:
 int expect_known(Database& database) {
     const auto found = read_schema(database);
     const int version = expect_store(database, found);
-    expect_no_foreign_object(database, found, schema_of_version(version));
+    expect_no_foreign_object(
+        database, found, schema_of_version(version, claimed_privacy(database)));
     return version;
 }
 
@@ -145,6 +146,7 @@ StoreUpgrade upgrade_store(const fs::path& file,
         put_settings_of_version_3(database, key->key().id());
     }
     add_missing_objects(database);
+    replace_roughness_layer(database, claimed_privacy(database));
     put_version(database);
     add_audit(database,
               "upgrade",

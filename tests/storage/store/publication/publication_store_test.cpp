@@ -3,8 +3,11 @@
 #include "support/roads/store_world.hpp"
 
 #include "storage/sqlite/sqlite.hpp"
+#include "storage/store/schema/schema_check.hpp"
+#include "storage/store/upgrade/store_upgrade.hpp"
 
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include <functional>
 #include <stop_token>
@@ -115,6 +118,13 @@ struct Crowd {
         return records;
     }
 
+    /// Rows of the layer that QGIS shows.
+    std::int64_t layer_rows() const {
+        Database database{file, Database::Access::read};
+        sqlite3_db_config(database.handle(), SQLITE_DBCONFIG_ENABLE_VIEW, 1, nullptr);
+        return database.number("SELECT count(*) FROM roughness WHERE iri > 0");
+    }
+
     std::vector<EventRecord> events(Audience audience = Audience::anyone) const {
         return StoreReader::open(file, {}, audience).events({});
     }
@@ -178,6 +188,29 @@ TEST(Publication, ComesBeforeAnythingLeavesACrowd) {
     EXPECT_EQ(seen.front().segment.key.way_id, 2);
     EXPECT_EQ(seen.front().state->vehicles, 5);
     EXPECT_EQ(seen.front().state->first_seen_ms, january_ms);
+}
+
+TEST(Publication, IsTheLayerThatQgisShowsOfACrowd) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    EXPECT_EQ(crowd.layer_rows(), 0);
+    crowd.publish(february_ms);
+    EXPECT_EQ(crowd.layer_rows(), 10);
+}
+
+TEST(Publication, IsTheLayerOfACrowdThatWasUpgraded) {
+    Crowd crowd;
+    crowd.drive_all(6, january_ms);
+    Database{crowd.file, Database::Access::write}.run(
+        "DROP VIEW roughness;" + own_schema(PrivacyProfile::own).at({"view", "roughness"}).sql +
+        ";UPDATE meta SET value = '4' WHERE key = 'version'");
+    ASSERT_EQ(crowd.layer_rows(), 30);
+    const auto done = upgrade_store(crowd.file, {}, [](auto) { return Progress{}; });
+    EXPECT_EQ(done.to_version, 5);
+    EXPECT_EQ(done.digest, crowd.store.digest());
+    EXPECT_EQ(crowd.layer_rows(), 0);
+    crowd.publish(february_ms);
+    EXPECT_EQ(crowd.layer_rows(), 10);
 }
 
 TEST(Publication, ShowsTheOperatorMore) {
@@ -376,6 +409,7 @@ TEST(BecomingACrowd, TakesTheEndsOfTripsOut) {
     EXPECT_EQ(made.passes, 180U); // 600 m: all is within 300 m of an end
     EXPECT_EQ(crowd.store.info().passes, 0U);
     EXPECT_EQ(crowd.store.settings().privacy, PrivacyProfile::crowd);
+    EXPECT_EQ(RoadStore::open(crowd.file).info().passes, 0U); // its schema is a crowd's
     EXPECT_THAT(crowd.seen({}, Audience::operator_), IsEmpty());
     Database database{crowd.file, Database::Access::read};
     EXPECT_EQ(database.number("SELECT count(*) FROM trip WHERE t0_utc_ms IS NOT NULL"), 0);
