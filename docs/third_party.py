@@ -38,6 +38,8 @@ PROSE = {
     "libfontconfig-dev": "MIT",
     "libosmesa6": "Expat",
     "libosmesa6-dev": "Expat",
+    "libpython3.11-dev": "PSF-2.0",
+    "python3.11-dev": "PSF-2.0",
 }
 SHIPPED = [
     ("ColorBrewer 2.0, scheme RdYlBu (mapping/style/colour_ramp.cpp)",
@@ -67,9 +69,10 @@ def headers_of(build):
 
 
 def libraries_of(build):
-    """Shared libraries that the program and its plug-ins name."""
+    """Shared libraries that the program, its plug-ins and the Python module name."""
     folder = build.parent if (build.parent / "macadam").exists() else build
-    linked = [folder / "macadam", *sorted((folder / "lib").glob("macadam_*.so"))]
+    linked = [folder / "macadam", *sorted((folder / "lib").glob("macadam_*.so")),
+              *(folder / "python/macadam").glob("_macadam.*.so")]
     names, paths = set(OPENED_LATE), {}
     for file in linked:
         for line in lines_of("readelf", "-dW", str(file)):

@@ -1,8 +1,8 @@
-# cmake -D program=FILE -D plugins=DIR -D commands=compile_commands.json -D cet=ON|OFF -P hardening.cmake
-# Reads the ELF files that users run, the program and the libraries that it opens: each must be built
+# cmake -D program=FILE -D plugins=DIR [-D module=GLOB] -D commands=compile_commands.json -D cet=ON|OFF -P hardening.cmake
+# Reads the ELF files that users run, the program, the libraries that it opens and the Python module: each must be built
 # so that an error in it is hard to use, and look for libraries in no folder but the system's.
 
-file(GLOB files "${program}" "${plugins}/macadam_*.so")
+file(GLOB files "${program}" "${plugins}/macadam_*.so" ${module})
 list(LENGTH files count)
 if(count LESS 5)
     message(FATAL_ERROR "${program}: ${count} files to read, expected macadam and its libraries")

@@ -1,5 +1,6 @@
 #include "app/cli/console.hpp"
 
+#include "app/capture/result_capture.hpp"
 #include "app/cli/row_output.hpp"
 #include "app/cli/terminal_escape.hpp"
 #include "app/terminal/text_style.hpp"
@@ -25,13 +26,22 @@ void require_written(bool written) {
     }
 }
 
+/// Hands a message to the caller within the process that captures results, if there is one.
+bool is_captured(bool is_warning, std::string_view line) {
+    auto* const capture = ResultCapture::current();
+    if (capture != nullptr) {
+        capture->add_message(is_warning, line);
+    }
+    return capture != nullptr;
+}
+
 } // namespace
 
 Console::Console(Verbosity verbosity, std::stop_token stop)
     : stop_{std::move(stop)}, verbosity_{verbosity}, terminal_{isatty(STDERR_FILENO) == 1} {}
 
 void Console::say(std::string_view line) const {
-    if (!is_quiet()) {
+    if (!is_captured(false, line) && !is_quiet()) {
         clear_progress_bar();
         std::fputs(fmt::format("{}\n", printable(line)).c_str(), stderr);
     }
@@ -47,6 +57,9 @@ void Console::detail(std::string_view line) const {
 }
 
 void Console::warn(std::string_view line) const { // NOLINT(*-convert-member-functions-to-static)
+    if (is_captured(true, line)) {
+        return;
+    }
     clear_progress_bar();
     const auto label = styled(TextStyle::warning, "macadam: warning:", STDERR_FILENO);
     std::fputs(fmt::format("{} {}\n", label, printable(line)).c_str(), stderr);
@@ -70,6 +83,10 @@ void print_words(std::string_view text) {
 
 void print(std::string_view text) {
     if (RowOutput::write(text)) {
+        return;
+    }
+    if (auto* const capture = ResultCapture::current(); capture != nullptr) {
+        capture->add_text(text);
         return;
     }
     clear_progress_bar();

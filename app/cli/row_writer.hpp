@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/capture/result_capture.hpp"
 #include "app/cli/text_table.hpp"
 #include "storage/text/columns.hpp"
 
@@ -11,6 +12,7 @@
 namespace macadam {
 
 /// Writes rows one after the other as a table, CSV, JSON or GeoJSON; only one is held in memory.
+/// While this thread captures results (app/capture), the rows go there instead.
 template <typename Row>
 class RowWriter {
 public:
@@ -27,6 +29,10 @@ public:
 
     void add(const Row& row) {
         begin();
+        if (capture_ != nullptr) {
+            capture(row);
+            return;
+        }
         const auto separator = format_ == "geojson" ? feature_separator
                                : format_ == "json"  ? ","
                                                     : "";
@@ -39,7 +45,12 @@ public:
 
     /// Writes what precedes the rows; add() does so, too.
     void begin() {
-        if (!std::exchange(has_begun_, true)) {
+        if (std::exchange(has_begun_, true)) {
+            return;
+        }
+        if (capture_ != nullptr) {
+            capture_->begin_table(*columns_);
+        } else {
             put_(format_ == "csv"       ? csv_header(*columns_)
                  : format_ == "json"    ? "["
                  : format_ == "geojson" ? R"({"type":"FeatureCollection","features":[)"
@@ -51,16 +62,28 @@ public:
         if (format_ != "table") {
             begin();
         }
+        if (capture_ != nullptr) {
+            return;
+        }
         put_(format_ == "json" ? "]\n" : format_ == "geojson" ? "]}\n" : "");
     }
 
     std::size_t count() const { return count_; }
 
 private:
+    void capture(const Row& row) {
+        capture_->add_row(*columns_, row);
+        if (feature_ && capture_->wants_features()) {
+            capture_->add_feature(feature_(row));
+        }
+        ++count_;
+    }
+
     std::string format_;
     const Columns<Row>* columns_;
     Put put_;
     Feature feature_;
+    ResultCapture* capture_ = ResultCapture::current();
     bool has_begun_ = false;
     std::size_t count_ = 0;
 };

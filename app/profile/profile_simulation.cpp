@@ -76,7 +76,9 @@ private:
 class RowsFromStart {
 public:
     RowsFromStart(const IriQuestion& question, const Course& course)
-        : rows_{open_profile(question.profile, question.step_m)}, course_{course} {}
+        : rows_{question.measured ? rows_of_profile(*question.measured)
+                                  : open_profile(question.profile, question.step_m)},
+          course_{course} {}
 
     std::span<const double> next() {
         if (std::exchange(held_, false)) {
@@ -163,7 +165,9 @@ std::optional<TrackPair> Course::pair() const {
 
 Course course_of(const IriQuestion& question) {
     const auto file = question.profile.string();
-    Course course{.extent = extent_of_profile(question.profile, question.step_m),
+    Course course{.extent = question.measured
+                                ? extent_of_profile(file, *question.measured)
+                                : extent_of_profile(question.profile, question.step_m),
                   .method = {},
                   .start_m = 0,
                   .from_m = 0,

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,8 +16,9 @@ inline constexpr double rounding_m = 1e-6; ///< tolerance of stations
 
 /// Request for the IRI of a measured profile.
 struct IriQuestion {
-    std::filesystem::path profile;
-    std::optional<double> step_m; ///< as in open_profile
+    std::filesystem::path profile; ///< file; of a profile in memory its name, for messages
+    std::shared_ptr<const MeasuredProfile> measured{}; ///< instead of the file; null: read that
+    std::optional<double> step_m;                      ///< of the file, as in open_profile
     std::optional<double> from_m; ///< start of the reported part; the profile before it is lead-in
     std::optional<double> to_m;
     bool envelope = true;

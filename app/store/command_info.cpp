@@ -52,10 +52,10 @@ struct KnownRoads {
 std::string text_of(const KnownRoads& known) {
     std::string text;
     if (!known.surveys.empty()) {
-        text += "\n" + table_text(survey_columns(), known.surveys);
+        text.append("\n").append(table_text(survey_columns(), known.surveys));
     }
     if (!known.controls.empty()) {
-        text += "\n" + table_text(control_section_columns(), known.controls);
+        text.append("\n").append(table_text(control_section_columns(), known.controls));
     }
     return text;
 }

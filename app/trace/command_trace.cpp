@@ -240,7 +240,11 @@ void run_trace(const Arguments& arguments, const Console& console) {
         source.name(), [&] { return prepared(std::move(log), options.pipeline.odometer); });
     const auto& trip = found.trip;
     const auto trace = with_trip_name(source.name(), [&] {
-        return trace_of(trip, std::move(found.motion), chosen.vehicle, options.pipeline);
+        return trace_of(trip,
+                        std::move(found.motion),
+                        chosen.vehicle,
+                        options.pipeline,
+                        {.report = {}, .stop = console.stop()});
     });
     auto warnings = std::move(found.warnings);
 

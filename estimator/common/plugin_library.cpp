@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include <dlfcn.h>
+#include <link.h>
 
 namespace macadam {
 namespace {
@@ -23,22 +24,42 @@ std::string resolved(const char* path) {
     return found ? std::string{found.get()} : std::string{};
 }
 
-/// Returns the path of a library. The project's own libraries are in lib/ beside the program in a
-/// build folder, in ../lib/macadam/plugins/ where it is installed; neither a search path nor an
-/// environment variable leads to others of the same name.
+/// Returns the path of the file that has this code: the program, an extension module of another
+/// program, or a plug-in that opens another one.
+std::string own_file() {
+    constexpr int known = 1;
+    link_map* object = nullptr;
+    Dl_info symbol{};
+    if (dladdr1(reinterpret_cast<const void*>(&plugin_symbol), // NOLINT(*-reinterpret-cast)
+                &symbol,
+                reinterpret_cast<void**>(&object), // NOLINT(*-reinterpret-cast)
+                RTLD_DL_LINKMAP) >= known &&
+        object != nullptr && object->l_name != nullptr && *object->l_name != '\0') {
+        return resolved(object->l_name);
+    }
+    auto program = resolved("/proc/self/exe");
+    if (program.empty()) {
+        throw InputError{
+            "cannot find the program's folder with its libraries, expected /proc to be "
+            "mounted"};
+    }
+    return program;
+}
+
+constexpr std::string_view our_prefix = "macadam_";
+
+/// Returns the path of a library. The project's own libraries are in lib/ beside the program or
+/// module in a build folder, in ../lib/macadam/plugins/ where the program is installed; neither a
+/// search path nor an environment variable leads to others of the same name.
 std::string path_of(std::string_view library) {
-    constexpr std::string_view our_prefix = "macadam_";
     if (!library.starts_with(our_prefix)) {
         return std::string{library};
     }
-    const auto program = resolved("/proc/self/exe");
-    if (program.empty()) {
-        throw InputError{
-            fmt::format("cannot find the program folder with lib/{}, expected /proc to be "
-                        "mounted",
-                        library)};
+    const auto file = own_file();
+    const auto folder = file.substr(0, file.rfind('/'));
+    if (std::string_view{file}.substr(folder.size() + 1).starts_with(our_prefix)) {
+        return fmt::format("{}/{}", folder, library);
     }
-    const auto folder = program.substr(0, program.rfind('/'));
     const auto beside = resolved(fmt::format("{}/lib/{}", folder, library).c_str());
     return beside.empty() ? fmt::format("{}/../lib/macadam/plugins/{}", folder, library) : beside;
 }

@@ -3,9 +3,9 @@
 namespace macadam {
 
 /// Returns the function `symbol` of the shared object `library`, which is opened on first use and
-/// stays open. "macadam_NAME.so" is opened in lib/ beside the running program or, where that is
-/// installed, in ../lib/macadam/plugins/ from it, by its absolute path; any other name is looked up
-/// in the system's library path.
+/// stays open. "macadam_NAME.so" is opened in lib/ beside the program (or the Python module) that
+/// contains this code or, where the program is installed, in ../lib/macadam/plugins/ from it, by
+/// its absolute path; any other name is looked up in the system's library path.
 ///
 /// MRPT and GDAL load more than a hundred shared objects each, and OSMesa loads a compiler.
 /// Commands that need none of them should not wait for them.

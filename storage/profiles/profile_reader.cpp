@@ -54,13 +54,13 @@ struct Passed {
 
 /// Passes each point to `take`.
 template <typename Take>
-ProfileExtent read_through(const std::filesystem::path& file, ProfileRows& rows, Take take) {
+ProfileExtent read_through(const std::string& name, ProfileRows& rows, Take take) {
     Passed passed;
     for (auto row = rows.next(); !row.empty(); row = rows.next()) {
         const double station_m = row.front();
         if (!std::isfinite(station_m) || (passed.points > 0 && station_m <= passed.last_m)) {
             throw InputError{fmt::format("{}: point {} is at {} m, expected more than {}",
-                                         file.string(),
+                                         name,
                                          passed.points + 1,
                                          station_m,
                                          passed.last_m)};
@@ -69,8 +69,8 @@ ProfileExtent read_through(const std::filesystem::path& file, ProfileRows& rows,
         take(row);
     }
     if (passed.points < 2) {
-        throw InputError{fmt::format(
-            "{}: has {} rows of numbers, expected at least two", file.string(), passed.points)};
+        throw InputError{
+            fmt::format("{}: has {} rows of numbers, expected at least two", name, passed.points)};
     }
     const auto& head = rows.head();
     return {.tracks = head.tracks,
@@ -106,7 +106,7 @@ MeasuredProfile read_profile(const std::filesystem::path& file, std::optional<do
     for (const auto& name : rows->head().tracks) {
         profile.tracks.push_back({name, {}});
     }
-    const auto extent = read_through(file, *rows, [&](std::span<const double> row) {
+    const auto extent = read_through(file.string(), *rows, [&](std::span<const double> row) {
         profile.station_m.push_back(row.front());
         for (std::size_t i = 0; i < profile.tracks.size(); ++i) {
             profile.tracks[i].elevation_m.push_back(row[i + 1]);
@@ -118,7 +118,11 @@ MeasuredProfile read_profile(const std::filesystem::path& file, std::optional<do
 
 ProfileExtent extent_of_profile(const std::filesystem::path& file, std::optional<double> step_m) {
     const auto rows = open_profile(file, step_m);
-    return read_through(file, *rows, [](std::span<const double>) {});
+    return read_through(file.string(), *rows, [](std::span<const double>) {});
+}
+
+ProfileExtent extent_of_profile(const std::string& name, const MeasuredProfile& profile) {
+    return read_through(name, *rows_of_profile(profile), [](std::span<const double>) {});
 }
 
 } // namespace macadam

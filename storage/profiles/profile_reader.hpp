@@ -45,4 +45,9 @@ struct ProfileExtent {
 /// \throws InputError  as read_profile does.
 ProfileExtent extent_of_profile(const std::filesystem::path& file, std::optional<double> step_m);
 
+/// Determines the extent of a profile in memory.
+/// \param name  of the profile, for messages
+/// \throws InputError  for values that are not finite, or stations that do not rise.
+ProfileExtent extent_of_profile(const std::string& name, const MeasuredProfile& profile);
+
 } // namespace macadam

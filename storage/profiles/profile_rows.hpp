@@ -10,6 +10,8 @@
 
 namespace macadam {
 
+struct MeasuredProfile; // storage/profiles/profile_reader.hpp
+
 /// Information in a profile file that precedes its first point.
 struct ProfileHead {
     std::vector<std::string> tracks; ///< "left", "right", "profile", or the name in the file
@@ -40,6 +42,11 @@ public:
 ///                .pro: replaces the step in the header of the file.
 std::unique_ptr<ProfileRows> open_profile(const std::filesystem::path& file,
                                           std::optional<double> step_m);
+
+/// Reads the points of a profile in memory, which must outlive the reader.
+///
+/// \throws InputError  from next(), for an elevation that is not finite.
+std::unique_ptr<ProfileRows> rows_of_profile(const MeasuredProfile& profile);
 
 // Readers of each format; see docs/reference/profiles.md.
 std::unique_ptr<ProfileRows> open_csv_profile(const std::filesystem::path& file,

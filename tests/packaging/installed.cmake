@@ -27,7 +27,15 @@ foreach(made maps/map.png maps/roads.fgb moved/share/man/man1/macadam-import.1.g
     endif()
 endforeach()
 
-file(GLOB elf_files "${program}" "${folder}/moved/lib/macadam/plugins/*.so")
+# The Python module opens the plug-ins of the same tree (the network is read by GDAL's).
+file(GLOB module "${folder}/moved/lib/python3/dist-packages/macadam/_macadam.*.so")
+if(module)
+    run_checked("${CMAKE_COMMAND}" -E env "PYTHONPATH=${folder}/moved/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1
+                /usr/bin/python3 -c "import macadam, sys; assert macadam.match(*sys.argv[1:]).rows > 0"
+                "${trip}" "${folder}/maps/roads.fgb")
+endif()
+
+file(GLOB elf_files "${program}" ${module} "${folder}/moved/lib/macadam/plugins/*.so")
 foreach(file IN LISTS elf_files)
     file(STRINGS "${file}" traces REGEX "${build}")
     if(traces)

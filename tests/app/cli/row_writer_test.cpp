@@ -36,6 +36,18 @@ TEST(RowWriter, MakesAFeatureOfEachRow) {
               "{\"type\":\"FeatureCollection\",\"features\":[Main\x1b,Long Street]}\n");
 }
 
+TEST(RowWriter, HandsItsRowsToACaptureOfThisThread) {
+    ResultCapture capture{true};
+    EXPECT_EQ(rows_text(columns, roads, "csv", [](const Road& road) { return road.name; }), "");
+    const auto table = capture.take().table.value();
+    ASSERT_EQ(table.columns.size(), 2U); // the columns of files
+    EXPECT_EQ(table.columns[0].texts, (std::vector<std::string>{"Main\x1b", "Long Street"}));
+    EXPECT_EQ(table.columns[1].type.unit, "mm/m");
+    EXPECT_EQ(table.columns[1].reals.front(), 2.25);
+    EXPECT_EQ(table.columns[1].is_known, (std::vector<bool>{true, false}));
+    EXPECT_EQ(table.features.size(), 2U);
+}
+
 TEST(RowWriter, WritesCompleteFilesWithoutRowsButNoHeadings) {
     const auto written = [](const char* format) {
         std::string text;
