@@ -11,7 +11,7 @@ import io
 import json
 import os
 import pathlib
-import shutil
+import shlex
 import signal
 import subprocess
 import sys
@@ -341,6 +341,16 @@ class RoadDatabase(Values):
         for read in (roads.segments, roads.worst, roads.history, roads.events, roads.info):
             read()
         self.assertEqual(state(), before)
+
+    def test_is_read_by_ogr2ogr_as_documented(self):
+        page = (SOURCE / "docs/reference/python.md").read_text("utf-8")
+        lines = [line.strip() for line in page.splitlines() if line.startswith("    ogr2ogr ")]
+        self.assertEqual(len(lines), 2)
+        for line in lines:
+            subprocess.run(shlex.split(line), cwd=self.folder.name, check=True)
+        poor = json.loads(pathlib.Path(self.folder.name, "poor.geojson").read_text("utf-8"))["features"]
+        self.assertEqual([feature["properties"]["segment"] for feature in poor],
+                         list(self.roads.segments(class_name="poor")["segment"]))
 
     def test_of_a_crowd_gives_published_values_alone(self):
         with tempfile.TemporaryDirectory() as name:
