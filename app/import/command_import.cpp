@@ -64,7 +64,7 @@ void run_import(const Arguments& arguments, const Console& console) {
     VehicleChoice vehicles{arguments};
     auto store = opened_store(file, console);
     if (known.survey || known.control) {
-        const ImportLock others_are_told{file, "reference"};
+        const ImportLock import_lock{file, "reference"};
         import_known(store, known, options.json, console);
         if (paths.empty()) {
             fuse_new(store, console);

@@ -30,7 +30,7 @@ AskedTrips::AskedTrips(const std::vector<std::filesystem::path>& paths,
             asked.walk.emplace(path, walking);
             if (asked.walk->count()) {
                 tell(asked, console);
-                asked.told = true;
+                asked.is_reported = true;
             }
         } catch (const InputError& error) {
             asked.refusal = error.what();
@@ -53,7 +53,7 @@ AskedTrips::Count AskedTrips::count_of(const Path& path) {
 std::optional<TripSource> AskedTrips::next() {
     const std::scoped_lock lock{asking_};
     for (; at_ < paths_.size(); ++at_) {
-        auto& [path, walk, refusal, told] = paths_[at_];
+        auto& [path, walk, refusal, is_reported] = paths_[at_];
         if (!walk) {
             ++at_;
             return TripSource{.file = path,
@@ -105,7 +105,7 @@ void AskedTrips::tell(const Path& path, const Console& console) {
 
 void AskedTrips::tell_rest(const Console& console) const {
     for (const auto& path : paths_) {
-        if (path.walk && !path.told) {
+        if (path.walk && !path.is_reported) {
             tell(path, console);
         }
     }

@@ -50,7 +50,7 @@ private:
         std::filesystem::path path;
         std::optional<TripWalk> walk; ///< `std::nullopt`: `refusal` has the reason
         std::string refusal;
-        bool told = false;
+        bool is_reported = false;
     };
 
     /// Trips of paths, as far as they are known.

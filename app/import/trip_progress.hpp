@@ -35,15 +35,15 @@ public:
 
 private:
     void raise_to(std::size_t parts) {
-        if (parts > told_) {
-            total_ += parts - told_;
-            told_ = parts;
+        if (parts > reported_) {
+            total_ += parts - reported_;
+            reported_ = parts;
         }
     }
 
     std::atomic<std::size_t>& total_;
     std::stop_token stop_;
-    std::size_t told_ = 0;
+    std::size_t reported_ = 0;
 };
 
 } // namespace macadam

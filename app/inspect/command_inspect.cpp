@@ -17,7 +17,7 @@
 namespace macadam {
 namespace {
 
-/// What the inspections of a call amount to.
+/// Results of all inspections of a call.
 struct Inspected {
     std::vector<std::string> json{};
     std::vector<Inspection> logs{}; ///< of other programs

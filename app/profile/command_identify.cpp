@@ -95,7 +95,7 @@ std::vector<Stretch> stretches_of(const TripLog& trip) {
     return stretches;
 }
 
-/// What all methods fit to.
+/// Trip whose position on the measured road is known: the data of every fit.
 struct LocatedTrip {
     std::string name;
     std::vector<Stretch> stretches;

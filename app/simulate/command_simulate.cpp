@@ -128,7 +128,7 @@ void write_lanes(const fs::path& file,
 
 void write_truth(const Fleet& fleet,
                  const RoadNetwork& roads,
-                 LaneStore& surfaces,
+                 LaneSurfaceCache& surfaces,
                  const fs::path& folder,
                  std::size_t jobs,
                  const Console& console) {
@@ -176,7 +176,7 @@ double driven_km(const TripLog& trip) {
 /// \returns  km driven
 double write_trips(const Fleet& fleet,
                    const RoadNetwork& roads,
-                   LaneStore& surfaces,
+                   LaneSurfaceCache& surfaces,
                    const fs::path& folder,
                    std::size_t jobs,
                    const Console& console) {
@@ -212,7 +212,7 @@ simulated(const SimulateOptions& options, const fs::path& folder, const Console&
     const auto fleet = with_trip_name(
         options.network.string(), [&] { return make_fleet(options.recipe, roads, options.seed); });
     write_vehicles(fleet, folder);
-    LaneStore surfaces{
+    LaneSurfaceCache surfaces{
         [&](const Lane& lane) { return lane_surface(fleet.recipe, roads, lane, fleet.seed); },
         max_lane_bytes};
     write_truth(fleet, roads, surfaces, folder, options.jobs, console);

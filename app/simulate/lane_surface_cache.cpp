@@ -15,7 +15,7 @@ std::size_t bytes_of(const RoadSurface& surface) {
 
 } // namespace
 
-std::shared_ptr<const RoadSurface> LaneStore::operator()(const Lane& lane) {
+std::shared_ptr<const RoadSurface> LaneSurfaceCache::operator()(const Lane& lane) {
     {
         const std::scoped_lock lock{mutex_};
         if (const auto found = kept_.find(lane); found != kept_.end()) {

@@ -13,10 +13,11 @@ namespace macadam {
 
 /// Thread-safe cache of lane surfaces. A surface is generated on first use. When all surfaces take
 /// more than `max_bytes`, the oldest are discarded and generated again, identically, on demand.
-class LaneStore {
+class LaneSurfaceCache {
 public:
     using Make = std::function<RoadSurface(const Lane&)>;
-    LaneStore(Make make, std::size_t max_bytes) : make_{std::move(make)}, max_bytes_{max_bytes} {}
+    LaneSurfaceCache(Make make, std::size_t max_bytes)
+        : make_{std::move(make)}, max_bytes_{max_bytes} {}
 
     std::shared_ptr<const RoadSurface> operator()(const Lane& lane);
 

@@ -32,14 +32,15 @@ double share(double part, double whole) {
     return whole > 0 ? part / whole : 0;
 }
 
-std::string json_of(const AlignmentSummary& laid) {
+std::string json_of(const AlignmentSummary& alignment) {
     JsonObject object;
-    object.add("drives", laid.drives)
-        .add("found", laid.found)
-        .add("beyond_reach", laid.beyond_reach)
-        .add("moved_far", laid.moved_far)
+    object.add("drives", alignment.drives)
+        .add("found", alignment.found)
+        .add("beyond_reach", alignment.beyond_reach)
+        .add("moved_far", alignment.moved_far)
         .add("middle_lag_m",
-             laid.found > 0 ? json_number(laid.middle_lag_cm / 100.0, 2) : JsonValue{nullptr});
+             alignment.found > 0 ? json_number(alignment.middle_lag_cm / 100.0, 2)
+                                 : JsonValue{nullptr});
     return object.text();
 }
 

@@ -39,9 +39,9 @@ std::optional<double> mean_of_tracks(const SurveyRow& row) {
 NamedIri survey_iri(const SurveyRow& row, bool wants_mri) {
     const NamedIri mri{row.mri_mm_per_m ? row.mri_mm_per_m : mean_of_tracks(row), "MRI"};
     const NamedIri hri{row.hri_mm_per_m, "HRI"};
-    const NamedIri untold{row.iri_mm_per_m, "IRI"};
+    const NamedIri unspecified{row.iri_mm_per_m, "IRI"};
     const NamedIri track{row.left_mm_per_m ? row.left_mm_per_m : row.right_mm_per_m, "IRI"};
-    for (const auto& named : {wants_mri ? mri : hri, untold, wants_mri ? hri : mri, track}) {
+    for (const auto& named : {wants_mri ? mri : hri, unspecified, wants_mri ? hri : mri, track}) {
         if (named.mm_per_m) {
             return named;
         }

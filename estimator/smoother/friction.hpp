@@ -5,8 +5,8 @@
 
 namespace macadam {
 
-/// Returns the car with its own dampers and with increasingly harder ones, to represent dry
-/// friction. The first is the vehicle's own.
+/// Returns the vehicle, first with its own dampers, then with increasingly harder ones that
+/// represent dry friction.
 std::vector<CarSteps> cars_with_friction(const Vehicle& vehicle, double step_s);
 
 /// Selects the car for each sample so that its dampers dissipate as much over the strokes of the

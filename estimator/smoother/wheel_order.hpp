@@ -6,8 +6,8 @@
 
 namespace macadam {
 
-/// Detects the circumference of out-of-round tyres or rims from the channels: a line that exceeds
-/// the road's spectrum in distance.
+/// Estimates the circumference of out-of-round tyres or rims: the wavelength of a spectral line
+/// that stands out of the road's spectrum.
 ///
 /// \returns  metres, 1.6 to 2.5; `std::nullopt` if no line is significant at one in a thousand.
 std::optional<double> wheel_circumference_m(const DriveRecord& passage);

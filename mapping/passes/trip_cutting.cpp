@@ -76,9 +76,9 @@ std::int32_t place_sd_mm(std::span<const SegmentOverlap> parts) {
     return 100 * static_cast<std::int32_t>(std::lround(sd_dm));
 }
 
-/// \param told  readable range of travel
+/// \param readable  readable range of travel
 RoughnessTrace trace_of(std::span<const SegmentOverlap> parts,
-                        const TravelSpan& told,
+                        const TravelSpan& readable,
                         const IriTrace& roughness,
                         const RoadNetwork& roads,
                         const Vehicle& vehicle) {
@@ -89,8 +89,8 @@ RoughnessTrace trace_of(std::span<const SegmentOverlap> parts,
     std::vector<TraceCell> cells;
     for (auto metre = first; metre < last; ++metre) {
         const TravelSpan travel{travel_at(knots, metre), travel_at(knots, metre + 1)};
-        const bool is_told = travel.from_m >= told.from_m && travel.to_m <= told.to_m;
-        cells.push_back(is_told ? cell_over(travel, roughness, vehicle) : TraceCell{});
+        const bool is_readable = travel.from_m >= readable.from_m && travel.to_m <= readable.to_m;
+        cells.push_back(is_readable ? cell_over(travel, roughness, vehicle) : TraceCell{});
     }
     return with_cells({.chunk = chunk_of(parts.front().segment, roads.segment_length_m),
                        .drive = *parts.front().drive,
@@ -106,9 +106,9 @@ bool is_same_drive(const SegmentOverlap& a, const SegmentOverlap& b, double segm
            chunk_of(a.segment, segment_length_m) == chunk_of(b.segment, segment_length_m);
 }
 
-/// \param told  readable range of travel
+/// \param readable  readable range of travel
 std::vector<RoughnessTrace> extract_traces(std::vector<SegmentOverlap> parts,
-                                           const TravelSpan& told,
+                                           const TravelSpan& readable,
                                            const IriTrace& roughness,
                                            const RoadNetwork& roads,
                                            const Vehicle& vehicle) {
@@ -119,7 +119,7 @@ std::vector<RoughnessTrace> extract_traces(std::vector<SegmentOverlap> parts,
         while (last != parts.end() && is_same_drive(*first, *last, roads.segment_length_m)) {
             ++last;
         }
-        auto trace = trace_of({first, last}, told, roughness, roads, vehicle);
+        auto trace = trace_of({first, last}, readable, roughness, roads, vehicle);
         if (!trace.iri.empty()) {
             traces.push_back(std::move(trace));
         }
@@ -169,8 +169,9 @@ TripCut cut_trip(const IriTrace& roughness,
     }
     auto parts = driven_parts(matched, roads, config.min_confidence);
     auto passes = driven_passes(parts, roughness, vehicle, config);
-    const TravelSpan told{matched.front().from_travel_m, matched.back().to_travel_m};
-    return {std::move(passes), extract_traces(std::move(parts), told, roughness, roads, vehicle)};
+    const TravelSpan readable{matched.front().from_travel_m, matched.back().to_travel_m};
+    return {std::move(passes),
+            extract_traces(std::move(parts), readable, roughness, roads, vehicle)};
 }
 
 Pass moved(const Pass& pass,

@@ -27,7 +27,7 @@ bool line_before(const std::vector<PixelPoint>& a, const std::vector<PixelPoint>
 }
 
 /// Returns the line in pixels from the cell's corner.
-std::vector<PixelPoint> laid(const RoadName& road, const PixelBox& cell) {
+std::vector<PixelPoint> line_in_cell(const RoadName& road, const PixelBox& cell) {
     std::vector<PixelPoint> line;
     line.reserve(road.line.size());
     for (const auto& point : road.line) {
@@ -240,7 +240,7 @@ std::vector<NamedPart> parts_in(std::span<const RoadName> roads, const PixelBox&
         if (!may_touch(road, cell)) {
             continue;
         }
-        for (auto& line : inside(laid(road, cell), room)) {
+        for (auto& line : inside(line_in_cell(road, cell), room)) {
             parts.push_back(
                 {directed(std::move(line)), road.name, road.rank, road.quiet, road.half_width_px});
         }

@@ -55,14 +55,14 @@ double rank_factor(int rank) {
     return factors[std::size_t(std::clamp(rank, 0, 5))];
 }
 
-double ink_per_px(std::span<const Polyline> strands, const PixelBox& visible, double unit) {
+double ink_per_px(std::span<const Polyline> polylines, const PixelBox& visible, double unit) {
     const double side_px = cell_px * unit;
     std::unordered_set<std::uint64_t> cells;
     double length_px = 0;
-    for (const auto& strand : strands) {
-        for (std::size_t i = 0; i < strand.looks.size(); ++i) {
-            const auto& a = strand.points[i];
-            const auto& b = strand.points[i + 1];
+    for (const auto& polyline : polylines) {
+        for (std::size_t i = 0; i < polyline.looks.size(); ++i) {
+            const auto& a = polyline.points[i];
+            const auto& b = polyline.points[i + 1];
             const double piece_px = std::hypot(b.x - a.x, b.y - a.y);
             const int steps = int(std::min(4096.0, 1 + piece_px / side_px));
             for (int step = 0; step < steps; ++step) {

@@ -28,7 +28,7 @@ LineWidths tile_widths(double zoom);
 double rank_factor(int rank);
 
 /// Returns the share of the ground near roads that lines of width 1 px would cover.
-double ink_per_px(std::span<const Polyline> strands, const PixelBox& visible, double unit);
+double ink_per_px(std::span<const Polyline> polylines, const PixelBox& visible, double unit);
 
 /// Reduces the widths where roads are so dense that they would merge.
 LineWidths uncrowded(const LineWidths& widths, double ink_per_px, double unit);

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int lowest_rank = 5;
 
-bool is_measured(const Polyline& strand) {
-    return strand.looks.front() != unmeasured_look;
+bool is_measured(const Polyline& polyline) {
+    return polyline.looks.front() != unmeasured_look;
 }
 
 /// Returns all classes, and the other looks of the same width.
@@ -59,12 +59,12 @@ bool meet(const PixelBox& a, const PixelBox& b, double apart_px) {
            a.top <= b.bottom + apart_px && b.top <= a.bottom + apart_px;
 }
 
-PixelBox box_around(const Polyline& strand) {
-    PixelBox box{strand.points.front().x,
-                 strand.points.front().y,
-                 strand.points.front().x,
-                 strand.points.front().y};
-    for (const auto& point : strand.points) {
+PixelBox box_around(const Polyline& polyline) {
+    PixelBox box{polyline.points.front().x,
+                 polyline.points.front().y,
+                 polyline.points.front().x,
+                 polyline.points.front().y};
+    for (const auto& point : polyline.points) {
         box = {std::min(box.left, point.x),
                std::min(box.top, point.y),
                std::max(box.right, point.x),
@@ -74,17 +74,17 @@ PixelBox box_around(const Polyline& strand) {
 }
 
 struct Road {
-    const Polyline* strand;
+    const Polyline* polyline;
     PixelBox box;
     std::uint64_t looks; ///< of its line segments
 };
 
 using Roads = std::vector<const Road*>;
 
-std::uint64_t looks_of(const Polyline& strand) {
+std::uint64_t looks_of(const Polyline& polyline) {
     std::uint64_t looks = 0;
-    for (auto i = strand.first; i < std::min(strand.past, strand.looks.size()); ++i) {
-        looks |= only(strand.looks[i]);
+    for (auto i = polyline.first; i < std::min(polyline.past, polyline.looks.size()); ++i) {
+        looks |= only(polyline.looks[i]);
     }
     return looks;
 }
@@ -94,13 +94,13 @@ struct Layer {
     std::vector<Road> measured, unmeasured;
 };
 
-std::array<Layer, lowest_rank + 1> layers_of(std::span<const Polyline> strands) {
+std::array<Layer, lowest_rank + 1> layers_of(std::span<const Polyline> polylines) {
     std::array<Layer, lowest_rank + 1> layers;
-    for (const auto& strand : strands) {
-        if (!strand.looks.empty()) {
-            auto& layer = layers[std::size_t(std::clamp(strand.rank, 0, lowest_rank))];
-            (is_measured(strand) ? layer.measured : layer.unmeasured)
-                .push_back({&strand, box_around(strand), looks_of(strand)});
+    for (const auto& polyline : polylines) {
+        if (!polyline.looks.empty()) {
+            auto& layer = layers[std::size_t(std::clamp(polyline.rank, 0, lowest_rank))];
+            (is_measured(polyline) ? layer.measured : layer.unmeasured)
+                .push_back({&polyline, box_around(polyline), looks_of(polyline)});
         }
     }
     return layers;
@@ -134,18 +134,21 @@ struct GlRoadPainter {
 };
 
 /// Draws roads in batches, so that the quads of a large city need not be in memory at once.
-void draw(GlRoadPainter& easel, const Roads& roads, const StrokePass& pass, std::uint32_t rgb) {
+void draw(GlRoadPainter& gl_painter,
+          const Roads& roads,
+          const StrokePass& pass,
+          std::uint32_t rgb) {
     constexpr std::size_t enough = 16384;
-    auto& quads = easel.quads;
+    auto& quads = gl_painter.quads;
     const auto flush = [&] {
-        easel.painter.draw(quads, rgb, pass.radius_px);
+        gl_painter.painter.draw(quads, rgb, pass.radius_px);
         quads.clear();
     };
     for (const auto* road : roads) {
         if ((road->looks & pass.looks) == 0) {
             continue;
         }
-        add_ribbon(quads, *road->strand, pass);
+        add_ribbon(quads, *road->polyline, pass);
         if (quads.size() >= enough) {
             flush();
         }
@@ -154,9 +157,11 @@ void draw(GlRoadPainter& easel, const Roads& roads, const StrokePass& pass, std:
 }
 
 /// Copies four bytes per pixel to three, onto a band of the sheet.
-void lay(const GlRoadPainter& easel, const Window& window, int left, int down, Image& band) {
+void copy_pixels(
+    const GlRoadPainter& gl_painter, const Window& window, int left, int down, Image& band) {
     for (int y = 0; y < window.height_px; ++y) {
-        const auto* from = easel.rgba.data() + std::size_t(y) * std::size_t(easel.width_px) * 4;
+        const auto* from =
+            gl_painter.rgba.data() + std::size_t(y) * std::size_t(gl_painter.width_px) * 4;
         auto* to = band.rgb.data() +
                    (std::size_t(down + y) * std::size_t(band.width) + std::size_t(left)) * 3;
         for (int x = 1; x < window.width_px; ++x, from += 4, to += 3) {
@@ -180,16 +185,17 @@ struct RoadPainter::Impl {
     Sheet sheet{};
     std::array<Layer, lowest_rank + 1> layers{};
     LineWidths widths{};
-    std::unique_ptr<GlRoadPainter> easel{};
+    std::unique_ptr<GlRoadPainter> gl_painter{};
 };
 
 /// Reuses the painter if it is large enough.
 void RoadPainter::Impl::prepare(int width_px, int height_px) {
-    if (easel == nullptr || easel->width_px < width_px || easel->height_px < height_px) {
-        easel.reset();
-        easel = std::make_unique<GlRoadPainter>(width_px, height_px);
+    if (gl_painter == nullptr || gl_painter->width_px < width_px ||
+        gl_painter->height_px < height_px) {
+        gl_painter.reset();
+        gl_painter = std::make_unique<GlRoadPainter>(width_px, height_px);
     }
-    easel->context.make_current();
+    gl_painter->context.make_current();
 }
 
 /// Copies the ground in bands, since their pixels are held three times.
@@ -201,8 +207,9 @@ void RoadPainter::Impl::lay_ground(const Window& window, const PixelBox& map) {
     const int rows = std::max(1, pixels / width);
     for (int top = int(map.top); top < bottom; top += rows) {
         const int height = std::min(rows, bottom - top);
-        easel->pixels.lay({left - int(window.left_px), top - int(window.top_px), width, height},
-                          sheet.ground({left, top, width, height}));
+        gl_painter->pixels.lay(
+            {left - int(window.left_px), top - int(window.top_px), width, height},
+            sheet.ground({left, top, width, height}));
     }
 }
 
@@ -213,7 +220,10 @@ void RoadPainter::Impl::paint_unmeasured(int rank,
     auto pass = view;
     pass.radius_px = radius_px;
     pass.looks = every_look;
-    draw(*easel, near(layers[std::size_t(rank)].unmeasured, view.visible, radius_px), pass, rgb);
+    draw(*gl_painter,
+         near(layers[std::size_t(rank)].unmeasured, view.visible, radius_px),
+         pass,
+         rgb);
 }
 
 void RoadPainter::Impl::paint_measured(int rank, const StrokePass& view) {
@@ -224,7 +234,7 @@ void RoadPainter::Impl::paint_measured(int rank, const StrokePass& view) {
         auto pass = view;
         pass.radius_px = radius_px;
         pass.looks = looks;
-        draw(*easel, roads, pass, rgb);
+        draw(*gl_painter, roads, pass, rgb);
     };
     for (const bool certain : {false, true}) {
         paint(casing_radius_px(widths, rank, certain), looks_of(certain), palette.casing);
@@ -243,9 +253,9 @@ void RoadPainter::Impl::paint(const Window& window) {
     const auto whole = box_of(window);
     const auto map = common(whole, sheet.map);
     if (map != whole) {
-        easel->painter.clear(moved(whole, -whole.left, -whole.top), palette.page);
+        gl_painter->painter.clear(moved(whole, -whole.left, -whole.top), palette.page);
     }
-    easel->painter.clear(moved(map, -whole.left, -whole.top), palette.ground);
+    gl_painter->painter.clear(moved(map, -whole.left, -whole.top), palette.ground);
     const StrokePass view{.radius_px = 0,
                           .looks = 0,
                           .visible = map,
@@ -266,7 +276,7 @@ void RoadPainter::Impl::paint(const Window& window) {
             paint_measured(rank, view);
         }
     }
-    easel->painter.finish();
+    gl_painter->painter.finish();
 }
 
 RoadPainter::RoadPainter(const Palette& palette, std::span<const std::uint32_t> class_colours)
@@ -277,9 +287,11 @@ RoadPainter::~RoadPainter() = default;
 RoadPainter::RoadPainter(RoadPainter&&) noexcept = default;
 RoadPainter& RoadPainter::operator=(RoadPainter&&) noexcept = default;
 
-void RoadPainter::begin(Sheet sheet, std::span<const Polyline> strands, const LineWidths& widths) {
+void RoadPainter::begin(Sheet sheet,
+                        std::span<const Polyline> polylines,
+                        const LineWidths& widths) {
     impl_->sheet = std::move(sheet);
-    impl_->layers = layers_of(strands);
+    impl_->layers = layers_of(polylines);
     impl_->widths = widths;
 }
 
@@ -299,19 +311,19 @@ Image RoadPainter::rows(int top_px, int count) {
                                 std::min(window_width_px, width_px - left),
                                 std::min(window_height_px, count - down)};
             impl_->paint(window);
-            lay(*impl_->easel, window, left, down, image);
+            copy_pixels(*impl_->gl_painter, window, left, down, image);
         }
     }
     return image;
 }
 
 Image painted_roads(const Sheet& sheet,
-                    std::span<const Polyline> strands,
+                    std::span<const Polyline> polylines,
                     const LineWidths& widths,
                     const Palette& palette,
                     std::span<const std::uint32_t> class_colours) {
     RoadPainter painter{palette, class_colours};
-    painter.begin(sheet, strands, widths);
+    painter.begin(sheet, polylines, widths);
     return painter.rows(0, sheet.height_px);
 }
 

@@ -33,62 +33,62 @@ bool between(const PixelPoint& from, const PixelPoint& to, const PixelPoint& poi
 class Growing {
 public:
     Growing(int rank, std::size_t max_points) {
-        strand_.rank = rank;
-        strand_.points.reserve(max_points);
-        strand_.looks.reserve(max_points);
+        polyline_.rank = rank;
+        polyline_.points.reserve(max_points);
+        polyline_.looks.reserve(max_points);
     }
 
-    void begin(const PixelPoint& point) { strand_.points.push_back(point); }
+    void begin(const PixelPoint& point) { polyline_.points.push_back(point); }
 
     void go_on(const PixelPoint& point, int look) {
         // An invisibly short line segment must not pass its look to a long one after it.
         if (waiting_look_ != nothing_ && waiting_look_ != look &&
-            apart_px(strand_.points.back(), waiting_) > 1e-6 &&
-            apart_px(strand_.points.back(), point) >= min_piece_px) {
+            apart_px(polyline_.points.back(), waiting_) > 1e-6 &&
+            apart_px(polyline_.points.back(), point) >= min_piece_px) {
             take();
         }
         waiting_look_ = std::max(waiting_look_, look);
         waiting_ = point;
-        if (apart_px(strand_.points.back(), point) >= min_piece_px) {
+        if (apart_px(polyline_.points.back(), point) >= min_piece_px) {
             take();
         }
     }
 
     Polyline finished() && {
         // The remainder is too short to see but closes the gap to the next road.
-        if (waiting_look_ != nothing_ && apart_px(strand_.points.back(), waiting_) > 1e-6) {
+        if (waiting_look_ != nothing_ && apart_px(polyline_.points.back(), waiting_) > 1e-6) {
             take();
         }
-        return std::move(strand_);
+        return std::move(polyline_);
     }
 
 private:
     void take() {
         if (goes_straight_on()) {
-            passed_.push_back(strand_.points.back());
-            strand_.points.back() = waiting_;
+            passed_.push_back(polyline_.points.back());
+            polyline_.points.back() = waiting_;
         } else {
             passed_.clear();
-            strand_.points.push_back(waiting_);
-            strand_.looks.push_back(waiting_look_);
+            polyline_.points.push_back(waiting_);
+            polyline_.looks.push_back(waiting_look_);
         }
         waiting_look_ = nothing_;
     }
 
     bool goes_straight_on() const {
-        if (strand_.looks.empty() || strand_.looks.back() != waiting_look_ ||
+        if (polyline_.looks.empty() || polyline_.looks.back() != waiting_look_ ||
             passed_.size() >= max_passed) {
             return false;
         }
-        const auto& start = strand_.points[strand_.points.size() - 2];
+        const auto& start = polyline_.points[polyline_.points.size() - 2];
         const auto lies_between = [&](const PixelPoint& point) {
             return between(start, waiting_, point);
         };
-        return lies_between(strand_.points.back()) && std::ranges::all_of(passed_, lies_between);
+        return lies_between(polyline_.points.back()) && std::ranges::all_of(passed_, lies_between);
     }
 
     static constexpr int nothing_ = -100;
-    Polyline strand_;
+    Polyline polyline_;
     PixelPoint waiting_;
     int waiting_look_ = nothing_;
     std::vector<PixelPoint> passed_; // points skipped by the last line segment
@@ -168,13 +168,13 @@ int line_look(const MapLine& line) {
     return line.few_passes ? few_passes_look : look_of(line.iri_class, line.certain);
 }
 
-Polyline strand_of(std::span<const MapLine> lines,
-                   const std::vector<LineUse>& chain,
-                   const MapFrame& frame) {
+Polyline polyline_of(std::span<const MapLine> lines,
+                     const std::vector<LineUse>& chain,
+                     const MapFrame& frame) {
     // Most points of a long chain are left out.
     constexpr std::size_t enough = 16;
     const auto& first = lines[chain.front().line];
-    Growing strand{first.rank, std::min(enough, first.line.size())};
+    Growing polyline{first.rank, std::min(enough, first.line.size())};
     bool begun = false;
     for (const auto& [index, reversed] : chain) {
         const auto& line = lines[index];
@@ -183,27 +183,27 @@ Polyline strand_of(std::span<const MapLine> lines,
             const auto& place = line.line[reversed ? line.line.size() - 1 - i : i];
             const auto point = to_pixel(frame, place);
             if (begun) {
-                strand.go_on(point, look);
+                polyline.go_on(point, look);
             } else {
-                strand.begin(point);
+                polyline.begin(point);
                 begun = true;
             }
         }
     }
-    return std::move(strand).finished();
+    return std::move(polyline).finished();
 }
 
 std::vector<Polyline> joined_polylines(std::span<const MapLine> lines,
                                        const std::vector<LineUse>& uses,
                                        const MapFrame& frame) {
-    std::vector<Polyline> strands;
+    std::vector<Polyline> polylines;
     for (const auto& chain : joined(lines, uses)) {
-        auto strand = strand_of(lines, chain, frame);
-        if (!strand.looks.empty()) {
-            strands.push_back(std::move(strand));
+        auto polyline = polyline_of(lines, chain, frame);
+        if (!polyline.looks.empty()) {
+            polylines.push_back(std::move(polyline));
         }
     }
-    return strands;
+    return polylines;
 }
 
 std::vector<Polyline> separate_polylines(std::span<const MapLine> lines,
@@ -214,39 +214,39 @@ std::vector<Polyline> separate_polylines(std::span<const MapLine> lines,
     std::vector<LineUse> chain(1);
     for (const auto& use : uses) {
         chain.front() = use;
-        alone.push_back(without_short_end(strand_of(lines, chain, frame)));
+        alone.push_back(without_short_end(polyline_of(lines, chain, frame)));
     }
     const auto neighbours = neighbours_of(lines, uses);
     const InContext in_context{alone, neighbours};
-    std::vector<Polyline> strands;
-    strands.reserve(uses.size());
+    std::vector<Polyline> polylines;
+    polylines.reserve(uses.size());
     for (std::size_t use = 0; use < uses.size(); ++use) {
         if (!alone[use].looks.empty()) {
-            strands.push_back(in_context.at(use));
+            polylines.push_back(in_context.at(use));
         }
     }
-    return strands;
+    return polylines;
 }
 
 std::vector<Polyline> side_by_side(std::span<const MapLine> lines,
                                    const MapFrame& frame,
                                    const LineWidths& widths,
                                    bool left_hand_traffic,
-                                   MakePolylines polylines) {
+                                   MakePolylines make) {
     std::vector<LineUse> alone;
     std::vector<LineUse> paired;
     for (const auto& use : all_lines(lines)) {
         const auto& line = lines[use.line];
         (line.both_ways && line.iri_class >= 0 ? paired : alone).push_back(use);
     }
-    auto strands = polylines(lines, alone, frame);
-    const auto centred = polylines(lines, paired, frame);
-    strands.reserve(strands.size() + centred.size());
-    for (const auto& strand : centred) {
-        const double right_px = way_offset_px(widths, strand.rank);
-        strands.push_back(beside(strand, left_hand_traffic ? -right_px : right_px));
+    auto polylines = make(lines, alone, frame);
+    const auto centred = make(lines, paired, frame);
+    polylines.reserve(polylines.size() + centred.size());
+    for (const auto& polyline : centred) {
+        const double right_px = way_offset_px(widths, polyline.rank);
+        polylines.push_back(beside(polyline, left_hand_traffic ? -right_px : right_px));
     }
-    return strands;
+    return polylines;
 }
 
 void check_classes(std::span<const MapLine> lines, const ClassTable& table) {

@@ -22,8 +22,9 @@ constexpr int few_passes_look = 1;
 int line_look(const MapLine& line);
 
 /// Projects a chain of lines to the picture, without indistinguishable points.
-Polyline
-strand_of(std::span<const MapLine> lines, const std::vector<LineUse>& chain, const MapFrame& frame);
+Polyline polyline_of(std::span<const MapLine> lines,
+                     const std::vector<LineUse>& chain,
+                     const MapFrame& frame);
 
 /// Maker of polylines of the lines that are used.
 using MakePolylines = std::vector<Polyline> (*)(std::span<const MapLine> lines,

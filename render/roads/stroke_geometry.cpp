@@ -43,9 +43,9 @@ struct Piece {
     double length_px;
 };
 
-Piece piece_at(const Polyline& strand, std::size_t i) {
-    const auto& from = strand.points[i];
-    const auto& to = strand.points[i + 1];
+Piece piece_at(const Polyline& polyline, std::size_t i) {
+    const auto& from = polyline.points[i];
+    const auto& to = polyline.points[i + 1];
     const auto step = minus(to, from);
     const double length_px = std::hypot(step.x, step.y);
     return {from, to, {step.x / length_px, step.y / length_px}, length_px};
@@ -54,19 +54,19 @@ Piece piece_at(const Polyline& strand, std::size_t i) {
 /// Line segments of a polyline, the last three of which are remembered.
 class Pieces {
 public:
-    explicit Pieces(const Polyline& strand) : strand_{strand} {}
+    explicit Pieces(const Polyline& polyline) : polyline_{polyline} {}
 
     const Piece& at(std::size_t i) {
         auto& [index, piece] = known_[i % known_.size()];
         if (index != i) {
             index = i;
-            piece = piece_at(strand_, i);
+            piece = piece_at(polyline_, i);
         }
         return piece;
     }
 
 private:
-    const Polyline& strand_;
+    const Polyline& polyline_;
     std::array<std::pair<std::size_t, Piece>, 3> known_{
         {{SIZE_MAX, {}}, {SIZE_MAX, {}}, {SIZE_MAX, {}}}};
 };
@@ -118,11 +118,14 @@ End mitred_end(const PixelPoint& at, const Mitre& mitre, double sign, Join join,
         join, at, outward, plus(edge, mitre.right, -reach_px), plus(edge, mitre.right, reach_px)};
 }
 
-Join join_of(const Polyline& strand, const StrokePass& pass, std::size_t mine, std::size_t other) {
-    if ((pass.looks & only(strand.looks[other])) != 0) {
+Join join_of(const Polyline& polyline,
+             const StrokePass& pass,
+             std::size_t mine,
+             std::size_t other) {
+    if ((pass.looks & only(polyline.looks[other])) != 0) {
         return Join::shared;
     }
-    return strand.looks[mine] > strand.looks[other] ? Join::over : Join::under;
+    return polyline.looks[mine] > polyline.looks[other] ? Join::over : Join::under;
 }
 
 /// Returns the distance along `direction` from a line through `origin`.
@@ -206,21 +209,22 @@ seen_parts(const Piece& piece, int parts, const PixelBox& box, double reach_px) 
 
 } // namespace
 
-std::vector<StrokeQuad> ribbon(const Polyline& strand, const StrokePass& pass) {
+std::vector<StrokeQuad> ribbon(const Polyline& polyline, const StrokePass& pass) {
     std::vector<StrokeQuad> quads;
-    add_ribbon(quads, strand, pass);
+    add_ribbon(quads, polyline, pass);
     return quads;
 }
 
-void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& strand, const StrokePass& pass) {
+void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& polyline, const StrokePass& pass) {
     const double reach_px = pass.radius_px + fringe_px;
-    Pieces pieces{strand};
-    const auto past = std::min(strand.past, strand.looks.size());
-    for (auto i = strand.first; i < past; ++i) {
-        if ((pass.looks & only(strand.looks[i])) == 0) {
+    Pieces pieces{polyline};
+    const auto past = std::min(polyline.past, polyline.looks.size());
+    for (auto i = polyline.first; i < past; ++i) {
+        if ((pass.looks & only(polyline.looks[i])) == 0) {
             continue;
         }
-        if (outside(strand.points[i], strand.points[i + 1], pass.visible, reach_px + overlap_px)) {
+        if (outside(
+                polyline.points[i], polyline.points[i + 1], pass.visible, reach_px + overlap_px)) {
             continue;
         }
         const auto& piece = pieces.at(i);
@@ -230,13 +234,13 @@ void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& strand, const St
         auto end = round_end(piece.to, piece.direction, side, reach_px);
         if (i > 0) {
             if (const auto shared = mitre(pieces.at(i - 1), piece, reach_px)) {
-                start =
-                    mitred_end(piece.from, *shared, -1, join_of(strand, pass, i, i - 1), reach_px);
+                start = mitred_end(
+                    piece.from, *shared, -1, join_of(polyline, pass, i, i - 1), reach_px);
             }
         }
-        if (i + 1 < strand.looks.size()) {
+        if (i + 1 < polyline.looks.size()) {
             if (const auto shared = mitre(piece, pieces.at(i + 1), reach_px)) {
-                end = mitred_end(piece.to, *shared, 1, join_of(strand, pass, i, i + 1), reach_px);
+                end = mitred_end(piece.to, *shared, 1, join_of(polyline, pass, i, i + 1), reach_px);
             }
         }
         const int parts = std::max(1, int(std::ceil(piece.length_px / part_px)));
@@ -250,18 +254,18 @@ void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& strand, const St
     }
 }
 
-Polyline beside(const Polyline& strand, double right_px) {
-    Polyline moved = strand;
-    const auto last = strand.looks.size();
-    auto before = right_of(piece_at(strand, 0).direction);
+Polyline beside(const Polyline& polyline, double right_px) {
+    Polyline moved = polyline;
+    const auto last = polyline.looks.size();
+    auto before = right_of(piece_at(polyline, 0).direction);
     for (std::size_t i = 0; i <= last; ++i) {
-        const auto after = i == last ? before : right_of(piece_at(strand, i).direction);
+        const auto after = i == last ? before : right_of(piece_at(polyline, i).direction);
         const auto sum = plus(before, after, 1);
         const double squared = dot(sum, sum);
         // Exact for gentle bends; limited for hairpins, whose corner would lie at infinity.
         const double stretch =
             squared > 0 ? std::min(2 / squared, max_stretch / std::sqrt(squared)) : 0.0;
-        moved.points[i] = plus(strand.points[i], sum, stretch * right_px);
+        moved.points[i] = plus(polyline.points[i], sum, stretch * right_px);
         before = after;
     }
     return moved;

@@ -61,12 +61,12 @@ struct StrokePass {
 ///
 /// The visible box and the corner select quads and shift them by whole pixels, exactly: a part of a
 /// picture is painted as in the whole picture.
-std::vector<StrokeQuad> ribbon(const Polyline& strand, const StrokePass& pass);
+std::vector<StrokeQuad> ribbon(const Polyline& polyline, const StrokePass& pass);
 
 /// Appends the quads of a polyline to others.
-void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& strand, const StrokePass& pass);
+void add_ribbon(std::vector<StrokeQuad>& quads, const Polyline& polyline, const StrokePass& pass);
 
 /// Offsets the polyline to the right of its direction (to the left if negative).
-Polyline beside(const Polyline& strand, double right_px);
+Polyline beside(const Polyline& polyline, double right_px);
 
 } // namespace macadam

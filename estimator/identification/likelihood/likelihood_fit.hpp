@@ -71,9 +71,9 @@ LikelihoodFit fit_likelihood(const ProfileDrive& drive,
                              const Vehicle& vehicle,
                              const LikelihoodFitConfig& config);
 
-/// Returns the parameters that the drive told little about: their standard deviation, without the
-/// share of what the model simplifies, is above two thirds of the prior's, so that their value is
-/// the file's.
+/// Returns the parameters that the drive did not excite. Their standard deviation, without the
+/// share of what the model simplifies, is above two thirds of the prior's: their value is the
+/// file's.
 std::vector<std::string> unexcited_parameters(const LikelihoodFit& fit);
 
 } // namespace macadam

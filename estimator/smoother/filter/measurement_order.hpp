@@ -4,14 +4,14 @@
 
 namespace macadam {
 
-/// Sample of a car, in the order of front axle positions.
+/// One sample of one car, for processing in the order of front axle positions.
 struct SampleOrder {
     std::size_t car, sample;
     double front_m;           ///< position of the front axle
     std::ptrdiff_t last_cell; ///< last station required: the one ahead of the axle
 };
 
-/// Returns all samples of the passages in that order.
+/// Returns all samples of the passages, ordered by front axle position.
 std::vector<SampleOrder> events_of(std::span<const DriveRecord> passages, double cell_m);
 
 /// Returns the effect of the stations on the event's car since the previous sample; empty for the

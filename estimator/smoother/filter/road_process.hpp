@@ -6,7 +6,7 @@
 
 namespace macadam {
 
-/// Longest memory of a road: stations before one on which it depends.
+/// Maximum order of the road's autoregression: earlier stations on which a station depends.
 inline constexpr std::size_t max_road_lags = 13;
 
 /// Linear process of one side of the road: elevation = sum of lags[i] * the elevation i + 1

@@ -12,8 +12,9 @@
 
 namespace macadam {
 
+/// Calibration of a fleet whose cars may change.
 struct ChangingFleet {
-    FleetCalibration parts; ///< of cars as they are told apart here: periods, undated trips
+    FleetCalibration parts; ///< of the periods of all cars and of their undated trips
     std::vector<std::vector<CarPeriod>> cars; ///< periods of each car, at least one
     LeftOutReadings left_out;                 ///< check of the components
 };

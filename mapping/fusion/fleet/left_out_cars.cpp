@@ -15,7 +15,7 @@ double square(double x) {
     return x * x;
 }
 
-/// What each calibrated car reads of the median level: its gain and its offset there.
+/// Readings of the calibrated cars over the median level, as shares of it: gain plus offset.
 class ReadShares {
 public:
     explicit ReadShares(const FleetCalibration& fleet) : middle_um_{fleet.middle_um} {

@@ -48,43 +48,43 @@ struct CardText {
     double height_pt() const { return picture_pt + 4 + title.height_pt() + text.height_pt(); }
 };
 
-PdfText laid(const PdfSheets& sheets, const Paragraph& paragraph) {
+PdfText lay_out(const PdfSheets& sheets, const Paragraph& paragraph) {
     return sheets.text(paragraph.text, paragraph.small ? remark() : body(), line_width(sheets));
 }
 
 /// Map at the largest size that fits the page.
-struct LaidMap {
+struct MapLayout {
     PdfText caption, scale;
     double width_pt, height_pt; ///< of the picture
 
     double whole_pt() const { return height_pt + 6 + scale.height_pt() + caption.height_pt(); }
 };
 
-LaidMap laid(const PdfSheets& sheets, const MapFigure& map) {
-    LaidMap laid{sheets.text(map.caption, remark(), sheets.width_pt()),
-                 sheets.text(map.scale, {.size_pt = small_size_pt}, -1),
-                 0,
-                 0};
+MapLayout lay_out(const PdfSheets& sheets, const MapFigure& map) {
+    MapLayout layout{sheets.text(map.caption, remark(), sheets.width_pt()),
+                     sheets.text(map.scale, {.size_pt = small_size_pt}, -1),
+                     0,
+                     0};
     const double shape =
         static_cast<double>(map.picture.height_px) / std::max(1, map.picture.width_px);
-    const double room_pt = sheets.height_pt() - laid.whole_pt() - room_over_map_pt;
-    laid.width_pt = std::min(sheets.width_pt(), room_pt / shape);
-    laid.height_pt = laid.width_pt * shape;
-    return laid;
+    const double room_pt = sheets.height_pt() - layout.whole_pt() - room_over_map_pt;
+    layout.width_pt = std::min(sheets.width_pt(), room_pt / shape);
+    layout.height_pt = layout.width_pt * shape;
+    return layout;
 }
 
 } // namespace
 
 double first_pt(const PdfSheets& sheets, const Paragraph& paragraph) {
-    return laid(sheets, paragraph).height_pt();
+    return lay_out(sheets, paragraph).height_pt();
 }
 
 double first_pt(const PdfSheets& sheets, const MapFigure& map) {
-    return laid(sheets, map).whole_pt();
+    return lay_out(sheets, map).whole_pt();
 }
 
 void put(PdfSheets& sheets, const Paragraph& paragraph) {
-    const auto text = laid(sheets, paragraph);
+    const auto text = lay_out(sheets, paragraph);
     sheets.need(std::min(text.height_pt(), sheets.height_pt()));
     sheets.draw(text, sheets.left_pt(), sheets.y_pt());
     sheets.skip(text.height_pt() + block_gap_pt * 0.7);
@@ -160,9 +160,9 @@ void put(PdfSheets& sheets, const Legend& legend) {
 }
 
 void put(PdfSheets& sheets, const MapFigure& map) {
-    const auto map_alignment = laid(sheets, map);
-    const auto& [caption, scale, width_pt, height_pt] = map_alignment;
-    sheets.need(map_alignment.whole_pt());
+    const auto layout = lay_out(sheets, map);
+    const auto& [caption, scale, width_pt, height_pt] = layout;
+    sheets.need(layout.whole_pt());
     sheets.picture(map.picture, sheets.left_pt(), sheets.y_pt(), width_pt);
     sheets.skip(height_pt + 4);
     if (map.scale_percent > 0) {

@@ -198,7 +198,7 @@ void draw_row(PdfSheets& sheets,
 }
 
 /// Table laid out in rows.
-struct Laid {
+struct TableLayout {
     Columns columns;
     PdfText caption;
     Row head;
@@ -217,30 +217,30 @@ struct Laid {
     }
 };
 
-Laid laid(const PdfSheets& sheets, const Table& table) {
+TableLayout lay_out(const PdfSheets& sheets, const Table& table) {
     const Columns columns{sheets, table};
-    Laid laid{columns,
-              sheets.text(table.caption,
-                          {.size_pt = small_size_pt, .rgb = print::quiet},
-                          sheets.width_pt()),
-              head_of(sheets, table, columns),
-              {}};
+    TableLayout layout{columns,
+                       sheets.text(table.caption,
+                                   {.size_pt = small_size_pt, .rgb = print::quiet},
+                                   sheets.width_pt()),
+                       head_of(sheets, table, columns),
+                       {}};
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        laid.rows.push_back(row_of(sheets, table, columns, i));
+        layout.rows.push_back(row_of(sheets, table, columns, i));
     }
-    return laid;
+    return layout;
 }
 
 } // namespace
 
 double first_pt(const PdfSheets& sheets, const Table& table) {
-    return laid(sheets, table).first_pt();
+    return lay_out(sheets, table).first_pt();
 }
 
 void put(PdfSheets& sheets, const Table& table) {
-    const auto table_aligned = laid(sheets, table);
-    const auto& [columns, caption, head, rows] = table_aligned;
-    sheets.need(std::min(table_aligned.first_pt(), sheets.height_pt()));
+    const auto layout = lay_out(sheets, table);
+    const auto& [columns, caption, head, rows] = layout;
+    sheets.need(std::min(layout.first_pt(), sheets.height_pt()));
     sheets.draw(caption, sheets.left_pt(), sheets.y_pt());
     sheets.skip(caption.height_pt() + padding_pt);
     draw_head(sheets, columns, head);

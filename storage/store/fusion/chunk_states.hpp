@@ -23,7 +23,7 @@ struct FusedSegment {
 };
 
 struct FusedChunk {
-    AlignmentSummary laid;              ///< summary of the alignment of its traces
+    AlignmentSummary alignment;         ///< of its traces
     std::vector<FusedSegment> segments; ///< those with passes, in the order of their rows
 };
 

@@ -109,10 +109,10 @@ private:
     ChunkFusion& states() { return states_ ? *states_ : states_.emplace(*database_); }
 
     void write(std::int64_t chunk, std::int64_t last, const FusedChunk& fused) {
-        if (fused.laid.drives == 0) {
+        if (fused.alignment.drives == 0) {
             remove_chunk_.run(chunk);
         } else {
-            write_summary(chunk, fused.laid);
+            write_summary(chunk, fused.alignment);
         }
         auto before = numbers_before(chunk, last);
         for (const auto& [fid, state] : fused.segments) {

@@ -15,18 +15,18 @@ static_assert(std::is_trivially_copyable_v<FusedSegment> &&
 
 std::string bytes_of(const FusedChunk& fused) {
     const auto of_segments = fused.segments.size() * sizeof(FusedSegment);
-    std::string bytes(sizeof fused.laid + of_segments, '\0');
-    std::memcpy(bytes.data(), &fused.laid, sizeof fused.laid);
+    std::string bytes(sizeof fused.alignment + of_segments, '\0');
+    std::memcpy(bytes.data(), &fused.alignment, sizeof fused.alignment);
     if (of_segments > 0) {
-        std::memcpy(bytes.data() + sizeof fused.laid, fused.segments.data(), of_segments);
+        std::memcpy(bytes.data() + sizeof fused.alignment, fused.segments.data(), of_segments);
     }
     return bytes;
 }
 
 FusedChunk chunk_in(std::string_view bytes) {
     FusedChunk fused{};
-    std::memcpy(&fused.laid, bytes.data(), sizeof fused.laid);
-    bytes.remove_prefix(sizeof fused.laid);
+    std::memcpy(&fused.alignment, bytes.data(), sizeof fused.alignment);
+    bytes.remove_prefix(sizeof fused.alignment);
     fused.segments.resize(bytes.size() / sizeof(FusedSegment));
     if (!bytes.empty()) {
         std::memcpy(fused.segments.data(), bytes.data(), bytes.size());

@@ -153,14 +153,14 @@ private:
     SegmentPasses
     segment_of(const std::vector<ChunkPass>& passes, std::size_t first, std::size_t past) {
         const auto fid = passes[first].fid;
-        const auto told = told_of(fid);
+        const auto status = status_of(fid);
         const auto aged = aged_trip(passes[first].input.pass.segment);
         SegmentPasses segment{fid, first, past, {}, {}};
         std::vector<PendingPass> pending;
         for (auto i = first; i < past; ++i) {
             const auto& input = passes[i].input;
             const auto trip = trips_.at(input.trip_sha256);
-            if (trip > told.last_trip || told.pending.contains({trip, input.pass.occurrence})) {
+            if (trip > status.last_trip || status.pending.contains({trip, input.pass.occurrence})) {
                 segment.pending.push_back(i);
                 pending.push_back({.vehicle = input.vehicle,
                                    .utc_ms = input.utc_ms,
@@ -174,7 +174,7 @@ private:
 
     /// Publication status of a segment. For a segment of a later map, all earlier passes count as
     /// published.
-    PublishedUntil told_of(std::int64_t fid) {
+    PublishedUntil status_of(std::int64_t fid) {
         until_.bind(fid);
         PublishedUntil until;
         if (until_.step()) {
@@ -216,28 +216,28 @@ private:
                 put_until(segment, passes);
             }
         }
-        std::vector<ChunkPass> told;
-        std::vector<std::size_t> place(passes.size()); // in `told`
+        std::vector<ChunkPass> published_passes;
+        std::vector<std::size_t> place(passes.size()); // in `published_passes`
         for (std::size_t i = 0; i < passes.size(); ++i) {
-            place[i] = told.size();
+            place[i] = published_passes.size();
             if (!stays_pending[i]) {
-                told.push_back(std::move(passes[i]));
+                published_passes.push_back(std::move(passes[i]));
             }
         }
         put_chunk_.run(chunk);
-        write_events(chunk, told);
-        states_.align_with_each_other(chunk, told);
+        write_events(chunk, published_passes);
+        states_.align_with_each_other(chunk, published_passes);
         for (const auto& segment : segments) {
             if (!segment.release.batches.empty()) {
-                write_segment(segment, told, place);
+                write_segment(segment, published_passes, place);
             }
         }
     }
 
     /// Stages the events of a chunk that enough cars report in published passes.
-    void write_events(std::int64_t chunk, const std::vector<ChunkPass>& told) {
+    void write_events(std::int64_t chunk, const std::vector<ChunkPass>& published_passes) {
         EventInputs inputs;
-        events_.add(chunk, told, inputs);
+        events_.add(chunk, published_passes, inputs);
         std::int64_t number = 0;
         for (auto& event : fuse_events(std::move(inputs.reports), inputs.segments)) {
             if (const auto shown = published(std::move(event), rule_)) {
@@ -256,20 +256,21 @@ private:
     }
 
     void write_segment(const SegmentPasses& segment,
-                       const std::vector<ChunkPass>& told,
+                       const std::vector<ChunkPass>& published_passes,
                        const std::vector<std::size_t>& place) {
         auto number = last_figure_of(segment.fid);
         for (const auto& batch : segment.release.batches) {
             std::vector<FusionInput> inputs;
             for (const auto i : batch.passes) {
-                inputs.push_back(told[place[segment.pending[i]]].input);
+                inputs.push_back(published_passes[place[segment.pending[i]]].input);
             }
             write_figure(segment.fid, ++number, batch, state_of(inputs));
         }
         std::vector<FusionInput> inputs;
-        for (std::size_t i = place[segment.first]; i < told.size() && told[i].fid == segment.fid;
+        for (std::size_t i = place[segment.first];
+             i < published_passes.size() && published_passes[i].fid == segment.fid;
              ++i) {
-            inputs.push_back(told[i].input);
+            inputs.push_back(published_passes[i].input);
         }
         write_state(put_state_, segment.fid, state_of(inputs), *work_.classes);
     }

@@ -70,7 +70,7 @@ std::vector<ClassLength> lengths_of(Database& database, const ClassTable& classe
     return lengths;
 }
 
-AlignmentSummary laid_in(Database& database) {
+AlignmentSummary alignment_in(Database& database) {
     auto select = database.prepare("SELECT drives, found, beyond_reach, moved_far, middle_lag_cm"
                                    " FROM strip_state ORDER BY middle_lag_cm");
     AlignmentSummary whole;
@@ -124,7 +124,7 @@ StoreInfo StoreReader::info() const {
         .first_seen_ms = span.first_ms,
         .last_seen_ms = span.last_ms,
         .waiting = count(database, "SELECT count(*) FROM segment_dirty"),
-        .laid = laid_in(database),
+        .laid = alignment_in(database),
         .generation = read_generation(database),
         .box = cover.box};
     info.publication = latest_publication();
@@ -145,7 +145,7 @@ std::size_t StoreReader::waiting() const {
 }
 
 AlignmentSummary StoreReader::laid() const {
-    return laid_in(store_->database);
+    return alignment_in(store_->database);
 }
 
 } // namespace macadam

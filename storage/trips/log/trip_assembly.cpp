@@ -22,8 +22,8 @@ constexpr double earth_m = 4e7; // once around
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-bool is_reason(std::uint8_t gift) {
-    return gift >= code(RowReason::wrong_cell_count);
+bool is_reason(std::uint8_t contribution) {
+    return contribution >= code(RowReason::wrong_cell_count);
 }
 
 TripColumn next(TripColumn column, int places) {
@@ -130,10 +130,10 @@ TripLog TripStreams::take_rows() {
 }
 
 void TripStreams::add(const TripRow& row) {
-    trip_.rows.push_back(row.fault ? code(*row.fault) : gifts_of(row));
+    trip_.rows.push_back(row.fault ? code(*row.fault) : contribution_of(row));
 }
 
-std::uint8_t TripStreams::gifts_of(const TripRow& row) {
+std::uint8_t TripStreams::contribution_of(const TripRow& row) {
     const double t_s = row[TripColumn::t_s];
     if (std::isnan(t_s)) {
         return code(RowReason::no_time);
@@ -141,16 +141,16 @@ std::uint8_t TripStreams::gifts_of(const TripRow& row) {
     if (std::abs(t_s) > max_time_s) {
         return code(RowReason::out_of_range);
     }
-    const std::array<RowContribution, 4> gifts{
+    const std::array<RowContribution, 4> contributions{
         add_acc(row), add_gyro(row), add_speed(row), add_fix(row)};
     std::uint8_t flags = 0;
     std::uint8_t reason = code(RowReason::no_sample);
-    for (const auto gift : gifts) {
-        if (!is_reason(gift)) {
-            flags |= gift;
+    for (const auto contribution : contributions) {
+        if (!is_reason(contribution)) {
+            flags |= contribution;
         } else if (reason == code(RowReason::no_sample) ||
                    reason == code(RowReason::unused_channel)) {
-            reason = gift; // first fault; otherwise the channel is not needed
+            reason = contribution; // first fault; otherwise the channel is not needed
         }
     }
     return flags != 0 ? flags : reason;

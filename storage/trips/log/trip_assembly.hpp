@@ -35,7 +35,7 @@ private:
     RowContribution add_speed(const TripRow& row);
     RowContribution add_fix(const TripRow& row);
     double speed_in(const TripRow& row) const;
-    std::uint8_t gifts_of(const TripRow& row);
+    std::uint8_t contribution_of(const TripRow& row);
 
     TripNeeds needs_;
     bool wheels_stand_for_speed_;

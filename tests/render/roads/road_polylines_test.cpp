@@ -19,11 +19,11 @@ MapLine line(const std::vector<PixelPoint>& pixels, int iri_class) {
     return made;
 }
 
-double distance_px(const Polyline& strand, const PixelPoint& at) {
+double distance_px(const Polyline& polyline, const PixelPoint& at) {
     double least = 1e9;
-    for (std::size_t i = 0; i + 1 < strand.points.size(); ++i) {
-        const auto& a = strand.points[i];
-        const auto& b = strand.points[i + 1];
+    for (std::size_t i = 0; i + 1 < polyline.points.size(); ++i) {
+        const auto& a = polyline.points[i];
+        const auto& b = polyline.points[i + 1];
         for (double t = 0; t <= 1; t += 1.0 / 256) {
             const double x = std::lerp(a.x, b.x, t);
             const double y = std::lerp(a.y, b.y, t);
@@ -44,9 +44,9 @@ std::vector<MapLine> winding_road(int first, int count) {
     return lines;
 }
 
-std::vector<PixelPoint> drawn_points(const Polyline& strand) {
-    return {strand.points.begin() + std::ptrdiff_t(strand.first),
-            strand.points.begin() + std::ptrdiff_t(strand.past) + 1};
+std::vector<PixelPoint> drawn_points(const Polyline& polyline) {
+    return {polyline.points.begin() + std::ptrdiff_t(polyline.first),
+            polyline.points.begin() + std::ptrdiff_t(polyline.past) + 1};
 }
 
 } // namespace
@@ -59,7 +59,7 @@ TEST(RoadPolylines, MakeOnePieceOfAStraightRoad) {
         lines.push_back(line({{x, 500}, {x + 10, 500}}, 1));
         chain.push_back({i});
     }
-    EXPECT_THAT(strand_of(lines, chain, frame).looks, ::testing::ElementsAre(look_of(1, true)));
+    EXPECT_THAT(polyline_of(lines, chain, frame).looks, ::testing::ElementsAre(look_of(1, true)));
 }
 
 TEST(RoadPolylines, KeepEveryBendWithinATenthOfAPixel) {
@@ -69,10 +69,10 @@ TEST(RoadPolylines, KeepEveryBendWithinATenthOfAPixel) {
         arc.push_back({500 + 200 * std::cos(angle), 500 + 200 * std::sin(angle)});
     }
     const std::vector lines{line(arc, 0)};
-    const auto strand = strand_of(lines, {{0}}, frame);
-    EXPECT_LT(strand.points.size(), 200U);
+    const auto polyline = polyline_of(lines, {{0}}, frame);
+    EXPECT_LT(polyline.points.size(), 200U);
     for (std::size_t i = 0; i < arc.size(); i += 7) {
-        EXPECT_LT(distance_px(strand, arc[i]), 0.1); // 0.05 px aside, and the oracle's own steps
+        EXPECT_LT(distance_px(polyline, arc[i]), 0.1); // 0.05 px aside, and the oracle's own steps
     }
 }
 
@@ -80,25 +80,25 @@ TEST(RoadPolylines, ShowTheWorstOfWhatIsTooShortToSee) {
     const std::vector lines{line({{100, 100}, {100.1, 100}}, 2),
                             line({{100.1, 100}, {100.2, 100}}, 0),
                             line({{100.2, 100}, {110, 100}}, 1)};
-    EXPECT_THAT(strand_of(lines, {{0}, {1}, {2}}, frame).looks,
+    EXPECT_THAT(polyline_of(lines, {{0}, {1}, {2}}, frame).looks,
                 ::testing::ElementsAre(look_of(2, true), look_of(1, true)));
 }
 
 TEST(RoadPolylines, RunBackwardsWhereALineIsReversed) {
     const std::vector lines{line({{100, 100}, {200, 100}}, 0)};
-    const auto strand = strand_of(lines, {{0, true}}, frame);
-    EXPECT_NEAR(strand.points.front().x, 200, 1e-5);
-    EXPECT_NEAR(strand.points.back().x, 100, 1e-5);
+    const auto polyline = polyline_of(lines, {{0, true}}, frame);
+    EXPECT_NEAR(polyline.points.front().x, 200, 1e-5);
+    EXPECT_NEAR(polyline.points.back().x, 100, 1e-5);
 }
 
 TEST(RoadPolylines, AreOneForEachLineWhereTheyAreSeparate) {
     const auto lines = winding_road(0, 5);
-    const auto strands = separate_polylines(lines, all_lines(lines), frame);
-    ASSERT_EQ(strands.size(), lines.size());
+    const auto polylines = separate_polylines(lines, all_lines(lines), frame);
+    ASSERT_EQ(polylines.size(), lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        const auto alone = strand_of(lines, {{i}}, frame);
-        EXPECT_EQ(drawn_points(strands[i]), alone.points) << i;
-        EXPECT_EQ(strands[i].looks[strands[i].first], look_of(int(i) % 3, true)) << i;
+        const auto alone = polyline_of(lines, {{i}}, frame);
+        EXPECT_EQ(drawn_points(polylines[i]), alone.points) << i;
+        EXPECT_EQ(polylines[i].looks[polylines[i].first], look_of(int(i) % 3, true)) << i;
     }
 }
 
@@ -111,9 +111,9 @@ TEST(RoadPolylines, DependOnNoDistantLineWhereTheyAreSeparate) {
     ASSERT_EQ(some.size(), near.size());
     for (const double right_px : {0.0, 4.0}) {
         const StrokePass pass{.radius_px = 5, .looks = every_look, .visible = {0, 0, 1000, 1000}};
-        const auto quads_of = [&](const Polyline& strand) {
+        const auto quads_of = [&](const Polyline& polyline) {
             std::vector<float> corners;
-            for (const auto& quad : ribbon(beside(strand, right_px), pass)) {
+            for (const auto& quad : ribbon(beside(polyline, right_px), pass)) {
                 for (const auto& corner : quad) {
                     corners.insert(corners.end(), {corner.x_px, corner.y_px, corner.round_after});
                 }
@@ -135,12 +135,12 @@ TEST(RoadPolylines, CloseARingWhereTheyAreSeparate) {
     for (int i = 0; i < 12; ++i) {
         ring.push_back(line({at(i), at((i + 1) % 12)}, 1));
     }
-    const auto strands = separate_polylines(ring, all_lines(ring), frame);
-    ASSERT_EQ(strands.size(), ring.size());
-    for (const auto& strand : strands) {
-        EXPECT_EQ(strand.first, 2U); // two line segments before the line, and two after it
-        EXPECT_EQ(strand.looks.size(), 5U);
-        const auto quads = ribbon(strand, {5, every_look, {0, 0, 1000, 1000}});
+    const auto polylines = separate_polylines(ring, all_lines(ring), frame);
+    ASSERT_EQ(polylines.size(), ring.size());
+    for (const auto& polyline : polylines) {
+        EXPECT_EQ(polyline.first, 2U); // two line segments before the line, and two after it
+        EXPECT_EQ(polyline.looks.size(), 5U);
+        const auto quads = ribbon(polyline, {5, every_look, {0, 0, 1000, 1000}});
         ASSERT_FALSE(quads.empty());
         for (const auto& quad : quads) {
             EXPECT_EQ(quad[0].round_before, 0); // mitred, also where the ring's numbers begin
