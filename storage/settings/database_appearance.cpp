@@ -97,7 +97,7 @@ DatabaseAppearance parse_appearance(std::string_view text, const std::string& na
     top.expect_only(keys);
     DatabaseAppearance appearance;
     if (top.has("unit")) {
-        appearance.unit = word_among(top, "unit", unit_words);
+        appearance.unit = word_among(top, "unit", iri_unit_words);
     }
     if (top.has("language")) {
         appearance.language = word_among(top, "language", languages);

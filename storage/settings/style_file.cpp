@@ -231,7 +231,7 @@ MapLook read_style(const std::filesystem::path& file) {
         look.theme = word_among(top, "theme", theme_words);
     }
     if (top.has("unit")) {
-        look.unit = word_among(top, "unit", unit_words);
+        look.unit = word_among(top, "unit", iri_unit_words);
     }
     if (top.has("classes") && top.has("class")) {
         top.refuse("classes", "either classes or tables [[class]]");

@@ -23,7 +23,7 @@ MapLook read_style(const std::filesystem::path& file);
 /// \name Parts of a style that other files may have
 /// @{
 inline constexpr std::array<std::string_view, 3> theme_words{"light", "dark", "print"};
-inline constexpr std::array<std::string_view, 2> unit_words{"mm/m", "in/mi"};
+inline constexpr std::array<std::string_view, 2> iri_unit_words{"mm/m", "in/mi"};
 
 /// \throws InputError  if the text of a key is none of the words.
 std::string

@@ -237,7 +237,7 @@ logger_acc_table(const TripSource& source, const std::string& file, const Phone&
     if (phone.is_ios && !phone.is_standardised) {
         table.axes = {-1, -2, -3};
         for (auto& channel : table.channels) {
-            channel.scale = is_one_of(file, raw_files) ? standard_gravity_mps2 : 1;
+            channel.scale = is_named_in(file, raw_files) ? standard_gravity_mps2 : 1;
         }
     }
     return table;

@@ -24,7 +24,7 @@ inline constexpr std::string_view metadata_file = "Metadata.csv";
 
 /// Tests whether a file has one of these names, ignoring case.
 template <std::size_t count>
-bool is_one_of(std::string_view file, const std::string_view (&names)[count]) {
+bool is_named_in(std::string_view file, const std::string_view (&names)[count]) {
     return std::any_of(std::begin(names), std::end(names), [&](std::string_view name) {
         return fits(file, name);
     });
