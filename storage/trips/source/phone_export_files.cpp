@@ -11,8 +11,8 @@ bool marks_export(std::string_view file) {
 }
 
 bool belongs_to_export(std::string_view file) {
-    return marks_export(file) || is_named_in(file, gyro_files) || is_named_in(file, gravity_files) ||
-           fits(file, time_file) || fits(file, metadata_file);
+    return marks_export(file) || is_named_in(file, gyro_files) ||
+           is_named_in(file, gravity_files) || fits(file, time_file) || fits(file, metadata_file);
 }
 
 } // namespace macadam
