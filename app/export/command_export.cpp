@@ -13,6 +13,7 @@
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/exports/event_export.hpp"
 #include "storage/exports/export.hpp"
+#include "storage/exports/qgis_project.hpp"
 #include "storage/tiles/tile_archive.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +26,8 @@
 
 namespace macadam {
 namespace {
+
+constexpr std::string_view project_suffix = ".qgz";
 
 struct ExportOptions {
     std::filesystem::path store;
@@ -65,6 +68,31 @@ void expect_sections_alone(const ExportOptions& options) {
     }
 }
 
+bool is_project(const ExportOptions& options) {
+    return options.output.extension() == project_suffix;
+}
+
+/// Rejects selections: a project shows the layer of the database.
+void expect_project_alone(const Arguments& arguments) {
+    for (const auto* const option : {"--bbox",
+                                     "--way",
+                                     "--road",
+                                     "--highway",
+                                     "--class",
+                                     "--min-passes",
+                                     "--since",
+                                     "--until",
+                                     "--all",
+                                     "--sections"}) {
+        if (arguments.is_given(option)) {
+            throw UsageError{
+                fmt::format("{} and -o FILE.qgz cannot be combined: the project shows the "
+                            "database; export the selection to a .gpkg",
+                            option)};
+        }
+    }
+}
+
 ExportOptions parse_export(const Arguments& arguments, const Console& console) {
     const auto output = arguments.value("--output");
     if (!output) {
@@ -72,6 +100,7 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
     }
     std::vector<std::string_view> suffixes{export_suffixes().begin(), export_suffixes().end()};
     std::ranges::copy(tile_archive_suffixes(), std::back_inserter(suffixes));
+    suffixes.push_back(project_suffix);
     if (std::ranges::none_of(suffixes, [&](auto suffix) { return output->ends_with(suffix); }) &&
         !is_tile_folder(*output)) {
         throw UsageError{fmt::format("-o is '{}', expected a name that ends in {}, or in / for a "
@@ -88,6 +117,9 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
                           .events = arguments.flag("--events")};
     if (options.events) {
         expect_events_alone(options);
+    }
+    if (is_project(options)) {
+        expect_project_alone(arguments);
     }
     if (options.sections) {
         expect_sections_alone(options);
@@ -159,6 +191,12 @@ void run_export(const Arguments& arguments, const Console& console) {
         export_tiles(store, options.filter, options.output, *options.tiles, console);
         return;
     }
+    if (is_project(options)) {
+        write_qgis_project(store, options.output);
+        console.say(
+            fmt::format("{}: shows {} in QGIS", options.output.string(), options.store.string()));
+        return;
+    }
     const auto written =
         export_segments(store, options.filter, options.output, console.progress("writing"));
     console.say(fmt::format("{}: {}", options.output.string(), counted(written, "segment")));
@@ -169,7 +207,7 @@ constexpr std::array options{
     Option{"-o,--output",
            "FILE",
            "Output: .geojson, .geojsonl, .csv, .gpkg, .fgb, .shp, .kml, .mbtiles, .pmtiles; "
-           "DIR/ for tiles."},
+           "DIR/ for tiles; .qgz: a QGIS project that shows STORE."},
     zoom_option,
     tile_jobs_option,
     tiles_option,

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/exports/segment_export.hpp"
+#include "storage/exports/style_files.hpp"
 #include "storage/text/json.hpp"
 
 #include <fmt/format.h>
@@ -55,6 +56,23 @@ std::size_t write_as(std::string_view suffix, const SegmentExport& what, AtomicF
     return write_kml(what, file);
 }
 
+std::size_t export_as(std::string_view suffix, const SegmentExport& what) {
+    if (suffix == ".fgb") {
+        return export_flatgeobuf(what);
+    }
+    if (suffix == ".shp") {
+        return export_shapefile(what);
+    }
+    if (suffix == ".gpkg") {
+        return export_geopackage(what);
+    }
+    AtomicFile out{what.file};
+    const auto written = write_as(suffix, what, out);
+    what.store.expect_in_place();
+    out.commit();
+    return written;
+}
+
 } // namespace
 
 std::size_t each_segment(const SegmentExport& what,
@@ -94,19 +112,10 @@ std::size_t export_segments(const StoreReader& store,
     }
     const SegmentExport what{
         store, filter, file, progress, *class_table(store.settings().class_table)};
-    if (suffix == ".fgb") {
-        return export_flatgeobuf(what);
+    const auto written = export_as(suffix, what);
+    if (suffix == ".fgb" || suffix == ".shp" || suffix == ".geojson") {
+        write_style_files(file, what.classes);
     }
-    if (suffix == ".shp") {
-        return export_shapefile(what);
-    }
-    if (suffix == ".gpkg") {
-        return export_geopackage(what);
-    }
-    AtomicFile out{file};
-    const auto written = write_as(suffix, what, out);
-    store.expect_in_place();
-    out.commit();
     return written;
 }
 

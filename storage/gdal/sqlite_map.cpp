@@ -242,8 +242,8 @@ bool holds_vector_tiles(const fs::path& mbtiles) {
 
 bool holds_pictures(const fs::path& geopackage) {
     return !ForeignDatabase{geopackage, as_it_stands}
-                .first_text("SELECT 1 FROM gpkg_contents WHERE data_type <> 'features' AND "
-                            "data_type <> 'attributes'")
+                .first_text("SELECT 1 FROM gpkg_contents WHERE data_type IN ('tiles', "
+                            "'2d-gridded-coverage')")
                 .empty();
 }
 

@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/geopackage/geopackage.hpp"
+#include "storage/geopackage/hidden_tables.hpp"
 #include "storage/geopackage/qgis_style.hpp"
 #include "storage/store/schema/network_rows.hpp"
 #include "storage/store/schema/schema_check.hpp"
@@ -118,6 +119,7 @@ void write_store(Database& database,
                   {"roughness", "roughness", "Roughness (IRI, mm/m) of the segments driven", box});
     index_store_tables(database); // much faster after the rows were inserted
     add_default_style(database, "roughness", *classes);
+    hide_other_tables(database);
     all.commit();
 }
 

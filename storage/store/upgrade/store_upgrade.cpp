@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
+#include "storage/geopackage/hidden_tables.hpp"
 #include "storage/sqlite/sqlite_header_check.hpp"
 #include "storage/store/privacy/privacy_key.hpp"
 #include "storage/store/rows/audit.hpp"
@@ -147,6 +148,7 @@ StoreUpgrade upgrade_store(const fs::path& file,
     }
     add_missing_objects(database);
     replace_roughness_layer(database, claimed_privacy(database));
+    hide_other_tables(database);
     put_version(database);
     add_audit(database,
               "upgrade",

@@ -1,0 +1,157 @@
+#include "storage/styles/class_limits.hpp"
+#include "storage/styles/road_style.hpp"
+#include "storage/text/xml_escape.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace macadam {
+namespace {
+
+constexpr double roughest_mm_per_m = 1000;     // above any IRI
+constexpr const char* casing_rgb = "38,38,38"; // outlines pale classes on a light map
+constexpr double core_mm = 0.7;                // in the legend, and where no scale is known
+constexpr double casing_mm = 1.1;
+constexpr double casing_factor = casing_mm / core_mm;
+
+/// Width of a line in mm by the scale of the map, as in pictures of this program: 1 px (of 0.26 mm)
+/// at zoom 10, 1:546,000, 6 px at zoom 16, at most 9.
+constexpr const char* core_width = "0.26 * max(1, min(9, (546000 / @map_scale) ^ 0.43))";
+
+std::string
+option(std::string_view name, std::string_view value, std::string_view type = "QString") {
+    return fmt::format(R"(<Option type="{}" name="{}" value="{}"/>)", type, name, value);
+}
+
+std::string by_expression(std::string_view property, const std::string& expression) {
+    return fmt::format(R"(<Option type="Map" name="{}">{}{}{}</Option>)",
+                       property,
+                       option("active", "true", "bool"),
+                       option("expression", expression),
+                       option("type", "3", "int"));
+}
+
+std::string line_layer(int pass, std::string_view rgb, double width_mm, double factor) {
+    const auto width = fmt::format("{:.3g} * {}", factor, core_width);
+    const auto side = fmt::format("{:.3g} * {}", casing_factor / 2, core_width); // to the right
+    return fmt::format(
+               R"(<layer class="SimpleLine" enabled="1" locked="0" pass="{}"><Option type="Map">)",
+               pass) +
+           option("line_color", fmt::format("{},255", rgb)) + option("line_style", "solid") +
+           option("line_width", fmt::format("{}", width_mm)) + option("line_width_unit", "MM") +
+           option("offset", fmt::format("{}", casing_mm / 2)) + option("offset_unit", "MM") +
+           option("capstyle", "flat") + option("joinstyle", "round") +
+           R"(</Option><data_defined_properties><Option type="Map">)" + option("name", "") +
+           R"(<Option type="Map" name="properties">)" + by_expression("outlineWidth", width) +
+           by_expression("offset", side) + "</Option>" + option("type", "collection") +
+           "</Option></data_defined_properties></layer>";
+}
+
+std::string symbol(const ClassTable& classes, std::size_t index) {
+    return fmt::format(
+        R"(<symbol type="line" name="{}" alpha="1" force_rhr="0" clip_to_extent="1">)"
+        "{}{}</symbol>\n",
+        index,
+        line_layer(0, casing_rgb, casing_mm, casing_factor),
+        line_layer(1, class_colour_numbers(classes, index), core_mm, 1));
+}
+
+std::string renderer(const ClassTable& classes) {
+    std::string ranges;
+    std::string symbols;
+    const auto count = classes.classes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const double upper = i + 1 == count ? roughest_mm_per_m : classes.classes[i].to_mm_per_m;
+        ranges += fmt::format(
+            R"(<range lower="{:.9f}" upper="{:.9f}" symbol="{}" label="{}" render="true"/>)"
+            "\n",
+            lower_limit(classes, i),
+            upper,
+            i,
+            xml_text(class_label(classes, i)));
+        symbols += symbol(classes, i);
+    }
+    return fmt::format(
+        R"(<renderer-v2 type="graduatedSymbol" attr="iri" graduatedMethod="GraduatedColor" )"
+        R"(symbollevels="1" enableorderby="0" forceraster="0">)"
+        "\n<ranges>\n{}</ranges>\n<symbols>\n{}</symbols>\n"
+        R"(<classificationMethod id="Custom"/></renderer-v2>)"
+        "\n",
+        ranges,
+        symbols);
+}
+
+/// Names of roads along them, where segments can be told apart.
+constexpr const char* labeling =
+    R"(<labeling type="simple"><settings calloutType="simple">)"
+    R"(<text-style fieldName="name" isExpression="0" fontFamily="Noto Sans" fontSize="8" fontSizeUnit="Point" )"
+    R"(textColor="38,38,38,255" textOpacity="1" textOrientation="horizontal" namedStyle="Regular">)"
+    R"(<text-buffer bufferDraw="1" bufferSize="0.8" bufferSizeUnits="MM" bufferColor="255,255,255,255" )"
+    R"(bufferOpacity="1" bufferNoFill="1" bufferJoinStyle="128"/></text-style>)"
+    R"(<placement placement="3" placementFlags="10" dist="2" distUnits="MM" repeatDistance="80" )"
+    R"(repeatDistanceUnits="MM" priority="5" layerType="LineGeometry"/>)"
+    R"(<rendering drawLabels="1" mergeLines="1" obstacle="0" scaleVisibility="1" scaleMin="1" scaleMax="50000" )"
+    R"(maxNumLabels="2000" fontMaxPixelSize="10000"/></settings></labeling>)"
+    "\n";
+
+struct Alias {
+    const char* field;
+    const char* name;
+};
+constexpr std::array aliases{Alias{"segment", "Segment"},
+                             Alias{"way_id", "OSM way"},
+                             Alias{"name", "Road"},
+                             Alias{"highway", "Road class"},
+                             Alias{"direction", "Direction"},
+                             Alias{"from_m", "From (m along the way)"},
+                             Alias{"to_m", "To (m along the way)"},
+                             Alias{"iri", "IRI (mm/m)"},
+                             Alias{"iri_sd", "Standard deviation (mm/m)"},
+                             Alias{"iri_low", "90 % interval, from (mm/m)"},
+                             Alias{"iri_high", "90 % interval, to (mm/m)"},
+                             Alias{"iri_left", "IRI, left track (mm/m)"},
+                             Alias{"iri_right", "IRI, right track (mm/m)"},
+                             Alias{"index", "Kind of IRI"},
+                             Alias{"class", "Roughness class"},
+                             Alias{"passes", "Passes"},
+                             Alias{"vehicles", "Cars"},
+                             Alias{"first_seen", "First pass"},
+                             Alias{"last_seen", "Last pass"},
+                             Alias{"trend_per_year", "Trend (mm/m per year)"},
+                             Alias{"trend_sd", "Trend, standard deviation (mm/m per year)"},
+                             Alias{"changed", "Changed on"},
+                             Alias{"change", "Change (mm/m)"},
+                             Alias{"validity", "Validity"}};
+
+std::string alias_list() {
+    std::string list = "<aliases>\n";
+    for (const auto& [field, name] : aliases) {
+        list += fmt::format("<alias field=\"{}\" name=\"{}\"/>\n", field, name);
+    }
+    return list + "</aliases>\n";
+}
+
+constexpr const char* map_tip =
+    R"(<b>[% coalesce("name", "highway", 'road') %]</b><br>IRI [% format_number("iri", 2) %] mm/m ([% "class" %])<br>)"
+    R"(90 %: [% format_number("iri_low", 2) %] to [% format_number("iri_high", 2) %]<br>)"
+    R"([% "passes" %] passes of [% "vehicles" %] cars, last [% coalesce(to_string("last_seen"), 'undated') %])";
+
+} // namespace
+
+std::string qgis_layer_elements(const ClassTable& classes) {
+    return renderer(classes) + labeling + alias_list() +
+           fmt::format("<mapTip>{}</mapTip>\n", xml_text(map_tip));
+}
+
+std::string qml_style(const ClassTable& classes) {
+    return fmt::format(
+        "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
+        R"(<qgis version="3.22.16" styleCategories="Symbology|Labeling|Fields|MapTips" labelsEnabled="1">)"
+        "\n{}</qgis>\n",
+        qgis_layer_elements(classes));
+}
+
+} // namespace macadam
