@@ -59,14 +59,16 @@ print(f"{segments.rows} segments; {roads.info()['km']:.1f} km driven")
 
 # %%
 figure, axes = plt.subplots(figsize=(6, 6), layout="constrained")
-values = np.clip(segments["iri"], 0, 6)
-colours = plt.get_cmap("RdYlBu_r")(values / 6)
+scale = plt.Normalize(0, np.nanpercentile(segments["iri"], 95))
+colours = plt.get_cmap("RdYlBu_r")(scale(segments["iri"]))
 for geometry, colour in zip(segments["geometry"], colours):
     lon_deg, lat_deg = np.array(geometry["coordinates"]).T
     axes.plot(lon_deg, lat_deg, color=colour, linewidth=4, solid_capstyle="butt")
 axes.set_aspect(1 / np.cos(np.radians(np.mean(segments["lat_deg"]))))
+axes.ticklabel_format(useOffset=False)
+axes.locator_params(nbins=4)
 axes.set(xlabel="longitude (°)", ylabel="latitude (°)")
-figure.colorbar(plt.cm.ScalarMappable(plt.Normalize(0, 6), "RdYlBu_r"), ax=axes, shrink=0.6,
+figure.colorbar(plt.cm.ScalarMappable(scale, "RdYlBu_r"), ax=axes, shrink=0.6,
                 label="IRI (mm/m)")
 figure.savefig(folder / "map.png", dpi=120)
 
