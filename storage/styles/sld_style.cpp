@@ -69,7 +69,8 @@ std::string line(const std::string& colour, double width_px, double offset_px) {
 }
 
 std::string rule(const ClassTable& classes, std::size_t index, const WidthAtScale& width) {
-    // Negative: to the right (05-077r4, 11.1.3). QGIS 3.22 takes it for the left, and reads the .qml.
+    // Negative: to the right (05-077r4, 11.1.3). QGIS 3.22 takes it for the left, and reads the
+    // .qml.
     const double offset_px = -(width.px + casing_px) / 2;
     return fmt::format("<se:Rule><se:Name>{0}</se:Name><se:Description><se:Title>{0}</se:Title>"
                        "</se:Description>{1}{2}{3}{4}</se:Rule>\n",
