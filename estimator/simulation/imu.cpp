@@ -55,10 +55,10 @@ double rounded(double value, double quantum) {
 
 } // namespace
 
-Felt felt_at(const ImuMount& place,
-             const CarState& state,
-             const Coordinates& acceleration,
-             const MotionNow& motion) {
+InertialSignals inertial_signals_at(const ImuMount& place,
+                                    const CarState& state,
+                                    const Coordinates& acceleration,
+                                    const MotionNow& motion) {
     const double x = place.x_m;
     const double y = place.y_m;
     const double h = place.height_above_roll_axis_m;
@@ -111,19 +111,20 @@ Imu::Imu(const ImuRecipe& recipe, double step_s, std::uint64_t seed)
     sections_ = lowpass(recipe.lowpass_order, recipe.lowpass_hz, step_s);
 }
 
-void Imu::show(const Felt& felt) {
+void Imu::sense(const InertialSignals& signals) {
     for (std::size_t i = 0; i < 6; ++i) {
         const auto& row = to_sensor_[i % 3];
         const std::size_t first = i - i % 3;
-        shown_[i] = row[0] * felt[first] + row[1] * felt[first + 1] + row[2] * felt[first + 2];
+        sensed_[i] =
+            row[0] * signals[first] + row[1] * signals[first + 1] + row[2] * signals[first + 2];
     }
     for (Section& s : sections_) {
         for (std::size_t i = 0; i < 6; ++i) {
-            const double in = shown_[i];
+            const double in = sensed_[i];
             const double out = s.b0 * in + s.latest[i];
             s.latest[i] = s.b1 * in - s.a1 * out + s.later[i];
             s.later[i] = s.b2 * in - s.a2 * out;
-            shown_[i] = out;
+            sensed_[i] = out;
         }
     }
 }
@@ -133,9 +134,9 @@ void Imu::read(double t_s, ImuReadings& into) {
     std::array<float, 3> gyro{};
     for (std::size_t i = 0; i < 3; ++i) {
         acc[i] = static_cast<float>(
-            rounded(shown_[i] + recipe_.acc_bias_mps2[i] + recipe_.noise_mps2 * random_.normal(),
+            rounded(sensed_[i] + recipe_.acc_bias_mps2[i] + recipe_.noise_mps2 * random_.normal(),
                     recipe_.quantum_mps2));
-        gyro[i] = static_cast<float>(rounded(shown_[3 + i] + recipe_.gyro_bias_radps[i] +
+        gyro[i] = static_cast<float>(rounded(sensed_[3 + i] + recipe_.gyro_bias_radps[i] +
                                                  recipe_.noise_radps * random_.normal(),
                                              recipe_.quantum_radps));
     }

@@ -139,7 +139,8 @@ ImuReadings simulate_imu(const CarRecipe& car,
     for (; step <= (samples - 1) * steps_a_sample; ++step) {
         const bool due = step >= 0 && step % steps_a_sample == 0;
         if (due || imu.lowpass_hz > 0) {
-            sensor.show(felt_at(car.vehicle.imu, state, accelerations(model, state, input), now));
+            sensor.sense(inertial_signals_at(
+                car.vehicle.imu, state, accelerations(model, state, input), now));
         }
         if (due) {
             sensor.read(time_s(static_cast<double>(step)), readings);

@@ -59,7 +59,7 @@ Member member_of(const RoughnessTrace& trace, const AlignmentConfig& config) {
 }
 
 /// Resets a member: unshifted, and without weight in the mean.
-Member left_alone(Member member, LagStatus finding) {
+Member unaligned(Member member, LagStatus finding) {
     std::ranges::fill(member.lag_cm, 0);
     member.agreement = 0;
     member.finding = finding;
@@ -67,7 +67,8 @@ Member left_alone(Member member, LagStatus finding) {
     return member;
 }
 
-Member put_down(Member member) {
+/// Shifts the signal of a member by its lag.
+Member shift_to_lag(Member member) {
     member.shifted = shifted_signal(member.signal, member.first_block, member.lag_cm);
     return member;
 }
@@ -207,17 +208,17 @@ Member placed(Member member, const SignalTemplate& reference) {
     const auto sums = correlations(member, under);
     const auto agreement = agreement_of(member, under, sums);
     if (agreement.share <= 0) {
-        return put_down(left_alone(std::move(member), LagStatus::alone));
+        return shift_to_lag(unaligned(std::move(member), LagStatus::alone));
     }
     const auto lags_cm = best_lags_cm(sums, agreement.scale, member.prior);
     if (!lags_cm) {
-        return put_down(left_alone(std::move(member), LagStatus::beyond_reach));
+        return shift_to_lag(unaligned(std::move(member), LagStatus::beyond_reach));
     }
     member.lag_cm = *lags_cm;
     member.agreement = agreement.share;
     member.finding = LagStatus::found;
     member.weight = weight_of(agreement.share);
-    return put_down(std::move(member));
+    return shift_to_lag(std::move(member));
 }
 
 // ---------------------------------------------------------------------------------------- datum
@@ -267,7 +268,7 @@ bool move_to(const Datum& datum, std::vector<Member>& members) {
             near = near && std::abs(member.lag_cm[b]) < farthest_cm;
         }
         if (!near) {
-            member = left_alone(std::move(member), LagStatus::beyond_reach);
+            member = unaligned(std::move(member), LagStatus::beyond_reach);
             lost = true;
         }
     }
@@ -297,7 +298,7 @@ void lay_first(std::vector<Member>& members) {
 void lay_again(std::vector<Member>& members) {
     auto reference = empty_template_of(members);
     for (auto& member : members) {
-        member = put_down(std::move(member));
+        member = shift_to_lag(std::move(member));
         reference = with(std::move(reference), member.shifted, member.weight);
     }
     for (auto& member : members) {
@@ -361,7 +362,7 @@ std::vector<LagLine> lags_of(std::span<const RoughnessTrace> traces,
     members.reserve(traces.size());
     for (const auto& trace : traces) {
         assert(!trace.iri.empty());
-        members.push_back(put_down(member_of(trace, config)));
+        members.push_back(shift_to_lag(member_of(trace, config)));
     }
     lay_first(members);
     for (int round = 0; round < config.rounds; ++round) {

@@ -16,7 +16,7 @@ enum Draw : std::uint64_t {
     draw_east = 31,
     draw_north = 32,
     draw_white = 33,
-    draw_holes = 34,
+    draw_outages = 34,
     draw_start = 35,
     draw_wheels = 36
 };
@@ -33,27 +33,28 @@ double at_time(const Motion& motion, const std::vector<double>& values, double t
     return values[i] + (steps - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
-struct Hole {
+/// Time without a fix.
+struct Outage {
     double from_s;
     double to_s;
 };
 
 /// Draws the times without a fix. The wait for the next outage is drawn second by second.
-std::vector<Hole> holes_of(const GnssRecipe& gnss, double whole_s, std::uint64_t seed) {
-    Random random{seed_of({seed, draw_holes})};
-    std::vector<Hole> holes{{0, random.uniform(gnss.first_fix_s.low, gnss.first_fix_s.high)}};
-    for (double t_s = holes.back().to_s; t_s < whole_s; t_s += 1) {
+std::vector<Outage> outages_of(const GnssRecipe& gnss, double whole_s, std::uint64_t seed) {
+    Random random{seed_of({seed, draw_outages})};
+    std::vector<Outage> outages{{0, random.uniform(gnss.first_fix_s.low, gnss.first_fix_s.high)}};
+    for (double t_s = outages.back().to_s; t_s < whole_s; t_s += 1) {
         if (random.uniform() < gnss.outages_per_hour / 3600) {
-            holes.push_back({t_s, t_s + random.uniform(gnss.outage_s.low, gnss.outage_s.high)});
-            t_s = holes.back().to_s;
+            outages.push_back({t_s, t_s + random.uniform(gnss.outage_s.low, gnss.outage_s.high)});
+            t_s = outages.back().to_s;
         }
     }
-    return holes;
+    return outages;
 }
 
-bool is_in(const std::vector<Hole>& holes, double t_s) {
+bool is_in(const std::vector<Outage>& outages, double t_s) {
     return std::ranges::any_of(
-        holes, [&](const Hole& hole) { return hole.from_s <= t_s && t_s < hole.to_s; });
+        outages, [&](const Outage& outage) { return outage.from_s <= t_s && t_s < outage.to_s; });
 }
 
 PointEn left_of(const PointEn& heading) {
@@ -92,7 +93,7 @@ std::vector<GnssFix> received_fixes(const DrivenPath& path,
                                     double latency_s,
                                     std::uint64_t seed) {
     const double whole_s = duration_s(motion);
-    const auto holes = holes_of(gnss, whole_s, seed);
+    const auto outages = outages_of(gnss, whole_s, seed);
     const double first_s = Random{seed_of({seed, draw_start})}.uniform() / gnss.rate_hz;
     const auto count = static_cast<std::size_t>(std::max(0.0, (whole_s - first_s) * gnss.rate_hz));
     const auto error = position_error(count, gnss, seed);
@@ -104,7 +105,7 @@ std::vector<GnssFix> received_fixes(const DrivenPath& path,
         const double t_s = first_s + static_cast<double>(i) / gnss.rate_hz;
         const double along_error = gnss.speed_sd_mps * random.normal();
         const double across_error = gnss.speed_sd_mps * random.normal();
-        if (is_in(holes, t_s)) {
+        if (is_in(outages, t_s)) {
             continue;
         }
         const auto [at, heading] =

@@ -218,7 +218,8 @@ NewOccurrence occurrence_in(const std::vector<NewPass>& passes) {
 
 } // namespace
 
-TransferredPasses carried(const TripPasses& old, const SegmentCorrespondences& correspondences) {
+TransferredPasses transfer_passes(const TripPasses& old,
+                                  const SegmentCorrespondences& correspondences) {
     auto [all, rest] = parted(old, correspondences);
     std::vector<NewPass> passes;
     for (const auto& pieces : pieces_by_chunk(rest.passes, correspondences)) {

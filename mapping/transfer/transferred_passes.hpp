@@ -30,6 +30,7 @@ struct TransferredPasses {
 /// has every validity flag that any of them has and the time of its midpoint, and is omitted if
 /// less than half of the segment is covered. Traces are assembled from the nearest metres of the
 /// old traces. Repeated drives over a chunk are distinguished by their times, as in cut_trip.
-TransferredPasses carried(const TripPasses& old, const SegmentCorrespondences& correspondences);
+TransferredPasses transfer_passes(const TripPasses& old,
+                                  const SegmentCorrespondences& correspondences);
 
 } // namespace macadam

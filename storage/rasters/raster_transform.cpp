@@ -22,11 +22,11 @@ constexpr double straight_px = 0.05; // of the picture: not visible
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 /// Position on the picture or the raster, in pixels.
-struct PixelPlace {
+struct PixelPosition {
     double x, y;
 };
 
-bool is_somewhere(const PixelPlace& place) {
+bool is_somewhere(const PixelPosition& place) {
     return std::isfinite(place.x) && std::isfinite(place.y);
 }
 
@@ -57,7 +57,7 @@ double without_turns(double x, double turn) {
     return turn > 0 ? x - turn * std::floor(x / turn + 0.5) : x;
 }
 
-PixelPlace middle_of(const PixelPlace& a, const PixelPlace& b) {
+PixelPosition middle_of(const PixelPosition& a, const PixelPosition& b) {
     return {(a.x + b.x) / 2, (a.y + b.y) / 2};
 }
 
@@ -67,7 +67,7 @@ struct PixelStep {
     double length() const { return std::hypot(x, y); }
 };
 
-PixelStep between(const PixelPlace& from, const PixelPlace& to, double px) {
+PixelStep between(const PixelPosition& from, const PixelPosition& to, double px) {
     return {(to.x - from.x) / px, (to.y - from.y) / px};
 }
 
@@ -77,7 +77,7 @@ PixelStep shorter(const PixelStep& a, const PixelStep& b) {
 }
 
 /// Footprint of a pixel; only its position if its neighbours are undefined.
-PixelFootprint foot(const PixelPlace& at, const PixelStep& right, const PixelStep& down) {
+PixelFootprint foot(const PixelPosition& at, const PixelStep& right, const PixelStep& down) {
     const auto reach_px = [](double a, double b) {
         const double px = std::hypot(a, b);
         return std::isfinite(px) ? float(px) : 0.F;
@@ -87,13 +87,13 @@ PixelFootprint foot(const PixelPlace& at, const PixelStep& right, const PixelSte
 
 /// Positions of a square of the picture: its corners, the midpoints of its sides, and its centre,
 /// row by row.
-using SquarePlaces = std::array<PixelPlace, 9>;
+using SquarePlaces = std::array<PixelPosition, 9>;
 
 bool are_straight(const SquarePlaces& at) {
     const auto right = between(at[0], at[2], square_px);
     const auto down = between(at[0], at[6], square_px);
     const double tolerated_px = straight_px * std::max(right.length(), down.length());
-    const auto is_near = [&](const PixelPlace& a, const PixelPlace& b) {
+    const auto is_near = [&](const PixelPosition& a, const PixelPosition& b) {
         return between(a, b, 1).length() <= tolerated_px; // false if a position is undefined
     };
     return is_near(at[1], middle_of(at[0], at[2])) && is_near(at[3], middle_of(at[0], at[6])) &&
@@ -101,13 +101,13 @@ bool are_straight(const SquarePlaces& at) {
            is_near(at[4], middle_of(middle_of(at[0], at[2]), middle_of(at[6], at[8])));
 }
 
-PixelPlace mixed(const PixelPlace& a, const PixelPlace& b, double share) {
+PixelPosition mixed(const PixelPosition& a, const PixelPosition& b, double share) {
     return {a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share};
 }
 
-std::vector<PixelPlace> grid_over(int width_px, int height_px) {
+std::vector<PixelPosition> grid_over(int width_px, int height_px) {
     constexpr int steps = 32;
-    std::vector<PixelPlace> places;
+    std::vector<PixelPosition> places;
     for (int row = 0; row <= steps; ++row) {
         for (int column = 0; column <= steps; ++column) {
             places.push_back({double(width_px) * column / steps, double(height_px) * row / steps});
@@ -158,16 +158,16 @@ void copy_shared(const SquareFeet& square,
 
 } // namespace
 
-struct RasterPlace::Impl {
+struct RasterTransform::Impl {
     using Way = std::unique_ptr<OGRCoordinateTransformation>;
 
-    std::vector<PixelPlace> on_raster(std::vector<PixelPlace> of_picture) const;
-    std::vector<PixelPlace> on_picture(std::vector<PixelPlace> of_raster) const;
-    PixelPlace pixel_at(double x, double y) const;
-    bool is_inside(const PixelPlace& place) const;
-    bool is_shown(const PixelPlace& place) const;
+    std::vector<PixelPosition> on_raster(std::vector<PixelPosition> of_picture) const;
+    std::vector<PixelPosition> on_picture(std::vector<PixelPosition> of_raster) const;
+    PixelPosition pixel_at(double x, double y) const;
+    bool is_inside(const PixelPosition& place) const;
+    bool is_shown(const PixelPosition& place) const;
     SquareFeet each_projected(int left_px, int top_px) const;
-    std::vector<PixelPlace> sample() const;
+    std::vector<PixelPosition> sample() const;
 
     PicturePlane plane;
     int width_px, height_px;
@@ -176,20 +176,20 @@ struct RasterPlace::Impl {
     Way to_raster, to_plane;
 };
 
-bool RasterPlace::Impl::is_inside(const PixelPlace& place) const {
+bool RasterTransform::Impl::is_inside(const PixelPosition& place) const {
     return place.x >= 0 && place.x <= width_px && place.y >= 0 && place.y <= height_px;
 }
 
-bool RasterPlace::Impl::is_shown(const PixelPlace& place) const {
+bool RasterTransform::Impl::is_shown(const PixelPosition& place) const {
     return place.x >= 0 && place.x <= plane.width_px && place.y >= 0 && place.y <= plane.height_px;
 }
 
 /// Finds the pixel in any revolution: the raster may span 0 to 360 degrees or the antimeridian.
-PixelPlace RasterPlace::Impl::pixel_at(double x, double y) const {
+PixelPosition RasterTransform::Impl::pixel_at(double x, double y) const {
     const auto with_turns = [&](int turns) {
         const double there = x + turns * raster_turn;
-        return PixelPlace{backward[0] + there * backward[1] + y * backward[2],
-                          backward[3] + there * backward[4] + y * backward[5]};
+        return PixelPosition{backward[0] + there * backward[1] + y * backward[2],
+                             backward[3] + there * backward[4] + y * backward[5]};
     };
     const auto here = with_turns(0);
     if (raster_turn > 0 && is_somewhere(here) && !is_inside(here)) {
@@ -204,7 +204,8 @@ PixelPlace RasterPlace::Impl::pixel_at(double x, double y) const {
 
 /// Transforms positions to the raster. A position that does not transform back to itself is not on
 /// the plane: it is beyond the horizon, or in a fold.
-std::vector<PixelPlace> RasterPlace::Impl::on_raster(std::vector<PixelPlace> of_picture) const {
+std::vector<PixelPosition>
+RasterTransform::Impl::on_raster(std::vector<PixelPosition> of_picture) const {
     const auto count = of_picture.size();
     std::vector<double> x(count);
     std::vector<double> y(count);
@@ -224,12 +225,14 @@ std::vector<PixelPlace> RasterPlace::Impl::on_raster(std::vector<PixelPlace> of_
         const double off_x = without_turns(back_x[i] - x[i], plane_turn);
         const bool is_there = is_known[i] != FALSE && is_back[i] != FALSE &&
                               std::hypot(off_x, back_y[i] - y[i]) < plane.per_px;
-        of_picture[i] = is_there ? pixel_at(there_x[i], there_y[i]) : PixelPlace{nowhere, nowhere};
+        of_picture[i] =
+            is_there ? pixel_at(there_x[i], there_y[i]) : PixelPosition{nowhere, nowhere};
     }
     return of_picture;
 }
 
-std::vector<PixelPlace> RasterPlace::Impl::on_picture(std::vector<PixelPlace> of_raster) const {
+std::vector<PixelPosition>
+RasterTransform::Impl::on_picture(std::vector<PixelPosition> of_raster) const {
     const double middle_x = plane.left + plane.width_px * plane.per_px / 2;
     for (auto& place : of_raster) {
         double x = forward[0] + place.x * forward[1] + place.y * forward[2];
@@ -238,16 +241,16 @@ std::vector<PixelPlace> RasterPlace::Impl::on_picture(std::vector<PixelPlace> of
         to_plane->Transform(1, &x, &y, nullptr, &is_known);
         x = middle_x + without_turns(x - middle_x, plane_turn);
         place = is_known != FALSE
-                    ? PixelPlace{(x - plane.left) / plane.per_px, (plane.top - y) / plane.per_px}
-                    : PixelPlace{nowhere, nowhere};
+                    ? PixelPosition{(x - plane.left) / plane.per_px, (plane.top - y) / plane.per_px}
+                    : PixelPosition{nowhere, nowhere};
     }
     return of_raster;
 }
 
 /// Projects each pixel of a square, without the corner check.
-SquareFeet RasterPlace::Impl::each_projected(int left_px, int top_px) const {
+SquareFeet RasterTransform::Impl::each_projected(int left_px, int top_px) const {
     constexpr int side = square_px + 2; // with neighbours on all sides
-    std::vector<PixelPlace> places;
+    std::vector<PixelPosition> places;
     places.reserve(side * side);
     for (int row = -1; row <= square_px; ++row) {
         for (int column = -1; column <= square_px; ++column) {
@@ -265,7 +268,7 @@ SquareFeet RasterPlace::Impl::each_projected(int left_px, int top_px) const {
     return feet;
 }
 
-RasterPlace::RasterPlace(const PicturePlane& plane, const RasterFile& raster) {
+RasterTransform::RasterTransform(const PicturePlane& plane, const RasterFile& raster) {
     const GdalErrorScope quiet;
     const auto system = system_of(plane.wkt);
     Impl::Way to_raster{OGRCreateCoordinateTransformation(&system, &raster.system())};
@@ -287,16 +290,16 @@ RasterPlace::RasterPlace(const PicturePlane& plane, const RasterFile& raster) {
                                         .to_plane = std::move(to_plane)});
 }
 
-RasterPlace::~RasterPlace() = default;
+RasterTransform::~RasterTransform() = default;
 
-std::vector<PixelFootprint> RasterPlace::feet(const PicturePart& part) const {
+std::vector<PixelFootprint> RasterTransform::feet(const PicturePart& part) const {
     const GdalErrorScope quiet;
     const int first_column = part.left_px / square_px;
     const int first_row = part.top_px / square_px;
     const int columns = (part.left_px + part.width_px - 1) / square_px - first_column + 1;
     const int rows = (part.top_px + part.height_px - 1) / square_px - first_row + 1;
     const auto across = std::size_t(2 * columns + 1);
-    std::vector<PixelPlace> places;
+    std::vector<PixelPosition> places;
     places.reserve(across * std::size_t(2 * rows + 1));
     for (int row = 0; row <= 2 * rows; ++row) {
         for (int column = 0; column <= 2 * columns; ++column) {
@@ -328,17 +331,17 @@ std::vector<PixelFootprint> RasterPlace::feet(const PicturePart& part) const {
 }
 
 /// Sample positions on the picture, spread over it and over its overlap with the raster.
-std::vector<PixelPlace> RasterPlace::Impl::sample() const {
+std::vector<PixelPosition> RasterTransform::Impl::sample() const {
     auto places = on_picture(grid_over(width_px, height_px));
-    std::erase_if(places, [&](const PixelPlace& place) { return !is_shown(place); });
+    std::erase_if(places, [&](const PixelPosition& place) { return !is_shown(place); });
     std::ranges::copy(grid_over(plane.width_px, plane.height_px), std::back_inserter(places));
     return places;
 }
 
-std::optional<double> RasterPlace::min_foot_px() const {
+std::optional<double> RasterTransform::min_foot_px() const {
     const GdalErrorScope quiet;
     const auto places = impl_->sample();
-    std::vector<PixelPlace> with_neighbours;
+    std::vector<PixelPosition> with_neighbours;
     for (const auto& place : places) {
         with_neighbours.push_back(place);
         with_neighbours.push_back({place.x + 1, place.y});

@@ -27,11 +27,11 @@ inline constexpr int feet_square_px = 16;
 ///
 /// Positions one revolution apart are the same position if the plane or the coordinate system of
 /// the raster wraps around the globe (degrees, spherical Mercator).
-class RasterPlace {
+class RasterTransform {
 public:
     /// \throws InputError  if PROJ finds no transformation from the plane to the raster.
-    RasterPlace(const PicturePlane& plane, const RasterFile& raster);
-    ~RasterPlace();
+    RasterTransform(const PicturePlane& plane, const RasterFile& raster);
+    ~RasterTransform();
 
     /// Footprints of a part, row by row.
     std::vector<PixelFootprint> feet(const PicturePart& part) const;

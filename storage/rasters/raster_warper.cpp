@@ -182,8 +182,8 @@ private:
 } // namespace
 
 RasterWarper::RasterWarper(std::shared_ptr<const RasterFile> raster, const PicturePlane& plane)
-    : raster_{std::move(raster)}, place_{plane, *raster_} {
-    level_ = raster_->level(place_.min_foot_px().value_or(1));
+    : raster_{std::move(raster)}, transform_{plane, *raster_} {
+    level_ = raster_->level(transform_.min_foot_px().value_or(1));
 }
 
 std::vector<std::uint8_t> RasterWarper::rgba(const PicturePart& part) const {
@@ -196,8 +196,11 @@ std::vector<std::uint8_t> RasterWarper::rgba(const PicturePart& part) const {
         const int into_square = (part.top_px + down) % feet_square_px;
         rows = std::min(most - into_square, part.height_px - down);
         const PicturePart some{part.left_px, part.top_px + down, part.width_px, rows};
-        RowPainting painting{
-            *raster_, level_, some, place_.feet(some), rgba.data() + std::size_t(down) * row_bytes};
+        RowPainting painting{*raster_,
+                             level_,
+                             some,
+                             transform_.feet(some),
+                             rgba.data() + std::size_t(down) * row_bytes};
         painting.paint(some);
     }
     return rgba;

@@ -18,7 +18,7 @@ public:
 
 private:
     std::shared_ptr<const RasterFile> raster_;
-    RasterPlace place_;
+    RasterTransform transform_;
     RasterLevel level_;
 };
 

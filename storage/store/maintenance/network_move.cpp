@@ -171,7 +171,7 @@ MovedPasses move_readings(Database& database,
     MovedPasses moved;
     std::size_t done = 0;
     for (const auto trip : trips) {
-        const auto now = carried(old.take(trip), correspondences);
+        const auto now = transfer_passes(old.take(trip), correspondences);
         writer.write(trip, now.readings.passes, now.readings.traces, now.readings.events);
         moved.carried += now.moved;
         moved.lost += now.lost;

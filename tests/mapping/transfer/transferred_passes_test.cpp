@@ -95,7 +95,7 @@ struct World {
     NetworkChange change;
 
     TransferredPasses carry(const TripPasses& old) const {
-        return carried(old, SegmentCorrespondences{before, after, change});
+        return transfer_passes(old, SegmentCorrespondences{before, after, change});
     }
 };
 
