@@ -22,7 +22,9 @@ constexpr double sideways_nats = 12;  // additional cost of moving over to a par
 constexpr float off_end_nats = 3;     // for beginning or ending off the network
 constexpr double hop_nats = 16;       // for leaving and returning between two samples
 constexpr double gap_nats = 25;       // for a discontinuity: more than any credible detour
-constexpr double beam_nats = 15;      // worse than the best by more: pruned
+constexpr double beam_nats = 15;      // worse than the best by more: pruned ...
+constexpr double off_beam_nats = beam_nats + off_switch_nats + sideways_nats; // ... and if the best
+                                                                              // has to return
 constexpr std::size_t widest_beam = 12;
 constexpr std::size_t widest_far_beam = 5; // if each state needs a long search
 constexpr double far_m = 1000;
@@ -116,7 +118,8 @@ survivors(const Lattice& lattice, std::size_t sample, std::size_t widest) {
         return x.cost < y.cost || (x.cost == y.cost && a < b);
     };
     const auto best = *std::min_element(order.begin(), order.end(), cheaper);
-    const double worst = lattice.states[best].cost + beam_nats;
+    const bool is_off = lattice.states[best].candidate.off_network;
+    const double worst = lattice.states[best].cost + (is_off ? off_beam_nats : beam_nats);
     std::erase_if(order, [&](std::uint32_t state) { return lattice.states[state].cost > worst; });
     std::sort(order.begin(), order.end(), cheaper);
     order.resize(std::min(order.size(), widest));

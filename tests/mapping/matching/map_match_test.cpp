@@ -200,6 +200,31 @@ TEST(MapMatch, SurvivesABadFirstFix) {
     EXPECT_EQ(letters_of(match(trip, art), art), "ABC");
 }
 
+TEST(MapMatch, ReturnsToItsRoadAfterAPausedRecording) {
+    const auto art = road_art("A---------B", 300, {"AB"});
+    auto trip = testing::drive(line_through(art, "AB"), {.noise_m = 2, .courses = true});
+    constexpr std::size_t paused = 60;
+    constexpr std::size_t missing = 20; // fixes, 280 m, for which the clock stood still
+    constexpr double step_s = 0.4;      // over the pause
+    ASSERT_GT(trip.fixes.size(), 150U);
+    const auto first = trip.fixes.begin() + paused;
+    trip.fixes.erase(first, first + missing);
+    for (auto i = paused; i < trip.fixes.size(); ++i) {
+        trip.fixes[i].t_s -= missing + 1 - step_s;
+    }
+    for (auto& fix : trip.fixes) {
+        fix.accuracy_m = 5;
+    }
+    trip.fixes[paused].accuracy_m = 65; // a receiver that begins anew
+    trip.fixes[paused + 1].accuracy_m = 65;
+    double off_road_m = 0;
+    for (const auto& piece : match(trip, art)) {
+        off_road_m +=
+            piece.kind == IntervalKind::road ? 0 : piece.to_travel_m - piece.from_travel_m;
+    }
+    EXPECT_LT(off_road_m, 280 + 2 * 60); // the pause, and a sample or two at each side
+}
+
 TEST(MapMatch, TellsWhichFixesServed) {
     const auto art = ladder();
     auto trip = testing::drive(line_through(art, "ABC"));
