@@ -19,7 +19,7 @@ PRODUCT = ("app/", "estimator/", "mapping/", "storage/", "render/")
 # exception; LGPL for what is linked).
 TOOLCHAIN = re.compile(r"^(libc6|libc6-dev|libgcc-.*|libgcc-s1|libstdc\+\+.*|linux-libc-dev|libasan.*|libubsan.*)$")
 # Opened by name at run time, so that no linked file names them.
-OPENED_LATE = ["libOSMesa.so.8"]
+OPENED_LATE = ["libOSMesa.so.8", "libEGL.so.1"]
 # Packages whose copyright file is prose. The names are of https://spdx.org/licenses.
 PROSE = {
     "libsqlite3-0": "public domain",
@@ -37,7 +37,6 @@ PROSE = {
     "libcairo2-dev": "LGPL-2.1 or MPL-1.1",
     "libfontconfig-dev": "MIT",
     "libosmesa6": "Expat",
-    "libosmesa6-dev": "Expat",
     "libpython3.11-dev": "PSF-2.0",
     "python3.11-dev": "PSF-2.0",
 }

@@ -26,10 +26,10 @@ MAX_FILES = 21
 PURE = {"estimator", "mapping"}
 OUTSIDE_WORLD = re.compile(
     r"<(iostream|fstream|cstdio|stdio\.h|print|filesystem|chrono|ctime|time\.h|thread|mutex|future|random_device"
-    r"|unistd\.h|fcntl\.h|sys/|sqlite3\.h|gdal|ogr|osmium|archive\.h|zlib\.h|zstd\.h|GL/|png\.h|ft2build\.h|hb\.h"
+    r"|unistd\.h|fcntl\.h|sys/|sqlite3\.h|gdal|ogr|osmium|archive\.h|zlib\.h|zstd\.h|GL/|EGL/|png\.h|ft2build\.h|hb\.h"
     r"|nlohmann|CLI|toml\+\+)"
 )
-FOREIGN = re.compile(r"<(gdal|ogr|sqlite3|osmium|mrpt|archive|png|ft2build|hb|GL/|CLI|nlohmann|toml)")
+FOREIGN = re.compile(r"<(gdal|ogr|sqlite3|osmium|mrpt|archive|png|ft2build|hb|GL/|EGL/|CLI|nlohmann|toml)")
 
 # GDAL opens and creates files in one place, which decides what a map may be.
 GDAL_ACCESS = "storage/gdal/gdal_access.cpp"

@@ -1,27 +1,19 @@
 #include "render/gl/gl_context.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/common/plugin_library.hpp"
+#include "render/gl/gl_library.hpp"
 
-#include <GL/osmesa.h>
 #include <fmt/core.h>
 
-#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdlib>
+#include <string_view>
 
 #include <sys/mman.h>
 
 namespace macadam {
 namespace {
-
-constexpr const char* library = "libOSMesa.so.8";
-
-template <typename Function>
-Function* mesa(const char* name) {
-    return plugin_function<Function>(library, name);
-}
 
 void check_size(int width_px, int height_px) {
     for (const int side_px : {width_px, height_px}) {
@@ -52,75 +44,49 @@ void expect_memory(int width_px, int height_px) {
     ::munmap(tried, bytes);
 }
 
-void* new_context() {
+/// Opens the library that draws, and tells whether it is OSMesa.
+bool open_library() {
     // Mesa would write compiled shaders to the user's home from another thread; these shaders
-    // compile in a few milliseconds.
+    // compile in a few milliseconds. Pictures shall not depend on a graphics card.
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
-    constexpr std::array attributes{OSMESA_FORMAT,
-                                    OSMESA_RGBA,
-                                    OSMESA_PROFILE,
-                                    OSMESA_CORE_PROFILE,
-                                    OSMESA_CONTEXT_MAJOR_VERSION,
-                                    3,
-                                    OSMESA_CONTEXT_MINOR_VERSION,
-                                    3,
-                                    0};
-    return mesa<decltype(OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs")(
-        attributes.data(), nullptr);
-}
-
-void destroy(void* context) {
-    mesa<decltype(OSMesaDestroyContext)>("OSMesaDestroyContext")(
-        static_cast<OSMesaContext>(context));
+    setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
+    const char* const value = std::getenv("MACADAM_OPENGL"); // NOLINT(concurrency-mt-unsafe)
+    const std::string_view wanted = value == nullptr ? "" : value;
+    if (!wanted.empty() && wanted != "osmesa" && wanted != "egl") {
+        throw InputError{fmt::format("MACADAM_OPENGL is '{}', expected osmesa or egl", wanted)};
+    }
+    if (wanted == "osmesa" || (wanted.empty() && has_osmesa())) {
+        open_osmesa();
+        return true;
+    }
+    open_egl();
+    return false;
 }
 
 } // namespace
 
-GlContext::GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px)
-    : context_{nullptr}, rgba_{rgba}, width_px_{width_px}, height_px_{height_px} {
+GlContext::GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px) {
     check_size(width_px, height_px);
     assert(rgba.size() == std::size_t(width_px) * std::size_t(height_px) * 4);
-
-    mesa<decltype(OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs"); // opens the library
+    const bool by_osmesa = open_library();
     expect_memory(width_px, height_px);
-    context_ = new_context();
-    if (context_ == nullptr) {
-        throw InputError{fmt::format("'{}' gives no OpenGL 3.3 core context", library)};
-    }
-    try {
-        make_current();
-    } catch (...) {
-        destroy(context_);
-        throw;
-    }
+    const GlPixels pixels{rgba, width_px, height_px};
+    context_ = by_osmesa ? osmesa_context(pixels) : egl_context(pixels);
+    context_->make_current();
 }
+
+GlContext::~GlContext() = default;
 
 void GlContext::make_current() const {
-    if (mesa<decltype(OSMesaGetCurrentContext)>("OSMesaGetCurrentContext")() == context_) {
-        return;
-    }
-    const auto made =
-        mesa<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent")(static_cast<OSMesaContext>(context_),
-                                                               rgba_.data(),
-                                                               GL_UNSIGNED_BYTE,
-                                                               width_px_,
-                                                               height_px_);
-    if (made != GL_TRUE) {
-        throw InputError{
-            fmt::format("'{}' cannot draw a picture of {}x{} px", library, width_px_, height_px_)};
-    }
+    context_->make_current();
 }
 
-GlContext::~GlContext() {
-    destroy(context_);
+void GlContext::finish() const {
+    context_->finish();
 }
 
 GlContext::Address GlContext::address(const char* name) const {
-    const auto found = mesa<decltype(OSMesaGetProcAddress)>("OSMesaGetProcAddress")(name);
-    if (found == nullptr) {
-        throw InputError{fmt::format("'{}' has no function '{}'", library, name)};
-    }
-    return found;
+    return context_->address(name);
 }
 
 } // namespace macadam

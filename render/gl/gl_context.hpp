@@ -1,24 +1,28 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace macadam {
 
-inline constexpr int max_window_px = 16384; ///< limit of OSMesa; larger sizes fail silently
+class GlLibraryContext;
+
+inline constexpr int max_window_px = 16384; ///< limit of Mesa; larger sizes fail silently
 
 /// OpenGL 3.3 core context without a window, drawing into memory. It is current in the thread that
 /// created it until it is destroyed or another context becomes current.
 ///
-/// OSMesa is loaded with the first context, and every entry point is looked up in it by name: a
-/// program that also links libGL would otherwise call the functions of that library, which draw
-/// into no context.
+/// It is one of OSMesa, or of EGL where OSMesa cannot be opened; the variable MACADAM_OPENGL
+/// (osmesa, egl) decides otherwise. The library is loaded with the first context, and every entry
+/// point is looked up in it by name: a program that also links libGL would otherwise call the
+/// functions of that library, which draw into no context.
 class GlContext {
 public:
     /// \param rgba  width_px * height_px * 4 bytes, which must outlive the context; its first row
     ///              is the bottom row of OpenGL's window.
     /// \throws InputError  if a side is not 1 .. max_window_px (OSMesa accepts larger sizes and
-    ///                     then draws wrongly or crashes), or if OSMesa is missing or fails.
+    ///                     then draws wrongly or crashes), or if the library is missing or fails.
     GlContext(std::span<std::uint8_t> rgba, int width_px, int height_px);
     ~GlContext();
     GlContext(const GlContext&) = delete;
@@ -26,6 +30,9 @@ public:
 
     /// Makes this the current context of the thread.
     void make_current() const;
+
+    /// Waits until all that was drawn is in the memory.
+    void finish() const;
 
     /// Looks up an OpenGL function: `context.entry<decltype(&glClear)>("glClear")`.
     template <typename Pointer>
@@ -37,9 +44,7 @@ private:
     using Address = void (*)();
     Address address(const char* name) const;
 
-    void* context_;
-    std::span<std::uint8_t> rgba_;
-    int width_px_, height_px_;
+    std::unique_ptr<GlLibraryContext> context_;
 };
 
 } // namespace macadam

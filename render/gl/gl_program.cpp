@@ -36,7 +36,7 @@ linked_program(const GlContext& context, const char* vertex_shader, const char* 
         GLsizei length = 0;
         context.entry<PFNGLGETPROGRAMINFOLOGPROC>("glGetProgramInfoLog")(
             made, GLsizei(log.size()), &length, log.data());
-        throw InputError{fmt::format("OSMesa refuses a shader: {}", log.substr(0, length))};
+        throw InputError{fmt::format("OpenGL refuses a shader: {}", log.substr(0, length))};
     }
     return made;
 }

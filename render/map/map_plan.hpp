@@ -46,7 +46,7 @@ public:
     /// the roads and one band of rows are in memory. Text and lines scale with the picture, so that
     /// 512 and 8192 px look alike. `progress` counts rows.
     ///
-    /// \throws InputError  for an unknown ramp or class, if OSMesa cannot draw, and when it is
+    /// \throws InputError  for an unknown ramp or class, if OpenGL cannot draw, and when it is
     ///                     stopped.
     void draw(const TakeRows& take, const Progress& progress = {});
 

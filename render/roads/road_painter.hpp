@@ -44,7 +44,7 @@ public:
 
     /// Paints some rows of the sheet, which must lie on it.
     ///
-    /// \throws InputError  if OSMesa is missing or cannot draw.
+    /// \throws InputError  if OpenGL is missing or cannot draw.
     Image rows(int top_px, int count);
 
 private:

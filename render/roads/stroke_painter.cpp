@@ -91,7 +91,6 @@ struct StrokePainter::Gl {
     MACADAM_GL(decltype(&glClear), Clear);
     MACADAM_GL(decltype(&glClearColor), ClearColor);
     MACADAM_GL(decltype(&glEnable), Enable);
-    MACADAM_GL(decltype(&glFinish), Finish);
     MACADAM_GL(decltype(&glGetError), GetError);
     MACADAM_GL(decltype(&glScissor), Scissor);
     MACADAM_GL(decltype(&glViewport), Viewport);
@@ -141,9 +140,9 @@ void StrokePainter::draw(std::span<const StrokeQuad> quads, std::uint32_t rgb, d
 }
 
 void StrokePainter::finish() {
-    gl_->Finish();
+    gl_->context_.finish();
     if (const GLenum error = gl_->GetError(); error != GL_NO_ERROR) {
-        throw InputError{fmt::format("OSMesa cannot draw the map: OpenGL error {:#x}", error)};
+        throw InputError{fmt::format("the map cannot be drawn: OpenGL error {:#x}", error)};
     }
 }
 

@@ -41,7 +41,7 @@ public:
     ///               point with one of these; in the same order for every tile. Distant lines cost
     ///               little. With labels, all lines of every label cell that a tile touches
     ///               (label_cell_px).
-    /// \throws InputError  if a line's class is not in the table, or OSMesa cannot draw
+    /// \throws InputError  if a line's class is not in the table, or OpenGL cannot draw
     Image draw(const TileId& first, std::span<const MapLine> lines);
 
     /// Returns the maximum distance of a line's painted pixels from its points.

@@ -41,6 +41,13 @@ void leave(const std::string& name, const Image& image) {
     }
 }
 
+Image drawn_with(const char* library, const std::function<Image()>& draw) {
+    setenv("MACADAM_OPENGL", library, 1);
+    auto image = draw();
+    unsetenv("MACADAM_OPENGL");
+    return image;
+}
+
 int max_difference(const Image& a, const Image& b) {
     if (a.rgb.size() != b.rgb.size()) {
         return 256;

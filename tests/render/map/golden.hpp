@@ -2,6 +2,7 @@
 
 #include "render/scene/scene.hpp"
 
+#include <functional>
 #include <string>
 
 namespace macadam::testing {
@@ -12,6 +13,9 @@ namespace macadam::testing {
 
 inline constexpr const char* golden_mesa = "Mesa 22.3.6"; // Debian 12's, which drew them
 
+/// Between OSMesa and EGL, which may be of different versions of Mesa.
+inline constexpr int max_library_levels = 2;
+
 /// What Mesa says of its version.
 std::string mesa();
 
@@ -21,6 +25,9 @@ Image golden(const std::string& name);
 /// Leaves what was drawn in the folder of MACADAM_LEAVE_PICTURES, if that is set, so that it can be
 /// looked at, and kept if it is better.
 void leave(const std::string& name, const Image& image);
+
+/// Draws with one OpenGL library: "osmesa" or "egl".
+Image drawn_with(const char* library, const std::function<Image()>& draw);
 
 /// In levels of 255; 256 of pictures of different sizes.
 int max_difference(const Image& a, const Image& b);

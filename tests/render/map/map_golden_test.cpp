@@ -1,4 +1,5 @@
 #include "golden.hpp"
+#include "render/gl/gl_library.hpp"
 #include "render/map/map_plan.hpp"
 
 #include <ft2build.h>
@@ -157,6 +158,18 @@ TEST(MapGolden, WholeMapsAreThoseThatWereFoundGood) {
         } else {
             EXPECT_LE(mean_difference(image, kept), other_mean_levels) << words;
         }
+    }
+}
+
+TEST(MapGolden, OsmesaAndEglDrawTheSameMaps) {
+    if (!has_osmesa()) {
+        GTEST_SKIP() << "this Mesa has no OSMesa";
+    }
+    for (const auto& of : cases) {
+        const auto draw = [&] { return drawn(of); };
+        const auto by_egl = drawn_with("egl", draw);
+        EXPECT_LE(max_difference(drawn_with("osmesa", draw), by_egl), max_library_levels)
+            << of.name;
     }
 }
 

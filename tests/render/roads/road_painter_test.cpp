@@ -5,11 +5,14 @@
 
 #include "estimator/common/error.hpp"
 
+#include <GL/gl.h>
 #include <gmock/gmock.h>
 
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <span>
+#include <vector>
 
 namespace macadam::testing {
 namespace {
@@ -231,6 +234,46 @@ TEST(RoadPainter, MovesALineToTheRightOfItsDirection) {
 TEST(GlContext, RefusesWhatOsmesaWouldDrawWrongly) {
     EXPECT_THAT([] { GlContext({}, 20000, 1); },
                 ::testing::ThrowsMessage<InputError>("'20000x1', expected sides of 1 to 16384 px"));
+}
+
+TEST(GlContext, RefusesAnUnknownLibrary) {
+    setenv("MACADAM_OPENGL", "vulkan", 1);
+    std::vector<std::uint8_t> rgba(4);
+    EXPECT_THAT(
+        [&] { GlContext(rgba, 1, 1); },
+        ::testing::ThrowsMessage<InputError>("MACADAM_OPENGL is 'vulkan', expected osmesa or egl"));
+    unsetenv("MACADAM_OPENGL");
+}
+
+namespace {
+
+/// Clears a context to red (0) or green (1).
+void clear(const GlContext& context, int channel) {
+    context.make_current();
+    context.entry<decltype(&glClearColor)>("glClearColor")(
+        channel == 0 ? 1 : 0, channel == 1 ? 1 : 0, 0, 1);
+    context.entry<decltype(&glClear)>("glClear")(GL_COLOR_BUFFER_BIT);
+}
+
+} // namespace
+
+TEST(GlContext, OfEglDrawsIntoItsOwnMemoryBesideOthers) {
+    setenv("MACADAM_OPENGL", "egl", 1);
+    std::vector<std::uint8_t> red(2 * 3 * 4), green(1 * 1 * 4);
+    {
+        const GlContext first{red, 2, 3};
+        const GlContext second{green, 1, 1};
+        clear(first, 0);
+        clear(second, 1);
+        second.finish();
+        first.make_current();
+        first.finish();
+    }
+    unsetenv("MACADAM_OPENGL");
+    EXPECT_THAT(green, ::testing::ElementsAre(0, 255, 0, 255));
+    for (std::size_t i = 0; i < red.size(); i += 4) {
+        EXPECT_THAT(std::span{red}.subspan(i, 4), ::testing::ElementsAre(255, 0, 0, 255));
+    }
 }
 
 } // namespace macadam::testing

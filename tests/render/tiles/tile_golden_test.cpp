@@ -1,3 +1,4 @@
+#include "render/gl/gl_library.hpp"
 #include "render/map/golden.hpp"
 #include "render/tiles/tile_painter.hpp"
 #include "tile_scene.hpp"
@@ -55,6 +56,18 @@ TEST(TileGolden, TilesAreThoseThatWereFoundGood) {
             << "tests/data/golden/" << scene.name << ".png was drawn by " << golden_mesa
             << ", and this is '" << version << "'; another one may differ by " << other_mesa_levels
             << " levels. MACADAM_LEAVE_PICTURES=FOLDER leaves there what was drawn";
+    }
+}
+
+TEST(TileGolden, OsmesaAndEglDrawTheSameTiles) {
+    if (!has_osmesa()) {
+        GTEST_SKIP() << "this Mesa has no OSMesa";
+    }
+    for (const auto& scene : scenes) {
+        const auto draw = [&] { return drawn(scene); };
+        const auto by_egl = drawn_with("egl", draw);
+        EXPECT_LE(max_difference(drawn_with("osmesa", draw), by_egl), max_library_levels)
+            << scene.name;
     }
 }
 

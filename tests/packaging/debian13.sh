@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# debian13.sh SOURCE FOLDER
+# Builds the program in a bare Debian 13 under FOLDER, little optimised to save time, and draws a
+# recorded trip there by OSMesa, by EGL, and after OSMesa was removed. Needs root, a Debian mirror and
+# 6 GB; the system and what was built are kept in FOLDER for the next time.
+set -euo pipefail
+
+source=$1
+folder=$2
+jobs=${MACADAM_JOBS:-$(nproc)}
+mirror=${MACADAM_DEBIAN_MIRROR:-http://deb.debian.org/debian}
+[ "$(id -u)" -eq 0 ] || { echo "debian13.sh: run as root: debootstrap and chroot need it" >&2; exit 1; }
+
+# A mount namespace of our own: what is mounted below goes when the script ends.
+if [ "${MACADAM_IN_NAMESPACE:-}" != yes ]; then
+    MACADAM_IN_NAMESPACE=yes exec unshare --mount --pid --fork "$0" "$@"
+fi
+
+root=$folder/trixie
+if [ ! -f "$root/complete" ]; then
+    rm -rf "$root"
+    mkdir -p "$folder"
+    debootstrap --variant=minbase trixie "$root" "$mirror"
+    touch "$root/complete"
+fi
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+mkdir -p "$root/source" "$root/build"
+mount -t proc proc "$root/proc"
+mount --bind "$source" "$root/source"
+mount -o remount,bind,ro "$root/source"
+inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
+
+inside apt-get -q update
+# shellcheck disable=SC2016
+inside bash -c '/source/run packages build | xargs apt-get -q -y install --no-install-recommends'
+inside cmake -S /source -B /build -G Ninja -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG=-O1 -D BUILD_TESTING=OFF
+inside nice cmake --build /build --target macadam -j "$jobs"
+
+macadam() { inside /build/macadam "$@"; }
+trip=/source/sample_data/comma2k19/comma2k19_rav4.trip.csv
+rm -rf "$root/tmp/map"
+mkdir "$root/tmp/map"
+macadam --version
+macadam init /tmp/map/roads.gpkg --trace "$trip"
+macadam import /tmp/map/roads.gpkg "$trip"
+draw() {
+    for output in "$1.png" "$1.pdf" "$1.tif"; do
+        inside env "MACADAM_OPENGL=$2" /build/macadam render /tmp/map/roads.gpkg -o "/tmp/map/$output"
+        [ -s "$root/tmp/map/$output" ] || { echo "debian13.sh: $output is missing or empty" >&2; exit 1; }
+    done
+}
+draw osmesa osmesa
+draw egl egl
+inside dpkg --purge libosmesa6
+draw without ""
+cmp "$root/tmp/map/egl.png" "$root/tmp/map/without.png"
+macadam report /tmp/map/roads.gpkg -o /tmp/map/report.html
+echo "built and drawn in Debian 13"
