@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
 #include "app/import/trip_inputs.hpp"
+#include "app/inspect/companion_logs.hpp"
 #include "app/inspect/inspection_output.hpp"
 
 #include "estimator/common/error.hpp"
@@ -29,15 +30,18 @@ void write_mapping(const std::filesystem::path& output,
                    const std::vector<std::filesystem::path>& inputs,
                    const Inspected& inspected,
                    const Console& console) {
-    if (inspected.logs.size() != 1) {
+    const auto companions = companions_in(inspected.logs);
+    const bool is_pair = companions && inspected.logs.size() == 2;
+    if (inspected.logs.size() != 1 && !is_pair) {
         throw InputError{
-            fmt::format("{}: not written: -o takes one CSV file of another program, found {}",
+            fmt::format("{}: not written: -o takes one CSV file of another program, or two of "
+                        "one trip, found {}",
                         output.string(),
                         inspected.logs.size())};
     }
     refuse_to_replace(output, inputs);
     AtomicFile file{output};
-    file.write(inspected.logs.front().mapping);
+    file.write(is_pair ? mapping_of(*companions) : inspected.logs.front().mapping);
     file.commit();
     console.say(fmt::format("{}: mapping written; for --mapping", output.string()));
 }
@@ -45,7 +49,7 @@ void write_mapping(const std::filesystem::path& output,
 void add(const Inspection& found, bool json, bool with_mapping, Inspected& to) {
     ++to.count;
     to.failed += found.error.empty() && found.kind.use != FileKind::Use::unknown ? 0U : 1U;
-    if (found.detected && !found.mapping.empty()) {
+    if (found.finds_columns()) {
         to.logs.push_back(found);
     }
     if (json) {
@@ -53,7 +57,7 @@ void add(const Inspection& found, bool json, bool with_mapping, Inspected& to) {
         return;
     }
     print_words(inspection_text(found));
-    if (with_mapping && !found.mapping.empty()) {
+    if (with_mapping && found.finds_columns()) {
         print_words("\n" + found.mapping + "\n");
     }
     flush_results();
@@ -78,6 +82,13 @@ void run_inspect(const Arguments& arguments, const Console& console) {
     if (json) {
         print(fmt::format("[{}]\n", fmt::join(inspected.json, ",\n ")));
     }
+    if (const auto pair = companions_in(inspected.logs); pair && !json && !output) {
+        print_words(fmt::format("{} and {}: one trip in two files, accelerations in one and "
+                                "positions of the same time in the other; for a mapping of both: "
+                                "macadam inspect BOTH -o logger.toml\n",
+                                pair->motion->name,
+                                pair->positions->name));
+    }
     if (output) {
         write_mapping(*output, paths, inspected, console);
     }
@@ -93,12 +104,13 @@ constexpr std::array operands{Operand{
     .help = "Any files, folders or archives: logs, maps, profiles, surveys, databases, settings.",
     .many = true}};
 
-constexpr std::array options{Option{"-o,--output",
-                                    "FILE.toml",
-                                    "Write the mapping of one CSV file of another program, for "
-                                    "--mapping; otherwise it is printed."},
-                             max_members_option,
-                             Option{"--json", "", "One JSON array with an object per file."}};
+constexpr std::array options{
+    Option{"-o,--output",
+           "FILE.toml",
+           "Write the mapping of one CSV file of another program, or of two that "
+           "hold one trip, for --mapping; otherwise it is printed."},
+    max_members_option,
+    Option{"--json", "", "One JSON array with an object per file."}};
 
 } // namespace
 

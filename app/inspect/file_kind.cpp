@@ -146,9 +146,11 @@ std::string_view words_of(MapKind kind) {
     }
 }
 
-std::optional<FileKind> by_map_kind(const fs::path& file) {
+std::optional<FileKind> by_map_kind(const fs::path& file, std::string_view head) {
     const auto kind = kind_of_map(file);
-    if (kind == MapKind::unknown) {
+    const bool is_other_json =
+        kind == MapKind::geojson && head.find("\"type\"") == std::string_view::npos;
+    if (kind == MapKind::unknown || is_other_json) {
         return std::nullopt;
     }
     const auto name = fmt::format("map ({})", words_of(kind));
@@ -247,7 +249,7 @@ FileKind kind_of_file(const fs::path& file) {
     if (auto kind = kind_of_can_text(head)) { // a DBC file begins like a MapInfo file
         return *kind;
     }
-    if (auto kind = by_map_kind(file)) {
+    if (auto kind = by_map_kind(file, head)) {
         return *kind;
     }
     if (auto kind = by_text(head)) {

@@ -22,6 +22,11 @@ struct Inspection {
     std::optional<TripSummary> trip{};     ///< `std::nullopt`: not a trip, or not readable as one
     std::string error{};                   ///< reason why it cannot be read; "" if it can
 
+    /// Tests for a log of another program of which at least a column was recognised.
+    bool finds_columns() const {
+        return detected && !mapping.empty() && (detected->time || !detected->channels.empty());
+    }
+
     /// Tests whether 'import' would read it without a mapping.
     bool is_sure() const { return detected && sure_mapping(*detected) != nullptr; }
 };

@@ -98,6 +98,9 @@ std::string acceleration_text(const TripSummary& trip) {
 
 std::string positions_text(const TripSummary& trip) {
     auto text = rate_text(trip.positions);
+    if (trip.first_at) {
+        text += fmt::format(" near {:.2f}, {:.2f}", trip.first_at->lat_deg, trip.first_at->lon_deg);
+    }
     text += trip.accuracy_share > 0
                 ? fmt::format("; accuracy stated for {:.0f} % (median {:.0f} m)",
                               100 * trip.accuracy_share,
@@ -161,14 +164,25 @@ std::string advice_of(const Inspection& found) {
     if (!found.detected) {
         return found.kind.advice;
     }
+    if (!found.finds_columns()) {
+        return "no column of a trip log was recognised; if it is one, write a mapping "
+               "(docs/reference/other-loggers.md)";
+    }
     if (found.detected->built_in.empty() && !found.is_sure()) {
         return "write the mapping with -o logger.toml, complete it, then: macadam import STORE "
                "FILE "
                "--mapping logger.toml";
     }
-    return missing_of(*found.detected, Confidence::sure).empty()
-               ? "macadam import STORE FILE, which reads it as above"
-               : "macadam match or trace FILE, which read it as above";
+    if (found.trip && !found.trip->gives_roughness && !found.trip->gives_roads) {
+        return "nothing can be estimated from this recording";
+    }
+    const bool is_import_sure = missing_of(*found.detected, Confidence::sure).empty();
+    if (!is_import_sure && missing_of(*found.detected, Confidence::likely).empty()) {
+        return "write the mapping with -o logger.toml, check it, then: macadam import STORE FILE "
+               "--mapping logger.toml";
+    }
+    return is_import_sure ? "macadam import STORE FILE, which reads it as above"
+                          : "macadam match or trace FILE, which read it as above";
 }
 
 JsonValue text_or_null(const std::string& text) {
@@ -253,7 +267,10 @@ std::string inspection_text(const Inspection& found) {
     text += found.trip ? trip_text(*found.trip) : "";
     text += found.error.empty() ? "" : line("error", found.error);
     const auto advice = advice_of(found);
-    return text + (advice.empty() || !found.error.empty() ? "" : line("next", advice));
+    const bool is_unknown = found.kind.use == FileKind::Use::unknown;
+    return text + (advice.empty() || !found.error.empty()
+                       ? ""
+                       : line(is_unknown ? "reason" : "next", advice));
 }
 
 std::string inspection_json(const Inspection& found) {

@@ -3,7 +3,6 @@
 #include "app/pipeline/trip_preparation.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/common/geo.hpp"
 #include "estimator/common/statistics.hpp"
 
 #include <fmt/format.h>
@@ -75,6 +74,7 @@ void add_positions(const TripLog& trip, TripSummary& summary) {
             summary.jumps += way_m > max_speed_mps * std::max(0.1, fix.t_s - last->t_s) ? 1U : 0U;
         }
         last = &fix;
+        summary.first_at = summary.first_at.value_or(fix.at);
     }
     summary.accuracy_share = trip.fixes.empty() ? 0
                                                 : static_cast<double>(accuracies_m.size()) /

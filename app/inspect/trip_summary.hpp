@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/common/geo.hpp"
 #include "estimator/common/trip.hpp"
 
 #include <cstddef>
@@ -31,11 +32,12 @@ struct TripSummary {
     double max_speed_mps = 0;
     bool has_gnss_speed = false;
     bool has_course = false;
-    double accuracy_share = 0;    ///< of the positions with a stated accuracy
-    double median_accuracy_m = 0; ///< NaN: not stated
-    std::size_t jumps = 0;        ///< steps between positions faster than 70 m/s
-    double gravity_mps2 = 0;      ///< 0: not in the readings
-    bool gravity_stated = false;  ///< as included
+    std::optional<GeoPoint> first_at{}; ///< first position
+    double accuracy_share = 0;          ///< of the positions with a stated accuracy
+    double median_accuracy_m = 0;       ///< NaN: not stated
+    std::size_t jumps = 0;              ///< steps between positions faster than 70 m/s
+    double gravity_mps2 = 0;            ///< 0: not in the readings
+    bool gravity_stated = false;        ///< as included
     double tilt_deg = 0;
     bool mounting_is_estimated = false;
     std::optional<double> distance_m{}; ///< `std::nullopt`: neither speeds nor two positions

@@ -70,7 +70,8 @@ constexpr std::array options{
     Option{"--threshold",
            "IRI",
            "With --continuous: list the locations where the moving mean exceeds this."},
-    preference(one_of("mm/m|in/mi", {"--unit", "UNIT", "mm/m (equal to m/km) or in/mi.", "mm/m"})),
+    // No preference: the columns of the CSV do not name their unit.
+    one_of("mm/m|in/mi", {"--unit", "UNIT", "mm/m (equal to m/km) or in/mi.", "mm/m"}),
     Option{"--no-envelope",
            "",
            "Skip the 250 mm moving average: the profile is already "

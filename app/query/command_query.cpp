@@ -97,6 +97,7 @@ void print_worst_sections(const StoreReader& store,
             "or --above, or list single segments with --segments",
             config.min_length_m,
             config.above_mm_per_m));
+        warn_of_empty_map(store, console);
     }
     if (!stretches.empty() || options.format != "table") {
         print_in(options.format, stretches_text(stretches, options.format));
@@ -114,6 +115,7 @@ void print_history(const StoreReader& store, const QueryOptions& options, const 
     const auto months = history_by_month(found, options.filter.period.value_or(Period{}));
     if (months.empty()) {
         console.say("no segment that meets these conditions has a dated pass");
+        warn_of_empty_map(store, console);
     }
     if (!months.empty() || options.format != "table") {
         print_in(options.format, months_text(months, options.format));
@@ -158,9 +160,8 @@ void print_events(const StoreReader& store, const QueryOptions& options, const C
         console.say(
             store.shows_published_alone()
                 ? "no pothole, bump, joint or rail of at least five cars is published there"
-                : "no pothole, bump, joint or rail was reported by two passes or more there; "
-                  "trips that were imported before version 4 are searched by 'macadam "
-                  "reprocess'");
+                : "no pothole, bump, joint or rail was reported by two passes or more there");
+        warn_of_empty_map(store, console);
     }
     if (!events.empty() || options.format != "table") {
         print_in(options.format,

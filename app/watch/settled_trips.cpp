@@ -1,10 +1,15 @@
 #include "app/watch/settled_trips.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace macadam {
 namespace {
@@ -21,6 +26,35 @@ bool has_end_row(const fs::path& log) {
     in.read(end.data(), enough);
     end.resize(static_cast<std::size_t>(in.gcount()));
     return end.find("# end rows:") != std::string::npos;
+}
+
+/// Tests whether a program of this machine has the file open for writing: then the kernel refuses
+/// a read lease. False also if it cannot be told, as of another user's file or a network folder.
+bool is_being_written(const fs::path& file) {
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) {
+        return false;
+    }
+    // A writer that comes while the lease is held would end this program by SIGIO.
+    ::fcntl(descriptor, F_SETSIG, SIGURG);
+    const bool is_refused = ::fcntl(descriptor, F_SETLEASE, F_RDLCK) < 0 && errno == EAGAIN;
+    ::fcntl(descriptor, F_SETLEASE, F_UNLCK);
+    ::close(descriptor);
+    return is_refused;
+}
+
+bool holds_file_being_written(const fs::path& trip) {
+    std::error_code gone;
+    if (!fs::is_directory(trip, gone)) {
+        return fs::is_regular_file(trip, gone) && is_being_written(trip);
+    }
+    for (fs::recursive_directory_iterator file{trip, gone}, end; !gone && file != end;
+         file.increment(gone)) {
+        if (file->is_regular_file(gone) && is_being_written(file->path())) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace
@@ -66,7 +100,8 @@ bool SettledTrips::is_complete(const fs::path& trip,
     if (trip.filename().string().ends_with(".trip.csv")) {
         return has_end_row(trip) ? candidate.is_closed || age >= settling : age >= patience;
     }
-    return age >= (candidate.has_changed ? settling_after_change : settling);
+    return age >= (candidate.has_changed ? settling_after_change : settling) &&
+           !holds_file_being_written(trip);
 }
 
 std::vector<fs::path> SettledTrips::take(const std::set<fs::path>& closed, Clock::time_point now) {

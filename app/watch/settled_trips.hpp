@@ -14,7 +14,8 @@ namespace macadam {
 /// Finds the trips of a folder that are complete, each once. A plain macadam-trip log is complete
 /// if it has its end row and was closed or moved here, or did not change for ten seconds; without
 /// an end row, after five minutes. Other trips are complete if they did not change for ten seconds,
-/// or for a minute once they were seen to grow: some loggers close their file after each row. A
+/// or for a minute once they were seen to grow (some loggers close their file after each row), and
+/// no program of this machine has them open for writing, as far as the kernel tells. A
 /// link whose target does not appear within that time counts as well, so that it is reported. A
 /// file that changes later counts as new.
 class SettledTrips {

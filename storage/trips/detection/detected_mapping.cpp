@@ -132,14 +132,15 @@ std::string confidence_word(Confidence confidence) {
     return confidence == Confidence::sure ? "sure" : "likely, check";
 }
 
-std::string time_toml(const DetectedLog& log, Confidence least) {
+std::string time_toml(const DetectedLog& log, Confidence least, std::string_view table = "time") {
     if (!log.time || !is_at_least(log.time->confidence, least)) {
-        return "\n[time]\n# column = \"?\"   # not found: a column that increases from row to row\n"
+        return fmt::format("\n[{}]\n", table) +
+               "# column = \"?\"   # not found: a column that increases from row to row\n"
                "# format = \"s\"\n";
     }
     const auto& time = *log.time;
-    auto toml =
-        fmt::format("\n[time]   # {}: {}\n", confidence_word(time.confidence), remark(time.reason));
+    auto toml = fmt::format(
+        "\n[{}]   # {}: {}\n", table, confidence_word(time.confidence), remark(time.reason));
     if (time.columns.size() == 1) {
         toml += fmt::format("column = {}\n", column_text(log, time.columns.front()));
     } else {
@@ -192,8 +193,8 @@ constexpr WantedColumn wanted[] = {
     {"lon_deg", "", "lon_deg = {column = \"?\"}   # not found: longitude"},
 };
 
-std::string channels_toml(const DetectedLog& log, Confidence least) {
-    std::string toml = "\n[channels]\n";
+std::string found_channels_toml(const DetectedLog& log, Confidence least) {
+    std::string toml;
     for (const auto& channel : log.channels) {
         const bool is_usable = log.has(channel.channel, least);
         toml += is_usable ? channel_toml(log, channel) : "";
@@ -204,6 +205,11 @@ std::string channels_toml(const DetectedLog& log, Confidence least) {
                                 remark(channel.reason));
         }
     }
+    return toml;
+}
+
+std::string channels_toml(const DetectedLog& log, Confidence least) {
+    auto toml = "\n[channels]\n" + found_channels_toml(log, least);
     for (const auto& [channel, instead, line] : wanted) {
         if (log.channel(channel) == nullptr &&
             (instead.empty() || log.channel(instead) == nullptr)) {
@@ -245,6 +251,16 @@ std::string mapping_toml(const DetectedLog& log, Confidence least, const std::st
     }
     return layout_toml(log, files) + mounting_toml(log) + time_toml(log, least) +
            channels_toml(log, least) + other_columns(log);
+}
+
+std::string mapping_toml(const NamedLog& first, const NamedLog& second) {
+    constexpr auto likely = Confidence::likely;
+    return layout_toml(first.log, first.files) + mounting_toml(first.log) +
+           time_toml(first.log, likely) + "\n[channels]\n" +
+           found_channels_toml(first.log, likely) + other_columns(first.log) + "\n[[file]]\n" +
+           layout_toml(second.log, second.files) + time_toml(second.log, likely, "file.time") +
+           "\n[file.channels]\n" + found_channels_toml(second.log, likely) +
+           other_columns(second.log);
 }
 
 std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log) {

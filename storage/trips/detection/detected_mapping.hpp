@@ -13,6 +13,15 @@ namespace macadam {
 /// \param files  pattern of the names of such files, "*.csv".
 std::string mapping_toml(const DetectedLog& log, Confidence least, const std::string& files);
 
+/// Log and the pattern of the names of such files.
+struct NamedLog {
+    const DetectedLog& log;
+    std::string files;
+};
+
+/// Mapping of two files that hold one trip, of what is at least likely; the second is its [[file]].
+std::string mapping_toml(const NamedLog& first, const NamedLog& second);
+
 /// Mapping of what is sure; null unless that serves `match` or `trace`.
 std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log);
 

@@ -1,6 +1,7 @@
 #include "storage/trips/detection/inertial_detection.hpp"
 
 #include "estimator/common/gravity.hpp"
+#include "storage/trips/foreign/unit_names.hpp"
 
 #include <fmt/format.h>
 
@@ -91,10 +92,11 @@ struct AccelerationUnit {
     double gravity; ///< in that unit
     double scale = 1;
 };
-constexpr std::array<AccelerationUnit, 7> units{
+constexpr std::array<AccelerationUnit, 8> units{
     AccelerationUnit{"m/s2", standard_gravity_mps2},
     AccelerationUnit{"g", 1},
     AccelerationUnit{"mg", 1000},
+    AccelerationUnit{"ft/s2", standard_gravity_mps2 / 0.3048},
     // counts of a sensor of ±2, 4, 8 and 16 g with 16 bits
     AccelerationUnit{"g", 16384, 1.0 / 16384},
     AccelerationUnit{"g", 8192, 1.0 / 8192},
@@ -172,6 +174,23 @@ auto rank(const Acceleration& acceleration) {
                       acceleration.has_gravity,
                       acceleration.sensor.axes[2] != nullptr,
                       acceleration.sensor.count()};
+}
+
+/// Finds an accelerometer in columns that are named x, y and z alone: likely if their mean is
+/// gravity.
+std::optional<Acceleration> bare_acceleration(const LogTable& table) {
+    Sensor sensor{.quantity = Quantity::acceleration};
+    for (const auto& column : table.columns) {
+        const auto name = ascii_lower(column.name);
+        if (name.size() == 1 && name.front() >= 'x' && name.front() <= 'z' && column.is_numeric() &&
+            column.count >= min_samples) {
+            sensor.axes[static_cast<std::size_t>(name.front() - 'x')] = &column;
+        }
+    }
+    auto read = acceleration_of(sensor);
+    read.confidence = Confidence::likely;
+    read.reason += ", but their names say x, y, z alone";
+    return sensor.count() == 3 && read.has_gravity ? std::optional{read} : std::nullopt;
 }
 
 /// Finds an accelerometer in a table without names: the first three neighbouring columns whose
@@ -296,6 +315,10 @@ DetectedInertia detect_inertia(const LogTable& table, bool is_moving) {
             readings, [](const auto& a, const auto& b) { return rank(a) < rank(b); });
         found.of_device = !best->sensor.of_vehicle;
         add(*best, found);
+    }
+    if (const auto bare = bare_acceleration(table); bare && sensors.empty()) {
+        found.of_device = true;
+        add(*bare, found);
     }
     if (const auto unnamed = unnamed_acceleration(table)) {
         found.of_device = true;

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace macadam {
@@ -76,10 +77,15 @@ struct SpeedUnit {
     std::string_view word;
     double mps;
 };
-constexpr std::array<SpeedUnit, 4> speed_units{SpeedUnit{"m/s", 1},
+constexpr std::array<SpeedUnit, 6> speed_units{SpeedUnit{"m/s", 1},
                                                SpeedUnit{"km/h", 1 / 3.6},
                                                SpeedUnit{"mph", 0.44704},
-                                               SpeedUnit{"kn", 1852.0 / 3600}};
+                                               SpeedUnit{"kn", 1852.0 / 3600},
+                                               SpeedUnit{"cm/s", 0.01},
+                                               SpeedUnit{"mm/s", 0.001}};
+// Of a time whose unit is a guess, such as 10 us for ms, the last two would be another guess.
+constexpr std::size_t all_units = speed_units.size();
+constexpr std::size_t units_of_guessed_time = 4;
 
 /// Median of a column's speeds over those of the way; NaN if too few are known.
 double speed_ratio(const LogColumn& column, const std::vector<Way>& ways) {
@@ -105,20 +111,23 @@ double unit_error(double ratio, const SpeedUnit& unit) {
     return std::abs(ratio * unit.mps - 1);
 }
 
-/// Unit that a name states, else the one that fits the way best.
-SpeedUnit unit_of(const LogColumn& column, double ratio) {
+/// Unit that a name states, else the one of the first `count` that fits the way best.
+SpeedUnit
+unit_of(const LogColumn& column, double ratio, std::size_t count = units_of_guessed_time) {
     const auto* const named = std::ranges::find(speed_units, column.named.unit, &SpeedUnit::word);
     return named != speed_units.end()
                ? *named
-               : std::ranges::min(speed_units, std::less{}, [&](const SpeedUnit& unit) {
-                     return unit_error(ratio, unit);
-                 });
+               : std::ranges::min(std::span{speed_units}.first(count),
+                                  std::less{},
+                                  [&](const SpeedUnit& unit) { return unit_error(ratio, unit); });
 }
 
-/// Decides the unit of a speed by its name, and by the way where that is known.
+/// Decides the unit of a speed by its name, and among the first `units` by the way where that is
+/// known.
 DetectedChannel speed_of(const LogColumn& column,
                          std::string channel,
                          const std::vector<Way>& ways,
+                         std::size_t units,
                          DetectedPositions& found) {
     DetectedChannel speed{.channel = std::move(channel),
                           .column = column.number,
@@ -132,7 +141,7 @@ DetectedChannel speed_of(const LogColumn& column,
             is_named ? "unit in its name" : "no unit in its name, and no positions to compare with";
         return speed;
     }
-    const auto unit = unit_of(column, ratio);
+    const auto unit = unit_of(column, ratio, units);
     const double error = unit_error(ratio, unit);
     speed.unit = unit.word;
     const bool agrees = error < (is_named ? close_ratio : near_ratio);
@@ -205,13 +214,19 @@ Speeds speeds_in(const LogTable& table, bool has_positions) {
     return speeds;
 }
 
-void add_speeds(const Speeds& speeds, const std::vector<Way>& ways, DetectedPositions& found) {
+void add_speeds(const Speeds& speeds,
+                const std::vector<Way>& ways,
+                const DetectedTime* time,
+                DetectedPositions& found) {
+    const auto units = time == nullptr || time->is_guess ? units_of_guessed_time : all_units;
     if (speeds.gnss != nullptr) {
-        found.channels.push_back(speed_of(*speeds.gnss, "gnss_speed_mps", ways, found));
+        found.channels.push_back(speed_of(*speeds.gnss, "gnss_speed_mps", ways, units, found));
     }
     if (speeds.car != nullptr) {
-        auto speed = speed_of(*speeds.car, "speed_mps", ways, found);
-        if (speed.unit == "kn") { // no car counts in knots
+        auto speed = speed_of(*speeds.car, "speed_mps", ways, units, found);
+        const bool is_receivers =
+            speed.unit == "kn" || speed.unit == "cm/s" || speed.unit == "mm/s";
+        if (is_receivers) { // no car counts in these
             speed.unit = "";
             speed.confidence = Confidence::likely;
         }
@@ -309,7 +324,7 @@ DetectedPositions detect_positions(const LogTable& table, const DetectedTime* ti
         ways = time == nullptr ? ways : ways_of(at, *time);
         found.channels = {at.latitude.channel, at.longitude.channel};
     }
-    add_speeds(speeds, ways, found);
+    add_speeds(speeds, ways, time, found);
     if (has_positions && found.speed_contradicts) {
         for (std::size_t i = 0; i < 2; ++i) {
             found.channels[i].confidence = Confidence::likely;

@@ -179,11 +179,13 @@ std::optional<DetectedTime> as_number(const LogColumn& column) {
         return clock;
     }
     const bool is_whole = are_whole(column.values);
-    const bool is_milli = ascii_lower(column.name).find("milli") != std::string::npos;
+    const auto name = ascii_lower(column.name);
+    const bool is_milli = name.find("milli") != std::string::npos || name == "itow"; // of u-blox
     const auto by_steps = unit_by_steps(steps.median_s, is_whole);
     const auto unit = is_named ? *named : is_milli ? number_units[1] : by_steps;
     const double step_s = steps.median_s * unit.unit_s;
-    const bool is_guess = !is_named && !is_milli && !names_other_unit(column.name) &&
+    const bool is_tick = name.find("tick") != std::string::npos;
+    const bool is_guess = !is_named && !is_milli && (!names_other_unit(column.name) || is_tick) &&
                           step_s >= shortest_step_s && // a longitude rises, too
                           (is_whole || steps.median_s > 1.5);
     const bool is_sure =

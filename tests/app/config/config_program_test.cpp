@@ -49,15 +49,26 @@ protected:
 };
 
 TEST_F(ConfigProgram, TakesTheCommandLineBeforeVariablesBeforeTheFile) {
-    const auto metric = iri().out;
-    const auto imperial = iri({"--unit", "in/mi"}).out;
-    ASSERT_NE(metric, imperial);
+    const auto settings = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{
+            "render", (folder_ / "none.gpkg").string(), "-o", "x.png", "--verbose"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_macadam(words).err;
+    };
+    EXPECT_THAT(settings({}), Not(HasSubstr("--unit")));
     configure("unit = \"in/mi\"\n");
-    EXPECT_EQ(iri().out, imperial);
-    EXPECT_EQ(iri({"--unit", "mm/m"}).out, metric);
+    EXPECT_THAT(settings({}), HasSubstr("--unit in/mi ("));
+    EXPECT_THAT(settings({}), HasSubstr("macadam/config.toml:1)\n"));
     setenv("MACADAM_UNIT", "mm/m", 1);
+    EXPECT_THAT(settings({}), HasSubstr("--unit mm/m (MACADAM_UNIT)\n"));
+    EXPECT_THAT(settings({"--unit", "in/mi"}), HasSubstr("--unit in/mi (command line)\n"));
+}
+
+TEST_F(ConfigProgram, LeavesRowsForProgramsInTheirUnit) {
+    const auto metric = iri().out;
+    configure("unit = \"in/mi\"\n");
     EXPECT_EQ(iri().out, metric);
-    EXPECT_EQ(iri({"--unit", "in/mi"}).out, imperial);
+    EXPECT_NE(iri({"--unit", "in/mi"}).out, metric);
 }
 
 TEST_F(ConfigProgram, RefusesAMistakeInTheFileWithItsLine) {
@@ -82,11 +93,9 @@ TEST_F(ConfigProgram, RunsWithoutAnyEnvironment) {
 }
 
 TEST_F(ConfigProgram, TellsSettingsTheirSourcesAndTimesWhenVerbose) {
-    configure("unit = \"in/mi\"\n");
     const auto run = iri({"--verbose", "--length", "50"});
     EXPECT_EQ(run.exit_status, 0);
     EXPECT_THAT(run.err, HasSubstr(" s] --length 50 (command line)\n"));
-    EXPECT_THAT(run.err, HasSubstr("macadam/config.toml:1)\n"));
     EXPECT_THAT(run.err, HasSubstr(" s] done, with at most "));
     EXPECT_EQ(run.out, iri({"--length", "50"}).out);
     EXPECT_EQ(iri().err, "");

@@ -32,7 +32,7 @@ std::vector<std::string> defaults_in(const std::string& config, const Command& c
 
 std::string refusal_of(const std::string& config) {
     try {
-        defaults_in(config, iri_command);
+        defaults_in(config, report_command);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -60,14 +60,13 @@ TEST(Preferences, AreNoOptionsThatDeleteSelectOrChangeWhatIsComputed) {
 }
 
 TEST(Preferences, OfUnitsConcernResultsAndNotWhatIsRead) {
-    EXPECT_THAT(preferences().find("unit")->second.commands,
-                ElementsAre("render", "report", "iri"));
+    EXPECT_THAT(preferences().find("unit")->second.commands, ElementsAre("render", "report"));
 }
 
 TEST(ConfigFile, SetsDefaultsForAllCommandsAndForOne) {
-    const std::string config = "unit = \"in/mi\"\n[iri]\nunit = \"mm/m\"\n[render]\ntheme = "
+    const std::string config = "unit = \"in/mi\"\n[report]\nunit = \"mm/m\"\n[render]\ntheme = "
                                "\"Dark\"\n";
-    EXPECT_THAT(defaults_in(config, iri_command),
+    EXPECT_THAT(defaults_in(config, report_command),
                 ElementsAre("--unit mm/m from config.toml:3", "--unit in/mi from config.toml:1"));
     EXPECT_THAT(defaults_in(config, render_command),
                 ElementsAre("--theme dark from config.toml:5", "--unit in/mi from config.toml:1"));
@@ -122,7 +121,7 @@ protected:
         std::filesystem::create_directories(folder_ / "macadam");
         write_file(folder_ / "macadam/config.toml", config);
     }
-    std::vector<std::string> in_force() const { return words_of(user_defaults(iri_command)); }
+    std::vector<std::string> in_force() const { return words_of(user_defaults(report_command)); }
     std::string refusal() const {
         try {
             in_force();
@@ -147,7 +146,7 @@ TEST_F(UserDefaults, OfVariablesOutrankThoseOfTheFile) {
     EXPECT_THAT(in_force(), ElementsAre("--unit in/mi from " + file + ":1"));
     setenv("MACADAM_UNIT", "mm/m", 1);
     EXPECT_THAT(in_force(), ElementsAre("--unit mm/m from MACADAM_UNIT"));
-    EXPECT_THAT(config_help(), HasSubstr("--unit mm/m  (MACADAM_UNIT)  in render, report, iri"));
+    EXPECT_THAT(config_help(), HasSubstr("--unit mm/m  (MACADAM_UNIT)  in render, report"));
     setenv("MACADAM_UNIT", "", 1);
     EXPECT_THAT(in_force(), ElementsAre("--unit in/mi from " + file + ":1"));
 }

@@ -53,6 +53,7 @@ TEST(Inspect, ShowsColumnsQualityAndAMappingThatImportReads) {
               HasSubstr("acc_z_mps2     'acc z (g)', g; sure: unit in its name, and by "
                         "gravity\n"),
               HasSubstr("readings at 100 Hz; gravity 9.8"),
+              HasSubstr("readings at 1 Hz near "),
               HasSubstr("gives          roughness along the trip (trace), the roads driven "
                         "(match), a map (import)\n"),
               HasSubstr("without        angular rates"),
@@ -180,10 +181,62 @@ TEST(Inspect, WritesOneMappingAndReplacesNoInput) {
     const auto log = (folder / "drive.csv").string();
     write_file(log, foreign_log(plain_header));
     EXPECT_THAT(run_macadam({"inspect", log, log, "-o", (folder / "m.toml").string()}).err,
-                HasSubstr("-o takes one CSV file of another program, found 2"));
+                HasSubstr("-o takes one CSV file of another program, or two of one trip, found 2"));
     EXPECT_FALSE(fs::exists(folder / "m.toml"));
     EXPECT_EQ(run_macadam({"inspect", log, "-o", log}).exit_status, 1);
     EXPECT_EQ(read_file(log), foreign_log(plain_header));
+}
+
+TEST(Inspect, JoinsAccelerationsAndPositionsOfOneTrip) {
+    const auto folder = fresh_folder();
+    const auto road = patched_road([](double) { return false; }, 1);
+    const auto trip = drive_over(road, {.gnss_hz = 1}, *built_in_vehicle("golden-car"));
+    std::string imu = "%time,linear_acceleration.z\n"; // as 'rostopic echo -p' writes it
+    std::string gps = "%time,latitude,longitude,ground_speed (m/s)\n";
+    const auto time = [](double t_s) { return fmt::format("{:.0f}", (1.7e9 + t_s) * 1e9); };
+    for (std::size_t i = 0; i < trip.acc.t_s.size(); ++i) {
+        imu += fmt::format("{},{:.5f}\n", time(trip.acc.t_s[i]), trip.acc.z[i]);
+    }
+    for (const auto& fix : trip.fixes) {
+        gps += fmt::format("{},{:.8f},{:.8f},{:.3f}\n",
+                           time(fix.t_s),
+                           fix.at.lat_deg,
+                           fix.at.lon_deg,
+                           fix.speed_mps);
+    }
+    const auto drives = folder / "drives";
+    fs::create_directory(drives);
+    write_file(drives / "monday_imu.csv", imu);
+    write_file(drives / "monday_gps.csv", gps);
+    EXPECT_THAT(run_macadam({"inspect", drives.string()}).out,
+                HasSubstr("monday_gps.csv: one trip in two files, accelerations in one and "
+                          "positions of the same time in the other"));
+
+    const auto mapping = (folder / "logger.toml").string();
+    const auto written = run_macadam({"inspect",
+                                      (drives / "monday_gps.csv").string(),
+                                      (drives / "monday_imu.csv").string(),
+                                      "-o",
+                                      mapping});
+    ASSERT_EQ(written.exit_status, 0) << written.err;
+    EXPECT_THAT(read_file(mapping),
+                AllOf(HasSubstr("files = \"*_imu.csv\"\n"),
+                      HasSubstr("[[file]]\nfiles = \"*_gps.csv\"\n")));
+    const auto traced = run_macadam({"trace", drives.string(), "--mapping", mapping});
+    EXPECT_EQ(traced.exit_status, 0) << traced.err;
+    EXPECT_THAT(traced.out, HasSubstr("validity"));
+}
+
+TEST(Inspect, TakesNoOtherTableOrJsonForALogOrAMap) {
+    const auto folder = fresh_folder();
+    write_file(folder / "shop.csv", "name,price\nbread,2\nmilk,3\n");
+    write_file(folder / "x.json", "{\"a\":1}\n");
+    const auto run = run_macadam({"inspect", folder.string()});
+    EXPECT_THAT(run.out,
+                AllOf(HasSubstr("no column of a trip log was recognised"),
+                      HasSubstr("x.json: JSON\n"),
+                      Not(HasSubstr("[channels]")),
+                      Not(HasSubstr("GeoJSON"))));
 }
 
 TEST(Inspect, PrintsJsonWithEveryColumn) {

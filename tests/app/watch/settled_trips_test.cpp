@@ -5,6 +5,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cerrno>
+#include <fstream>
+
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace macadam::testing {
 namespace {
 
@@ -42,6 +48,30 @@ TEST(SettledTrips, AreTakenWhenTheyDidNotChangeForTenSecondsOrAMinuteAfterTheyGr
     write_file(other, "whole");
     EXPECT_THAT(trips.take({other}, now + 80s), IsEmpty());
     EXPECT_THAT(trips.take({}, now + 90s), ElementsAre(other));
+}
+
+/// Tests whether the file system knows leases (overlay and network file systems do not).
+bool knows_leases(const fs::path& open_file) {
+    const int descriptor = ::open(open_file.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool is_refused = ::fcntl(descriptor, F_SETLEASE, F_RDLCK) < 0 && errno == EAGAIN;
+    ::close(descriptor);
+    return is_refused;
+}
+
+TEST(SettledTrips, WaitForAWriterThatStalls) {
+    const auto folder = fresh_folder();
+    const auto trip = folder / "a.trip.csv.gz";
+    std::ofstream upload{trip};
+    upload << "half" << std::flush;
+    if (!knows_leases(trip)) {
+        GTEST_SKIP() << "no leases in " << folder;
+    }
+    SettledTrips trips{folder, {}};
+    EXPECT_THAT(trips.take({}, now), IsEmpty());
+    EXPECT_THAT(trips.take({}, now + 1h), IsEmpty());
+    EXPECT_TRUE(trips.has_incomplete());
+    upload.close();
+    EXPECT_THAT(trips.take({trip}, now + 1h), ElementsAre(trip));
 }
 
 TEST(SettledTrips, AreTakenAtOnceIfTheyAreOldAtTheFirstLook) {

@@ -527,6 +527,75 @@ TEST(LogDetection, ReadsStepsOfATenthOfAMillisecond) {
     EXPECT_NEAR(trip.fixes.back().t_s - trip.fixes.front().t_s, seconds - 1, 1e-6);
 }
 
+TEST(LogDetection, ReadsFeetPerSecondSquared) {
+    const auto file = log_file(log_text(
+        "Time (sec), Latitude (deg), Longitude (deg), GPS speed (mph), Accel X (ft/s²), Accel Y "
+        "(ft/s²), Accel Z (ft/s²)\n",
+        [](auto& now, auto& fix) {
+            return fmt::format("{:.3f}, {:.7f}, {:.7f}, {:.2f}, {:.3f}, {:.3f}, {:.3f}",
+                               now.t_s,
+                               fix.lat_deg,
+                               fix.lon_deg,
+                               fix.v_mps / 0.44704,
+                               now.ax / 0.3048,
+                               now.ay / 0.3048,
+                               now.az / 0.3048);
+        }));
+    expect_read_as_the_drive(file);
+}
+
+/// Log of a u-blox receiver: its count of milliseconds, whole numbers of 1e-7 degrees and mm/s.
+std::string receiver_line(const Reading& now, const Reading& fix) {
+    return fmt::format("{:.0f},{:.0f},{:.0f},{:.0f},{:.4f},{:.4f},{:.4f}",
+                       203'541'000 + now.t_s * 1000,
+                       fix.lon_deg * 1e7,
+                       fix.lat_deg * 1e7,
+                       fix.v_mps * 1000,
+                       now.ax,
+                       now.ay,
+                       now.az);
+}
+
+TEST(LogDetection, ReadsAReceiversTimeOfTheWeekAndMillimetresPerSecond) {
+    expect_read_as_the_drive(log_file(log_text("iTOW,lon,lat,gSpeed,ax,ay,az\n", receiver_line)));
+}
+
+TEST(LogDetection, TakesNoCentimetresPerSecondToConfirmAGuessedTime) {
+    const auto log =
+        detect_log(log_file(log_text("ticks,lat,lon,speed\n", [](auto& now, auto& fix) {
+            return fmt::format("{:.0f},{:.7f},{:.7f},{:.3f}",
+                               now.t_s * 100'000, // 10 us, which as ms makes the car 100 times slow
+                               fix.lat_deg,
+                               fix.lon_deg,
+                               fix.v_mps);
+        })));
+    ASSERT_TRUE(log && log->time);
+    EXPECT_EQ(unit_words(*log->time), "0.01 ms");
+    EXPECT_EQ(log->channel("gnss_speed_mps")->unit, "m/s");
+}
+
+TEST(LogDetection, TakesBareAxesForALikelyAccelerometer) {
+    const auto text = [](double factor) {
+        return log_text("Timestamp,X,Y,Z,latitude,longitude,speed (m/s)\n",
+                        [=](auto& now, auto& fix) {
+                            return fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{:.7f},{:.7f},{:.3f}",
+                                               now.t_s,
+                                               now.ax * factor,
+                                               now.ay * factor,
+                                               now.az * factor,
+                                               fix.lat_deg,
+                                               fix.lon_deg,
+                                               fix.v_mps);
+                        });
+    };
+    const auto log = detect_log(log_file(text(1)));
+    ASSERT_NE(log->channel("acc_z_mps2"), nullptr);
+    EXPECT_EQ(log->channel("acc_z_mps2")->confidence, Confidence::likely);
+    EXPECT_THAT(mapping_toml(*log, Confidence::likely, "*.csv"),
+                HasSubstr("acc_z_mps2 = {column = \"Z\", unit = \"m/s2\"}"));
+    EXPECT_EQ(detect_log(log_file(text(5)))->channel("acc_z_mps2"), nullptr); // a magnetometer
+}
+
 TEST(LogDetection, IsNotSureOfATimeThatContradictsSpeedAndPositions) {
     const auto log = detect_log(log_file(position_log("lat,lon", [](const Reading& fix) {
         return fmt::format("{:.7f},{:.7f}", 47 + 10 * (fix.lat_deg - 47), fix.lon_deg);
