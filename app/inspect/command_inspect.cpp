@@ -85,7 +85,7 @@ void run_inspect(const Arguments& arguments, const Console& console) {
     if (const auto pair = companions_in(inspected.logs); pair && !json && !output) {
         print_words(fmt::format("{} and {}: one trip in two files, accelerations in one and "
                                 "positions of the same time in the other; for a mapping of both: "
-                                "macadam inspect BOTH -o logger.toml\n",
+                                "macadam inspect FILE FILE -o logger.toml\n",
                                 pair->motion->name,
                                 pair->positions->name));
     }
