@@ -50,7 +50,7 @@ struct sigaction before_of_lost_file;
 
 void wake_after(int time_ms) {
     itimerval timer{};
-    timer.it_value = {.tv_sec = time_ms / 1000, .tv_usec = time_ms % 1000 * 1000};
+    timer.it_value = {.tv_sec = time_ms / 1000, .tv_usec = suseconds_t{time_ms % 1000} * 1000};
     ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 

@@ -5,7 +5,6 @@
 #include "storage/profiles/profile_reader.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>

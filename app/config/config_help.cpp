@@ -3,11 +3,9 @@
 #include "app/config/user_defaults.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 
 namespace macadam {
 namespace {

@@ -5,7 +5,6 @@
 #include "storage/text/spelling.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>

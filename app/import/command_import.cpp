@@ -4,7 +4,6 @@
 #include "app/import/import_outcome.hpp"
 #include "app/import/import_references.hpp"
 #include "app/import/import_run.hpp"
-#include "app/import/trip_inputs.hpp"
 #include "app/import/trip_options.hpp"
 
 #include "estimator/common/error.hpp"

@@ -3,7 +3,6 @@
 #include "estimator/common/error.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>

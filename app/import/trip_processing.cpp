@@ -6,7 +6,6 @@
 #include "storage/trips/trip_reader.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "app/inspect/can_kind.hpp"
 #include "app/inspect/table_kind.hpp"
 
-#include "estimator/common/error.hpp"
 #include "storage/files/decompress.hpp"
 #include "storage/gdal/map_kind.hpp"
 #include "storage/networks/network_file.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <algorithm> // IWYU pragma: keep; std::ranges::upper_bound is not attributed to it
 #include <cmath>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
 #include "app/database/empty_map_message.hpp"
-#include "app/database/lock_wait_messages.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"

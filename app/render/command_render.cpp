@@ -11,7 +11,6 @@
 #include "app/render/style_options.hpp"
 
 #include "estimator/common/error.hpp"
-#include "render/scene/colour.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,6 @@
 #include "app/render/base_map_option.hpp"
 #include "app/render/bbox_option.hpp"
 #include "estimator/common/error.hpp"
-#include "mapping/geometry/antimeridian.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>

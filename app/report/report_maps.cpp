@@ -2,7 +2,6 @@
 
 #include "app/render/map_scene.hpp"
 #include "estimator/common/error.hpp"
-#include "mapping/analysis/correlated_mean.hpp"
 
 #include <algorithm>
 #include <utility>

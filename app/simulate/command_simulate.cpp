@@ -27,7 +27,6 @@
 #include <numeric>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace macadam {

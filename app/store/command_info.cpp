@@ -15,7 +15,6 @@
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <optional>

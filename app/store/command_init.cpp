@@ -5,7 +5,6 @@
 #include "app/store/network_update_output.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/motion/mounting.hpp"
 #include "mapping/conflation/network_conflation.hpp"
 #include "mapping/inference/network_inference.hpp"
 #include "mapping/network/build_network.hpp"

@@ -1,14 +1,12 @@
 #include "app/store/network_around_trips.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/motion/mounting.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "storage/trips/trip_search.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
-#include <utility>
 
 namespace macadam {
 namespace {

@@ -7,7 +7,6 @@
 #include "app/pipeline/trip_preparation.hpp"
 #include "app/trace/match_output.hpp"
 
-#include "estimator/common/error.hpp"
 #include "mapping/matching/edge_traversals.hpp"
 #include "mapping/matching/map_match.hpp"
 #include "mapping/network/build_network.hpp"

@@ -7,7 +7,6 @@
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/exports/event_export.hpp"
 #include "storage/text/columns.hpp"
-#include "storage/text/json.hpp"
 
 #include <algorithm>
 #include <iterator>

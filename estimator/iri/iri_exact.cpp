@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <functional>
 #include <utility>
 
 namespace macadam {

@@ -15,7 +15,8 @@ SignalTemplate with(SignalTemplate reference,
                     std::int32_t sign) {
     const auto first = static_cast<std::size_t>(shifted.first_m - reference.first_m);
     for (std::size_t i = 0; i < shifted.x.size(); ++i) {
-        reference.sum[first + i] += sign * weight.weight * shifted.x[i];
+        // 32 bits suffice, because the weight of max_agreement times max_signal is far below.
+        reference.sum[first + i] += static_cast<std::int64_t>(sign * weight.weight * shifted.x[i]);
         reference.precision[first + i] += (sign * weight.precision) & shifted.known[i];
     }
     return reference;

@@ -61,7 +61,7 @@ std::int32_t block_of(std::int32_t metre) {
 }
 
 Signal padded(const Signal& signal) {
-    const auto count = signal.x.size() + 2 * pad_m + slack_m;
+    const auto count = signal.x.size() + std::size_t{2} * pad_m + slack_m;
     Signal wide{signal.first_m, std::vector<std::int16_t>(count), std::vector<std::int16_t>(count)};
     std::ranges::copy(signal.x, wide.x.begin() + pad_m);
     std::ranges::copy(signal.known, wide.known.begin() + pad_m);
@@ -71,7 +71,8 @@ Signal padded(const Signal& signal) {
 Signal shifted_signal(const Signal& signal,
                       std::int32_t first_block,
                       std::span<const std::int32_t> lag_cm) {
-    const auto count = signal.x.size() - 2 * pad_m - slack_m + 2 * reach_m;
+    const auto count =
+        signal.x.size() - std::size_t{2} * pad_m - slack_m + std::size_t{2} * reach_m;
     Signal shifted{signal.first_m - reach_m,
                    std::vector<std::int16_t>(count),
                    std::vector<std::int16_t>(count)};

@@ -82,7 +82,7 @@ pieces_along(const RoadNetwork& roads, const Lookup& lookup, const std::vector<E
 /// Selects edges with a measured segment, and edges short enough to be bridged by a section.
 std::vector<bool>
 edges_to_follow(const RoadNetwork& roads, const Lookup& lookup, const WorstSectionConfig& config) {
-    std::vector<bool> wanted(2 * link_count(roads), false);
+    std::vector<bool> wanted(std::size_t{2} * link_count(roads), false);
     for (std::uint32_t i = 0; i < wanted.size(); ++i) {
         const EdgeId edge{i};
         wanted[i] = !measured_on(roads, lookup, edge).empty() ||

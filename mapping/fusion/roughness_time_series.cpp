@@ -197,7 +197,7 @@ bool are_real(const Problem& problem, const Trial& trial) {
 /// Adds steps as long as each gains enough likelihood.
 Trial with_steps(const Problem& problem) {
     auto best = trial_of(problem, {});
-    const bool can_be_supported = problem.readings.values.size() >= 2 * min_beside;
+    const bool can_be_supported = problem.readings.values.size() >= Index{2} * min_beside;
     if (!can_be_supported || !has_slope(problem.ages) || !is_worth_a_look(problem)) {
         return best;
     }

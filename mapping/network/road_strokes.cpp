@@ -92,7 +92,7 @@ next_edges(const RoadNetwork& roads, const std::vector<bool>& wanted, double sha
 
 std::vector<std::vector<EdgeId>>
 road_strokes(const RoadNetwork& roads, const std::vector<bool>& wanted, double sharpest_turn_deg) {
-    assert(wanted.size() == 2 * link_count(roads));
+    assert(wanted.size() == std::size_t{2} * link_count(roads));
     const auto next = next_edges(roads, wanted, sharpest_turn_deg);
     std::vector<bool> is_first = wanted;
     for (const auto edge : next) {

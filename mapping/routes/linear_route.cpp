@@ -59,7 +59,7 @@ double drawn_so_m(const RoadNetwork& roads, const std::vector<EdgeId>& chain) {
 }
 
 std::vector<bool> edges_named(const RoadNetwork& roads, std::string_view name) {
-    std::vector<bool> wanted(2 * link_count(roads), false);
+    std::vector<bool> wanted(std::size_t{2} * link_count(roads), false);
     for (std::uint32_t i = 0; i < way_count(roads); ++i) {
         const auto way = way_at(roads, i);
         for (auto link = way.first_link; way.name == name && link < way.past_link; ++link) {

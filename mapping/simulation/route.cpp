@@ -141,8 +141,8 @@ std::vector<EdgeId> quickest(const RoadNetwork& roads,
                              std::uint64_t taste) {
     using Entry = std::pair<double, EdgeId>;
     constexpr double never = std::numeric_limits<double>::infinity();
-    std::vector<double> time_s(2 * link_count(roads), never);
-    std::vector<std::optional<EdgeId>> before(2 * link_count(roads));
+    std::vector<double> time_s(std::size_t{2} * link_count(roads), never);
+    std::vector<std::optional<EdgeId>> before(std::size_t{2} * link_count(roads));
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     const auto offer = [&](EdgeId edge, double at_s, const std::optional<EdgeId>& from) {
         const double then_s = at_s + thought_time_s(map, edge, taste);

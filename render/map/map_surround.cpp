@@ -1,7 +1,6 @@
 #include "render/map/map_surround.hpp"
 
 #include "mapping/geometry/line_clipping.hpp"
-#include "render/canvas/canvas.hpp"
 #include "render/scene/scale_bar.hpp"
 
 #include <algorithm>

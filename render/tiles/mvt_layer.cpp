@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <utility>
 
 namespace macadam {
 namespace {

@@ -1,7 +1,6 @@
 #include "render/tiles/mvt_tile.hpp"
 
 #include "estimator/roughness/roughness_trace.hpp"
-#include "mapping/tiles/tile_generalisation.hpp"
 
 #include <fmt/format.h>
 

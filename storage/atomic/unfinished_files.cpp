@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <string_view>
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>

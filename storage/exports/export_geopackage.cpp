@@ -7,7 +7,6 @@
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/geopackage/qgis_style.hpp"
 #include "storage/sqlite/sqlite.hpp"
-#include "storage/store/rows/segment_row.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>

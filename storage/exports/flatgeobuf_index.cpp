@@ -11,7 +11,6 @@
 #include <fstream>
 #include <limits>
 #include <span>
-#include <utility>
 
 namespace macadam {
 namespace {

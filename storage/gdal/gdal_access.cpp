@@ -13,7 +13,6 @@
 #include <fmt/core.h>
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
-#include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
 #include <array>

@@ -7,7 +7,6 @@
 #include "storage/networks/osm_tags.hpp"
 #include "storage/text/text.hpp"
 
-#include <cpl_conv.h>
 #include <fmt/core.h>
 #include <ogrsf_frmts.h>
 

@@ -1,7 +1,6 @@
 #include "storage/networks/osm_turn_restrictions.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 namespace macadam {
 namespace {

@@ -52,7 +52,7 @@ std::map<std::int64_t, osmium::Location> nodes_of(std::span<const Way> ways) {
 
 /// Checks that libosmium accepts a text as a tag: 256 characters of up to 4 bytes.
 void expect_short(const std::string& text, std::string_view what, std::int64_t way) {
-    constexpr std::size_t max_bytes = 256 * 4;
+    constexpr std::size_t max_bytes = 1024;
     if (text.size() > max_bytes) {
         throw InputError{fmt::format("the {} of way '{}' has {} bytes, expected at most {}",
                                      what,

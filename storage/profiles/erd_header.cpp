@@ -2,7 +2,6 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/profiles/length_unit.hpp"
-#include "storage/profiles/profile_rows.hpp"
 #include "storage/text/text.hpp"
 
 #include <fmt/core.h>

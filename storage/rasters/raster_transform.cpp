@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -117,7 +118,7 @@ std::vector<PixelPosition> grid_over(int width_px, int height_px) {
 }
 
 /// Footprints of the pixels of a square, row by row.
-using SquareFeet = std::array<PixelFootprint, square_px * square_px>;
+using SquareFeet = std::array<PixelFootprint, std::size_t{square_px} * square_px>;
 
 SquareFeet bilinear(const SquarePlaces& at) {
     const auto right = between(middle_of(at[0], at[6]), middle_of(at[2], at[8]), square_px);
@@ -149,7 +150,8 @@ void copy_shared(const SquareFeet& square,
     const int right = std::min(part.left_px + part.width_px, left_px + square_px);
     const int bottom = std::min(part.top_px + part.height_px, top_px + square_px);
     for (int y = std::max(part.top_px, top_px); y < bottom; ++y) {
-        const auto* from = square.data() + (y - top_px) * square_px + (left - left_px);
+        const auto* from =
+            square.data() + std::size_t(y - top_px) * square_px + std::size_t(left - left_px);
         auto* to = feet.data() + std::size_t(y - part.top_px) * std::size_t(part.width_px) +
                    std::size_t(left - part.left_px);
         std::copy_n(from, right - left, to);
@@ -251,7 +253,7 @@ RasterTransform::Impl::on_picture(std::vector<PixelPosition> of_raster) const {
 SquareFeet RasterTransform::Impl::each_projected(int left_px, int top_px) const {
     constexpr int side = square_px + 2; // with neighbours on all sides
     std::vector<PixelPosition> places;
-    places.reserve(side * side);
+    places.reserve(std::size_t{side} * side);
     for (int row = -1; row <= square_px; ++row) {
         for (int column = -1; column <= square_px; ++column) {
             places.push_back({left_px + column + 0.5, top_px + row + 0.5});
@@ -260,7 +262,8 @@ SquareFeet RasterTransform::Impl::each_projected(int left_px, int top_px) const 
     places = on_raster(std::move(places));
     SquareFeet feet{};
     for (int i = 0; i < square_px * square_px; ++i) {
-        const auto* const at = places.data() + (i / square_px + 1) * side + i % square_px + 1;
+        const auto* const at =
+            places.data() + std::ptrdiff_t{i / square_px + 1} * side + i % square_px + 1;
         const auto right = shorter(between(at[0], at[1], 1), between(at[-1], at[0], 1));
         const auto down = shorter(between(at[0], at[side], 1), between(at[-side], at[0], 1));
         feet[std::size_t(i)] = foot(at[0], right, down);

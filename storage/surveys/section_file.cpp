@@ -5,7 +5,6 @@
 #include "storage/networks/osm_reader.hpp"
 #include "storage/tables/csv_table.hpp"
 #include "storage/tables/csv_values.hpp"
-#include "storage/text/text.hpp"
 #include "storage/trips/foreign/gpx_reader.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "storage/trips/trip_search.hpp"

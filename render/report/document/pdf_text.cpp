@@ -1,7 +1,6 @@
 #include "render/report/document/pdf_text.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 namespace macadam {
 

@@ -1,6 +1,5 @@
 #include "estimator/common/error.hpp"
 #include "mapping/privacy/kept_passes.hpp"
-#include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/fusion/dirty_fusion.hpp"
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>

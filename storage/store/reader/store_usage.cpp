@@ -6,7 +6,6 @@
 #include "storage/text/utc.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>

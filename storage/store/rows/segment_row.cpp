@@ -1,6 +1,5 @@
 #include "storage/store/rows/segment_row.hpp"
 
-#include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/text/utc.hpp"
 

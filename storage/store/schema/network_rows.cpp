@@ -3,7 +3,6 @@
 #include "estimator/common/error.hpp"
 #include "mapping/passes/chunk_trace.hpp"
 #include "storage/files/sha256.hpp"
-#include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/sqlite/bulk_insert.hpp"
 

@@ -1,7 +1,6 @@
 #include "storage/store/upgrade/store_upgrade.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/geopackage/geopackage.hpp"
 #include "storage/geopackage/geopackage_geometry.hpp"
 #include "storage/geopackage/hidden_tables.hpp"
 #include "storage/sqlite/sqlite_header_check.hpp"
@@ -15,7 +14,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <system_error>

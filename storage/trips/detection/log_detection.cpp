@@ -1,6 +1,5 @@
 #include "storage/trips/detection/log_detection.hpp"
 
-#include "estimator/common/error.hpp"
 #include "storage/files/decompress.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/detection/inertial_detection.hpp"

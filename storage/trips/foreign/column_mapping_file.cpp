@@ -1,6 +1,5 @@
 #include "storage/trips/foreign/column_mapping_file.hpp"
 
-#include "estimator/common/error.hpp"
 #include "estimator/common/gravity.hpp"
 #include "storage/tables/toml.hpp"
 #include "storage/trips/foreign/built_in_mappings.hpp"
@@ -8,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>

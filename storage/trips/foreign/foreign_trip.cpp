@@ -2,7 +2,6 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
-#include "storage/text/utc.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/phone_export.hpp"
 #include "storage/trips/foreign/table_reader.hpp"
