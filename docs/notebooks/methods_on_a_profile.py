@@ -9,7 +9,7 @@
 import pathlib
 import tempfile
 
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt  # type: ignore[import]
 import numpy as np
 
 import macadam
@@ -37,7 +37,7 @@ print(f"{step_m * (len(track_m) - 1):.0f} m, reference IRI {reference['iri_profi
 car = folder / "compact.toml"
 macadam.add_vehicle(car, mass_kg=1430, wheelbase_m=2.62, body="compact", mount="fixed")
 drive = macadam.simulate_drive(track_m, car, step_m=step_m, speed_mps=18)
-estimates = {method: macadam.trace(drive, car, method=method) for method in ("smoother", "kf")}
+estimates = {"smoother": macadam.trace(drive, car), "kf": macadam.trace(drive, car, method="kf")}
 
 # %%
 rows = min(reference.rows, *(table.rows for table in estimates.values()))

@@ -10,7 +10,7 @@ import pathlib
 import subprocess
 import tempfile
 
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt  # type: ignore[import]
 import numpy as np
 
 import macadam
