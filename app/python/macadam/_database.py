@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections import abc
 from datetime import date
 from pathlib import Path
 from typing import Any, Literal, Union
@@ -58,8 +58,8 @@ class Database:
         return f"<macadam.Database {str(self._path)!r}>"
 
     def segments(
-            self, *, near: Sequence[float] | None = None, radius_m: float | None = None,
-            heading_deg: float | None = None, bbox: Sequence[float] | None = None,
+            self, *, near: abc.Sequence[float] | None = None, radius_m: float | None = None,
+            heading_deg: float | None = None, bbox: abc.Sequence[float] | None = None,
             way: int | None = None, segment: str | None = None, road: str | None = None,
             highway: str | None = None, class_name: str | None = None,
             min_passes: int | None = None, since: Day | None = None, until: Day | None = None,
@@ -84,8 +84,8 @@ class Database:
     def worst(
             self, count: int = 10, *, min_length_m: float | None = None,
             above_mm_per_m: float | None = None, single_segments: bool = False,
-            near: Sequence[float] | None = None, radius_m: float | None = None,
-            heading_deg: float | None = None, bbox: Sequence[float] | None = None,
+            near: abc.Sequence[float] | None = None, radius_m: float | None = None,
+            heading_deg: float | None = None, bbox: abc.Sequence[float] | None = None,
             way: int | None = None, segment: str | None = None, road: str | None = None,
             highway: str | None = None, class_name: str | None = None,
             min_passes: int | None = None, since: Day | None = None, until: Day | None = None,
@@ -112,8 +112,8 @@ class Database:
             min_passes=min_passes, since=since, until=until)
 
     def history(
-            self, *, near: Sequence[float] | None = None, radius_m: float | None = None,
-            heading_deg: float | None = None, bbox: Sequence[float] | None = None,
+            self, *, near: abc.Sequence[float] | None = None, radius_m: float | None = None,
+            heading_deg: float | None = None, bbox: abc.Sequence[float] | None = None,
             way: int | None = None, segment: str | None = None, road: str | None = None,
             highway: str | None = None, class_name: str | None = None,
             min_passes: int | None = None, since: Day | None = None, until: Day | None = None
@@ -130,8 +130,8 @@ class Database:
             min_passes=min_passes, since=since, until=until)
 
     def events(
-            self, *, near: Sequence[float] | None = None, radius_m: float | None = None,
-            heading_deg: float | None = None, bbox: Sequence[float] | None = None,
+            self, *, near: abc.Sequence[float] | None = None, radius_m: float | None = None,
+            heading_deg: float | None = None, bbox: abc.Sequence[float] | None = None,
             way: int | None = None, segment: str | None = None, road: str | None = None,
             highway: str | None = None, class_name: str | None = None,
             min_passes: int | None = None, since: Day | None = None, until: Day | None = None,
@@ -143,7 +143,7 @@ class Database:
             min_passes=min_passes, since=since, until=until)
 
     def sections(self, sections: PathLike | None = None, *, along: PathLike | None = None,
-                 route: Sequence[Sequence[float]] | None = None, shortest: bool = False,
+                 route: abc.Sequence[abc.Sequence[float]] | None = None, shortest: bool = False,
                  length: float | str | None = None, homogeneous: bool = False,
                  exclude: PathLike | None = None, exclude_radius_m: float | None = None,
                  min_passes: int | None = None, since: Day | None = None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections import abc
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal, Union
@@ -16,8 +16,8 @@ from . import _macadam
 from ._files import read_truth, write_trip
 from ._results import PathLike, Table, in_python_words, operand, run, run_table, words_of
 
-Profile = Union[PathLike, npt.ArrayLike, Mapping[str, npt.ArrayLike]]
-Trip = Union[PathLike, Mapping[str, Union[npt.ArrayLike, str]]]
+Profile = Union[PathLike, npt.ArrayLike, abc.Mapping[str, npt.ArrayLike]]
+Trip = Union[PathLike, abc.Mapping[str, Union[npt.ArrayLike, str]]]
 
 
 def iri(profile: Profile, *, step_m: float | None = None, from_m: float | None = None,
@@ -67,7 +67,7 @@ def _profile(profile: Profile, step_m: float | None) -> tuple[
     """The file of a profile; or a name for messages, its tracks and stations."""
     if isinstance(profile, (str, os.PathLike)):
         return operand(profile), [], None
-    given = dict(profile) if isinstance(profile, Mapping) else {"profile": profile}
+    given = dict(profile) if isinstance(profile, abc.Mapping) else {"profile": profile}
     stations = given.pop("station_m", None)
     if not given:
         raise _macadam.UsageError("profile has no track, expected elevations beside station_m")
@@ -77,9 +77,9 @@ def _profile(profile: Profile, step_m: float | None) -> tuple[
 
 
 @contextmanager
-def _trip_file(trip: Trip) -> Iterator[PathLike]:
+def _trip_file(trip: Trip) -> abc.Iterator[PathLike]:
     """The file of a trip; one that is made for a trip of arrays, which messages do not name."""
-    if not isinstance(trip, Mapping):
+    if not isinstance(trip, abc.Mapping):
         yield trip
         return
     with tempfile.TemporaryDirectory(prefix="macadam-") as folder:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Mapping
+from collections import abc
 from typing import Union
 
 import numpy as np
@@ -14,7 +14,7 @@ from . import _macadam
 from ._results import PathLike, Table
 
 
-def write_trip(path: PathLike, trip: Mapping[str, Union[npt.ArrayLike, str]]) -> None:
+def write_trip(path: PathLike, trip: abc.Mapping[str, Union[npt.ArrayLike, str]]) -> None:
     """Writes columns as a trip log (docs/reference/trip-logs.md).
 
     Args:

@@ -6,7 +6,7 @@ import logging
 import os
 import re
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections import abc
 from datetime import date
 from typing import Any, Union
 
@@ -53,8 +53,8 @@ class Table(dict[str, Array]):
         details: what holds for the whole table, such as the method of ``iri``.
     """
 
-    def __init__(self, columns: Mapping[str, Array] = {}, units: Mapping[str, str] = {},
-                 details: Mapping[str, Any] = {}) -> None:
+    def __init__(self, columns: abc.Mapping[str, Array] = {}, units: abc.Mapping[str, str] = {},
+                 details: abc.Mapping[str, Any] = {}) -> None:
         super().__init__(columns)
         self.units: dict[str, str] = dict(units)
         self.details: dict[str, Any] = dict(details)
@@ -72,7 +72,7 @@ class Table(dict[str, Array]):
         return f"<macadam.Table of {self.rows} rows: {', '.join(self)}>"
 
 
-def words_of(options: Mapping[str, Any]) -> list[str]:
+def words_of(options: abc.Mapping[str, Any]) -> list[str]:
     """Words of a command line; options that are None or False are left out."""
     words: list[str] = []
     for name, value in options.items():
@@ -101,14 +101,14 @@ def _text(value: Any) -> str:
         return value.isoformat()[:10]
     if isinstance(value, np.datetime64):
         return str(value.astype("datetime64[D]"))
-    if isinstance(value, (Sequence, np.ndarray)):
+    if isinstance(value, (abc.Sequence, np.ndarray)):
         return ",".join(_text(one) for one in value)
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
     return str(value)
 
 
-def in_python_words(error: _macadam.UsageError, options: Iterable[str]) -> _macadam.UsageError:
+def in_python_words(error: _macadam.UsageError, options: abc.Iterable[str]) -> _macadam.UsageError:
     """The same error with the names of parameters instead of those of options."""
     text = str(error)
     for name in options:
@@ -131,7 +131,7 @@ class Result:
         return self._table
 
 
-def run(command: str, operands: Sequence[str], options: Mapping[str, Any], *,
+def run(command: str, operands: abc.Sequence[str], options: abc.Mapping[str, Any], *,
         with_features: bool = False) -> Result:
     """Runs a command. Warnings become ``DataWarning``, other messages go to the log "macadam"."""
     try:
@@ -150,7 +150,7 @@ def run(command: str, operands: Sequence[str], options: Mapping[str, Any], *,
     return Result(Table(columns, units), features, text)
 
 
-def run_table(command: str, operands: Sequence[str], options: Mapping[str, Any], *,
+def run_table(command: str, operands: abc.Sequence[str], options: abc.Mapping[str, Any], *,
               geometry: bool = False) -> Table:
     """Runs a command that writes rows; with ``geometry``, they have a column of that name."""
     result = run(command, operands, {**options, "json": True}, with_features=geometry)
