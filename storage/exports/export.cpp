@@ -69,6 +69,9 @@ std::size_t export_as(std::string_view suffix, const SegmentExport& what) {
     AtomicFile out{what.file};
     const auto written = write_as(suffix, what, out);
     what.store.expect_in_place();
+    if (suffix == ".geojson") {
+        write_style_files(what.file, what.file.parent_path(), what.classes);
+    }
     out.commit();
     return written;
 }
@@ -112,11 +115,7 @@ std::size_t export_segments(const StoreReader& store,
     }
     const SegmentExport what{
         store, filter, file, progress, *class_table(store.settings().class_table)};
-    const auto written = export_as(suffix, what);
-    if (suffix == ".fgb" || suffix == ".shp" || suffix == ".geojson") {
-        write_style_files(file, what.classes);
-    }
-    return written;
+    return export_as(suffix, what);
 }
 
 } // namespace macadam

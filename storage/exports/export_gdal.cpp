@@ -5,6 +5,7 @@
 #include "mapping/geometry/antimeridian.hpp"
 #include "storage/atomic/atomic_file_set.hpp"
 #include "storage/exports/flatgeobuf_index.hpp"
+#include "storage/exports/style_files.hpp"
 #include "storage/gdal/ogr_line_writer.hpp"
 #include "storage/text/utc.hpp"
 
@@ -228,6 +229,7 @@ std::size_t export_flatgeobuf(const SegmentExport& what) {
         }
     }
     std::filesystem::remove(files.folder() / "plain.fgb");
+    write_style_files(what.file, files.folder(), what.classes);
     what.store.expect_in_place();
     files.commit();
     return written;
@@ -252,6 +254,7 @@ std::size_t export_shapefile(const SegmentExport& what) {
         throw InputError{
             fmt::format("{}: cannot be written; the disk may be full", what.file.string())};
     }
+    write_style_files(what.file, files.folder(), what.classes);
     what.store.expect_in_place();
     files.commit(stale_beside(stem));
     return written;

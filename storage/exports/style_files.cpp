@@ -1,7 +1,10 @@
 #include "storage/exports/style_files.hpp"
 
+#include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file.hpp"
 #include "storage/styles/road_style.hpp"
+
+#include <fmt/format.h>
 
 #include <array>
 #include <fstream>
@@ -26,22 +29,37 @@ bool is_of_others(const std::filesystem::path& file) {
     return !in || std::string_view{end.data(), end.size()} != mark;
 }
 
-void write_style(std::filesystem::path file, const char* suffix, const std::string& text) {
-    file.replace_extension(suffix);
-    if (is_of_others(file)) {
-        return;
-    }
-    AtomicFile out{file};
-    out.write(text);
-    out.write(mark);
-    out.commit();
-}
+/// A style file by its suffix.
+struct StyleFile {
+    const char* suffix;
+    std::string text;
+};
 
 } // namespace
 
-void write_style_files(const std::filesystem::path& layer, const ClassTable& classes) {
-    write_style(layer, ".qml", qml_style(classes));
-    write_style(layer, ".sld", sld_style(classes, layer.stem().string()));
+void write_style_files(const std::filesystem::path& layer,
+                       const std::filesystem::path& folder,
+                       const ClassTable& classes) {
+    for (const auto& [suffix, text] :
+         {StyleFile{".qml", qml_style(classes)},
+          StyleFile{".sld", sld_style(classes, layer.stem().string())}}) {
+        auto place = layer;
+        place.replace_extension(suffix);
+        if (is_of_others(place)) {
+            continue;
+        }
+        try {
+            AtomicFile out{folder / place.filename()};
+            out.write(text);
+            out.write(mark);
+            out.commit();
+        } catch (const InputError&) {
+            throw InputError{
+                fmt::format("{}: cannot be written with its style {}; the disk may be full",
+                            layer.string(),
+                            suffix)};
+        }
+    }
 }
 
 } // namespace macadam

@@ -81,7 +81,7 @@ TEST(ExportOverTheAntimeridian, HasTheMiddleInCsvWhereTheRoadIs) {
 
 // ------------------------------------------------------------------------------------ Shapefile
 
-TEST(Shapefile, IsASetOfFiveFiles) {
+TEST(Shapefile, IsASetOfFiveFilesWithTheirStyle) {
     const auto folder = test_folder();
     auto store = new_store(folder / "a.gpkg");
     import_trips(store, 6);
@@ -94,7 +94,13 @@ TEST(Shapefile, IsASetOfFiveFiles) {
     }
     std::ranges::sort(found);
     EXPECT_THAT(found,
-                ElementsAre("roads.cpg", "roads.dbf", "roads.prj", "roads.shp", "roads.shx"));
+                ElementsAre("roads.cpg",
+                            "roads.dbf",
+                            "roads.prj",
+                            "roads.qml",
+                            "roads.shp",
+                            "roads.shx",
+                            "roads.sld"));
     EXPECT_EQ(content_of(folder / "out" / "roads.cpg"), "UTF-8");
 }
 

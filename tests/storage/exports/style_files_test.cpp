@@ -34,12 +34,12 @@ TEST(StyleFiles, LieBesideLayersOfOtherPrograms) {
 
 TEST(StyleFiles, GiveWayToThoseThatUsersSaved) {
     const auto folder = test_folder();
-    write_style_files(folder / "out.shp", *class_table("five"));
+    write_style_files(folder / "out.shp", folder, *class_table("five"));
     EXPECT_THAT(content_of(folder / "out.qml"), HasSubstr("2.50 to 3.50 mm/m"));
-    write_style_files(folder / "out.shp", *class_table("fhwa"));
+    write_style_files(folder / "out.shp", folder, *class_table("fhwa"));
     EXPECT_THAT(content_of(folder / "out.qml"), Not(HasSubstr("2.50 to 3.50 mm/m")));
     written(folder, "out.qml", "<qgis>mine</qgis>");
-    write_style_files(folder / "out.shp", *class_table("five"));
+    write_style_files(folder / "out.shp", folder, *class_table("five"));
     EXPECT_EQ(content_of(folder / "out.qml"), "<qgis>mine</qgis>");
     EXPECT_THAT(content_of(folder / "out.sld"), HasSubstr("2.50 to 3.50 mm/m"));
 }
