@@ -29,7 +29,7 @@ OUTSIDE_WORLD = re.compile(
     r"|unistd\.h|fcntl\.h|sys/|sqlite3\.h|gdal|ogr|osmium|archive\.h|zlib\.h|zstd\.h|GL/|EGL/|png\.h|ft2build\.h|hb\.h"
     r"|nlohmann|CLI|toml\+\+)"
 )
-FOREIGN = re.compile(r"<(gdal|ogr|sqlite3|osmium|mrpt|archive|png|ft2build|hb|GL/|EGL/|CLI|nlohmann|toml)")
+FOREIGN = re.compile(r"<(gdal|ogr|hdf5|sqlite3|osmium|mrpt|archive|png|ft2build|hb|GL/|EGL/|CLI|nlohmann|toml)")
 
 # GDAL opens and creates files in one place, which decides what a map may be.
 GDAL_ACCESS = "storage/gdal/gdal_access.cpp"
@@ -37,6 +37,10 @@ GDAL_OPENING = re.compile(
     r"GDALOpen|GDALDataset::Open|OGROpen|OGRSFDriver|GDALAllRegister|OGRRegisterAll|GDALRegister|RegisterOGR"
     r"|GetDriverByName|GetGDALDriverManager|GDALIdentify|GDALVectorTranslate|GDALWarp|GDALBuildVRT|GDALTranslate"
 )
+
+# HDF5 is opened in one place, in a process of its own.
+HDF5_ACCESS = "storage/trips/signals/hdf5_plugin.cpp"
+HDF5_OPENING = re.compile(r"<hdf5|\bH5[A-Z]{1,2}[a-z]\w*\(")
 
 # Headers that are slow to compile are included by one .cpp each.
 SLOW = {"CLI11": "<CLI/", "the JSON library": "<nlohmann/", "the TOML library": "<toml++"}
@@ -94,6 +98,8 @@ def breaches(root):
         yield from include_breaches(name, text, allowed)
         if name != GDAL_ACCESS and (opening := GDAL_OPENING.search(text)):
             yield f"{name}: only {GDAL_ACCESS} opens files by GDAL: {opening[0]}"
+        if name != HDF5_ACCESS and (opening := HDF5_OPENING.search(text)):
+            yield f"{name}: only {HDF5_ACCESS} opens HDF5: {opening[0]}"
     for library, header in SLOW.items():
         users = [name for name, text in sources.items() if f"#include {header}" in text]
         if len(users) > 1:
@@ -137,6 +143,7 @@ BREACHES = [
     ("estimator/motion/new.cpp", "#include <iostream>", "estimator computes only"),
     ("render/map/new.cpp", "#include <nlohmann/json.hpp>", "more than one file includes the JSON library"),
     ("storage/rasters/new.cpp", "auto map = GDALDataset::Open(name);", f"only {GDAL_ACCESS} opens files by GDAL"),
+    ("storage/trips/signals/new.cpp", "#include <hdf5.h>", f"only {HDF5_ACCESS} opens HDF5"),
     ("storage/attic/new.cpp", "int x;", "storage/attic: has no line in docs/architecture.md"),
     ("docs/architecture.md", "* `mapping/lost`: Lost", "mapping/lost: has a line in docs/architecture.md"),
     ("docs/architecture.md", "* `mapping/geometry` (fusion): All", "folders use each other in a circle"),

@@ -28,7 +28,9 @@ void run_reprocess(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     auto store = opened_store(file, console);
     AskedTrips trips{{words.begin(), words.end()},
-                     {.mapping = mapping_of(arguments), .max_files = max_members_of(arguments)},
+                     {.mapping = mapping_of(arguments),
+                      .positions = arguments.value("--positions").value_or(""),
+                      .max_files = max_members_of(arguments)},
                      console};
     const bool json = arguments.flag("--json");
     const auto tell = [&](const TripReport& trip) { print_report(trip, json, console); };

@@ -137,6 +137,7 @@ ImportOptions parse_import(const Arguments& arguments) {
             .json = arguments.flag("--json"),
             .pipeline = config_of(arguments),
             .mapping = mapping_of(arguments),
+            .positions = arguments.value("--positions").value_or(""),
             .max_members = max_members_of(arguments)};
 }
 
@@ -146,8 +147,11 @@ ImportTotals import_paths(RoadStore& store,
                           VehicleChoice& vehicles,
                           const Console& console) {
     make_missing_key(store, console);
-    AskedTrips trips{
-        paths, {.mapping = options.mapping, .max_files = options.max_members}, console};
+    AskedTrips trips{paths,
+                     {.mapping = options.mapping,
+                      .positions = options.positions,
+                      .max_files = options.max_members},
+                     console};
     const auto name =
         name_of_import(options.named_after.empty() ? paths : std::vector{options.named_after});
     const ImportLock lock{store.file(), name}; // before the journal: others would find an entry

@@ -24,6 +24,7 @@ struct ImportOptions {
     bool readmit = false;
     PipelineConfig pipeline;
     std::shared_ptr<const TripMapping> mapping;
+    std::filesystem::path positions{}; ///< of the only trip; empty: its own, or beside it
     std::size_t max_members;
     std::filesystem::path named_after{}; ///< identifies the import in the journal; empty: its paths
     bool tells_known = true;             ///< whether trips that were imported before are reported

@@ -17,6 +17,7 @@ inline constexpr std::array trip_options{
     vehicles_option,
     vehicle_id_option,
     mapping_option,
+    positions_option,
     jobs_option,
     method_option,
     channels_option,

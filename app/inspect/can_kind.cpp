@@ -1,7 +1,10 @@
 #include "app/inspect/can_kind.hpp"
 
 #include "estimator/common/ascii.hpp"
+#include "storage/files/decompress.hpp"
 #include "storage/text/text.hpp"
+#include "storage/trips/foreign/dbc.hpp"
+#include "storage/trips/signals/mdf_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -97,30 +100,66 @@ bool is_dbc(const std::vector<std::string_view>& lines) {
     return count >= 2 || (count == 1 && lines.front().starts_with("VERSION \""));
 }
 
-} // namespace
-
-FileKind can_log_kind(std::string_view format) {
-    return {FileKind::Use::other,
-            fmt::format("CAN log ({}): raw frames, not read", format),
-            "decode it with a description of the car's signals (.dbc), export these as CSV, then "
-            "inspect that"};
+/// Names for people, of those that can be shown.
+std::string some_of(std::vector<std::string> names, std::string_view one) {
+    constexpr std::size_t max_shown = 60;
+    constexpr std::size_t longest = 80;
+    const auto count = names.size();
+    names.resize(std::min(count, max_shown));
+    std::string words;
+    for (const auto& name : names) {
+        const auto quoted = in_quotes(name, longest); // with other bytes as \x00
+        words += (words.empty() ? "" : ", ") + quoted.substr(1, quoted.size() - 2);
+    }
+    return fmt::format("{} {}{}: {}{}",
+                       count,
+                       one,
+                       count == 1 ? "" : "s",
+                       words,
+                       count > max_shown ? fmt::format(" and {} more", count - max_shown) : "");
 }
 
-std::optional<FileKind> kind_of_can_text(std::string_view head) {
+} // namespace
+
+FileKind kind_of_mdf(const std::filesystem::path& file) {
+    std::string content;
+    std::vector<char> block(1 << 20);
+    const auto bytes = decompressed(file_bytes(file), file.string());
+    while (const auto count = bytes->read(block)) {
+        content.append(block.data(), count);
+    }
+    return {FileKind::Use::other,
+            "measurement file (ASAM MDF 4), " +
+                some_of(mdf_channels(content, file.string()), "channel"),
+            "read with --mapping FILE.toml, which has a table [mdf] and names the channels to take "
+            "(docs/reference/other-loggers.md)"};
+}
+
+FileKind can_log_kind(std::string_view format, bool is_read) {
+    return {FileKind::Use::other,
+            fmt::format("CAN log ({}): raw frames{}", format, is_read ? "" : ", not read"),
+            is_read ? "read with --mapping FILE.toml, which names the description of the car's "
+                      "signals (.dbc) and the signals to take (docs/reference/other-loggers.md)"
+                    : "convert it to candump or Vector ASC, then inspect that"};
+}
+
+std::optional<FileKind> kind_of_can_text(const std::filesystem::path& file, std::string_view head) {
     const auto lines = first_lines(head);
     if (is_vector_asc(lines)) {
-        return can_log_kind("Vector ASC");
+        return can_log_kind("Vector ASC", true);
     }
     if (is_peak_trc(lines)) {
-        return can_log_kind("PEAK TRC");
+        return can_log_kind("PEAK TRC", false);
     }
     if (is_candump(lines)) {
-        return can_log_kind("candump");
+        return can_log_kind("candump", true);
     }
     if (is_dbc(lines)) {
         return FileKind{FileKind::Use::other,
-                        "description of CAN signals (DBC): no readings, not read",
-                        "decode a CAN log with it, export the signals as CSV, then inspect that"};
+                        "description of CAN signals (DBC), " +
+                            some_of(signal_names(read_dbc(file)), "signal"),
+                        "a mapping for CAN logs names it: [can] dbc = \"FILE.dbc\" "
+                        "(docs/reference/other-loggers.md)"};
     }
     return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include "app/import/trip_inputs.hpp"
 #include "app/inspect/companion_logs.hpp"
 #include "app/inspect/inspection_output.hpp"
+#include "app/pipeline/column_mapping_option.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file.hpp"
@@ -72,10 +73,11 @@ void run_inspect(const Arguments& arguments, const Console& console) {
     if (output) {
         refuse_to_replace(*output, paths);
     }
+    const auto mapping = mapping_of(arguments);
     Inspected inspected;
     for (const auto& path : paths) {
         const auto search = console.progress("looking for logs", {.name = "file"});
-        inspect(path, max_files, search, [&](const Inspection& found) {
+        inspect(path, mapping, max_files, search, [&](const Inspection& found) {
             add(found, json, !output, inspected);
         });
     }
@@ -109,6 +111,7 @@ constexpr std::array options{
            "FILE.toml",
            "Write the mapping of one CSV file of another program, or of two that "
            "hold one trip, for --mapping; otherwise it is printed."},
+    mapping_option,
     max_members_option,
     Option{"--json", "", "One JSON array with an object per file."}};
 

@@ -10,7 +10,9 @@
 #include "storage/text/text.hpp"
 #include "storage/trips/detection/csv_dialect.hpp"
 #include "storage/trips/detection/text_sample.hpp"
-#include "storage/trips/foreign/gpx_reader.hpp"
+#include "storage/trips/positions/gpx_reader.hpp"
+#include "storage/trips/positions/nmea_reader.hpp"
+#include "storage/trips/positions/position_files.hpp"
 #include "storage/trips/rawlog/rawlog_reader.hpp"
 #include "storage/trips/source/phone_export_files.hpp"
 
@@ -49,12 +51,12 @@ constexpr std::array signatures{
         0, "PMTiles", "tile archive (PMTiles)", "an output of 'macadam export'; web maps read it"},
     Signature{0,
               "MDF     ",
-              "measurement file (ASAM MDF)",
-              "export its channels as CSV, then inspect that"},
+              "measurement file (ASAM MDF before 4)",
+              "convert it to MDF 4, then inspect that"},
     Signature{0,
               "UnFinMF",
               "measurement file (ASAM MDF, not finalised)",
-              "export its channels as CSV, then inspect that"},
+              "finalise it with the software of its logger, then inspect that"},
     Signature{
         0, "TDSm", "measurement file (TDMS)", "export its channels as CSV, then inspect that"},
     Signature{0,
@@ -69,7 +71,12 @@ constexpr std::array signatures{
               "\xb5\x62",
               "recording of a u-blox receiver (UBX)",
               "positions only; convert it to GPX, for example with u-center"},
-    Signature{0, "\x89HDF", "HDF5 file", "export its data as CSV, then inspect that"},
+    Signature{
+        0,
+        "\x89HDF",
+        "HDF5 file",
+        "read with --mapping FILE.toml, which has a table [hdf5] and names the datasets to take "
+        "(docs/reference/other-loggers.md)"},
     Signature{0, "MATLAB", "MATLAB file", "export its data as CSV, then inspect that"},
     Signature{0, "PAR1", "Parquet file", "export its data as CSV, then inspect that"},
     Signature{
@@ -109,7 +116,7 @@ FileKind other(std::string_view name, std::string_view advice) {
 
 std::optional<FileKind> by_signature(std::string_view head) {
     if (head.starts_with("LOGG")) {
-        return can_log_kind("Vector BLF");
+        return can_log_kind("Vector BLF", false);
     }
     for (const auto& [at, bytes, name, advice] : signatures) {
         if (head.size() > at && head.substr(at).starts_with(bytes)) {
@@ -178,15 +185,11 @@ std::optional<FileKind> by_element(std::string_view head) {
     return std::nullopt;
 }
 
-bool is_nmea(std::string_view head) {
-    const auto begin = trimmed(head.substr(0, std::min<std::size_t>(head.size(), 7)));
-    return begin.starts_with("$G") || begin.starts_with("!AIVDM");
-}
-
-std::optional<FileKind> by_text(std::string_view head) {
-    if (is_nmea(head)) {
-        return other("NMEA 0183 recording of a receiver",
-                     "positions only; convert it to GPX, for example with GPSBabel");
+std::optional<FileKind> by_text(const fs::path& file, std::string_view head) {
+    if (is_nmea_text(head)) {
+        return is_nmea_file(file) ? FileKind{Use::trip, "NMEA 0183 recording of a receiver", ""}
+                                  : other("NMEA 0183 recording of a receiver",
+                                          "give it a name that ends in .nmea");
     }
     if (head.starts_with('{') || head.starts_with('[')) {
         return other("JSON", "write its readings as CSV, then inspect that");
@@ -198,6 +201,9 @@ std::optional<FileKind> by_name(const fs::path& file, std::string_view head) {
     const auto name = file.filename().string();
     if (name.ends_with(rawlog_suffix)) {
         return FileKind{Use::trip, "rawlog of MRPT", ""};
+    }
+    if (is_nmea_name(name)) {
+        return FileKind{Use::trip, "NMEA 0183 recording of a receiver", ""};
     }
     if (is_gpx_name(name)) {
         return FileKind{Use::trip, "GPX track", ""};
@@ -239,19 +245,22 @@ FileKind kind_of_file(const fs::path& file) {
     if (auto kind = by_name(file, head)) {
         return *kind;
     }
+    if (head.starts_with("MDF     4")) {
+        return kind_of_mdf(file);
+    }
     if (auto kind = by_signature(head)) {
         return *kind;
     }
     if (auto kind = by_element(head)) {
         return *kind;
     }
-    if (auto kind = kind_of_can_text(head)) { // a DBC file begins like a MapInfo file
+    if (auto kind = kind_of_can_text(file, head)) { // a DBC file begins like a MapInfo file
         return *kind;
     }
     if (auto kind = by_map_kind(file, head)) {
         return *kind;
     }
-    if (auto kind = by_text(head)) {
+    if (auto kind = by_text(file, head)) {
         return *kind;
     }
     const auto bytes = decompressed(file_bytes(file), file.string());

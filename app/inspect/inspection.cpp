@@ -4,6 +4,7 @@
 #include "storage/files/archive.hpp"
 #include "storage/files/decompress.hpp"
 #include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/paired_positions.hpp"
 #include "storage/trips/source/trip_contents.hpp"
 #include "storage/trips/trip_file_names.hpp"
 #include "storage/trips/trip_reader.hpp"
@@ -52,6 +53,8 @@ void add_detected(TripSource source, const std::stop_token& stop, Inspection& fo
     }
     source.mapping =
         std::make_shared<const TripMapping>(parse_mapping(found.mapping, source.name()));
+    source.positions = paired_positions(source).value_or(fs::path{});
+    found.has_positions = !source.positions.empty();
     add_trip(source, stop, found);
 }
 
@@ -60,7 +63,9 @@ Inspection inspection_of_file(const fs::path& file, const std::stop_token& stop)
     try {
         found.kind = kind_of_file(file);
         if (found.kind.use == FileKind::Use::trip) {
-            add_trip({.file = file, .member = {}}, stop, found);
+            TripSource source{.file = file, .member = {}};
+            source.positions = paired_positions(source).value_or(fs::path{});
+            add_trip(source, stop, found);
         } else if (found.kind.use == FileKind::Use::table) {
             add_detected(
                 {.file = file, .member = {}, .files = {file.filename().string()}}, stop, found);
@@ -75,7 +80,9 @@ Inspection inspection_of_trip(const TripSource& source, const std::stop_token& s
     const bool is_export = !source.files.empty() && !source.mapping;
     Inspection found{.name = source.name(),
                      .kind = {FileKind::Use::trip,
-                              is_export ? "phone export (phyphox or Sensor Logger)" : "trip log",
+                              is_export        ? "phone export (phyphox or Sensor Logger)"
+                              : source.mapping ? "log of another program, by its mapping"
+                                               : "trip log",
                               ""},
                      .mapping = {},
                      .error = {}};
@@ -124,6 +131,7 @@ std::vector<fs::path> files_beside(const fs::path& folder, const std::vector<Tri
     std::set<fs::path> taken;
     for (const auto& trip : trips) {
         taken.insert(trip.file.lexically_normal());
+        taken.insert(trip.positions.lexically_normal());
         for (const auto& file : trip.files) {
             taken.insert((trip.mapping ? trip.file.parent_path() / file : trip.file / file)
                              .lexically_normal());
@@ -186,12 +194,18 @@ void inspect_many(const fs::path& path,
 } // namespace
 
 void inspect(const fs::path& path,
+             const std::shared_ptr<const TripMapping>& mapping,
              std::size_t max_files,
              const Progress& search,
              const std::function<void(const Inspection&)>& tell) {
     try {
-        if (fs::is_directory(path) ||
-            (fs::exists(path) && is_archive_name(path.filename().string()))) {
+        if (mapping) {
+            TripWalk walk{path, {.mapping = mapping, .max_files = max_files, .search = search}};
+            while (const auto trip = search.stop.stop_requested() ? std::nullopt : walk.next()) {
+                tell(inspection_of_trip(*trip, search.stop));
+            }
+        } else if (fs::is_directory(path) ||
+                   (fs::exists(path) && is_archive_name(path.filename().string()))) {
             inspect_many(path, max_files, search, tell);
         } else {
             tell(inspection_of_file(path, search.stop));

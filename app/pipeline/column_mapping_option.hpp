@@ -15,6 +15,13 @@ inline constexpr Option mapping_option = in_group(
      "NAME|FILE",
      "Column mapping for files of another logger: racechrono, trackaddict or a TOML file."});
 
+inline constexpr Option positions_option = in_group(
+    "car and log",
+    {"--positions",
+     "FILE",
+     "Positions of the log, recorded by a receiver: NMEA or GPX. Without it, FILE beside the log "
+     "with its name and .nmea or .gpx."});
+
 /// Returns the mapping of --mapping; null without it.
 ///
 /// \throws UsageError  for a name that is neither built in nor a file.

@@ -16,8 +16,9 @@ constexpr double longest_silence_s = 10;
 } // namespace
 
 TripSource one_trip(const std::filesystem::path& path,
-                    const std::shared_ptr<const TripMapping>& mapping) {
-    auto found = first_trip(path, {.mapping = mapping, .tracks = true});
+                    const std::shared_ptr<const TripMapping>& mapping,
+                    const std::filesystem::path& positions) {
+    auto found = first_trip(path, {.mapping = mapping, .tracks = true, .positions = positions});
     const bool is_export = found.count == 1 && !found.trip->files.empty();
     if (std::filesystem::is_directory(path) && !is_export) {
         throw InputError{fmt::format("{}: is a folder, expected one trip log", path.string())};

@@ -14,9 +14,11 @@ namespace macadam {
 
 /// Finds the only trip of a path: a log, a phone's export or, with a mapping, a foreign file.
 ///
+/// \param positions  file with its positions; empty: its own, or beside it
 /// \throws InputError  if it is a folder of logs, or holds several.
 TripSource one_trip(const std::filesystem::path& path,
-                    const std::shared_ptr<const TripMapping>& mapping = nullptr);
+                    const std::shared_ptr<const TripMapping>& mapping = nullptr,
+                    const std::filesystem::path& positions = {});
 
 /// Calls `work` and prefixes the message of any InputError with the trip's name, which the engine
 /// does not know.

@@ -5,6 +5,7 @@
 #include "estimator/motion/gnss_latency.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "storage/trips/detection/detected_mapping.hpp"
+#include "storage/trips/positions/joined_trip.hpp"
 
 #include <fmt/format.h>
 
@@ -33,20 +34,21 @@ bool was_sampled(const TripLog& trip, const Mounting& mounting, Axis axis) {
 
 } // namespace
 
-std::optional<std::string> detected_text(const TripMeta& meta) {
-    const auto found = meta.other.find(detected_key);
-    return found == meta.other.end()
-               ? std::nullopt
-               : std::optional{fmt::format(
-                     "read as {} (detected); 'macadam inspect' shows the mapping", found->second)};
+std::vector<std::string> reading_notes(const TripMeta& meta) {
+    std::vector<std::string> notes;
+    if (const auto found = meta.other.find(detected_key); found != meta.other.end()) {
+        notes.push_back(fmt::format("read as {} (detected); 'macadam inspect' shows the mapping",
+                                    found->second));
+    }
+    if (const auto found = meta.other.find(positions_key); found != meta.other.end()) {
+        notes.push_back(found->second);
+    }
+    return notes;
 }
 
 PreparedTrip prepared(TripLog trip, const OdometerConfig& config) {
     std::optional<TripMotion> motion;
-    std::vector<std::string> warnings;
-    if (const auto words = detected_text(trip.meta)) {
-        warnings.push_back(*words);
-    }
+    auto warnings = reading_notes(trip.meta);
     if (!trip.meta.gnss_latency_stated && !trip.fixes.empty()) {
         std::optional<FoundLatency> latency;
         if (const auto by_speeds_s = estimate_gnss_latency_s(trip)) {

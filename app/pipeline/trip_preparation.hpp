@@ -17,8 +17,8 @@ struct PreparedTrip {
     std::vector<std::string> warnings;
 };
 
-/// Says how a CSV file without a mapping was read; `std::nullopt` for other logs.
-std::optional<std::string> detected_text(const TripMeta& meta);
+/// Says how a CSV file without a mapping was read, and how positions of another file were joined.
+std::vector<std::string> reading_notes(const TripMeta& meta);
 
 /// Finds the motion of a trip. If the log does not state the receiver's latency, it is estimated,
 /// and a warning gives the estimate or the failure. The motion is found once, and again only where

@@ -73,6 +73,7 @@ ConvertOptions parse_convert(const Arguments& arguments) {
             .level = static_cast<int>(level),
             .walk = {.mapping = mapping_of(arguments),
                      .tracks = true,
+                     .positions = arguments.value("--positions").value_or(""),
                      .max_files = max_members_of(arguments)}};
 }
 
@@ -90,6 +91,11 @@ std::string without_suffix(const std::string& name) {
                                           ".gpx.gz",
                                           ".gpx.zst",
                                           ".gpx",
+                                          ".nmea",
+                                          ".log",
+                                          ".asc",
+                                          ".mf4",
+                                          ".h5",
                                           ".zip",
                                           ".csv"}) {
         if (name.ends_with(suffix) && name.size() > suffix.size()) {
@@ -289,8 +295,8 @@ void convert(const Task& task, const ConvertOptions& options, const Console& con
     const TripNeeds all{.acc = true, .gyro = true, .speed = true, .fixes = true};
     const auto& stop = console.stop();
     const auto trip = read_trip(task.trip, all, console.progress("reading"));
-    if (const auto words = detected_text(trip.meta)) {
-        console.say(fmt::format("{}: {}", task.trip.name(), *words));
+    for (const auto& words : reading_notes(trip.meta)) {
+        console.say(fmt::format("{}: {}", task.trip.name(), words));
     }
     if (!names_a_file(options.output)) {
         make_folder(task.output.parent_path());
@@ -365,7 +371,8 @@ constexpr std::array options{
                {"--format", "SUFFIX", "Format of files in an output folder.", ".trip.csv.gz"})),
     Option{"--level", "N", "Compression level: 1 is fast, 9 small.", "6"},
     max_members_option,
-    mapping_option};
+    mapping_option,
+    positions_option};
 
 } // namespace
 

@@ -13,7 +13,7 @@
 #include "storage/networks/network_file.hpp"
 #include "storage/networks/network_reader.hpp"
 #include "storage/store/schema/store_marker.hpp"
-#include "storage/trips/foreign/gpx_reader.hpp"
+#include "storage/trips/positions/gpx_reader.hpp"
 #include "storage/trips/trip_reader.hpp"
 
 #include <fmt/format.h>
@@ -100,7 +100,8 @@ void run_match(const Arguments& arguments, const Console& console) {
                            arguments.value(mapping_option.name).value_or(options.trip.string())});
     }
     const auto roads = roads_of(options, console);
-    const auto source = one_trip(options.trip, mapping_of(arguments));
+    const auto source =
+        one_trip(options.trip, mapping_of(arguments), arguments.value("--positions").value_or(""));
     auto log = read_trip(source, needs_of_match_with_heading(), console.progress("reading"));
     const auto trip =
         with_trip_name(source.name(), [&] { return prepared_or_untimed(std::move(log)); });
@@ -127,6 +128,7 @@ constexpr std::array options{
            "The roads: .osm.pbf, .osm, a road database, its STORE-network file, or any line "
            "layer that GDAL reads."},
     mapping_option,
+    positions_option,
     Option{"--arcs", "", "List every pair of consecutive nodes instead of parts of edges."},
     one_of("csv|json|geojson",
            {"--format", "NAME", "csv, json or geojson.", "by the suffix of -o; otherwise csv"}),

@@ -193,7 +193,7 @@ void print_rows(const TripLog& trip,
 /// Rejects options that need the whole trip or another reader.
 void expect_live(const Arguments& arguments) {
     for (const auto* const option :
-         {"--mapping", "--profile", "--events", "--against", "--output"}) {
+         {"--mapping", "--positions", "--profile", "--events", "--against", "--output"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("--live and {} cannot be combined", option)};
         }
@@ -232,7 +232,8 @@ void run_trace(const Arguments& arguments, const Console& console) {
     expect_separate_outputs(options);
     const auto survey = options.survey ? read_survey(*options.survey, options.mm_per_m_of_one)
                                        : std::vector<SurveyRow>{};
-    const auto source = one_trip(options.trip, mapping_of(arguments));
+    const auto source =
+        one_trip(options.trip, mapping_of(arguments), arguments.value("--positions").value_or(""));
     auto log = read_trip(source, needs_of_trace(), console.progress("reading"));
     with_trip_name(source.name(), [&] { vehicles.name_car(log.meta); });
     const auto chosen = vehicles(options.trip, log.meta.vehicle_id);
@@ -286,6 +287,7 @@ constexpr std::array options{
     vehicles_option,
     vehicle_id_option,
     mapping_option,
+    positions_option,
     Option{"--length", "METRES", "Length of the reported segments.", "20"},
     method_option,
     channels_option,

@@ -1,5 +1,7 @@
 #include "app/watch/settled_trips.hpp"
 
+#include "storage/trips/positions/position_files.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -82,6 +84,9 @@ SettledTrips::Version SettledTrips::version_of(const fs::path& trip) {
         }
     } else {
         add(trip);
+        if (const auto positions = positions_beside(trip)) { // which may come later
+            add(*positions);
+        }
     }
     return version;
 }

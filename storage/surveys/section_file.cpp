@@ -5,7 +5,7 @@
 #include "storage/networks/osm_reader.hpp"
 #include "storage/tables/csv_table.hpp"
 #include "storage/tables/csv_values.hpp"
-#include "storage/trips/foreign/gpx_reader.hpp"
+#include "storage/trips/positions/gpx_reader.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "storage/trips/trip_search.hpp"
 

@@ -3,12 +3,16 @@
 #include "estimator/common/error.hpp"
 #include "storage/files/byte_stream.hpp"
 #include "storage/files/decompress.hpp"
+#include "storage/files/sha256.hpp"
 #include "storage/trips/detection/detected_mapping.hpp"
-#include "storage/trips/foreign/foreign_trip.hpp"
-#include "storage/trips/foreign/gpx_reader.hpp"
 #include "storage/trips/foreign/trip_files.hpp"
+#include "storage/trips/foreign_trip.hpp"
 #include "storage/trips/log/trip_assembly.hpp"
 #include "storage/trips/log/trip_rows.hpp"
+#include "storage/trips/positions/gpx_reader.hpp"
+#include "storage/trips/positions/joined_trip.hpp"
+#include "storage/trips/positions/nmea_reader.hpp"
+#include "storage/trips/positions/position_files.hpp"
 #include "storage/trips/rawlog/rawlog_reader.hpp"
 #include "storage/trips/source/phone_export_files.hpp"
 #include "storage/trips/source/trip_contents.hpp"
@@ -41,8 +45,8 @@ std::size_t size_of(const TripSource& source) {
 /// Tests for a file on disk whose name says no format.
 bool may_be_detected(const TripSource& source) {
     const auto name = source.file.filename().string();
-    return !is_foreign(source) && !source.contents && !is_trip_name(name) && !is_gpx_name(name) &&
-           !marks_export(name);
+    return !is_foreign(source) && !source.contents && !is_trip_name(name) && !is_track_name(name) &&
+           !marks_export(name) && !is_nmea_file(source.file);
 }
 
 TripSource with_mapping(TripSource source, std::shared_ptr<const TripMapping> mapping) {
@@ -51,6 +55,13 @@ TripSource with_mapping(TripSource source, std::shared_ptr<const TripMapping> ma
         source.mapping = std::move(mapping);
     }
     return source;
+}
+
+/// Speed of the receiver is used if it is there.
+TripNeeds needs_of_positions() {
+    auto needs = needs_of_match();
+    needs.speed = false;
+    return needs;
 }
 
 void expect_sure(const DetectedLog& log, const TripNeeds& needs, const std::string& name) {
@@ -94,27 +105,55 @@ private:
 OpenTrip::OpenTrip(TripSource source) : source_{std::move(source)} {
     if (may_be_detected(source_) && std::filesystem::is_regular_file(source_.file)) {
         detected_ = detect_log(source_.file);
-        source_ = detected_ ? with_mapping(std::move(source_), sure_mapping(*detected_))
+        source_ = detected_ ? with_mapping(std::move(source_),
+                                           sure_mapping(*detected_, !source_.positions.empty()))
                             : std::move(source_);
     }
+    is_nmea_ = !is_foreign(source_) &&
+               (source_.contents ? is_nmea_name(source_.member) : is_nmea_file(source_.file));
     if (is_foreign(source_)) {
         source_ = with_contents(std::move(source_));
     } else {
         bytes_.emplace(open(source_));
     }
+    if (!source_.positions.empty()) {
+        positions_ =
+            std::make_unique<OpenTrip>(TripSource{.file = source_.positions, .member = {}});
+    }
 }
 
 std::optional<std::string> OpenTrip::sha256_ahead(std::size_t max_bytes) {
-    return !bytes_ || bytes_->read_ahead(max_bytes) ? std::optional{sha256()} : std::nullopt;
+    const bool is_known = (!bytes_ || bytes_->read_ahead(max_bytes)) &&
+                          (!positions_ || positions_->sha256_ahead(max_bytes));
+    return is_known ? std::optional{sha256()} : std::nullopt;
 }
 
 TripLog OpenTrip::read(const TripNeeds& needs, const Progress& progress) {
-    auto trip = parsed(needs, progress);
+    auto trip = parsed(positions_ ? needs_beside_positions(needs) : needs, progress);
+    if (positions_) {
+        auto positions =
+            positions_->read(needs_of_positions(), {.report = {}, .stop = progress.stop});
+        trip = joined_trip(std::move(trip),
+                           std::move(positions),
+                           needs,
+                           source_.positions.string(),
+                           progress.stop);
+    }
     trip.sha256 = sha256();
     return trip;
 }
 
 std::string OpenTrip::sha256() {
+    if (!positions_) {
+        return own_sha256();
+    }
+    Sha256 both;
+    both.add(own_sha256());
+    both.add(positions_->sha256());
+    return both.hex();
+}
+
+std::string OpenTrip::own_sha256() {
     if (bytes_) {
         return bytes_->sha256();
     }
@@ -135,6 +174,9 @@ TripLog OpenTrip::parsed(const TripNeeds& needs, const Progress& progress) {
     auto bytes = std::make_unique<WatchedBytes>(*bytes_, source_, progress);
     if (name.ends_with(rawlog_suffix)) {
         return read_rawlog(std::move(bytes), name, needs);
+    }
+    if (is_nmea_) {
+        return read_nmea(std::move(bytes), name, needs);
     }
     if (is_gpx_name(name)) {
         return read_gpx(std::move(bytes), name, needs);

@@ -7,6 +7,7 @@
 #include "storage/trips/source/trip_source.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -28,23 +29,28 @@ public:
     /// Parses the trip, as read_trip does. Callable once.
     TripLog read(const TripNeeds& needs, const Progress& progress = {});
 
-    /// SHA-256 of the whole content, also if it could not be parsed: 64 lower-case hex digits.
+    /// SHA-256 of the whole content, also if it could not be parsed: 64 lower-case hex digits. With
+    /// positions of another file, that of the two digests, the log's first.
     ///
     /// \throws InputError  if the content cannot be read.
     std::string sha256();
 
 private:
     TripLog parsed(const TripNeeds& needs, const Progress& progress);
+    std::string own_sha256();
 
     TripSource source_;
     std::optional<HashedBytes> bytes_;    ///< `std::nullopt`: a foreign trip, of several files
     std::string foreign_sha256_;          ///< once it was asked for
     std::optional<DetectedLog> detected_; ///< of a CSV file of unknown make
+    bool is_nmea_ = false;
+    std::unique_ptr<OpenTrip> positions_; ///< of a log without its own
 };
 
 /// Reads a "macadam-trip 1" log, plain, .gz or .zst, as a stream: its samples, and for every data
 /// row its contribution or the reason why it has none. By suffix also rawlogs
-/// (storage/trips/rawlog/rawlog_reader.hpp) and GPX tracks (storage/trips/foreign/gpx_reader.hpp).
+/// (storage/trips/rawlog/rawlog_reader.hpp), GPX tracks and NMEA recordings
+/// (storage/trips/positions/). A source with positions of another file is joined to these.
 /// Any other CSV file is read if its layout is detected for sure
 /// (storage/trips/detection/log_detection.hpp); its meta data then say how it was read.
 ///

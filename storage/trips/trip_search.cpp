@@ -5,7 +5,9 @@
 #include "storage/trips/archived_trips.hpp"
 #include "storage/trips/detection/detected_mapping.hpp"
 #include "storage/trips/foreign/column_mapping.hpp"
-#include "storage/trips/foreign/gpx_reader.hpp"
+#include "storage/trips/paired_positions.hpp"
+#include "storage/trips/positions/position_files.hpp"
+#include "storage/trips/source/trip_contents.hpp"
 #include "storage/trips/trip_file_names.hpp"
 
 #include <fmt/core.h>
@@ -20,15 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_track_name(std::string_view name) {
-    return is_trip_name(name) || is_gpx_name(name);
+bool is_trip_or_track_name(std::string_view name) {
+    return is_trip_name(name) || is_track_name(name);
 }
 
 /// Predicate for the names of trip files.
 using NameTest = bool (*)(std::string_view);
 
 NameTest name_test(const TripWalkConfig& config) {
-    return config.tracks ? is_track_name : is_trip_name;
+    return config.tracks ? is_trip_or_track_name : is_trip_name;
 }
 
 /// Returns the files of a folder and of the folders below it that may be read.
@@ -60,12 +62,18 @@ TripSource mapped_trip(const fs::path& path, const std::shared_ptr<const TripMap
 }
 
 /// Trip of a CSV file whose layout is detected for sure.
-std::optional<TripSource> detected_trip(const fs::path& path) {
+///
+/// \param beside_positions  only if the file is one of two, the other with its positions
+std::optional<TripSource> detected_trip(const fs::path& path, bool beside_positions) {
     if (!is_table_name(path.filename().string()) || !fs::is_regular_file(path)) {
         return std::nullopt;
     }
     try {
-        auto mapping = mapping_of_found(detect_log(path));
+        const bool has_positions = positions_beside(path).has_value();
+        if (is_nmea_file(path) || (beside_positions && !has_positions)) {
+            return std::nullopt;
+        }
+        auto mapping = mapping_of_found(detect_log(path), has_positions);
         return mapping ? std::optional{mapped_trip(path, mapping)} : std::nullopt;
     } catch (const InputError&) { // an unreadable file, which is counted with the others
         return std::nullopt;
@@ -95,6 +103,7 @@ TripWalk::TripWalk(const fs::path& path, TripWalkConfig config) : config_{std::m
             find_in_folder(named(path));
         } else {
             items_.push_back({.source = {.file = path, .member = {}}});
+            pair(items_.back().source);
         }
     } catch (const fs::filesystem_error& error) {
         throw InputError{
@@ -113,6 +122,48 @@ void TripWalk::take(NamedItems items) {
     for (auto& [name, item] : items) {
         items_.push_back(std::move(item));
     }
+}
+
+/// Adds the file with the positions of a log, if it has none.
+void TripWalk::pair(TripSource& source) const {
+    if (config_.positions.empty()) {
+        source.positions = paired_positions(source).value_or(fs::path{});
+    }
+}
+
+/// Pairs the logs of a folder with their positions, which then are no trips and no other files.
+void TripWalk::pair_all(const fs::path& folder,
+                        NamedItems& items,
+                        std::set<std::string>& others) const {
+    std::set<fs::path> taken;
+    for (auto& [name, item] : items) {
+        if (!item.is_archive) {
+            pair(item.source);
+            taken.insert(item.source.positions);
+        }
+    }
+    taken.erase(fs::path{});
+    for (const auto& file : taken) {
+        others.erase(file.lexically_relative(folder).generic_string());
+    }
+    std::erase_if(items, [&](const auto& item) { return taken.contains(item.second.source.file); });
+}
+
+/// Adds the positions that were asked for.
+TripSource TripWalk::with_positions(TripSource source) const {
+    source.positions = config_.positions.empty() ? source.positions : config_.positions;
+    if (!config_.positions.empty() && (given_ > 1 || items_.size() > 1)) {
+        const auto words =
+            fmt::format("{}: is one of several trips, but the positions of {} belong "
+                        "to one; give one log",
+                        source.name(),
+                        config_.positions.string());
+        source = {.file = source.file,
+                  .member = source.member,
+                  .contents =
+                      std::make_shared<const TripContents>(TripContents{{{"", "", words}}})};
+    }
+    return source;
 }
 
 /// Counts ignored files.
@@ -142,9 +193,12 @@ void TripWalk::find_in_folder(const fs::path& folder) {
         }
     }
     auto exports = exports_in(names);
-    if (items.empty() && exports.empty() && !config_.mapping) { // perhaps the logs of another make
+    const bool has_tracks_only =
+        std::ranges::all_of(items, [](const auto& item) { return is_track_name(item.first); });
+    if (has_tracks_only && exports.empty()) { // perhaps the logs of another make
+        const bool beside_tracks = !items.empty();
         for (std::size_t i = 0; i < names.size() && !config_.search.stop.stop_requested(); ++i) {
-            if (auto source = detected_trip(folder / names[i])) {
+            if (auto source = detected_trip(folder / names[i], beside_tracks)) {
                 items.emplace_back(names[i], Item{.source = std::move(*source)});
                 others.erase(names[i]);
             }
@@ -158,6 +212,7 @@ void TripWalk::find_in_folder(const fs::path& folder) {
         }
         items.emplace_back(inside, Item{.source = {.file = place, .member = {}, .files = files}});
     }
+    pair_all(folder, items, others);
     take_others(others.size(), others.empty() ? "" : *others.begin());
     take(std::move(items));
 }
@@ -165,6 +220,7 @@ void TripWalk::find_in_folder(const fs::path& folder) {
 void TripWalk::find_mapped(const fs::path& path) {
     if (!fs::is_directory(path)) {
         items_.push_back({.source = mapped_trip(path, config_.mapping)});
+        pair(items_.back().source);
         return;
     }
     const auto names = files_under(path);
@@ -178,6 +234,7 @@ void TripWalk::find_mapped(const fs::path& path) {
             }
         }
     }
+    pair_all(path, items, others);
     take_others(others.size(), others.empty() ? "" : *others.begin());
     take(std::move(items));
 }
@@ -187,7 +244,7 @@ std::optional<TripSource> TripWalk::next() {
         if (archive_) {
             if (auto trip = archive_->next()) {
                 ++given_;
-                return trip;
+                return with_positions(std::move(*trip));
             }
             const bool gave_none = given_ == given_before_archive_;
             const auto& item = items_[next_ - 1];
@@ -205,7 +262,7 @@ std::optional<TripSource> TripWalk::next() {
         const auto& item = items_[next_++];
         if (!item.is_archive) {
             ++given_;
-            return item.source;
+            return with_positions(item.source);
         }
         given_before_archive_ = given_;
         archive_ = std::make_unique<ArchivedTrips>(

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,13 @@ struct TripWalkConfig {
     /// matches the mapping's first table, is a trip.
     std::shared_ptr<const TripMapping> mapping{};
 
-    bool tracks = false; ///< every *.gpx[.gz|.zst] is a trip as well: positions suffice
+    /// Every *.gpx and *.nmea [.gz|.zst] is a trip as well, as positions suffice.
+    bool tracks = false;
+
+    /// File with the positions of the only trip; empty: those of each log, or of the file beside it
+    /// (storage/trips/paired_positions.hpp).
+    std::filesystem::path positions{};
+
     std::size_t max_files = max_archive_files; ///< in an archive
 
     /// Of the search for CSV files whose layout is detected, by files; ends it on request.
@@ -31,7 +38,8 @@ struct TripWalkConfig {
 /// archive in its order; and every export of phyphox or Sensor Logger, which is a folder, below a
 /// folder, in an archive, or in a .zip below a folder. In a folder or archive without any of these,
 /// CSV files whose layout is detected for sure are trips
-/// (storage/trips/detection/log_detection.hpp).
+/// (storage/trips/detection/log_detection.hpp). A recording of positions that belongs to a log is
+/// part of its trip.
 ///
 /// An archive is read once, as far as trips are requested; its trips carry their contents.
 class TripWalk {
@@ -66,6 +74,11 @@ private:
     void find_in_folder(const std::filesystem::path& folder);
     void find_mapped(const std::filesystem::path& path);
     void take(NamedItems items);
+    void pair(TripSource& source) const;
+    void pair_all(const std::filesystem::path& folder,
+                  NamedItems& items,
+                  std::set<std::string>& others) const;
+    TripSource with_positions(TripSource source) const;
     void take_others(std::size_t count, const std::string& first);
 
     TripWalkConfig config_;

@@ -24,6 +24,11 @@ Answer log_detection(std::string_view input);   ///< a CSV file of another progr
 Answer mapped_trip(std::string_view input);     ///< a mapping, and a table for it
 Answer rawlog(std::string_view input);          ///< of MRPT, by its own reader
 Answer gpx(std::string_view input);             ///< a track, and the roads that it draws
+Answer nmea(std::string_view input);            ///< the recording of a receiver
+Answer joined_trip(std::string_view input);     ///< a log, and its positions in GPX or NMEA
+Answer can_log(std::string_view input);         ///< a mapping, its DBC file and a log
+Answer mdf(std::string_view input);             ///< a mapping, and an ASAM MDF file
+Answer hdf5(std::string_view input);            ///< a mapping, and an HDF5 file
 Answer vehicle_toml(std::string_view input);
 Answer recipe_toml(std::string_view input);     ///< of a simulated fleet
 Answer style_toml(std::string_view input);      ///< of a map

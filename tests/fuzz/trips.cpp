@@ -177,6 +177,22 @@ void expect_sound(const TripResult& result) {
     }
 }
 
+/// The input is a mapping, and below a line "=== NAME" the bytes of a file for it.
+Answer read_by_own_mapping(std::string_view input, const std::string& name) {
+    const auto mark = "=== " + name + "\n";
+    const auto at = input.find(mark);
+    auto answer = Answer::refused;
+    if (at != std::string_view::npos) {
+        may_refuse([&] {
+            const auto mapping = std::make_shared<const TripMapping>(
+                parse_mapping(input.substr(0, at), "mapping.toml"));
+            const auto file = input_file(name, input.substr(at + mark.size()));
+            answer = read_all(testing::find_trips(file, mapping), needs_of_match());
+        });
+    }
+    return answer;
+}
+
 Answer read_as(const std::string& name, std::string_view input) {
     const TripSource source{.file = input_file(name, input), .member = {}};
     return may_refuse([&] {
@@ -246,6 +262,44 @@ Answer gpx(std::string_view input) {
                    "every point of a way has its node");
         }
     });
+}
+
+Answer nmea(std::string_view input) {
+    const TripSource source{.file = input_file("a.nmea", input), .member = {}};
+    return may_refuse([&] {
+        const auto trip = read_trip(source, needs_of_match());
+        expect_sound(trip);
+        expect(trip.sha256 == OpenTrip{source}.sha256(), "a trip has the hash of its content");
+    });
+}
+
+Answer joined_trip(std::string_view input) {
+    static constexpr std::array<std::string_view, 4> names{
+        "a.trip.csv", "b.csv", "a.nmea", "a.gpx"};
+    const auto folder = input_folder(names, input);
+    return both(read_all_of([&] { return testing::find_trips(folder); }, needs_of_trace()),
+                read_all_of([&] { return testing::find_trips(folder / "a.trip.csv"); }));
+}
+
+Answer can_log(std::string_view input) {
+    static constexpr std::array<std::string_view, 4> names{
+        "mapping.toml", "car.dbc", "a.log", "a.asc"};
+    const auto folder = input_folder(names, input);
+    auto answer = Answer::refused;
+    may_refuse([&] {
+        const auto mapping =
+            std::make_shared<const TripMapping>(read_mapping(folder / "mapping.toml"));
+        answer = read_all(testing::find_trips(folder, mapping), needs_of_match());
+    });
+    return answer;
+}
+
+Answer mdf(std::string_view input) {
+    return read_by_own_mapping(input, "a.mf4");
+}
+
+Answer hdf5(std::string_view input) {
+    return read_by_own_mapping(input, "a.h5");
 }
 
 Answer trip_written(std::string_view input) {

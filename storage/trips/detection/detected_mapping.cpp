@@ -263,9 +263,13 @@ std::string mapping_toml(const NamedLog& first, const NamedLog& second) {
            other_columns(second.log);
 }
 
-std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log) {
-    if (!missing_measurements(log, needs_of_match(), Confidence::sure).empty() &&
-        !missing_measurements(log, needs_of_trace(), Confidence::sure).empty()) {
+std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log, bool has_positions) {
+    const auto serves = [&](const TripNeeds& needs) {
+        return missing_measurements(log, needs, Confidence::sure).empty();
+    };
+    const bool serves_beside_positions =
+        has_positions && serves(needs_beside_positions(needs_of_trace()));
+    if (!serves(needs_of_match()) && !serves(needs_of_trace()) && !serves_beside_positions) {
         return nullptr;
     }
     auto mapping = parse_mapping(mapping_toml(log, Confidence::sure, "*"), "detected mapping");
@@ -273,9 +277,10 @@ std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log) {
     return std::make_shared<const TripMapping>(std::move(mapping));
 }
 
-std::shared_ptr<const TripMapping> mapping_of_found(const std::optional<DetectedLog>& log) {
+std::shared_ptr<const TripMapping> mapping_of_found(const std::optional<DetectedLog>& log,
+                                                    bool has_positions) {
     const bool is_result = log && std::ranges::find(log->names, "iri") != log->names.end();
-    return log && !is_result ? sure_mapping(*log) : nullptr;
+    return log && !is_result ? sure_mapping(*log, has_positions) : nullptr;
 }
 
 } // namespace macadam

@@ -23,11 +23,14 @@ struct NamedLog {
 std::string mapping_toml(const NamedLog& first, const NamedLog& second);
 
 /// Mapping of what is sure; null unless that serves `match` or `trace`.
-std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log);
+///
+/// \param has_positions  from another file; vertical acceleration then suffices
+std::shared_ptr<const TripMapping> sure_mapping(const DetectedLog& log, bool has_positions = false);
 
 /// As sure_mapping, for a file that was found rather than named: null also for results with a
 /// column `iri`.
-std::shared_ptr<const TripMapping> mapping_of_found(const std::optional<DetectedLog>& log);
+std::shared_ptr<const TripMapping> mapping_of_found(const std::optional<DetectedLog>& log,
+                                                    bool has_positions = false);
 
 /// Key of the meta data of a trip that was read by a detected mapping: its words.
 inline constexpr const char* detected_key = "read_as";

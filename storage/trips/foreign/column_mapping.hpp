@@ -1,11 +1,13 @@
 #pragma once
 
 #include "estimator/common/trip.hpp"
+#include "storage/trips/foreign/dbc.hpp"
 #include "storage/trips/log/trip_row.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,12 +45,23 @@ struct TimeMapping {
 /// Column of a channel: value = scale * cell + offset.
 struct ChannelMapping {
     TripColumn channel;
-    ColumnName column;
-    double scale = 1; ///< includes unit and sign
+    ColumnName column; ///< or the name of a signal, where the file is no table
+    double scale = 1;  ///< includes unit and sign
     double offset = 0;
     std::vector<double> invalid{}; ///< cell values that mean "none", before scale and offset
     bool degrees_minutes = false;  ///< cells are ddmm.mmmm, as in NMEA 0183
     std::optional<ColumnName> hemisphere{}; ///< column of N, S, E or W; S and W negate
+    bool unit_stated = true;                ///< otherwise that of the signal, if it states one
+    DbcChoice in_dbc{};                     ///< signal of a CAN log
+    std::string times{};                    ///< HDF5: dataset with its times
+};
+
+/// Format of a foreign log.
+enum class LogFormat : std::uint8_t {
+    table, ///< CSV
+    can,   ///< candump or Vector ASC, with a DBC
+    mdf,   ///< ASAM MDF 4
+    hdf5,
 };
 
 enum class TextEncoding : std::uint8_t {
@@ -59,6 +72,10 @@ enum class TextEncoding : std::uint8_t {
 
 /// File of a foreign log.
 struct TableMapping {
+    LogFormat format = LogFormat::table;
+    std::shared_ptr<const Dbc> dbc{}; ///< of a CAN log
+    std::string dbc_name{};           ///< its file, for messages
+    std::string bus{};                ///< "can0": frames of others are not read; "": all
     std::string file; ///< its name; '*' stands for the part shared by all files of the trip
     char separator = ',';
     char decimal = '.';

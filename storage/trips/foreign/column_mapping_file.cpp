@@ -2,13 +2,20 @@
 
 #include "estimator/common/gravity.hpp"
 #include "storage/tables/toml.hpp"
+#include "storage/text/text.hpp"
 #include "storage/trips/foreign/built_in_mappings.hpp"
+#include "storage/trips/foreign/dbc.hpp"
+#include "storage/trips/foreign/unit_names.hpp"
 #include "storage/trips/log/trip_meta.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <memory>
 #include <span>
 
 namespace macadam {
@@ -28,7 +35,7 @@ constexpr std::array<std::string_view, 9> meta_keys{"vehicle_id",
                                                     "speed_latency_s",
                                                     "speed_scale",
                                                     "gnss_antenna_pos_m"};
-constexpr std::array<std::string_view, 13> table_keys{"files",
+constexpr std::array<std::string_view, 16> table_keys{"files",
                                                       "separator",
                                                       "decimal",
                                                       "encoding",
@@ -40,11 +47,25 @@ constexpr std::array<std::string_view, 13> table_keys{"files",
                                                       "empty",
                                                       "axes",
                                                       "time",
+                                                      "can",
+                                                      "mdf",
+                                                      "hdf5",
                                                       "channels"};
+constexpr std::array<std::string_view, 6> signal_table_keys{
+    "files", "time", "can", "mdf", "hdf5", "channels"}; // and axes
 constexpr std::array<std::string_view, 8> time_keys{
     "column", "columns", "format", "scale", "epoch", "utc_offset_h", "fraction_s", "shift_s"};
 constexpr std::array<std::string_view, 7> channel_keys{
     "column", "unit", "scale", "offset", "sign", "invalid", "hemisphere"};
+constexpr std::array<std::string_view, 6> signal_keys{
+    "signal", "unit", "scale", "offset", "sign", "invalid"};
+constexpr std::array<std::string_view, 8> dataset_keys{
+    "signal", "column", "times", "unit", "scale", "offset", "sign", "invalid"};
+constexpr std::array<std::string_view, 4> dataset_time_keys{"format", "scale", "epoch", "shift_s"};
+constexpr std::array<std::string_view, 1> hdf5_keys{"times"};
+constexpr std::array<std::string_view, 2> signal_time_keys{"utc_offset_h", "shift_s"};
+constexpr std::array<std::string_view, 2> can_keys{"dbc", "bus"};
+constexpr std::array<std::string_view, 0> no_keys{};
 
 constexpr std::string_view degrees_minutes =
     "ddmm.mmmm"; // unit of latitudes and longitudes in NMEA 0183
@@ -140,24 +161,94 @@ double unit_of(const TomlTable& table, TripColumn channel) {
     table.refuse("unit", expected.empty() ? "no unit for this channel" : expected);
 }
 
-ChannelMapping channel_of(const TomlTable& channels, const std::string& name) {
+double scale_of(const TomlTable& table, TripColumn channel) {
+    const double sign = table.has("sign") && table.integer("sign", -1, 1) < 0 ? -1 : 1;
+    return sign * unit_of(table, channel) * table.maybe_number("scale").value_or(1);
+}
+
+/// Column of a channel, by the name of its key.
+TripColumn
+known_channel(const TomlTable& channels, const std::string& name, std::string_view expected_key) {
     const auto channel = channel_named(name);
     if (!channel || *channel == TripColumn::t_s) {
         channels.refuse_unknown(name, "a column of docs/reference/trip-logs.md");
     }
     if (channels.is_text(name)) {
-        channels.refuse(name, fmt::format("{{column = \"{}\"}}", channels.text(name)));
+        channels.refuse(name, fmt::format("{{{} = \"{}\"}}", expected_key, channels.text(name)));
     }
+    return *channel;
+}
+
+ChannelMapping channel_of(const TomlTable& channels, const std::string& name) {
+    const auto channel = known_channel(channels, name, "column");
     const auto table = channels.table(name);
     table->expect_only(channel_keys);
-    const double sign = table->has("sign") && table->integer("sign", -1, 1) < 0 ? -1 : 1;
-    return {.channel = *channel,
+    return {.channel = channel,
             .column = column_of(*table),
-            .scale = sign * unit_of(*table, *channel) * table->maybe_number("scale").value_or(1),
+            .scale = scale_of(*table, channel),
             .offset = table->maybe_number("offset").value_or(0),
             .invalid = table->has("invalid") ? table->numbers("invalid") : std::vector<double>{},
             .degrees_minutes = table->maybe_text("unit") == degrees_minutes,
-            .hemisphere = hemisphere_of(*table, *channel)};
+            .hemisphere = hemisphere_of(*table, channel)};
+}
+
+/// Column of a dataset, and the dataset with its times.
+void take_dataset(const TomlTable& table, const std::string& times, ChannelMapping& mapped) {
+    mapped.column.number =
+        table.has("column") ? static_cast<std::size_t>(table.integer("column", 1, max_columns)) : 1;
+    mapped.times = table.maybe_text("times").value_or(times);
+    if (mapped.times.empty()) {
+        table.miss("times");
+    }
+}
+
+/// Signal of a channel, in a log that is no table. A DBC file states the unit, unless the mapping
+/// does.
+ChannelMapping
+signal_of(const TomlTable& channels, const std::string& name, const TableMapping& mapping) {
+    const auto channel = known_channel(channels, name, "signal");
+    const auto table = channels.table(name);
+    if (mapping.format == LogFormat::hdf5) {
+        table->expect_only(dataset_keys);
+    } else {
+        table->expect_only(signal_keys);
+    }
+    if (!table->has("signal")) {
+        table->miss("signal");
+    }
+    ChannelMapping mapped{.channel = channel,
+                          .column = {.pattern = table->text("signal")},
+                          .scale = scale_of(*table, channel),
+                          .offset = table->maybe_number("offset").value_or(0),
+                          .invalid = table->has("invalid") ? table->numbers("invalid")
+                                                           : std::vector<double>{},
+                          .degrees_minutes = table->maybe_text("unit") == degrees_minutes,
+                          .unit_stated = table->has("unit")};
+    if (mapped.degrees_minutes) {
+        table->refuse("unit", "deg");
+    }
+    if (mapping.dbc == nullptr) {
+        return mapped;
+    }
+    std::string expected;
+    const auto found = find_signal(*mapping.dbc, mapped.column.pattern, expected);
+    if (!found) {
+        table->refuse("signal", expected);
+    }
+    mapped.in_dbc = *found;
+    const auto& unit = mapping.dbc->messages[found->message].signals[found->signal].unit;
+    if (!mapped.unit_stated && !unit.empty()) {
+        const auto factor = unit_factor(channel, unit);
+        if (!factor) {
+            table->refuse("signal",
+                          fmt::format("a key 'unit' beside it: the DBC file says {}, which is no "
+                                      "unit of {}",
+                                      in_quotes(unit),
+                                      name));
+        }
+        mapped.scale *= *factor;
+    }
+    return mapped;
 }
 
 struct TimeWord {
@@ -268,7 +359,75 @@ std::size_t count_of(const TomlTable& table, std::string_view key) {
     return table.has(key) ? static_cast<std::size_t>(table.integer(key, 0, max_skipped)) : 0;
 }
 
-TableMapping table_of(const TomlTable& table) {
+/// Unit and epoch of the times of datasets.
+TimeMapping dataset_time_of(const TomlTable& table) {
+    static constexpr std::pair<std::string_view, double> formats[] = {
+        {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+    static constexpr std::pair<std::string_view, bool> epochs[] = {{"boot", false}, {"unix", true}};
+    table.expect_only(dataset_time_keys);
+    TimeMapping time;
+    time.unit_s = (table.has("format") ? one_of(table, "format", formats) : 1) *
+                  table.maybe_number("scale", positive_number).value_or(1);
+    time.since_1970 = table.has("epoch") && one_of(table, "epoch", epochs);
+    time.shift_s = table.maybe_number("shift_s").value_or(0);
+    return time;
+}
+
+/// CAN log or measurement file: its signals have names, and the format knows their times.
+TableMapping signal_table_of(const TomlTable& table, const std::filesystem::path& folder) {
+    auto known = std::vector<std::string_view>{signal_table_keys.begin(), signal_table_keys.end()};
+    known.insert(known.end(), meta_keys.begin(), meta_keys.end());
+    known.insert(known.end(), {"axes", "file"});
+    table.expect_only(known);
+    const auto can = table.table("can");
+    const auto channels = table.table("channels");
+    if (!channels) {
+        table.miss("channels");
+    }
+    const auto hdf5 = table.table("hdf5");
+    TableMapping mapping;
+    mapping.format = can ? LogFormat::can : hdf5 ? LogFormat::hdf5 : LogFormat::mdf;
+    mapping.file = table.maybe_text("files").value_or(can ? "*.log" : hdf5 ? "*.h5" : "*.mf4");
+    std::string times;
+    mapping.axes = table.has("axes") ? axes_of(table) : mapping.axes;
+    if (can) {
+        can->expect_only(can_keys);
+        if (!can->has("dbc")) {
+            can->miss("dbc");
+        }
+        const auto file = folder / can->text("dbc");
+        mapping.dbc_name = file.string();
+        mapping.dbc = std::make_shared<const Dbc>(read_dbc(file));
+        mapping.bus = can->maybe_text("bus").value_or("");
+    } else if (hdf5) {
+        hdf5->expect_only(hdf5_keys);
+        times = hdf5->maybe_text("times").value_or("");
+    } else {
+        table.table("mdf")->expect_only(no_keys);
+    }
+    if (const auto time = table.table("time"); time && hdf5) {
+        mapping.time = dataset_time_of(*time);
+    } else if (time) {
+        time->expect_only(signal_time_keys);
+        mapping.time.utc_offset_s = time->maybe_number("utc_offset_h");
+        if (mapping.time.utc_offset_s) {
+            *mapping.time.utc_offset_s *= hour_s;
+        }
+        mapping.time.shift_s = time->maybe_number("shift_s").value_or(0);
+    }
+    for (const auto& name : channels->keys()) {
+        mapping.channels.push_back(signal_of(*channels, name, mapping));
+        if (hdf5) {
+            take_dataset(*channels->table(name), times, mapping.channels.back());
+        }
+    }
+    return mapping;
+}
+
+TableMapping table_of(const TomlTable& table, const std::filesystem::path& folder) {
+    if (table.has("can") || table.has("mdf") || table.has("hdf5")) {
+        return signal_table_of(table, folder);
+    }
     const auto time = table.table("time");
     const auto channels = table.table("channels");
     if (!time || !channels) {
@@ -321,8 +480,9 @@ TripMapping mapping_of(const TomlTable& top, const std::string& name) {
     known.push_back("file");
     top.expect_only(known);
 
+    const auto folder = std::filesystem::path{name}.parent_path();
     TripMapping mapping{.where = name,
-                        .tables = {table_of(top)},
+                        .tables = {table_of(top, folder)},
                         .meta = meta_of(top),
                         .clock = {},
                         .clock_zero_utc_s = {}};
@@ -331,12 +491,34 @@ TripMapping mapping_of(const TomlTable& top, const std::string& name) {
         if (!file.has("files")) {
             file.miss("files");
         }
-        mapping.tables.push_back(table_of(file));
+        mapping.tables.push_back(table_of(file, folder));
     }
     return mapping;
 }
 
 } // namespace
+
+std::optional<double> unit_factor(TripColumn channel, std::string_view unit) {
+    const auto is_of_channel = [&](const Unit& known) {
+        return channel >= known.first && channel <= known.last;
+    };
+    if (std::ranges::none_of(units, is_of_channel)) {
+        return 1; // a code or a count
+    }
+    for (const auto kind : {UnitKind::acceleration,
+                            UnitKind::angular_rate,
+                            UnitKind::speed,
+                            UnitKind::angle,
+                            UnitKind::length}) {
+        const auto word = unit_named(kind, unit);
+        const auto* const found = std::ranges::find_if(
+            units, [&](const Unit& known) { return word == known.name && is_of_channel(known); });
+        if (word && found != std::end(units)) {
+            return found->factor;
+        }
+    }
+    return std::nullopt;
+}
 
 TripMapping parse_mapping(std::string_view toml, const std::string& name) {
     return mapping_of(parse_toml(toml, name), name);

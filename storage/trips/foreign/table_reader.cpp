@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/text/text.hpp"
+#include "storage/trips/foreign/axes.hpp"
 #include "storage/trips/foreign/time_parsing.hpp"
 
 #include <fmt/core.h>
@@ -40,17 +41,6 @@ bool is_south_or_west(std::string_view hemisphere) {
 
 std::string_view words_of(const ColumnName& column) {
     return column.pattern;
-}
-
-/// Permutes the axes: axis i of the result is the given axis of the row, reversed if negative.
-TripRow turned(TripRow row, TripColumn x, const std::array<int, 3>& axes) {
-    const auto first = static_cast<std::size_t>(x);
-    const std::array<double, 3> old{row.value[first], row.value[first + 1], row.value[first + 2]};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto from = static_cast<std::size_t>(std::abs(axes[i]) - 1);
-        row.value[first + i] = axes[i] < 0 ? -old[from] : old[from];
-    }
-    return row;
 }
 
 } // namespace
@@ -221,9 +211,7 @@ TripRow TableReader::row_of(std::vector<std::string> cells) {
         }
         row.value[static_cast<std::size_t>(source.channel.channel)] = *value;
     }
-    return turned(turned(std::move(row), TripColumn::acc_x, mapping_.axes),
-                  TripColumn::gyro_x,
-                  mapping_.axes);
+    return in_vehicle_axes(row, mapping_.axes);
 }
 
 } // namespace macadam

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,11 @@ TripSource with_contents(TripSource source) {
     }
     source.contents = std::make_shared<const TripContents>(std::move(contents));
     return source;
+}
+
+std::string_view text_of_file(const TripSource& source, const std::string& file) {
+    bytes_of_file(source, file); // throws if it is missing
+    return std::ranges::find(source.contents->files, file, &TripContents::File::name)->bytes;
 }
 
 std::unique_ptr<ByteStream> bytes_of_file(const TripSource& source, const std::string& file) {

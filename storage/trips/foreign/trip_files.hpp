@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace macadam {
 
@@ -15,6 +16,10 @@ std::string name_of_file(const TripSource& source, const std::string& file);
 /// look at some of them several times.
 /// \throws InputError  if one cannot be read.
 TripSource with_contents(TripSource source);
+
+/// Content of one of the files of a trip with contents.
+/// \throws InputError  if it could not be read, or there is none of this name.
+std::string_view text_of_file(const TripSource& source, const std::string& file);
 
 /// Opens one of the files of a trip with contents.
 /// \throws InputError  if it could not be read, or there is none of this name.

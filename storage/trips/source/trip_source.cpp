@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <string_view>
 
 namespace macadam {
 
@@ -64,6 +66,23 @@ TripNeeds needs_of_import() {
     needs.required.push_back(latitude());
     needs.required.push_back(longitude());
     return needs;
+}
+
+bool is_position_column(const std::string& column) {
+    static constexpr std::array<std::string_view, 6> columns{
+        "t_s", "lat_deg", "lon_deg", "gnss_speed_mps", "course_deg", "hacc_m"};
+    return std::ranges::find(columns, column) != columns.end();
+}
+
+TripNeeds needs_beside_positions(const TripNeeds& needs) {
+    TripNeeds of_log{.acc = true, .gyro = true, .speed = true, .fixes = false, .required = {}};
+    for (const auto& needed : needs.required) {
+        const bool is_time = needed.columns.front() == "t_s";
+        if (is_time || std::ranges::none_of(needed.columns, is_position_column)) {
+            of_log.required.push_back(needed);
+        }
+    }
+    return of_log;
 }
 
 std::string missing_measurements(const TripNeeds& needs, const ColumnTest& has) {

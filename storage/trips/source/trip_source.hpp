@@ -34,6 +34,13 @@ TripNeeds needs_of_match_with_heading(); ///< including yaw rates, and gravity t
 TripNeeds needs_of_trace();
 TripNeeds needs_of_import();
 
+/// Tests for the columns of the trip log that a recording of a receiver has.
+bool is_position_column(const std::string& column);
+
+/// Needs of a log whose positions come from another file, with the sensors by which their clocks
+/// can be joined.
+TripNeeds needs_beside_positions(const TripNeeds& needs);
+
 /// Tests for a column of the trip log.
 using ColumnTest = std::function<bool(const std::string& column)>;
 
@@ -56,6 +63,10 @@ struct TripSource {
     /// Contents in memory, as from an archive; null for a trip on disk. A trip that could not be
     /// extracted is a source as well: reading it throws the reason.
     std::shared_ptr<const TripContents> contents{};
+
+    /// File with the positions of a log that has none (storage/trips/positions/joined_trip.hpp);
+    /// empty: no such file.
+    std::filesystem::path positions{};
 
     std::string name() const; ///< for messages
 };

@@ -99,7 +99,7 @@ TEST(Inspect, SaysOfEveryKindOfFileWhichCommandTakesIt) {
         {file("laser.csv", "lat_deg,lon_deg,iri\n47,17,2\n47.001,17,2\n"), "--reference FILE"},
         {file("a.osm", "<?xml version='1.0'?>\n<osm version='0.6'>\n</osm>\n"), "init STORE"},
         {file("map.geojson", "{\"type\":\"FeatureCollection\",\"features\":[]}"), "GeoJSON"},
-        {file("log.nmea", "$GPGGA,081530,4741.25,N,01738.07,E,1,8,1,110,M,,M,,*47\n"), "NMEA 0183"},
+        {file("log.nmea", "$GPGGA,081530,4741.25,N,01738.07,E,1,8,1,110,M,,M,,*61\n"), "NMEA 0183"},
         {file("car.toml", read_file(source / "sample_data/fleet/recipe.toml")), "recipe of a"},
         {(source / "tests/data/loggers/racechrono.csv").string(), "layout         racechrono"}};
     for (const auto& [path, words] : cases) {
@@ -109,37 +109,49 @@ TEST(Inspect, SaysOfEveryKindOfFileWhichCommandTakesIt) {
     }
 }
 
-TEST(Inspect, NamesLogsOfACanBusByTheirContentsAndSaysThatTheyAreNotRead) {
+TEST(Inspect, NamesLogsOfACanBusByTheirContentsAndSaysHowTheyAreRead) {
     const auto folder = fresh_folder();
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"LOGG\x90 and 144 bytes", "CAN log (Vector BLF)"},
+        {"LOGG\x90 and 144 bytes", "CAN log (Vector BLF): raw frames, not read"},
         {"date Sat Sep 30 15:06:13.191 2017\r\nbase hex  timestamps absolute\r\n"
          "internal events logged\r\n 0.01 1  123x  Rx   d 1 68\r\n 0.02 1  123x  Rx   d 1 68\r\n",
-         "CAN log (Vector ASC)"},
+         "CAN log (Vector ASC): raw frames\n  next           read with --mapping"},
         {";$FILEVERSION=2.1\n;$STARTTIME=44548.6\n;$COLUMNS=N,O,T,I,d,L,D\n"
          "      1      1059.900 DT  0300 Rx 7  00 00\n",
-         "CAN log (PEAK TRC)"},
+         "CAN log (PEAK TRC): raw frames, not read"},
         {";##########\n;   Start time: 11.09.2002 08:59:42.\n;   PCAN-Net: TestNet\n"
          "1) 1841 0001 8 00 00 00 00 00 00 00 00\n",
-         "CAN log (PEAK TRC)"},
+         "CAN log (PEAK TRC): raw frames, not read"},
         {"(1533226488.230547) can0 260#08FFFB0000001884\n"
          "(1533226488.230560) vcan0 18FEF100##12C1\n",
-         "CAN log (candump)"},
+         "CAN log (candump): raw frames\n  next           read with --mapping"},
         {" (2018-08-02 16:14:48.23)  can0  260   [2]  08 FF\n  can0  2C1   [0]\n",
-         "CAN log (candump)"},
-        {"VERSION \"\"\n\nNS_ :\n\tCM_\n\nBS_:\n\nBU_: ESP\n\nBO_ 608 WHEELS: 8 ESP\n",
-         "description of CAN signals (DBC)"}};
+         "CAN log (candump): raw frames\n  next           read with --mapping"},
+        {"VERSION \"\"\n\nNS_ :\n\tCM_\n\nBS_:\n\nBU_: ESP\n\nBO_ 608 WHEELS: 8 ESP\n"
+         " SG_ Left : 0|8@1+ (1,0) [0|0] \"km/h\" X\n",
+         "description of CAN signals (DBC), 1 signal: WHEELS.Left [km/h]"}};
     for (const auto& [text, name] : cases) {
         const auto file = folder / "recording.txt"; // the name does not matter
         write_file(file, text);
         const auto run = run_macadam({"inspect", file.string()});
         EXPECT_EQ(run.exit_status, 0) << run.err;
         EXPECT_THAT(run.out,
-                    AllOf(HasSubstr("recording.txt: " + name + ": "),
-                          HasSubstr(", not read\n"),
-                          HasSubstr("as CSV, then inspect that\n"),
-                          Not(HasSubstr("[channels]"))));
+                    AllOf(HasSubstr("recording.txt: " + name), Not(HasSubstr("[channels]"))));
     }
+}
+
+TEST(Inspect, ListsTheChannelsOfMdfAndShowsWhatAMappingGives) {
+    const auto mdf = (source / "tests/data/mdf/drive.mf4").string();
+    EXPECT_THAT(run_macadam({"inspect", mdf}).out,
+                HasSubstr("measurement file (ASAM MDF 4), 9 channels: IMU.Acc, IMU.AccX [m/s^2]"));
+    const auto mapping = (fresh_folder() / "car.toml").string();
+    write_file(mapping, "[mdf]\n[channels]\nacc_z_mps2 = {signal = \"AccZ\"}\n");
+    const auto run = run_macadam({"inspect", mdf, "--mapping", mapping});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_THAT(run.out,
+                AllOf(HasSubstr("drive.mf4: log of another program, by its mapping"),
+                      HasSubstr("acceleration   598 readings at 99.6 Hz"),
+                      HasSubstr("positions: no roads, and no import")));
 }
 
 TEST(Inspect, FailsForWhatItDoesNotKnowAndGoesOn) {

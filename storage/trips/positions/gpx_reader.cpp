@@ -1,16 +1,16 @@
-#include "storage/trips/foreign/gpx_reader.hpp"
+#include "storage/trips/positions/gpx_reader.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/text/text.hpp"
 #include "storage/text/utc.hpp"
 #include "storage/trips/log/trip_assembly.hpp"
 #include "storage/trips/log/trip_row.hpp"
+#include "storage/trips/positions/position_columns.hpp"
 
 #include <expat.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -40,6 +40,7 @@ struct Point {
     double speed_mps = unknown;
     double course_deg = unknown;
     double accuracy_m = unknown;
+    double hdop = unknown;
     bool bad_number = false;
 };
 
@@ -188,7 +189,9 @@ private:
     void fill(Point& point, std::string_view name) const {
         const std::pair<std::string_view, double&> numbers[] = {{"speed", point.speed_mps},
                                                                 {"course", point.course_deg},
-                                                                {"accuracy", point.accuracy_m}};
+                                                                {"bearing", point.course_deg},
+                                                                {"accuracy", point.accuracy_m},
+                                                                {"hdop", point.hdop}};
         for (const auto& [known, value] : numbers) {
             if (name == known && !trimmed(text_).empty()) {
                 const auto number = parse_number(text_);
@@ -296,26 +299,12 @@ TripRow row_of(const Point& point, double zero_s) {
     set(TripColumn::lon, point.at.lon_deg);
     set(TripColumn::gnss_speed, point.speed_mps);
     set(TripColumn::course, point.course_deg);
-    set(TripColumn::hacc, point.accuracy_m);
+    set(TripColumn::hacc,
+        std::isnan(point.accuracy_m) ? hacc_per_hdop_m * point.hdop : point.accuracy_m);
     if (point.bad_number) {
         row.fault = RowReason::bad_number;
     }
     return row;
-}
-
-constexpr std::array<std::string_view, 6> given_columns{
-    "t_s", "lat_deg", "lon_deg", "gnss_speed_mps", "course_deg", "hacc_m"};
-
-void expect_positions_to_do(const TripNeeds& needs, const std::string& name) {
-    const auto missing = missing_measurements(needs, [](const std::string& column) {
-        return std::ranges::find(given_columns, column) != given_columns.end();
-    });
-    if (!missing.empty()) {
-        throw InputError{fmt::format("{}: is a GPX track, which has positions only, expected "
-                                     "also {}",
-                                     name,
-                                     missing)};
-    }
 }
 
 std::string without_suffixes(const std::string& name) {
@@ -331,7 +320,7 @@ bool is_gpx_name(std::string_view name) {
 
 TripLog
 read_gpx(std::unique_ptr<ByteStream> bytes, const std::string& name, const TripNeeds& needs) {
-    expect_positions_to_do(needs, name);
+    expect_positions_to_do(needs, name, "a GPX track");
     auto segments = parsed(*bytes, name);
     TripMeta meta;
     meta.trip_id = without_suffixes(name);

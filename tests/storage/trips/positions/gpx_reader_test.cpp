@@ -1,4 +1,4 @@
-#include "storage/trips/foreign/gpx_reader.hpp"
+#include "storage/trips/positions/gpx_reader.hpp"
 
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/files.hpp"

@@ -17,8 +17,9 @@ bool is_gpx_name(std::string_view name);
 inline constexpr const char* times_key = "times";
 
 /// Reads the tracks of a GPX file, 1.0 or 1.1, as one trip: every track point is a row with its
-/// position, time, and `speed` (m/s), `course` (degrees) and `accuracy` (m) if present, as own
-/// elements or extensions. Routes and way points are ignored.
+/// position, time, and `speed` (m/s), `course` or `bearing` (degrees) and `accuracy` (m) or else
+/// `hdop` if present, as own elements or extensions of any namespace. Routes and way points are
+/// ignored.
 ///
 /// Track segments are sorted by their first times. If fewer than half of the points have a time
 /// later than that of the previous point, times are made up, as if driven at 10 m/s with a minute

@@ -1,4 +1,4 @@
-#include "storage/trips/foreign/foreign_trip.hpp"
+#include "storage/trips/foreign_trip.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
@@ -8,6 +8,9 @@
 #include "storage/trips/foreign/text_decoding.hpp"
 #include "storage/trips/foreign/trip_files.hpp"
 #include "storage/trips/log/trip_assembly.hpp"
+#include "storage/trips/signals/can_reader.hpp"
+#include "storage/trips/signals/hdf5_reader.hpp"
+#include "storage/trips/signals/mdf_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -112,7 +115,8 @@ public:
     TripMerger(const TripMapping& mapping, const TripNeeds& needs, const TripHeader& header)
         : mapping_{mapping}, streams_{needs, header} {}
 
-    void add(TableReader table, bool is_gravity, const std::stop_token& stop) {
+    template <typename Rows>
+    void add(Rows table, bool is_gravity, const std::stop_token& stop) {
         while (auto row = table.next()) {
             if (stop.stop_requested()) {
                 throw InputError{fmt::format("{}: reading was stopped", mapping_.where)};
@@ -197,7 +201,18 @@ std::string trip_id_of(const TripSource& source) {
         name.pop_back();
     }
     name = name.substr(name.rfind('/') + 1);
-    for (const auto* const suffix : {".gz", ".zst", ".tgz", ".tar", ".zip", ".csv", ".txt"}) {
+    for (const auto* const suffix : {".gz",
+                                     ".zst",
+                                     ".tgz",
+                                     ".tar",
+                                     ".zip",
+                                     ".csv",
+                                     ".txt",
+                                     ".log",
+                                     ".asc",
+                                     ".mf4",
+                                     ".h5",
+                                     ".hdf5"}) {
         if (name.ends_with(suffix) && name != suffix) {
             name.resize(name.size() - std::string_view{suffix}.size());
         }
@@ -240,8 +255,22 @@ read_foreign_trip(const TripSource& source, const TripNeeds& needs, const std::s
         const auto& table = mapping.tables[i];
         const auto& file = source.mapping ? source.files[i] : table.file;
         const auto name = name_of_file(source, file);
-        TextLines lines{decoded(bytes_of_file(source, file), table.encoding, name), name};
-        collector.add({std::move(lines), table, name}, table.is_gravity, stop);
+        switch (table.format) {
+        case LogFormat::table: {
+            TextLines lines{decoded(bytes_of_file(source, file), table.encoding, name), name};
+            collector.add(TableReader{std::move(lines), table, name}, table.is_gravity, stop);
+            break;
+        }
+        case LogFormat::can:
+            collector.add(read_can({bytes_of_file(source, file), name}, table, name), false, stop);
+            break;
+        case LogFormat::hdf5:
+            collector.add(read_hdf5(text_of_file(source, file), table, name), false, stop);
+            break;
+        case LogFormat::mdf:
+            collector.add(read_mdf(text_of_file(source, file), table, name), false, stop);
+            break;
+        }
     }
     auto trip = collector.take();
     trip.meta.trip_id = trip_id_of(source);
