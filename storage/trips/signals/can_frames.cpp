@@ -158,15 +158,15 @@ Line CanFrames::candump_line(std::string_view line) {
         return Line::damaged;
     }
     if (hash == std::string_view::npos) {
-        const auto length = take_word(line);
-        const auto count = length.size() > 2 && length.front() == '[' && length.back() == ']'
-                               ? whole(length.substr(1, length.size() - 2), 10)
-                               : std::nullopt;
+        const auto length = take_word(line); // "[8]"
         if (trimmed(line).starts_with("remote")) {
             return Line::other;
         }
-        return count && *count <= max_size && set_bytes(line, *count, 16, frame_) ? Line::frame
-                                                                                  : Line::damaged;
+        const bool is_length = length.size() > 2 && length.front() == '[' && length.back() == ']';
+        const auto count =
+            whole(is_length ? length.substr(1, length.size() - 2) : "", 10).value_or(max_size + 1);
+        return count <= max_size && set_bytes(line, count, 16, frame_) ? Line::frame
+                                                                       : Line::damaged;
     }
     word.remove_prefix(hash + 1);
     if (word.starts_with('R')) {
