@@ -48,6 +48,9 @@ std::optional<std::filesystem::path> row_file_of(const Arguments& arguments,
     std::optional<std::filesystem::path> row_file;
     for (const auto& file : arguments.values("--output")) {
         const auto suffix = suffix_of(file);
+        if (file == standard_output) {
+            continue;
+        }
         if (std::ranges::find(others, std::filesystem::path{file}.extension().string()) !=
             others.end()) {
             continue;
@@ -72,7 +75,7 @@ std::optional<std::filesystem::path> row_file_of(const Arguments& arguments,
 }
 
 RowOutput::RowOutput(const std::optional<std::filesystem::path>& file) {
-    if (file) {
+    if (file && *file != standard_output) {
         current_file = &file_.emplace(*file);
     }
 }

@@ -12,6 +12,9 @@
 
 namespace macadam {
 
+/// Name of standard output after -o.
+inline constexpr std::string_view standard_output = "-";
+
 /// \name Options of commands that print rows
 /// @{
 inline constexpr Option row_output_option{
@@ -24,7 +27,7 @@ inline constexpr Option json_option{"--json", "", "The same as --format json."};
 /// \throws UsageError  if --json contradicts --format.
 std::string row_format_of(const Arguments& arguments);
 
-/// Returns the file of -o of a command whose first format is a table.
+/// Returns the file of -o of a command whose first format is a table; `std::nullopt` for "-".
 /// \param others  suffixes of files of another kind that -o names, such as ".html"
 /// \throws UsageError  if only its suffix can tell the format, and it names none; .txt is a table.
 std::optional<std::filesystem::path>

@@ -98,37 +98,6 @@ segments_by_car(const StoreReader& store, const SegmentFilter& filter, const std
     return segments;
 }
 
-std::string car_named(const StoreReader& store, const std::string& name) {
-    if (store.settings().privacy == PrivacyProfile::crowd) {
-        throw InputError{fmt::format("{}: is a crowd database, which tells no cars apart; leave "
-                                     "--car-a and --car-b out",
-                                     store.file().string())};
-    }
-    const auto cars = store.usage().cars;
-    const auto is_known = [&](const std::string& car) {
-        return std::ranges::find(cars, car) != cars.end();
-    };
-    if (is_known(name)) {
-        return name;
-    }
-    if (const auto* const key = store.key(); key != nullptr && is_known(key->pseudonym(name))) {
-        return key->pseudonym(name);
-    }
-    constexpr std::size_t shown = 5;
-    throw InputError{fmt::format(
-        "{}: has no car '{}', expected a vehicle_id or a pseudonym such as "
-        "{}; 'macadam info' lists them",
-        store.file().string(),
-        name,
-        fmt::join(cars.begin(),
-                  cars.begin() + static_cast<std::ptrdiff_t>(std::min(shown, cars.size())),
-                  ", "))};
-}
-
-int number_of_car(const std::vector<std::string>& cars, const std::string& car) {
-    return static_cast<int>(std::ranges::find(cars, car) - cars.begin()) + 1;
-}
-
 std::optional<PassesOfCars> passes_of_cars(const StoreReader& store,
                                            const std::vector<AgreementPair>& pairs,
                                            const PassesOfInterest& of) {

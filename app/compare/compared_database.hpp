@@ -34,17 +34,6 @@ SourceSegments segments_by_cars(const StoreReader& store, SegmentFilter filter);
 SourceSegments
 segments_by_car(const StoreReader& store, const SegmentFilter& filter, const std::string& car);
 
-/// Returns the pseudonym of a car, given by vehicle_id or pseudonym.
-///
-/// \throws InputError  for a crowd database, whose cars are never told apart, and for a car that
-///                     the database does not know.
-std::string car_named(const StoreReader& store, const std::string& name);
-
-/// Returns the number by which 'info' and reports call a car: pseudonyms stay in the database.
-///
-/// \param cars  StoreUsage::cars.
-int number_of_car(const std::vector<std::string>& cars, const std::string& car);
-
 /// Passes of cars over compared segments, by car and speed.
 struct PassesOfCars {
     std::vector<std::optional<double>> speed_kmh; ///< mean over all passes, for each pair

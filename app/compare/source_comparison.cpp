@@ -1,5 +1,7 @@
 #include "app/compare/source_comparison.hpp"
 
+#include "app/database/car_names.hpp"
+
 #include "app/compare/compared_database.hpp"
 #include "app/compare/compared_profiles.hpp"
 #include "app/database/lock_wait_messages.hpp"

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::string_view rules = "Defaults of options, in order of rank:\n"
                                    "  1. the command line\n"
-                                   "  2. variables, such as MACADAM_UNIT=in/mi\n"
+                                   "  2. variables, such as MACADAM_UNITS=us\n"
                                    "  3. the configuration file, a TOML file\n"
                                    "  4. macadam.toml beside a database: unit, language, theme and "
                                    "[colours] of maps and reports\n";
 
 constexpr std::string_view example = "\nexample of a configuration file\n"
-                                     "  unit = \"in/mi\"\n"
+                                     "  units = \"us\"\n"
                                      "  jobs = 4\n"
                                      "  vehicles = \"cars\"     # relative to the file\n"
                                      "  [render]              # for one command\n"
@@ -37,6 +37,9 @@ std::string preferences_text() {
     auto text = fmt::format("\n{:<12}{:<22}{}\n", "key", "variable", "values; commands");
     for (const auto& [key, preference] : preferences()) {
         const auto& option = preference.option;
+        if (key != preference_key(option)) {
+            continue; // an earlier spelling
+        }
         text += fmt::format(
             "{:<12}{:<22}{}; {}\n",
             key,

@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view variable_prefix = "MACADAM_";
 constexpr std::int64_t max_integer = 1'000'000'000;
 
-std::string option_of(std::string_view key) {
-    auto option = fmt::format("--{}", key);
-    std::ranges::replace(option, '_', '-');
-    return option;
-}
-
 /// Returns a variable of the environment; "" if it is not set.
 std::string variable(const std::string& name) {
     const char* const value = std::getenv(name.c_str()); // NOLINT(concurrency-mt-unsafe)
@@ -39,6 +33,13 @@ void add_choices(Preference& preference, const Option& option) {
             preference.choices.push_back(choice);
         }
     }
+}
+
+/// Returns the key of an earlier spelling; "" if there is none.
+std::string former_key(const Option& option) {
+    return option.former.empty() || option.former_is_refused
+               ? std::string{}
+               : preference_key({option.former, option.value, option.help});
 }
 
 std::map<std::string, Preference, std::less<>> collect_preferences() {
@@ -59,7 +60,13 @@ std::map<std::string, Preference, std::less<>> collect_preferences() {
             preference.commands.clear();
         }
     }
-    return found;
+    auto with_former = found;
+    for (const auto& [key, preference] : found) {
+        if (const auto former = former_key(preference.option); !former.empty()) {
+            with_former.emplace(former, preference);
+        }
+    }
+    return with_former;
 }
 
 bool is_path(const Option& option) {
@@ -117,7 +124,7 @@ defaults_in(const TomlTable& table, const fs::path& folder, const std::vector<st
         if (is_path(preference.option)) {
             word = (folder / word).lexically_normal().string();
         }
-        defaults.push_back({option_of(key), std::move(word), table.where(key)});
+        defaults.push_back({long_name(preference.option), std::move(word), table.where(key)});
     }
     return defaults;
 }
@@ -128,6 +135,9 @@ std::vector<std::string> keys_of_command(const TomlTable& table, const Command& 
     for (const auto& option : options_of(command)) {
         if (option.is_preference) {
             known.push_back(preference_key(option));
+            if (auto former = former_key(option); !former.empty()) {
+                known.push_back(std::move(former));
+            }
         }
     }
     const auto keys = table.keys();
@@ -189,8 +199,9 @@ std::vector<Default> defaults_of_variables() {
     for (const auto& [key, preference] : preferences()) {
         names.push_back(variable_of(key));
         if (!variable(names.back()).empty()) {
-            defaults.push_back(
-                {option_of(key), word_of_variable(names.back(), preference), names.back()});
+            defaults.push_back({long_name(preference.option),
+                                word_of_variable(names.back(), preference),
+                                names.back()});
         }
     }
     expect_spelled(names);

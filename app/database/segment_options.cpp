@@ -1,7 +1,5 @@
 #include "app/database/segment_options.hpp"
 
-#include "app/database/period_options.hpp"
-
 #include "estimator/common/error.hpp"
 #include "mapping/style/iri_class.hpp"
 #include "storage/networks/osm_tags.hpp"
@@ -12,21 +10,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 namespace macadam {
-namespace {
-
-std::int32_t parse_least_passes(const Arguments& arguments) {
-    const auto passes = arguments.integer("--min-passes").value_or(0);
-    if (passes < 0 || passes > std::numeric_limits<std::int32_t>::max()) {
-        throw UsageError{fmt::format("--min-passes is {}, expected 0 or more", passes)};
-    }
-    return static_cast<std::int32_t>(passes);
-}
-
-} // namespace
-
 std::filesystem::path store_file(const Arguments& arguments) {
     const auto& store = arguments.operand("STORE");
     if (store.find("://") != std::string::npos) {
@@ -36,33 +21,21 @@ std::filesystem::path store_file(const Arguments& arguments) {
 }
 
 GeoBox box_of(const std::vector<double>& degrees) {
-    const GeoBox box{degrees[0], degrees[1], degrees[2], degrees[3]};
+    const auto west_deg = degrees[0], south_deg = degrees[1];
+    const auto east_deg = degrees[2], north_deg = degrees[3];
+    const auto is_longitude = [](double deg) { return deg >= -180 && deg <= 180; };
     const bool on_globe =
-        box.west_deg >= -180 && box.east_deg <= 180 && box.south_deg >= -90 && box.north_deg <= 90;
-    if (!on_globe || !(box.west_deg < box.east_deg && box.south_deg < box.north_deg)) {
-        throw UsageError{
-            fmt::format("--bbox is {},{},{},{}, expected west < east and south < north in degrees",
-                        degrees[0],
-                        degrees[1],
-                        degrees[2],
-                        degrees[3])};
+        is_longitude(west_deg) && is_longitude(east_deg) && south_deg >= -90 && north_deg <= 90;
+    if (!on_globe || west_deg == east_deg || !(south_deg < north_deg)) {
+        throw UsageError{fmt::format("--bbox is {},{},{},{}, expected west,south,east,north in "
+                                     "degrees with south < north; west > east crosses the "
+                                     "antimeridian",
+                                     west_deg,
+                                     south_deg,
+                                     east_deg,
+                                     north_deg)};
     }
-    return box;
-}
-
-SegmentFilter parse_filter(const Arguments& arguments) {
-    SegmentFilter filter;
-    if (const auto degrees = arguments.numbers("--bbox", 4)) {
-        filter.box = box_of(*degrees);
-    }
-    filter.way_id = arguments.integer("--way");
-    filter.name_part = arguments.value("--road").value_or("");
-    filter.with_state_only = !arguments.flag("--all");
-    filter.highway = arguments.value("--highway").value_or("");
-    filter.class_name = arguments.value("--class").value_or("");
-    filter.min_passes = parse_least_passes(arguments);
-    filter.period = parse_period(arguments);
-    return filter;
+    return {west_deg, south_deg, west_deg > east_deg ? east_deg + 360 : east_deg, north_deg};
 }
 
 std::optional<SegmentKey> parse_key(const Arguments& arguments) {

@@ -12,7 +12,10 @@ namespace macadam {
 inline constexpr Operand store_operand{"STORE",
                                        "The road database, a .gpkg file made by 'macadam init'."};
 inline constexpr Option bbox_option =
-    in_group("selection", {"--bbox", "W,S,E,N", "Only segments in this box, in degrees."});
+    in_group("selection",
+             {"--bbox",
+              "W,S,E,N",
+              "Only segments in this box, in degrees; W > E crosses the antimeridian."});
 inline constexpr Option way_option =
     in_group("selection", {"--way", "ID", "Only segments of this way."});
 inline constexpr Option road_option =
@@ -29,7 +32,8 @@ inline constexpr Option all_option =
 /// \throws UsageError  for the address of a server: a database is a file.
 std::filesystem::path store_file(const Arguments& arguments);
 
-/// Converts degrees W,S,E,N to a box.
+/// Converts degrees W,S,E,N to a box. If W > E it crosses the antimeridian, and its east lies
+/// beyond 180 degrees.
 /// \throws UsageError  if they form no box.
 GeoBox box_of(const std::vector<double>& degrees);
 
@@ -40,10 +44,6 @@ inline constexpr Option class_option = in_group(
     "selection", {"--class", "NAME", "Only segments in this roughness class, such as poor."});
 inline constexpr Option min_passes_option =
     in_group("selection", {"--min-passes", "N", "Only segments with at least this many passes."});
-
-/// Parses --bbox, --way, --road, --highway, --class, --min-passes, --since, --until and --all.
-/// \throws UsageError  for invalid values.
-SegmentFilter parse_filter(const Arguments& arguments);
 
 /// Parses --segment.
 /// \throws UsageError  for an invalid key.

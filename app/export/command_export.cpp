@@ -1,12 +1,16 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/joined_options.hpp"
 #include "app/cli/overwrite_guard.hpp"
+#include "app/cli/row_output.hpp"
 #include "app/database/empty_map_message.hpp"
 #include "app/database/lock_wait_messages.hpp"
-#include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/selection.hpp"
 #include "app/export/raster_tile_export.hpp"
 #include "app/export/tile_export.hpp"
+#include "app/export/workbook_export.hpp"
+#include "app/output/excel_option.hpp"
+#include "app/output/units_option.hpp"
 #include "app/query/section_output.hpp"
 #include "app/render/style_options.hpp"
 
@@ -37,7 +41,19 @@ struct ExportOptions {
     std::optional<TilePlan> tiles;
     std::optional<PicturePlan> pictures;
     bool events;
+    TextExport text; ///< of text formats
 };
+
+constexpr std::string_view workbook_suffix = ".xlsx";
+
+bool is_workbook(const ExportOptions& options) {
+    return options.output.extension() == workbook_suffix;
+}
+
+/// Returns what messages call the output.
+std::string name_of_output(const ExportOptions& options) {
+    return options.text.put ? "standard output" : options.output.string();
+}
 
 /// Rejects what has no points.
 void expect_events_alone(const ExportOptions& options) {
@@ -55,15 +71,15 @@ void expect_events_alone(const ExportOptions& options) {
 
 /// Rejects other filters and formats: sections are reported completely and as text.
 void expect_sections_alone(const ExportOptions& options) {
-    const auto& filter = options.filter;
-    if (filter.box || filter.way_id || !filter.name_part.empty() || !filter.highway.empty() ||
-        !filter.class_name.empty() || !filter.with_state_only) {
-        throw UsageError{"--sections can be combined with --since, --until and --min-passes "
-                         "only, not with options that select segments"};
+    if (selects_segments(options.filter) || !options.filter.with_state_only) {
+        throw UsageError{"--sections can be combined with --since, --until, --min-passes, "
+                         "--min-cars and --vehicle-id only, not with options that select "
+                         "segments"};
     }
-    if (const auto suffix = options.output.extension(); suffix != ".csv" && suffix != ".geojson") {
-        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv or .geojson "
-                                     "with --sections",
+    if (const auto suffix = options.output.extension();
+        suffix != ".csv" && suffix != ".geojson" && suffix != workbook_suffix) {
+        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv, .geojson or "
+                                     ".xlsx with --sections",
                                      options.output.string())};
     }
 }
@@ -74,16 +90,9 @@ bool is_project(const ExportOptions& options) {
 
 /// Rejects selections: a project shows the layer of the database.
 void expect_project_alone(const Arguments& arguments) {
-    for (const auto* const option : {"--bbox",
-                                     "--way",
-                                     "--road",
-                                     "--highway",
-                                     "--class",
-                                     "--min-passes",
-                                     "--since",
-                                     "--until",
-                                     "--all",
-                                     "--sections"}) {
+    std::vector<std::string_view> refused{"--all", "--sections"};
+    std::ranges::transform(selection_options, std::back_inserter(refused), &Option::name);
+    for (const auto option : refused) {
         if (arguments.is_given(option)) {
             throw UsageError{
                 fmt::format("{} and -o FILE.qgz cannot be combined: the project shows the "
@@ -93,28 +102,67 @@ void expect_project_alone(const Arguments& arguments) {
     }
 }
 
-ExportOptions parse_export(const Arguments& arguments, const Console& console) {
+/// Rejects what a format cannot have.
+void expect_fitting(const ExportOptions& options, const Arguments& arguments) {
+    const auto suffix = options.output.extension().string();
+    if (options.text.excel && suffix != ".csv") {
+        throw UsageError{"--excel requires -o FILE.csv; .xlsx needs no such option"};
+    }
+    const bool has_units = is_workbook(options) || (is_text_suffix(suffix) && suffix != ".kml");
+    if (options.text.units != UnitSystem::si && !has_units) {
+        throw UsageError{fmt::format("--units us is for .csv, .geojson, .geojsonl and .xlsx, whose "
+                                     "columns then say the unit; -o is '{}'",
+                                     options.output.string())};
+    }
+    if (arguments.value("--format") && !options.text.put) {
+        throw UsageError{"--format is for -o -; the name of a file tells its format"};
+    }
+}
+
+/// Returns the file that -o names, or for standard output a name with the suffix of --format.
+std::filesystem::path parse_output(const Arguments& arguments) {
     const auto output = arguments.value("--output");
     if (!output) {
         throw UsageError{"-o FILE is missing"};
     }
+    if (*output != standard_output) {
+        return *output;
+    }
+    const auto suffix = "." + arguments.choice("--format");
+    if (!is_text_suffix(suffix)) {
+        throw UsageError{fmt::format("-o - cannot write {}, which needs a file; expected --format "
+                                     "geojson, geojsonl, csv or kml",
+                                     suffix)};
+    }
+    return "standard_output" + suffix;
+}
+
+ExportOptions parse_export(const Arguments& arguments, const Console& console) {
+    const auto output = parse_output(arguments).string();
     std::vector<std::string_view> suffixes{export_suffixes().begin(), export_suffixes().end()};
+    suffixes.push_back(workbook_suffix);
     std::ranges::copy(tile_archive_suffixes(), std::back_inserter(suffixes));
     suffixes.push_back(project_suffix);
-    if (std::ranges::none_of(suffixes, [&](auto suffix) { return output->ends_with(suffix); }) &&
-        !is_tile_folder(*output)) {
+    if (std::ranges::none_of(suffixes, [&](auto suffix) { return output.ends_with(suffix); }) &&
+        !is_tile_folder(output)) {
         throw UsageError{fmt::format("-o is '{}', expected a name that ends in {}, or in / for a "
                                      "folder of tiles",
-                                     *output,
+                                     output,
                                      fmt::join(suffixes, ", "))};
     }
-    ExportOptions options{.store = store_file(arguments),
-                          .output = *output,
-                          .filter = parse_filter(arguments),
-                          .sections = parse_sections(arguments, false),
-                          .tiles = {},
-                          .pictures = {},
-                          .events = arguments.flag("--events")};
+    ExportOptions options{
+        .store = store_file(arguments),
+        .output = output,
+        .filter = parse_filter(arguments),
+        .sections = parse_sections(arguments, false),
+        .tiles = {},
+        .pictures = {},
+        .events = arguments.flag("--events"),
+        .text = {.units = parse_units(arguments), .excel = parse_excel(arguments), .put = {}}};
+    if (arguments.value("--output") == standard_output) {
+        options.text.put = print;
+    }
+    expect_fitting(options, arguments);
     if (options.events) {
         expect_events_alone(options);
     }
@@ -135,8 +183,10 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
 }
 
 /// Returns the files that the command reads.
-std::vector<std::filesystem::path> inputs_of(const ExportOptions& options) {
-    std::vector<std::filesystem::path> inputs{options.store};
+std::vector<std::filesystem::path> inputs_of(const ExportOptions& options,
+                                             const Arguments& arguments) {
+    auto inputs = files_of_filter(arguments);
+    inputs.push_back(options.store);
     if (options.sections) {
         inputs.push_back(*options.sections->sections);
         if (options.sections->exclude) {
@@ -149,42 +199,63 @@ std::vector<std::filesystem::path> inputs_of(const ExportOptions& options) {
 void export_sections(const StoreReader& store,
                      const ExportOptions& options,
                      const Console& console) {
-    AtomicFile file{options.output};
+    std::optional<AtomicFile> file;
+    if (!options.text.put) {
+        file.emplace(options.output);
+    }
+    std::optional<ExcelCsv> excel;
+    if (options.text.excel) {
+        excel.emplace(*options.text.excel);
+    }
+    const auto put = [&](std::string_view text) {
+        const auto in_dialect = excel ? (*excel)(text) : std::string{text};
+        file ? file->write(in_dialect) : print(in_dialect);
+    };
     const auto& classes = *class_table(store.settings().class_table);
-    auto writer = section_writer(options.output.extension() == ".csv" ? "csv" : "geojson",
-                                 [&](std::string_view text) { file.write(text); });
+    auto writer = section_writer(
+        options.output.extension() == ".csv" ? "csv" : "geojson", put, options.text.units);
     const auto total =
         each_section(store, *options.sections, options.filter, [&](const NamedSection& section) {
-            writer.add({section, classes});
+            writer.rows.add({section, classes});
         });
-    writer.finish();
+    writer.rows.finish();
     store.expect_in_place();
-    file.commit();
-    console.say(fmt::format(
-        "{}: {}, {}", options.output.string(), counted(writer.count(), "section"), spoken(total)));
+    if (file) {
+        file->commit();
+    }
+    console.say(fmt::format("{}: {}, {}",
+                            name_of_output(options),
+                            counted(writer.rows.count(), "section"),
+                            spoken(total, options.text.units)));
 }
 
 void run_export(const Arguments& arguments, const Console& console) {
-    const auto options = parse_export(arguments, console);
-    refuse_to_replace(options.output, inputs_of(options));
+    auto options = parse_export(arguments, console);
+    if (!options.text.put) {
+        refuse_to_replace(options.output, inputs_of(options, arguments));
+    }
     if (options.pictures) {
         export_picture_tiles(
             options.store, options.filter.box, options.output, *options.pictures, console);
         return;
     }
     const auto store = opened_reader(options.store, console);
-    expect_known_class(options.filter, store);
-    expect_known_highway(options.filter, store);
+    complete_filter(options.filter, store);
     warn_of_waiting(store, options.store, console);
     warn_of_empty_map(store, console);
     tell_publication(store, console);
-    if (options.sections) {
-        export_sections(store, options, console);
+    if (options.events) {
+        const auto written = export_events(store, options.filter, options.output, options.text);
+        console.say(fmt::format("{}: {}", name_of_output(options), counted(written, "event")));
         return;
     }
-    if (options.events) {
-        const auto written = export_events(store, options.filter, options.output);
-        console.say(fmt::format("{}: {}", options.output.string(), counted(written, "event")));
+    if (is_workbook(options)) {
+        export_workbook(
+            store, {options.filter, options.sections, options.text.units}, options.output, console);
+        return;
+    }
+    if (options.sections) {
+        export_sections(store, options, console);
         return;
     }
     if (options.tiles) {
@@ -197,17 +268,22 @@ void run_export(const Arguments& arguments, const Console& console) {
             fmt::format("{}: shows {} in QGIS", options.output.string(), options.store.string()));
         return;
     }
-    const auto written =
-        export_segments(store, options.filter, options.output, console.progress("writing"));
-    console.say(fmt::format("{}: {}", options.output.string(), counted(written, "segment")));
+    const auto written = export_segments(
+        store, options.filter, options.output, console.progress("writing"), options.text);
+    console.say(fmt::format("{}: {}", name_of_output(options), counted(written, "segment")));
 }
 
 constexpr std::array operands{store_operand};
-constexpr std::array options{
-    Option{"-o,--output",
-           "FILE",
-           "Output: .geojson, .geojsonl, .csv, .gpkg, .fgb, .shp, .kml, .mbtiles, .pmtiles; "
-           "DIR/ for tiles; .qgz: a QGIS project that shows STORE."},
+constexpr std::array output_options{
+    Option{
+        "-o,--output",
+        "FILE",
+        "Output: .geojson, .geojsonl, .csv, .xlsx, .gpkg, .fgb, .shp, .kml, .mbtiles, "
+        ".pmtiles; DIR/ for tiles; .qgz: a QGIS project that shows STORE; - for standard output."},
+    one_of("geojson|geojsonl|csv|kml|xlsx|gpkg|fgb|shp|mbtiles|pmtiles|qgz",
+           {"--format", "NAME", "Format of -o -: geojson, geojsonl, csv or kml.", "geojson"}),
+    units_option,
+    excel_option,
     zoom_option,
     tile_jobs_option,
     tiles_option,
@@ -216,15 +292,8 @@ constexpr std::array options{
     rare(in_group("tiles", style_option)),
     rare(in_group("tiles", grey_below_option)),
     tile_left_hand_option,
-    tile_no_labels_option,
-    bbox_option,
-    way_option,
-    road_option,
-    highway_option,
-    class_option,
-    min_passes_option,
-    since_option,
-    until_option,
+    tile_no_labels_option};
+constexpr std::array section_options{
     sections_option,
     section_length_option,
     homogeneous_option,
@@ -235,6 +304,7 @@ constexpr std::array options{
            "",
            "Potholes, bumps, joints and rails as points instead of segments: .geojson, .geojsonl, "
            ".csv, .gpkg, .kml."}};
+constexpr auto options = joined(output_options, selection_options, section_options);
 
 } // namespace
 
@@ -253,6 +323,8 @@ const Command export_command{
         "  macadam export roads.gpkg -o roads.geojson\n"
         "  macadam export roads.gpkg -o north.csv --bbox 11.5,49.98,11.6,50.02\n"
         "  macadam export roads.gpkg -o sections.csv --sections routes.csv\n"
+        "  macadam export roads.gpkg -o roads.xlsx --units us\n"
+        "  macadam export roads.gpkg -o - --format geojsonl --class poor\n"
         "  macadam export roads.gpkg -o potholes.gpkg --events\n"
         "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2\n"
         "  macadam export roads.gpkg -o pictures.mbtiles --tiles picture --tile-size 512\n"

@@ -2,7 +2,7 @@
 
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/selection.hpp"
 #include "app/export/tile_export.hpp"
 #include "app/render/style_options.hpp"
 #include "estimator/common/error.hpp"
@@ -22,10 +22,14 @@ void expect_whole_network(const SegmentFilter& filter) {
         throw UsageError{"--min-passes selects segments; --tiles picture shows all roads, with "
                          "--grey-below N those of fewer passes in grey"};
     }
-    if (filter.way_id || !filter.name_part.empty() || !filter.highway.empty() ||
-        !filter.class_name.empty() || filter.period || !filter.with_state_only) {
+    auto others = filter;
+    others.box.reset();
+    if (selects(others) || !filter.with_state_only) {
         throw UsageError{"--tiles picture shows all roads of a box: combine it with --bbox and "
                          "--grey-below only, not with options that select segments"};
+    }
+    if (filter.box && filter.box->east_deg > 180) {
+        throw UsageError{"--tiles picture has boxes with west < east only"};
     }
 }
 

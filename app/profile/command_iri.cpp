@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
+#include "app/output/units_option.hpp"
 #include "app/profile/iri_options.hpp"
 #include "app/profile/iri_output.hpp"
 
@@ -70,8 +71,7 @@ constexpr std::array options{
     Option{"--threshold",
            "IRI",
            "With --continuous: list the locations where the moving mean exceeds this."},
-    // No preference: the columns of the CSV do not name their unit.
-    one_of("mm/m|in/mi", {"--unit", "UNIT", "mm/m (equal to m/km) or in/mi.", "mm/m"}),
+    former_units_option, // no preference: scripts read the same for every user
     Option{"--no-envelope",
            "",
            "Skip the 250 mm moving average: the profile is already "
@@ -101,8 +101,8 @@ const Command iri_command{
              "lead-in; if that is\n"
              "shorter than 11 m, the simulation starts at --from-m.",
     .example = "  macadam iri profile.csv --length 100          station_m,left_m,right_m\n"
-               "  macadam iri run1.erd --length 160.9344 --unit in/mi --json\n"
-               "  macadam iri run1.pro --continuous --threshold 160 --unit in/mi",
+               "  macadam iri run1.erd --length 160.9344 --units us --json\n"
+               "  macadam iri run1.pro --continuous --threshold 160 --units us",
     .operands = operands,
     .options = options,
     .run = run_iri};

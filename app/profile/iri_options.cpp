@@ -1,6 +1,7 @@
 #include "app/profile/iri_options.hpp"
 
 #include "app/cli/row_output.hpp"
+#include "app/output/units_option.hpp"
 #include "estimator/iri/localised_roughness.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ IriOptions parse_iri(const Arguments& arguments) {
                        .base_m = base_in(arguments),
                        .threshold = arguments.number("--threshold"),
                        .output = arguments.value("--output"),
-                       .words = {.in_per_mi = arguments.choice("--unit") == "in/mi",
+                       .words = {.in_per_mi = parse_units(arguments) == UnitSystem::us,
                                  .json = row_format_of(arguments) == "json"}};
     if (options.threshold && !options.base_m) {
         throw UsageError{"--threshold applies to a moving mean and requires --continuous"};

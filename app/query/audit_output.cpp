@@ -57,9 +57,11 @@ std::string audit_text(const std::vector<AuditEntry>& entries, std::string_view 
                                                 : rows_text(entry_columns, entries, format);
 }
 
-std::string changes_text(const std::vector<NumberChange>& changes, std::string_view format) {
-    return changes.empty() && format == "table" ? "no recorded change of this segment's value\n"
-                                                : rows_text(change_columns, changes, format);
+std::string
+changes_text(const std::vector<NumberChange>& changes, std::string_view format, UnitSystem units) {
+    return changes.empty() && format == "table"
+               ? "no recorded change of this segment's value\n"
+               : rows_text(in_units(change_columns, units), changes, format);
 }
 
 } // namespace macadam

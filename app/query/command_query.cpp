@@ -1,10 +1,12 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/joined_options.hpp"
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
 #include "app/database/empty_map_message.hpp"
-#include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/selection.hpp"
+#include "app/output/excel_option.hpp"
+#include "app/output/units_option.hpp"
 #include "app/query/audit_output.hpp"
 #include "app/query/monthly_history.hpp"
 #include "app/query/nearest_segments.hpp"
@@ -22,6 +24,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <memory>
 
 namespace macadam {
 namespace {
@@ -68,13 +72,17 @@ std::vector<SegmentRecord> found_in(const StoreReader& store,
     return records;
 }
 
-/// Prints results: a table for people, the other formats for programs.
-void print_in(std::string_view format, std::string_view text) {
-    if (format == "table") {
-        print_words(text);
-    } else {
-        print(text);
+/// Returns a function that prints results: a table for people, the other formats for programs.
+std::function<void(std::string_view)> printer_of(const QueryOptions& options) {
+    if (options.format == "table") {
+        return print_words;
     }
+    if (options.excel) {
+        return [excel = std::make_shared<ExcelCsv>(*options.excel)](std::string_view csv) {
+            print((*excel)(csv));
+        };
+    }
+    return print;
 }
 
 void print_worst_sections(const StoreReader& store,
@@ -91,15 +99,15 @@ void print_worst_sections(const StoreReader& store,
         config);
     stretches.resize(std::min(stretches.size(), options.worst.count));
     if (stretches.empty()) {
-        console.say(fmt::format(
-            "no section of {:g} m or more has a mean IRI above {:.2f} mm/m; lower --min-length "
-            "or --above, or list single segments with --segments",
-            config.min_length_m,
-            config.above_mm_per_m));
+        console.say(
+            fmt::format("no section of {} or more has a mean IRI above {}; lower --min-length "
+                        "or --above, or list single segments with --segments",
+                        length_words(config.min_length_m, options.units),
+                        iri_words(config.above_mm_per_m, options.units)));
         warn_of_empty_map(store, console);
     }
     if (!stretches.empty() || options.format != "table") {
-        print_in(options.format, stretches_text(stretches, options.format));
+        printer_of(options)(stretches_text(stretches, options.format, options.units));
     }
 }
 
@@ -117,17 +125,17 @@ void print_history(const StoreReader& store, const QueryOptions& options, const 
         warn_of_empty_map(store, console);
     }
     if (!months.empty() || options.format != "table") {
-        print_in(options.format, months_text(months, options.format));
+        printer_of(options)(months_text(months, options.format, options.units));
     }
 }
 
 void print_segments(const StoreReader& store, const QueryOptions& options, const Console& console) {
     const auto& classes = *class_table(store.settings().class_table);
+    const auto columns = in_units(segment_columns(), options.units);
     RowWriter<ClassedSegment> printer{
-        options.format,
-        segment_columns(),
-        [&](std::string_view text) { print_in(options.format, text); },
-        [](const ClassedSegment& segment) { return geojson_feature(segment); }};
+        options.format, columns, printer_of(options), [&](const ClassedSegment& segment) {
+            return geojson_feature(segment, columns);
+        }};
     const auto add = [&](const SegmentRecord& record) { printer.add({record, classes}); };
     if (options.near) {
         std::ranges::for_each(segments_near(store, filter_of(options), *options.near), add);
@@ -162,31 +170,34 @@ void print_events(const StoreReader& store, const QueryOptions& options, const C
                 : "no pothole, bump, joint or rail was reported by two passes or more there");
         warn_of_empty_map(store, console);
     }
+    const auto columns = in_units(event_fields(), options.units);
     if (!events.empty() || options.format != "table") {
-        print_in(options.format,
-                 rows_text(event_fields(), events, options.format, [](const EventRecord& event) {
-                     return geojson_feature(event);
-                 }));
+        printer_of(options)(
+            rows_text(columns, events, options.format, [&](const EventRecord& event) {
+                return geojson_feature(event.at, json_object(columns, event));
+            }));
     }
 }
 
 void print_sections(const StoreReader& store, const QueryOptions& options, const Console& console) {
     const auto& classes = *class_table(store.settings().class_table);
-    auto writer = section_writer(options.format,
-                                 [&](std::string_view text) { print_in(options.format, text); });
-    const auto total =
-        each_section(store, *options.sections, options.filter, [&](const NamedSection& section) {
-            writer.add({section, classes});
-        });
+    auto [columns, writer] = section_writer(options.format, printer_of(options), options.units);
+    const auto total = each_section(store,
+                                    *options.sections,
+                                    options.filter,
+                                    [&classes, &writer = writer](const NamedSection& section) {
+                                        writer.add({section, classes});
+                                    });
     writer.begin(); // a table without sections has headings, too
     writer.finish();
-    console.say(spoken(total));
+    console.say(spoken(total, options.units));
 }
 
 void run_query(const Arguments& arguments, const Console& console) {
-    const auto options = parse_query(arguments);
+    auto options = parse_query(arguments);
     if (options.output) {
-        std::vector<std::filesystem::path> inputs{options.store};
+        auto inputs = files_of_filter(arguments);
+        inputs.push_back(options.store);
         if (const auto& of = options.sections) {
             for (const auto& file : {of->along, of->sections, of->exclude}) {
                 inputs.insert(inputs.end(), file.value_or(options.store));
@@ -195,8 +206,7 @@ void run_query(const Arguments& arguments, const Console& console) {
         refuse_to_replace(*options.output, inputs);
     }
     const auto store = open_for_operator(options.store, console);
-    expect_known_class(options.filter, store);
-    expect_known_highway(options.filter, store);
+    complete_filter(options.filter, store);
     warn_of_waiting(store, options.store, console);
     expect_segment(store, options);
 
@@ -207,10 +217,12 @@ void run_query(const Arguments& arguments, const Console& console) {
         print_events(store, options, console);
     } else if (options.passes) {
         expect_operator(store, "single passes");
-        print_in(options.format, passes_text(store.history(*options.filter.key), options.format));
+        printer_of(options)(
+            passes_text(store.history(*options.filter.key), options.format, options.units));
     } else if (options.changes) {
         expect_operator(store, "changes of values");
-        print_in(options.format, changes_text(store.changes(*options.filter.key), options.format));
+        printer_of(options)(
+            changes_text(store.changes(*options.filter.key), options.format, options.units));
     } else if (options.history) {
         print_history(store, options, console);
     } else if (options.worst.count > 0 && !options.worst.single_segments) {
@@ -224,7 +236,7 @@ void run_query(const Arguments& arguments, const Console& console) {
 }
 
 constexpr std::array operands{store_operand};
-constexpr std::array options{
+constexpr std::array near_options{
     in_group("selection", {"--near", "LAT,LON", "Segments near a point, nearest first."}),
     in_group("selection", {"--radius", "METRES", "Search radius around --near.", "50"}),
     in_group("selection",
@@ -232,15 +244,8 @@ constexpr std::array options{
               "DEG",
               "With --near: only segments with this driving direction, within 45 degrees; "
               "clockwise from north."}),
-    bbox_option,
-    way_option,
-    in_group("selection", {"--segment", "KEY", "One segment, such as 123456+0007."}),
-    road_option,
-    highway_option,
-    class_option,
-    min_passes_option,
-    since_option,
-    until_option,
+    in_group("selection", {"--segment", "KEY", "One segment, such as 123456+0007."})};
+constexpr std::array row_options{
     in_group(
         "worst sections",
         {"--worst", "N", "The N roughest sections among the selected segments, roughest first."}),
@@ -249,7 +254,7 @@ constexpr std::array options{
     in_group("worst sections",
              {"--above",
               "IRI",
-              "With --worst: roughness threshold in mm/m.",
+              "With --worst: roughness threshold in mm/m, whatever the --units.",
               "lower limit of class "
               "poor"}),
     in_group("worst sections",
@@ -274,7 +279,10 @@ constexpr std::array options{
     Option{"--events", "", "Potholes, bumps, joints and rails instead of segments."},
     one_of("table|json|csv|geojson", {"--format", "NAME", "table, json, csv or geojson.", "table"}),
     row_output_option,
-    json_option};
+    json_option,
+    units_option,
+    excel_option};
+constexpr auto options = joined(near_options, selection_options, row_options);
 
 } // namespace
 

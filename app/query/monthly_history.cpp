@@ -69,7 +69,7 @@ const Columns<MonthRow> columns{
     {"segments", as::integer, [](auto& r) { return r.segments; }, {"segments", " {:>8}"}},
     {"length_m", as::metres(2), [](auto& r) { return r.road.mean.length_m; }, {"metres", " {:>9}", 0}},
     {"iri", as::iri(3), [](auto& r) { return r.road.mean.iri; }, {"IRI", " {:>6}", 2}},
-    {"", as::text, [](auto& r) { return interval_text(r.road.mean); }, {"90 %", " {:>13}"}},
+    {"", as::numbers_in("mm/m"), [](auto& r) { return interval_text(r.road.mean); }, {"90 %", " {:>13}"}},
     {"iri_sd", as::iri(3), [](auto& r) { return r.road.mean.sd; }},
     {"iri_low", as::iri(3), [](auto& r) { return r.road.mean.low; }},
     {"iri_high", as::iri(3), [](auto& r) { return r.road.mean.high; }},
@@ -112,8 +112,9 @@ history_by_month(const std::function<std::vector<SegmentRecord>(const Period&)>&
     return months;
 }
 
-std::string months_text(const std::vector<MonthRow>& months, std::string_view format) {
-    return rows_text(columns, months, format);
+std::string
+months_text(const std::vector<MonthRow>& months, std::string_view format, UnitSystem units) {
+    return rows_text(in_units(columns, units), months, format);
 }
 
 } // namespace macadam

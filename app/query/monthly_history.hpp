@@ -3,6 +3,7 @@
 #include "mapping/analysis/correlated_mean.hpp"
 #include "mapping/fusion/segment_record.hpp"
 #include "storage/store/records/segment_filter.hpp"
+#include "storage/text/unit_system.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -27,6 +28,8 @@ history_by_month(const std::function<std::vector<SegmentRecord>(const Period&)>&
 
 /// Formats the months.
 /// \param format  table, json or csv
-std::string months_text(const std::vector<MonthRow>& months, std::string_view format);
+std::string months_text(const std::vector<MonthRow>& months,
+                        std::string_view format,
+                        UnitSystem units = UnitSystem::si);
 
 } // namespace macadam

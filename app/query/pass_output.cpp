@@ -53,7 +53,7 @@ const Columns<Row> columns{
     {"iri_left", as::iri(3), [](auto& r) { return iri_of(r.pass.iri_left_um); }},
     {"iri_right", as::iri(3), [](auto& r) { return iri_of(r.pass.iri_right_um); }},
     {"hri", as::iri(3), [](auto& r) { return iri_of(r.pass.iri_centre_um); }},
-    {"", as::text, lag_words, {"lag m", " {:>6}"}},
+    {"", as::numbers_in("m"), lag_words, {"lag m", " {:>6}"}},
     {"speed_mps", as::real(3, "m/s"), [](auto& r) { return r.pass.speed_mmps / 1000.0; }},
     {"", as::real(1, "km/h"), [](auto& r) { return r.pass.speed_mmps * 3.6e-3; },
      {"km/h", " {:>7}"}},
@@ -72,8 +72,9 @@ const Columns<Row> columns{
 
 } // namespace
 
-std::string passes_text(const std::vector<HistoricPass>& passes, std::string_view format) {
-    return rows_text(columns, passes, format);
+std::string
+passes_text(const std::vector<HistoricPass>& passes, std::string_view format, UnitSystem units) {
+    return rows_text(in_units(columns, units), passes, format);
 }
 
 } // namespace macadam

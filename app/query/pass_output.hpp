@@ -1,6 +1,7 @@
 #pragma once
 
 #include "storage/store/records/store_records.hpp"
+#include "storage/text/unit_system.hpp"
 
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@ namespace macadam {
 
 /// Formats the passes over one segment.
 /// \param format  table, json or csv
-std::string passes_text(const std::vector<HistoricPass>& passes, std::string_view format);
+std::string passes_text(const std::vector<HistoricPass>& passes,
+                        std::string_view format,
+                        UnitSystem units = UnitSystem::si);
 
 } // namespace macadam

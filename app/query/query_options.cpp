@@ -1,7 +1,9 @@
 #include "app/query/query_options.hpp"
 
 #include "app/cli/row_output.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/selection.hpp"
+#include "app/output/excel_option.hpp"
+#include "app/output/units_option.hpp"
 
 #include "mapping/analysis/worst_sections.hpp"
 
@@ -62,17 +64,16 @@ std::optional<NearOptions> parse_near(const Arguments& arguments) {
 }
 
 bool asks_for_segments(const QueryOptions& options) {
-    const auto& filter = options.filter;
-    return options.near || filter.box || filter.way_id || filter.key || !filter.name_part.empty() ||
-           !filter.highway.empty() || !filter.class_name.empty() || options.worst.count > 0;
+    return options.near || selects_segments(options.filter) || options.worst.count > 0;
 }
 
 /// Rejects other filters: sections are reported completely.
 void expect_sections_alone(const QueryOptions& options) {
     if (asks_for_segments(options) || !options.filter.with_state_only || options.history ||
         options.passes || options.changes || options.events) {
-        throw UsageError{"--route, --along and --sections can be combined with --since, "
-                         "--until and --min-passes only, not with options that select segments"};
+        throw UsageError{"--route, --along and --sections can be combined with --since, --until, "
+                         "--min-passes, --min-cars and --vehicle-id only, not with options that "
+                         "select segments"};
     }
 }
 
@@ -87,9 +88,10 @@ void expect_sense(const QueryOptions& options) {
         throw UsageError{"--events cannot be combined with --passes, --history, --changes, "
                          "--worst or --all"};
     }
-    if (!asks_for_segments(options) && !options.events) {
-        throw UsageError{"expected a selection: --near, --bbox, --way, --segment, --road, "
-                         "--highway, --class, --worst, --route, --along or --sections"};
+    if (!asks_for_segments(options) && !options.events && options.filter.vehicle.empty()) {
+        throw UsageError{"expected a selection: --near, --bbox, --area, --way, --segment, --road, "
+                         "--highway, --class, --vehicle-id, --worst, --route, --along or "
+                         "--sections"};
     }
     if (options.passes && !options.filter.key) {
         throw UsageError{"--passes requires --segment KEY"};
@@ -137,7 +139,12 @@ QueryOptions parse_query(const Arguments& arguments) {
                          .passes = arguments.flag("--passes"),
                          .changes = arguments.flag("--changes"),
                          .events = arguments.flag("--events"),
-                         .worst = parse_worst(arguments)};
+                         .worst = parse_worst(arguments),
+                         .units = parse_units(arguments),
+                         .excel = parse_excel(arguments)};
+    if (options.excel && options.format != "csv") {
+        throw UsageError{"--excel requires --format csv or -o FILE.csv"};
+    }
     options.filter.key = parse_key(arguments);
     expect_sense(options);
     if (options.worst.single_segments) {

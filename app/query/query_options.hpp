@@ -3,6 +3,8 @@
 #include "app/cli/arguments.hpp"
 #include "app/query/section_options.hpp"
 #include "storage/store/records/segment_filter.hpp"
+#include "storage/text/excel_csv.hpp"
+#include "storage/text/unit_system.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -39,6 +41,8 @@ struct QueryOptions {
     bool changes;                                ///< changes of one segment's value
     bool events;                                 ///< potholes and others instead of segments
     WorstOptions worst;
+    UnitSystem units = UnitSystem::si;
+    std::optional<CsvDialect> excel{}; ///< of CSV
 };
 
 /// Parses the options of `query`.

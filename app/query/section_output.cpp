@@ -65,7 +65,7 @@ const Columns<Row> columns{
     {"", as::text, [](auto& r) { return fmt::format("{:.0f} %", 100 * section(r).open_share); },
      {"covered", " {:>7}"}},
     {"iri", as::iri(3), [](auto& r) { return of_mean(r, &RoadMean::iri); }, {"IRI", " {:>6}", 2}},
-    {"", as::text, [](auto& r) { return known_if(is_measured(r), interval_text(measured(r).mean)); },
+    {"", as::numbers_in("mm/m"), [](auto& r) { return known_if(is_measured(r), interval_text(measured(r).mean)); },
      {"90 %", " {:>13}"}},
     {"iri_sd", as::iri(3), [](auto& r) { return of_mean(r, &RoadMean::sd); }},
     {"iri_low", as::iri(3), [](auto& r) { return of_mean(r, &RoadMean::low); }},
@@ -85,12 +85,12 @@ const Columns<Row> columns{
     {"first_seen", as::day, [](auto& r) { return day_cell(measured(r).first_seen_ms); }},
     {"last_seen", as::day, [](auto& r) { return day_cell(measured(r).last_seen_ms); }},
     {"", as::text, last_seen_words, {"last seen", "  {}"}},
-    {"parts", as::json_only(as::raw), [](auto& r) { return parts_json(section(r).parts); }},
+    {"parts", as::json_only(as::numbers_in("m", as::raw)), [](auto& r) { return parts_json(section(r).parts); }},
     {"way_ids", as::csv_only(as::raw), [](auto& r) { return way_ids_list(section(r).parts); }},
     {"directions", as::csv_only(as::raw), [](auto& r) { return directions_list(section(r).parts); }},
-    {"way_from_m", as::csv_only(as::raw),
+    {"way_from_m", as::csv_only(as::numbers_in("m", as::raw)),
      [](auto& r) { return metres_list(section(r).parts, &StretchPart::from_m); }},
-    {"way_to_m", as::csv_only(as::raw),
+    {"way_to_m", as::csv_only(as::numbers_in("m", as::raw)),
      [](auto& r) { return metres_list(section(r).parts, &StretchPart::to_m); }},
     {"lat_deg", as::csv_only(as::degrees), [](auto& r) { return middle_of(r, &GeoPoint::lat_deg); }},
     {"lon_deg", as::csv_only(as::degrees), [](auto& r) { return middle_of(r, &GeoPoint::lon_deg); }},
@@ -99,21 +99,30 @@ const Columns<Row> columns{
 
 } // namespace
 
-RowWriter<ClassedSection> section_writer(std::string_view format,
-                                         RowWriter<ClassedSection>::Put put) {
-    RowWriter<ClassedSection> writer{format, columns, std::move(put), [](const Row& row) {
-                                         return geojson_feature(
-                                             {}, row.named.section.line, json_object(columns, row));
-                                     }};
-    writer.feature_separator = ",\n";
-    return writer;
+const Columns<ClassedSection>& section_columns() {
+    return columns;
 }
 
-std::string spoken(const SectionTotal& total) {
-    auto words = fmt::format(
-        "{:.2f} km, of which {:.2f} km measured", total.length_m / 1000, total.measured_m / 1000);
+SectionWriter
+section_writer(std::string_view format, RowWriter<ClassedSection>::Put put, UnitSystem units) {
+    auto in_unit = std::make_shared<const Columns<Row>>(in_units(columns, units));
+    RowWriter<Row> writer{format, *in_unit, std::move(put), [in_unit](const Row& row) {
+                              return geojson_feature(
+                                  {}, row.named.section.line, json_object(*in_unit, row));
+                          }};
+    writer.feature_separator = ",\n";
+    return {std::move(in_unit), std::move(writer)};
+}
+
+std::string spoken(const SectionTotal& total, UnitSystem units) {
+    const auto length = [&](double length_m) {
+        return units == UnitSystem::us ? fmt::format("{:.2f} mi", length_m * mi_of_m)
+                                       : fmt::format("{:.2f} km", length_m / 1000);
+    };
+    auto words =
+        fmt::format("{}, of which {} measured", length(total.length_m), length(total.measured_m));
     if (total.excluded_m > 0) {
-        words += fmt::format(", {:.2f} km excluded", total.excluded_m / 1000);
+        words += fmt::format(", {} excluded", length(total.excluded_m));
     }
     return words;
 }

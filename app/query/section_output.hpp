@@ -3,7 +3,9 @@
 #include "app/cli/row_writer.hpp"
 #include "app/query/section_query.hpp"
 #include "mapping/style/iri_class.hpp"
+#include "storage/text/unit_system.hpp"
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -15,12 +17,22 @@ struct ClassedSection {
     const ClassTable& classes;
 };
 
+/// Columns of sections for every format, in the order of docs/reference/sections.md.
+const Columns<ClassedSection>& section_columns();
+
+/// Writer of sections with its columns.
+struct SectionWriter {
+    std::shared_ptr<const Columns<ClassedSection>> columns;
+    RowWriter<ClassedSection> rows;
+};
+
 /// Returns a writer of sections.
 /// \param format  table, json, csv or geojson
-RowWriter<ClassedSection> section_writer(std::string_view format,
-                                         RowWriter<ClassedSection>::Put put);
+SectionWriter section_writer(std::string_view format,
+                             RowWriter<ClassedSection>::Put put,
+                             UnitSystem units = UnitSystem::si);
 
-/// Describes a total: "3.42 km, 2.97 km of them measured".
-std::string spoken(const SectionTotal& total);
+/// Describes a total: "3.42 km, of which 2.97 km measured".
+std::string spoken(const SectionTotal& total, UnitSystem units = UnitSystem::si);
 
 } // namespace macadam

@@ -98,6 +98,8 @@ SegmentStates states_of(const StoreReader& store,
     on_road.ranges = ranges_of(pieces);
     on_road.period = filter.period;
     on_road.min_passes = filter.min_passes;
+    on_road.min_vehicles = filter.min_vehicles;
+    on_road.vehicle = filter.vehicle;
     SegmentStates states;
     store.visit(on_road, [&](const SegmentRecord& record) {
         states.emplace(record.segment.key, *record.state);

@@ -12,10 +12,7 @@
 namespace macadam {
 namespace {
 
-struct Row {
-    std::size_t rank;
-    const WorstSection& section;
-};
+using Row = RankedSection;
 
 /// Formats a linear reference: "123456+ 100.0-240.0", + along the way's own direction, - against
 /// it.
@@ -48,18 +45,18 @@ const Columns<Row> columns{
     {"", as::text,
      [](auto& r) { return r.section.name.empty() ? r.section.highway : r.section.name; },
      {"road", "  {:<26.26}"}},
-    {"parts", as::json_only(as::raw), [](auto& r) { return parts_json(r.section.parts); }},
+    {"parts", as::json_only(as::numbers_in("m", as::raw)), [](auto& r) { return parts_json(r.section.parts); }},
     {"way_ids", as::csv_only(as::raw), [](auto& r) { return way_ids_list(r.section.parts); }},
     {"direction", as::csv_only(as::raw), [](auto& r) { return directions_list(r.section.parts); }},
-    {"from_m", as::csv_only(as::raw),
+    {"from_m", as::csv_only(as::numbers_in("m", as::raw)),
      [](auto& r) { return metres_list(r.section.parts, &StretchPart::from_m); }},
-    {"to_m", as::csv_only(as::raw),
+    {"to_m", as::csv_only(as::numbers_in("m", as::raw)),
      [](auto& r) { return metres_list(r.section.parts, &StretchPart::to_m); }},
     {"length_m", as::metres(2), [](auto& r) { return r.section.length_m; }, {"metres", " {:>7}", 0}},
     {"iri", as::iri(3), [](auto& r) { return r.section.mean.iri; }, {"IRI", " {:>6}", 2}},
     {"iri_low", as::iri(3), [](auto& r) { return r.section.mean.low; }},
     {"iri_high", as::iri(3), [](auto& r) { return r.section.mean.high; }},
-    {"", as::text, [](auto& r) { return interval_text(r.section.mean); }, {"90 %", " {:>13}"}},
+    {"", as::numbers_in("mm/m"), [](auto& r) { return interval_text(r.section.mean); }, {"90 %", " {:>13}"}},
     {"iri_worst", as::iri(3), [](auto& r) { return r.section.worst_iri; }, {"worst", " {:>6}", 2}},
     {"passes_least", as::integer, [](auto& r) { return r.section.min_passes; }},
     {"passes_median", as::shortest, [](auto& r) { return r.section.median_passes; }},
@@ -70,21 +67,27 @@ const Columns<Row> columns{
     {"lat_deg", as::degrees, [](auto& r) { return r.section.middle.lat_deg; }},
     {"lon_deg", as::degrees, [](auto& r) { return r.section.middle.lon_deg; }},
     {"", as::text, middle_words, {"middle", "  {:<20}"}},
-    {"", as::text, linear_reference, {"location along the way", " {}"}},
+    {"", as::numbers_in("m"), linear_reference, {"location along the way", " {}"}},
 };
 // clang-format on
 
 } // namespace
 
-std::string stretches_text(std::span<const WorstSection> stretches, std::string_view format) {
+const Columns<RankedSection>& worst_section_columns() {
+    return columns;
+}
+
+std::string
+stretches_text(std::span<const WorstSection> stretches, std::string_view format, UnitSystem units) {
     std::vector<Row> rows;
     for (const auto& section : stretches) {
         rows.push_back({rows.size() + 1, section});
     }
-    return rows_text(columns, rows, format, [](const Row& row) {
+    const auto in_unit = in_units(columns, units);
+    return rows_text(in_unit, rows, format, [&](const Row& row) {
         return geojson_feature(JsonValue{static_cast<std::int64_t>(row.rank)},
                                row.section.line,
-                               json_object(columns, row));
+                               json_object(in_unit, row));
     });
 }
 

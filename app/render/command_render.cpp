@@ -1,11 +1,13 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/joined_options.hpp"
 #include "app/cli/overwrite_guard.hpp"
 #include "app/database/empty_map_message.hpp"
 #include "app/database/lock_wait_messages.hpp"
 #include "app/database/publication_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/selection.hpp"
+#include "app/output/units_option.hpp"
 #include "app/render/base_map_option.hpp"
-#include "app/render/bbox_option.hpp"
+#include "app/render/change_map.hpp"
 #include "app/render/map_scene.hpp"
 #include "app/render/picture_output.hpp"
 #include "app/render/style_options.hpp"
@@ -16,6 +18,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,11 +29,13 @@ namespace {
 struct RenderOptions {
     std::filesystem::path store;
     PictureOutput output;
-    std::optional<GeoBox> box;
+    SegmentFilter filter;
+    std::string selection; ///< in words
     std::string title;
     MapStyle style;
     std::optional<BaseMapChoice> base;
     bool events;
+    std::optional<std::int64_t> since_ms; ///< changes since then instead of roughness
 };
 
 MapStyle parse_style(const Arguments& arguments, const Console& console) {
@@ -40,19 +46,33 @@ MapStyle parse_style(const Arguments& arguments, const Console& console) {
     return style;
 }
 
+/// Parses --compare-since. The map of changes has classes and colours of its own.
+std::optional<std::int64_t> parse_change(const Arguments& arguments) {
+    const auto since_ms = parse_begin(arguments, "--compare-since");
+    for (const auto* const option : {"--classes", "--ramp", "--grey-below"}) {
+        if (since_ms && arguments.is_given(option)) {
+            throw UsageError{fmt::format("--compare-since and {} cannot be combined", option)};
+        }
+    }
+    return since_ms;
+}
+
 RenderOptions parse_render(const Arguments& arguments, const Console& console) {
     return {.store = store_file(arguments),
             .output = parse_picture_output(arguments),
-            .box = map_box(arguments),
+            .filter = parse_filter(arguments),
+            .selection = text_of_filter(arguments, "--bbox"),
             .title = arguments.value("--title").value_or("Road roughness"),
             .style = parse_style(arguments, console),
             .base = parse_base_map(arguments),
-            .events = arguments.flag("--events")};
+            .events = arguments.flag("--events"),
+            .since_ms = parse_change(arguments)};
 }
 
 /// Checks that no input is overwritten and that the base map is not the road database.
-void expect_files_apart(const RenderOptions& options) {
-    std::vector<std::filesystem::path> inputs{options.store};
+void expect_files_apart(const RenderOptions& options, const Arguments& arguments) {
+    auto inputs = files_of_filter(arguments);
+    inputs.push_back(options.store);
     if (options.base) {
         std::error_code none;
         if (std::filesystem::equivalent(options.base->file, options.store, none)) {
@@ -62,13 +82,16 @@ void expect_files_apart(const RenderOptions& options) {
         }
         inputs.push_back(options.base->file);
     }
-    refuse_to_replace(options.output.file, inputs);
+    for (const auto& file : files_of(options.output)) {
+        refuse_to_replace(file, inputs);
+    }
 }
 
 void run_render(const Arguments& arguments, const Console& console) {
     auto options = parse_render(arguments, console);
-    expect_files_apart(options);
+    expect_files_apart(options, arguments);
     const auto store = opened_reader(options.store, console);
+    complete_filter(options.filter, store);
     warn_of_waiting(store, options.store, console);
     warn_of_empty_map(store, console);
     tell_publication(store, console);
@@ -84,15 +107,17 @@ void run_render(const Arguments& arguments, const Console& console) {
         }
         options.style.base_opacity = options.base->opacity.value_or(options.style.base_opacity);
     }
-    auto plan = load_map(store,
-                         {.box = options.box,
-                          .title = options.title,
-                          .style = options.style,
-                          .projection = projection_of(options.output),
-                          .base = base.map,
-                          .width_px = options.output.width_px,
-                          .height_px = options.output.height_px,
-                          .events = options.events});
+    const MapRequest request{.filter = options.filter,
+                             .selection = options.selection,
+                             .title = options.title,
+                             .style = options.style,
+                             .projection = projection_of(options.output),
+                             .base = base.map,
+                             .width_px = options.output.width_px,
+                             .height_px = options.output.height_px,
+                             .events = options.events};
+    auto plan = options.since_ms ? load_change_map(store, request, *options.since_ms)
+                                 : load_map(store, request);
     const auto progress = console.progress("drawing");
     const auto last_seen_ms = store.seen().last_ms;
     const auto words =
@@ -105,16 +130,20 @@ void run_render(const Arguments& arguments, const Console& console) {
         console.warn(fmt::format("{}: does not overlap the map, which is drawn without it",
                                  options.base->file.string()));
     }
-    console.say(fmt::format("{}: {}", options.output.file.string(), words));
+    console.say(fmt::format("{}: {}",
+                            options.output.to_standard_output ? "standard output"
+                                                              : options.output.file.string(),
+                            words));
 }
 
 constexpr std::array operands{store_operand};
-constexpr std::array options{
+constexpr std::array output_options{
     picture_output_option,
-    Option{"--bbox",
-           "W,S,E,N",
-           "Area to show, in degrees; W > E crosses the antimeridian.",
-           "all roads driven"},
+    picture_format_option,
+    Option{"--compare-since",
+           "DATE",
+           "Show what became rougher or smoother since this day: 2026-03-01 or 2026-03."}};
+constexpr std::array map_options{
     picture_size_option,
     crs_option,
     world_file_option,
@@ -137,18 +166,17 @@ constexpr std::array options{
     preference(
         one_of("light|dark|print",
                in_group("appearance", {"--theme", "NAME", "light, dark or print.", "light"}))),
-    preference(one_of(
-        "mm/m|in/mi",
-        in_group("appearance", {"--unit", "UNIT", "Unit in the legend: mm/m or in/mi.", "mm/m"}))),
+    preferred_units_option,
     style_option,
     base_option,
     base_opacity_option,
-    instead_of("--min-passes", grey_below_option),
+    grey_below_option,
     in_group("appearance", {"--events", "", "Also potholes, bumps, joints and rails, as symbols."}),
     in_group("appearance", {"--no-labels", "", "Omit road names."}),
     preference(in_group(
         "appearance",
         {"--left-hand", "", "Traffic keeps left: draw each direction on the left side."}))};
+constexpr auto options = joined(output_options, selection_options, map_options);
 
 } // namespace
 
@@ -157,10 +185,16 @@ const Command render_command{.name = "render",
                              .about =
                                  "Draws each direction on its own side of the road where there "
                                  "is room, and roads without a pass in grey,\nwith legend, "
-                                 "scale bar, period and source. Needs no display.",
+                                 "scale bar, period and source. --bbox is the area to show; with "
+                                 "other selections, the map\nshows what is selected in colour, and "
+                                 "all other roads in grey. Needs no display.",
                              .example = "  macadam render roads.gpkg -o map.png\n"
                                         "  macadam render roads.gpkg -o centre.png --bbox "
                                         "11.55,49.93,11.60,49.96 --size 4096x4096\n"
+                                        "  macadam render roads.gpkg -o poor.png --road haupt "
+                                        "--class poor\n"
+                                        "  macadam render roads.gpkg -o change.png "
+                                        "--compare-since 2026-04\n"
                                         "  macadam render roads.gpkg -o map.tif --bare --crs "
                                         "EPSG:3006\n"
                                         "  macadam render roads.gpkg -o map.pdf --paper A3 "

@@ -2,9 +2,11 @@
 
 #include "app/cli/console.hpp"
 #include "app/database/empty_map_message.hpp"
+#include "app/database/selection.hpp"
 #include "app/render/base_map_option.hpp"
-#include "app/render/bbox_option.hpp"
+#include "app/render/box_visit.hpp"
 #include "estimator/common/error.hpp"
+#include "storage/text/unit_system.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 namespace macadam {
@@ -41,32 +44,60 @@ std::string subtitle_of_empty_map(const StoreReader& store) {
                                          : "No measurements yet: 'macadam import' adds trips";
 }
 
-std::string subtitle_of(const StoreInfo& info) {
-    return fmt::format("{}  ·  {:.1f} km  ·  {}  ·  {}",
+std::string length_text(double km, const MapStyle& style) {
+    return style.in_per_mi ? fmt::format("{:.1f} mi", 1000 * km * mi_of_m)
+                           : fmt::format("{:.1f} km", km);
+}
+
+std::string subtitle_of(const StoreInfo& info, const MapStyle& style) {
+    return fmt::format("{}  ·  {}  ·  {}  ·  {}",
                        period_of({info.first_seen_ms, info.last_seen_ms}),
-                       info.km,
+                       length_text(info.km, style),
                        counted(info.trips, "trip"),
                        counted(info.vehicles.size(), "car"));
 }
 
-/// Returns the length of each class over all segments with enough passes.
-std::vector<double>
-class_km_of(const StoreReader& store, const ClassTable& classes, int min_passes) {
-    std::vector<double> km(classes.classes.size());
-    store.visit({}, [&](const SegmentRecord& record) {
-        if (record.state && !has_few_passes(record.state->passes, min_passes)) {
-            const auto& segment = record.segment;
-            km[class_index(classes, record.state->iri_um / 1000.0)] +=
-                (segment.to_m - segment.from_m) / 1000;
+/// What a map says of the segments that it selects.
+struct SelectedRoads {
+    GeoBox box;
+    std::vector<double> class_km; ///< of segments with enough passes
+    double km = 0;
+    ObservedPeriod seen{};
+};
+
+SelectedRoads selected_roads(const StoreReader& store,
+                             const SegmentFilter& filter,
+                             const ClassTable& classes,
+                             int min_passes) {
+    SelectedRoads roads{.box = {}, .class_km = std::vector<double>(classes.classes.size())};
+    const auto take_time = [](auto& into, const auto& utc_ms, auto better) {
+        into = into && utc_ms ? std::optional{better(*into, *utc_ms)} : into ? into : utc_ms;
+    };
+    store.visit(filter, [&](const SegmentRecord& record) {
+        const auto& segment = record.segment;
+        const double km = (segment.to_m - segment.from_m) / 1000;
+        for (const auto& point : segment.line) {
+            roads.box = including(roads.box, point);
+        }
+        roads.km += km;
+        take_time(roads.seen.first_ms, record.state->first_seen_ms, [](auto a, auto b) {
+            return std::min(a, b);
+        });
+        take_time(roads.seen.last_ms, record.state->last_seen_ms, [](auto a, auto b) {
+            return std::max(a, b);
+        });
+        if (!has_few_passes(record.state->passes, min_passes)) {
+            roads.class_km[class_index(classes, record.state->iri_um / 1000.0)] += km;
         }
     });
-    return km;
+    return roads;
 }
 
-/// Returns the events in a box, in its longitudes where it crosses the antimeridian.
-std::vector<MapEvent> map_events(const StoreReader& store, const GeoBox& box) {
+/// Returns the events of a filter in a box, in its longitudes where it crosses the antimeridian.
+std::vector<MapEvent>
+map_events(const StoreReader& store, const SegmentFilter& filter, const GeoBox& box) {
     std::vector<MapEvent> events;
-    for (const auto& [event, at, name, highway] : store.events({})) {
+    for (const auto& [event, at, name, highway] : store.events(filter)) {
         const double turn_deg = at.lon_deg + 360 <= box.east_deg ? 360 : 0;
         const GeoPoint place{at.lat_deg, at.lon_deg + turn_deg};
         if (contains(box, place)) {
@@ -90,23 +121,43 @@ MapScene scene_around(const StoreReader& store, const MapRequest& request) {
         scene.base = request.base;
         scene.attribution = attribution_with(scene.attribution, *request.base);
     }
-    if (request.box) {
-        scene.box = *request.box;
+    const auto with_selection = [&](std::string text) {
+        return text + (request.selection.empty() ? "" : "  ·  " + request.selection);
+    };
+    if (request.filter.box) {
+        scene.box = *request.filter.box;
         const auto empty = empty_map_text(store);
-        scene.subtitle = empty.empty() ? period_of(store.seen()) : subtitle_of_empty_map(store);
+        scene.subtitle = empty.empty()
+                             ? with_selection(request.subtitle.value_or(period_of(store.seen())))
+                             : subtitle_of_empty_map(store);
+        return scene;
+    }
+    if (selects(request.filter) || request.subtitle) {
+        const auto& classes =
+            request.subtitle ? *class_table(store.settings().class_table) : classes_of(request);
+        auto roads = selected_roads(store, request.filter, classes, request.style.min_passes);
+        if (is_empty(roads.box)) {
+            throw InputError{fmt::format("{}: the selection contains no measured segment, expected "
+                                         "at least one",
+                                         store.file().string())};
+        }
+        scene.box = box_with_margin(roads.box);
+        scene.class_km = request.subtitle ? request.class_km : std::move(roads.class_km);
+        scene.subtitle = with_selection(request.subtitle.value_or(
+            fmt::format("{}  ·  {}", period_of(roads.seen), length_text(roads.km, request.style))));
         return scene;
     }
     const auto info = store.info();
     const auto& classes = classes_of(request);
     scene.box = box_with_margin(info.box);
-    scene.subtitle =
-        info.segments_with_passes == 0 ? subtitle_of_empty_map(store) : subtitle_of(info);
+    scene.subtitle = info.segments_with_passes == 0 ? subtitle_of_empty_map(store)
+                                                    : subtitle_of(info, request.style);
     if (request.style.min_passes <= 1 && &classes == class_table(info.settings.class_table)) {
         for (const auto& [name, km] : info.classes) {
             scene.class_km.push_back(km);
         }
     } else {
-        scene.class_km = class_km_of(store, classes, request.style.min_passes);
+        scene.class_km = selected_roads(store, {}, classes, request.style.min_passes).class_km;
     }
     return scene;
 }
@@ -129,6 +180,18 @@ void expect_roads(const MapScene& scene) {
             box.north_deg,
             box.east_deg)};
     }
+}
+
+using SelectedStates = std::map<SegmentKey, SegmentState>;
+
+/// Returns the states of the selected segments in a box.
+SelectedStates
+selected_states(const StoreReader& store, const SegmentFilter& filter, const GeoBox& box) {
+    SelectedStates states;
+    visit_box(store, filter, box, [&](const SegmentRecord& record) {
+        states.emplace(record.segment.key, *record.state);
+    });
+    return states;
 }
 
 struct Place {
@@ -177,24 +240,21 @@ bool is_certain(IriUm iri_um, IriUm sd_um) {
     return sd_um <= certain_sd * iri_um;
 }
 
-std::vector<MapLine>
-map_lines(const StoreReader& store, const GeoBox& box, const ClassTable& classes, int min_passes) {
-    SegmentFilter filter;
-    filter.with_state_only = false;
+std::vector<MapLine> map_lines(const StoreReader& store,
+                               const GeoBox& box,
+                               const std::function<void(const SegmentRecord&, MapLine&)>& paint) {
+    SegmentFilter all;
+    all.with_state_only = false;
     std::vector<MapLine> lines;
     std::vector<Place> places;
-    visit_box(store, filter, box, [&](const SegmentRecord& record) {
+    visit_box(store, all, box, [&](const SegmentRecord& record) {
         const auto& key = record.segment.key;
         MapLine line;
         line.line = record.segment.line;
         line.forward = key.forward;
         line.rank = rank_of(record.highway);
         line.name = record.name;
-        if (record.state) {
-            line.iri_class = static_cast<int>(class_index(classes, record.state->iri_um / 1000.0));
-            line.few_passes = has_few_passes(record.state->passes, min_passes);
-            line.certain = is_certain(record.state->iri_um, record.state->sd_um);
-        }
+        paint(record, line);
         places.push_back({key.way_id, key.index, lines.size()});
         lines.push_back(std::move(line));
     });
@@ -202,12 +262,45 @@ map_lines(const StoreReader& store, const GeoBox& box, const ClassTable& classes
     return lines;
 }
 
-MapPlan load_map(const StoreReader& store, const MapRequest& request) {
+std::vector<MapLine> map_lines(const StoreReader& store,
+                               const GeoBox& box,
+                               const ClassTable& classes,
+                               int min_passes,
+                               const SegmentFilter& filter) {
+    std::optional<SelectedStates> selected;
+    if (SegmentFilter others = filter; others.box.reset(), selects(others)) {
+        selected = selected_states(store, others, box);
+    }
+    return map_lines(store, box, [&](const SegmentRecord& record, MapLine& line) {
+        const auto* state = record.state ? &*record.state : nullptr;
+        if (selected) {
+            const auto found = selected->find(record.segment.key);
+            state = found != selected->end() ? &found->second : nullptr;
+        }
+        if (state != nullptr) {
+            line.iri_class = static_cast<int>(class_index(classes, state->iri_um / 1000.0));
+            line.few_passes = has_few_passes(state->passes, min_passes);
+            line.certain = is_certain(state->iri_um, state->sd_um);
+        }
+    });
+}
+
+MapPlan load_map(const StoreReader& store,
+                 const MapRequest& request,
+                 const std::function<std::vector<MapLine>(const GeoBox&)>& lines) {
+    auto style = request.style;
+    auto filter = request.filter;
+    filter.box.reset();
+    if (selects(filter) && style.words.unmeasured == LegendWords{}.unmeasured) {
+        style.words.unmeasured = "Not selected or measured";
+    }
     MapPlan plan{
-        scene_around(store, request), request.style, {request.width_px, request.height_px}};
+        scene_around(store, request), std::move(style), {request.width_px, request.height_px}};
     const auto load = [&](const GeoBox& box) {
-        plan.set_roads(map_lines(store, box, classes_of(request), request.style.min_passes),
-                       request.events ? map_events(store, box) : std::vector<MapEvent>{});
+        plan.set_roads(
+            lines ? lines(box)
+                  : map_lines(store, box, classes_of(request), request.style.min_passes, filter),
+            request.events ? map_events(store, filter, box) : std::vector<MapEvent>{});
     };
     const auto ground = plan.ground();
     load(ground);

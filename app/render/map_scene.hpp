@@ -4,6 +4,7 @@
 #include "storage/store/reader/store_reader.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,16 +24,28 @@ bool has_few_passes(std::int32_t passes, int min_passes);
 bool is_certain(IriUm iri_um, IriUm sd_um);
 
 /// Returns the segments of a database that touch a box, in key order, with their classes. Segments
-/// without a pass are roads without a measurement; those with fewer than `min_passes` are marked.
-/// Segments known from references only are not marked.
+/// without a pass and those that the filter leaves out are roads without a measurement; those with
+/// fewer than `min_passes` are marked. Segments known from references only are not marked.
+///
+/// \param filter  its box does not count
 std::vector<MapLine> map_lines(const StoreReader& store,
                                const GeoBox& box,
                                const ClassTable& classes,
-                               int min_passes = 1);
+                               int min_passes = 1,
+                               const SegmentFilter& filter = {});
+
+/// Returns the segments of a database that touch a box, in key order, as roads without a
+/// measurement that `paint` may change.
+std::vector<MapLine> map_lines(const StoreReader& store,
+                               const GeoBox& box,
+                               const std::function<void(const SegmentRecord&, MapLine&)>& paint);
 
 /// Request for a picture.
 struct MapRequest {
-    std::optional<GeoBox> box{}; ///< `std::nullopt`: the driven extent
+    SegmentFilter filter{};  ///< box: what to show, `std::nullopt`: the extent of the selection
+    std::string selection{}; ///< the filter in words, for the subtitle; "" = none
+    std::optional<std::string> subtitle{}; ///< instead of period, length, trips and cars
+    std::vector<double> class_km{};        ///< instead of the lengths of roughness classes
     std::string title{};
     MapStyle style{};                                            ///< includes the class table
     std::shared_ptr<const PlaneProjection> projection = nullptr; ///< null: spherical Mercator
@@ -44,7 +57,10 @@ struct MapRequest {
 /// Plans a picture and loads its roads: the segments on it with their classes, the roads without a
 /// measurement, and the text around them.
 ///
+/// \param lines         returns the roads in a box; empty: map_lines() of the request
 /// \throws InputError  if the database has no segment in the box.
-MapPlan load_map(const StoreReader& store, const MapRequest& request);
+MapPlan load_map(const StoreReader& store,
+                 const MapRequest& request,
+                 const std::function<std::vector<MapLine>(const GeoBox&)>& lines = {});
 
 } // namespace macadam

@@ -1,5 +1,8 @@
 #include "app/render/picture_output.hpp"
 
+#include "app/cli/console.hpp"
+#include "app/cli/row_output.hpp"
+
 #include "estimator/common/ascii.hpp"
 #include "estimator/common/error.hpp"
 #include "render/canvas/png.hpp"
@@ -173,6 +176,10 @@ void write_png(MapPlan& plan,
             output.file);
         return;
     }
+    if (output.to_standard_output) {
+        give_png(plan, print, progress, expect_valid);
+        return;
+    }
     AtomicFile file{output.file};
     give_png(
         plan, [&](std::string_view bytes) { file.write(bytes); }, progress, expect_valid);
@@ -186,7 +193,15 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
     if (!file) {
         throw UsageError{"-o map.png is missing"};
     }
-    const auto kind = kind_of(*file);
+    const bool to_standard_output = *file == standard_output;
+    if (!to_standard_output && arguments.value("--format")) {
+        throw UsageError{"--format is for -o -; the name of a file tells its format"};
+    }
+    const auto kind = kind_of(to_standard_output ? "map." + arguments.choice("--format") : *file);
+    if (to_standard_output && (kind == Kind::geotiff || arguments.flag("--world-file"))) {
+        throw UsageError{"-o - cannot write a .tif or a world file, which need a file; expected "
+                         "--format png or pdf"};
+    }
     expect_fitting(arguments, kind);
     const auto size =
         kind == Kind::pdf
@@ -199,10 +214,14 @@ PictureOutput parse_picture_output(const Arguments& arguments) {
             .height_px = size.second,
             .world_file = arguments.flag("--world-file"),
             .bare = arguments.flag("--bare"),
+            .to_standard_output = to_standard_output,
             .crs = arguments.value("--crs").value_or("")};
 }
 
 std::vector<std::filesystem::path> files_of(const PictureOutput& output) {
+    if (output.to_standard_output) {
+        return {};
+    }
     std::vector files{output.file};
     if (output.world_file) {
         files.push_back(world_file_of(output.file));
@@ -237,7 +256,7 @@ std::string write_picture(MapPlan plan,
                                    .made = made});
         expect_not_stopped(progress);
         expect_valid();
-        write_bytes(output.file, pdf);
+        output.to_standard_output ? print(pdf) : write_bytes(output.file, pdf);
         return fmt::format("{:.0f} x {:.0f} mm",
                            width_px / px_per_inch * mm_per_inch,
                            height_px / px_per_inch * mm_per_inch);

@@ -18,6 +18,7 @@ struct PictureOutput {
     int width_px = 0, height_px = 0; ///< size of the picture or the sheet of paper
     bool world_file = false;         ///< georeference beside a .png
     bool bare = false;               ///< map only, up to the edges
+    bool to_standard_output = false; ///< instead of the file
     std::string crs;                 ///< "" = spherical Mercator
 };
 
@@ -34,7 +35,10 @@ inline constexpr std::string_view default_paper = "A4";
 inline constexpr Option picture_output_option{
     "-o,--output",
     "FILE",
-    "The map: .png, .tif (Cloud Optimized GeoTIFF) or .pdf (vector graphics)."};
+    "The map: .png, .tif (Cloud Optimized GeoTIFF) or .pdf (vector graphics); - for standard "
+    "output."};
+inline constexpr Option picture_format_option =
+    one_of("png|pdf|tif", {"--format", "NAME", "Format of -o -: png or pdf.", "png"});
 inline constexpr Option picture_size_option =
     in_group("page",
              {"--size",

@@ -1,5 +1,6 @@
 #include "app/render/style_options.hpp"
 
+#include "app/output/units_option.hpp"
 #include "estimator/common/error.hpp"
 #include "render/scene/style_check.hpp"
 #include "storage/settings/database_appearance.hpp"
@@ -31,7 +32,9 @@ MapLook user_look(const Arguments& arguments) {
     const auto file = arguments.value("--style");
     auto look = file ? read_style(*file) : MapLook{};
     prefer(look.theme, look.theme.has_value(), arguments, "--theme");
-    prefer(look.unit, look.unit.has_value(), arguments, "--unit");
+    if (prefer(look.unit, look.unit.has_value(), arguments, "--units")) {
+        look.unit = parse_units(arguments) == UnitSystem::us ? "in/mi" : "mm/m";
+    }
     if (prefer(look.ramp, look.ramp || !look.own_ramp.empty(), arguments, "--ramp")) {
         look.own_ramp.clear();
     }

@@ -28,7 +28,7 @@ struct ChosenLook {
     std::optional<std::string> language; ///< of reports
 };
 
-/// Reads the style of --style and the options --theme, --unit, --classes, --ramp and --language of
+/// Reads the style of --style and the options --theme, --units, --classes, --ramp and --language of
 /// a command that has them. In order of rank: options on the command line, the style file, defaults
 /// of these options, and for unit, language, theme and colours the file macadam.toml beside the
 /// database. A macadam.toml that is no such file is ignored with a warning.

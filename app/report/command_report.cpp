@@ -1,11 +1,12 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/joined_options.hpp"
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
 #include "app/database/empty_map_message.hpp"
 #include "app/database/lock_wait_messages.hpp"
-#include "app/database/period_options.hpp"
 #include "app/database/publication_messages.hpp"
-#include "app/database/segment_options.hpp"
+#include "app/database/selection.hpp"
+#include "app/output/units_option.hpp"
 #include "app/render/style_options.hpp"
 #include "app/report/reference_output.hpp"
 #include "app/report/reference_report.hpp"
@@ -17,9 +18,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace macadam {
 namespace {
@@ -71,8 +74,27 @@ PdfConfig parse_paper(const Arguments& arguments, std::string_view ending) {
     return config;
 }
 
-ReportOptions parse_report(const Arguments& arguments, const Console& console) {
+/// Returns the name of the page: of -o, or for standard output one with the suffix of --format.
+std::optional<std::string> page_of(const Arguments& arguments) {
     const auto output = arguments.value("--output");
+    const auto format = arguments.value("--format");
+    const bool is_page = format == "html" || format == "pdf";
+    if (output != standard_output) {
+        if (is_page) {
+            throw UsageError{fmt::format(
+                "--format {} is for -o -; the name of a file tells its format", *format)};
+        }
+        return output;
+    }
+    return "report." + (is_page ? *format : std::string{"html"});
+}
+
+bool is_to_standard_output(const Arguments& arguments) {
+    return arguments.value("--output") == standard_output;
+}
+
+ReportOptions parse_report(const Arguments& arguments, const Console& console) {
+    const auto output = page_of(arguments);
     const auto ending = std::filesystem::path{output.value_or("")}.extension().string();
     if (ending != ".html" && ending != ".pdf") {
         throw UsageError{
@@ -87,6 +109,8 @@ ReportOptions parse_report(const Arguments& arguments, const Console& console) {
             .report = {.title = arguments.value("--title").value_or(wording("title")),
                        .worst = parse_worst(arguments),
                        .sections = parse_sections(arguments, false),
+                       .filter = parse_filter(arguments),
+                       .selection = text_of_filter(arguments),
                        .since_ms = parse_begin(arguments, "--compare-since"),
                        .wording = wording,
                        .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
@@ -96,17 +120,19 @@ ReportOptions parse_report(const Arguments& arguments, const Console& console) {
 
 /// Rejects options that the reference report does not support.
 void refuse_beside_references(const Arguments& arguments) {
-    for (const auto* const option :
-         {"--worst", "--sections", "--classes", "--compare-since", "--style", "--grey-below"}) {
+    std::vector<std::string_view> refused{
+        "--worst", "--sections", "--classes", "--compare-since", "--style", "--grey-below"};
+    std::ranges::transform(selection_options, std::back_inserter(refused), &Option::name);
+    for (const auto option : refused) {
         if (arguments.is_given(option)) {
             throw UsageError{fmt::format("{} and --against-reference cannot be combined", option)};
         }
     }
 }
 
-/// Rejects --unit and --language for data formats, which are always in English and mm/m.
+/// Rejects --units and --language for data formats, which are always in English and mm/m.
 void refuse_for_programs(const Arguments& arguments) {
-    for (const auto* const option : {"--unit", "--language"}) {
+    for (const auto* const option : {"--units", "--language"}) {
         if (arguments.is_given(option)) {
             throw UsageError{
                 fmt::format("with --against-reference, {} requires -o FILE.html or .pdf", option)};
@@ -125,7 +151,12 @@ ReferenceOutput parse_reference_output(const Arguments& arguments) {
     ReferenceOutput output{.page = {},
                            .rows = row_file_of(arguments, {".html", ".pdf"}),
                            .format = row_format_of(arguments)};
-    if (!output.rows) {
+    if (output.format == "html" || output.format == "pdf") {
+        throw UsageError{fmt::format("--against-reference has --format table, csv or json, and "
+                                     "-o FILE.{}",
+                                     output.format)};
+    }
+    if (!output.rows && !is_to_standard_output(arguments)) {
         output.page = arguments.value("--output");
     }
     if (output.page && (arguments.value("--format") || arguments.flag("--json"))) {
@@ -180,10 +211,10 @@ void report_against_reference(const Arguments& arguments, const Console& console
 
 /// Rejects options of rows, which only --against-reference prints.
 void refuse_rows(const Arguments& arguments) {
-    for (const auto* const option : {"--format", "--json"}) {
-        if (arguments.value(option)) {
-            throw UsageError{fmt::format("{} requires --against-reference", option)};
-        }
+    const auto format = arguments.value("--format");
+    if (arguments.value("--json") || (format && format != "html" && format != "pdf")) {
+        throw UsageError{fmt::format("{} requires --against-reference",
+                                     format ? "--format " + *format : std::string{"--json"})};
     }
 }
 
@@ -195,7 +226,13 @@ void run_report(const Arguments& arguments, const Console& console) {
     refuse_rows(arguments);
     auto options = parse_report(arguments, console);
     const auto store = opened_reader(options.store, console);
-    refuse_to_replace(options.output, {options.store});
+    auto inputs = files_of_filter(arguments);
+    inputs.push_back(options.store);
+    const bool to_standard_output = is_to_standard_output(arguments);
+    if (!to_standard_output) {
+        refuse_to_replace(options.output, inputs);
+    }
+    complete_filter(options.report.filter, store);
     warn_of_waiting(store, options.store, console);
     warn_of_empty_map(store, console);
     tell_publication(store, console);
@@ -208,29 +245,34 @@ void run_report(const Arguments& arguments, const Console& console) {
     const auto bytes = options.report.pictures == PictureUse::paper ? pdf_of(document, options.pdf)
                                                                     : html_of(document);
     store.expect_in_place();
-    AtomicFile file{options.output};
-    file.write(bytes);
-    file.commit();
-    console.say(fmt::format(
-        "{}: {:.1f} MB", options.output.string(), static_cast<double>(bytes.size()) / 1e6));
+    if (to_standard_output) {
+        print(bytes);
+    } else {
+        AtomicFile file{options.output};
+        file.write(bytes);
+        file.commit();
+    }
+    console.say(fmt::format("{}: {:.1f} MB",
+                            to_standard_output ? "standard output" : options.output.string(),
+                            static_cast<double>(bytes.size()) / 1e6));
 }
 
 constexpr std::array operands{store_operand};
-constexpr std::array options{
-    Option{"-o,--output", "FILE", "The report, an .html or .pdf file."},
+constexpr std::array output_options{
+    Option{"-o,--output", "FILE", "The report, an .html or .pdf file; - for standard output."},
     Option{"--against-reference",
            "",
            "Compare cars with reference surveys: -o FILE.html, .pdf, .csv or .json, or a table."},
-    one_of("table|csv|json",
-           {"--format", "NAME", "Of --against-reference: table, csv or json.", "table"}),
+    one_of("table|csv|json|html|pdf",
+           {"--format",
+            "NAME",
+            "Of --against-reference: table, csv or json; of -o -: html or pdf.",
+            "table, html"}),
     json_option,
     Option{"--title", "TEXT", "Title of the report.", "Road roughness"},
-    instead_of(
-        "--since",
-        {"--compare-since", "DATE", "Report changes since this day: 2026-03-01 or 2026-03."}),
-    preference(one_of(
-        "mm/m|in/mi",
-        in_group("appearance", {"--unit", "UNIT", "Unit of roughness: mm/m or in/mi.", "mm/m"}))),
+    Option{"--compare-since", "DATE", "Report changes since this day: 2026-03-01 or 2026-03."}};
+constexpr std::array page_options{
+    preferred_units_option,
     preference(one_of("en|de", in_group("appearance", {"--language", "CODE", "en or de.", "en"}))),
     preference(one_of(
         "A4|letter",
@@ -246,10 +288,11 @@ constexpr std::array options{
         in_group("appearance",
                  {"--classes", "NAME", "fhwa (good, fair, poor) or five.", "as in the database"}))),
     style_option,
-    instead_of("--min-passes", grey_below_option),
+    grey_below_option,
     preference(in_group(
         "appearance",
         {"--left-hand", "", "Traffic keeps left: maps draw each direction on the left side."}))};
+constexpr auto options = joined(output_options, selection_options, page_options);
 
 } // namespace
 
@@ -257,7 +300,8 @@ const Command report_command{
     .name = "report",
     .summary = "Create a condition report: condition, worst sections, coverage, data",
     .about = "Writes one self-contained HTML file that opens in any browser, also on a phone; or a "
-             "PDF for printing.\nThe same database gives the same bytes.",
+             "PDF for printing.\nThe same database gives the same bytes. Options that select "
+             "segments or passes limit the report to these.",
     .example =
         "  macadam report roads.gpkg -o report.html --title \"Spring survey 2026\"\n"
         "  macadam report roads.gpkg -o report.pdf --compare-since 2026-04-01 --language de\n"

@@ -1,7 +1,10 @@
 #include "app/report/report_data.hpp"
 
+#include "app/database/selection.hpp"
 #include "app/query/section_query.hpp"
 #include "app/query/worst_sections_output.hpp"
+#include "app/render/change_map.hpp"
+#include "app/report/report_survey.hpp"
 
 #include "render/scene/colour.hpp"
 #include "storage/networks/network_file.hpp"
@@ -19,43 +22,20 @@
 namespace macadam {
 namespace {
 
-constexpr double histogram_step_mm_per_m = 0.25;
-constexpr double min_histogram_mm_per_m = 4;
-constexpr double max_histogram_mm_per_m = 12;
+/// Axis of the histogram: round numbers of the unit.
+struct HistogramAxis {
+    double step, min_end, max_end; ///< in the unit
+    double round_to;               ///< of the end
+    double mm_per_m_of_one;
+};
+constexpr HistogramAxis metric_axis{0.25, 4, 12, 1, 1};
+constexpr HistogramAxis us_axis{10, 250, 750, 50, 1 / in_per_mi_of_mm_per_m};
+
+const HistogramAxis& axis_in(IriUnit unit) {
+    return unit == IriUnit::mm_per_m ? metric_axis : us_axis;
+}
 
 constexpr std::size_t max_changed = 10; // sections of each kind
-
-/// Measured segments of a database, and the length of its whole network.
-struct Survey {
-    std::vector<SegmentRecord> measured;
-    std::map<std::string, double> network_m; ///< by highway tag
-};
-
-Survey survey_of(const StoreReader& store) {
-    Survey survey;
-    SegmentFilter filter;
-    filter.with_state_only = false;
-    store.visit(filter, [&](const SegmentRecord& record) {
-        survey.network_m[record.highway] += record.segment.to_m - record.segment.from_m;
-        if (record.state) {
-            survey.measured.push_back(record);
-        }
-    });
-    return survey;
-}
-
-/// Returns the number of bins for all but the roughest percent.
-std::size_t histogram_bins(const std::vector<SegmentRecord>& measured) {
-    std::vector<RatedLength> pieces;
-    pieces.reserve(measured.size());
-    for (const auto& record : measured) {
-        pieces.push_back(rated_length(record));
-    }
-    const double most = pieces.empty() ? 0 : road_percentile(std::move(pieces), 0.99);
-    return static_cast<std::size_t>(
-        std::clamp(std::ceil(most), min_histogram_mm_per_m, max_histogram_mm_per_m) /
-        histogram_step_mm_per_m);
-}
 
 std::string day_of(std::int64_t utc_ms) {
     return utc_day(utc_ms);
@@ -63,6 +43,34 @@ std::string day_of(std::int64_t utc_ms) {
 
 ReportDays days_of(std::optional<std::int64_t> first_ms, std::optional<std::int64_t> last_ms) {
     return first_ms && last_ms ? ReportDays{day_of(*first_ms), day_of(*last_ms)} : ReportDays{};
+}
+
+/// Returns the first and last day on which measured segments were seen.
+ReportDays days_of(const std::vector<SegmentRecord>& measured) {
+    std::optional<std::int64_t> first_ms, last_ms;
+    for (const auto& record : measured) {
+        const auto& state = *record.state;
+        if (state.first_seen_ms) {
+            first_ms = std::min(first_ms.value_or(*state.first_seen_ms), *state.first_seen_ms);
+        }
+        if (state.last_seen_ms) {
+            last_ms = std::max(last_ms.value_or(*state.last_seen_ms), *state.last_seen_ms);
+        }
+    }
+    return days_of(first_ms, last_ms);
+}
+
+/// Returns the number of bins for all but the roughest percent.
+std::size_t histogram_bins(const std::vector<SegmentRecord>& measured, const HistogramAxis& axis) {
+    std::vector<RatedLength> pieces;
+    pieces.reserve(measured.size());
+    for (const auto& record : measured) {
+        pieces.push_back(rated_length(record));
+    }
+    const double most = pieces.empty() ? 0 : road_percentile(std::move(pieces), 0.99);
+    const double end = axis.round_to * std::ceil(most / axis.mm_per_m_of_one / axis.round_to);
+    return static_cast<std::size_t>(
+        std::lround(std::clamp(end, axis.min_end, axis.max_end) / axis.step));
 }
 
 // --------------------------------------------------------------------------------------- values
@@ -95,9 +103,10 @@ std::vector<ReportVehicle> vehicles_of(const StoreUsage& usage) {
     return vehicles;
 }
 
-std::vector<ReportSection> sections_of(const StoreReader& store, const SectionOptions& options) {
+std::vector<ReportSection>
+sections_of(const StoreReader& store, const SectionOptions& options, const SegmentFilter& filter) {
     std::vector<ReportSection> sections;
-    each_section(store, options, {}, [&](const NamedSection& named) {
+    each_section(store, options, filter, [&](const NamedSection& named) {
         sections.push_back({.name = named.name,
                             .from_m = named.from_m,
                             .to_m = named.to_m,
@@ -125,24 +134,6 @@ std::optional<ReportPublication> publication_of(const StoreInfo& info) {
 }
 
 // --------------------------------------------------------------------------------------- change
-
-std::vector<SegmentRecord> states_in(const StoreReader& store, const Period& period) {
-    SegmentFilter filter;
-    filter.period = period;
-    std::vector<SegmentRecord> records;
-    store.visit(filter, [&](const SegmentRecord& record) { records.push_back(record); });
-    return records;
-}
-
-/// Returns the kinds of change as classes of a map, from blue to red.
-const ClassTable& verdicts() {
-    constexpr double none = std::numeric_limits<double>::infinity();
-    static constexpr std::array classes{IriClass{"improved", 0, false},
-                                        IriClass{"no change shown", 0, false},
-                                        IriClass{"deteriorated", none, false}};
-    static const ClassTable table{"change", "Change", classes};
-    return table;
-}
 
 constexpr int middle_rank = 3; // line width for town streets and main roads
 
@@ -182,11 +173,11 @@ std::vector<ReportChangedStretch> drawn(const StoreReader& store,
         for (const auto i : stretch.stretch.records) {
             segments.push_back(change.segments[i]);
         }
-        auto scene = quiet_scene(store, stretch.stretch, verdicts());
+        auto scene = quiet_scene(store, stretch.stretch, change_classes());
         colour_change(scene, segments, since);
         listed.push_back({stretch,
                           std::string{heading_of(stretch.stretch)},
-                          pictures.stretch(scene, &verdicts())});
+                          pictures.stretch(scene, &change_classes())});
     }
     return listed;
 }
@@ -196,28 +187,11 @@ std::size_t pictures_of(const ChangeSince& change) {
            std::min(change.better.size(), max_changed);
 }
 
-/// States before and since a day, and their comparison.
-struct Compared {
-    std::vector<SegmentRecord> since;
-    ChangeSince change;
-};
-
-std::optional<Compared>
-compared(const StoreReader& store, const RoadNetwork& roads, const ReportConfig& config) {
-    if (!config.since_ms) {
-        return std::nullopt;
-    }
-    const auto before = states_in(store, {std::nullopt, config.since_ms});
-    auto since = states_in(store, {config.since_ms, std::nullopt});
-    auto change = change_since(roads, before, since, {});
-    return Compared{std::move(since), std::move(change)};
-}
-
 ReportChange change_of(const StoreReader& store,
-                       const Compared& compared,
+                       const ComparedStates& compared,
                        const ReportConfig& config,
                        ReportPictures& pictures) {
-    const auto& [since, change] = compared;
+    const auto& [before, since, change] = compared;
     ReportChange values{.since = day_of(*config.since_ms),
                         .change = change,
                         .colours = {},
@@ -228,10 +202,10 @@ ReportChange change_of(const StoreReader& store,
     if (change.segments.empty()) {
         return values;
     }
-    auto scene = whole_scene(store, config.style);
+    auto scene = whole_scene(store, config.style, config.filter);
     colour_change(scene, change.segments, since);
     values.map_width_m = pictures.map_width_m(scene);
-    values.map = pictures.map(scene, &verdicts());
+    values.map = pictures.map(scene, &change_classes());
     values.worse = drawn(store, change.worse, change, since, pictures);
     values.better = drawn(store, change.better, change, since, pictures);
     return values;
@@ -252,9 +226,12 @@ std::optional<ReportFewPasses> few_passes_of(const MapScene& map, const ReportCo
 }
 
 /// Takes the largest events of the database into the report.
-void put_events(const StoreReader& store, Report& report) {
+void put_events(const StoreReader& store, const SegmentFilter& filter, Report& report) {
     constexpr std::size_t max_events = 100;
-    auto records = store.events({});
+    if (filter.period && store.shows_published_alone()) {
+        return; // published without months
+    }
+    auto records = store.events(filter);
     std::ranges::stable_sort(
         records, std::ranges::greater{}, [](const auto& record) { return record.event.size_um; });
     report.events_found = records.size();
@@ -280,7 +257,7 @@ void put_events(const StoreReader& store, Report& report) {
 Report report_of(const StoreReader& store, const ReportConfig& config, const Progress& progress) {
     const auto& classes = *config.style.classes;
     const auto info = store.info();
-    const auto survey = survey_of(store);
+    const auto survey = survey_of(store, config.filter);
     const auto roads = load_or_build_network(store);
     WorstSectionConfig poor;
     poor.above_mm_per_m = poor_above(classes);
@@ -289,7 +266,9 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
     Report report;
     report.wording = config.wording;
     report.title = config.title;
-    report.period = days_of(info.first_seen_ms, info.last_seen_ms);
+    report.period = selects(config.filter) ? days_of(survey.measured)
+                                           : days_of(info.first_seen_ms, info.last_seen_ms);
+    report.selection = config.selection;
     report.network_source =
         info.settings.network_source == traced_network_source ? "" : info.settings.network_source;
     report.attribution = info.settings.attribution;
@@ -298,9 +277,12 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
     report.colours = class_colours(config.style, classes.classes.size());
     report.words = config.style.words;
     report.summary = network_summary(survey.measured, survey.network_m, classes);
-    report.histogram = iri_histogram(
-        survey.measured, classes, histogram_step_mm_per_m, histogram_bins(survey.measured));
-    report.segments = info.segments;
+    const auto& axis = axis_in(config.wording.unit);
+    report.histogram = iri_histogram(survey.measured,
+                                     classes,
+                                     axis.step * axis.mm_per_m_of_one,
+                                     histogram_bins(survey.measured, axis));
+    report.segments = survey.segments;
     report.segments_with_passes = survey.measured.size();
     report.poor_above_mm_per_m = poor.above_mm_per_m;
     report.min_stretch_m = poor.min_length_m;
@@ -309,7 +291,7 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
         report.stretches_m += stretch.length_m;
     }
     if (config.sections) {
-        report.sections = sections_of(store, *config.sections);
+        report.sections = sections_of(store, *config.sections, config.filter);
     }
     const auto usage = store.usage();
     report.vehicles = vehicles_of(usage);
@@ -319,15 +301,18 @@ Report report_of(const StoreReader& store, const ReportConfig& config, const Pro
     report.lateral_passes = info.lateral_passes;
     report.row_reasons = usage.row_reasons;
 
-    put_events(store, report);
+    put_events(store, config.filter, report);
 
-    const auto change = compared(store, roads, config);
+    const auto change =
+        config.since_ms
+            ? std::optional{compare_since(store, roads, config.filter, *config.since_ms)}
+            : std::nullopt;
     stretches.resize(std::min(stretches.size(), config.worst));
     ReportPictures pictures{config.style,
                             config.pictures,
                             progress,
                             stretches.size() + 1 + (change ? pictures_of(change->change) : 0)};
-    const auto map = whole_scene(store, config.style);
+    const auto map = whole_scene(store, config.style, config.filter);
     report.few_passes = few_passes_of(map, config);
     report.map = pictures.map(map);
     report.map_width_m = pictures.map_width_m(map);

@@ -16,6 +16,8 @@ struct ReportConfig {
     std::string title;
     std::size_t worst = 20;                   ///< number of sections to list
     std::optional<SectionOptions> sections{}; ///< sections to list
+    SegmentFilter filter{};                   ///< segments and passes to report
+    std::string selection{};                  ///< the filter in words; "" = none
     std::optional<std::int64_t> since_ms{};   ///< first day of the period checked for changes
     Localisation wording{};
     PictureUse pictures = PictureUse::screen;

@@ -105,9 +105,12 @@ double ReportPictures::map_width_m(const MapScene& scene) const {
     return MapPlan{scene, style_, {width_px, map_height_px(scene.box, width_px)}}.ground_width_m();
 }
 
-MapScene whole_scene(const StoreReader& store, const MapStyle& style) {
-    const auto plan = load_map(
-        store, {.style = unadorned(style), .width_px = max_width_px, .height_px = max_height_px});
+MapScene whole_scene(const StoreReader& store, const MapStyle& style, const SegmentFilter& filter) {
+    const auto plan = load_map(store,
+                               {.filter = filter,
+                                .style = unadorned(style),
+                                .width_px = max_width_px,
+                                .height_px = max_height_px});
     auto scene = plan.scene();
     scene.subtitle.clear();    // on the page
     scene.attribution.clear(); // likewise

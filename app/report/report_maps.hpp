@@ -47,8 +47,10 @@ private:
     std::size_t drawn_ = 0;
 };
 
-/// Builds a scene of all roads, without the text that the page has itself.
-MapScene whole_scene(const StoreReader& store, const MapStyle& style);
+/// Builds a scene of all roads, or of those that a filter selects, without the text that the page
+/// has itself.
+MapScene
+whole_scene(const StoreReader& store, const MapStyle& style, const SegmentFilter& filter = {});
 
 /// Builds a scene around a section, with all roads muted.
 MapScene

@@ -44,7 +44,11 @@ std::string with_value(std::string words, const std::string& value) {
     return place == std::string::npos ? words : words.replace(place, 2, value);
 }
 
+/// Returns the values of a class; "" if the classes have no borders.
 std::string range_of(const ClassTable& table, std::size_t i, const MapStyle& style) {
+    if (std::isnan(table.classes[i].to_mm_per_m)) {
+        return {};
+    }
     const bool in_per_mi = style.in_per_mi;
     const auto& words = style.words;
     const double scale = in_per_mi ? in_per_mi_of_mm_per_m : 1;

@@ -14,9 +14,9 @@ std::vector<Cell> row_of(const Report& report, const ReportSection& section) {
     const auto& mean = section.measured.mean;
     const bool measured = mean.length_m > 0;
     return {section.name,
-            say.whole(section.from_m),
-            say.whole(section.to_m),
-            section.excluded_m > 0 ? say.whole(section.excluded_m) : no_value,
+            say.short_length(section.from_m),
+            say.short_length(section.to_m),
+            section.excluded_m > 0 ? say.short_length(section.excluded_m) : no_value,
             say.percent(section.open_share, 1),
             measured ? say.iri(mean.iri) : no_value,
             measured ? say.interval(mean) : no_value,

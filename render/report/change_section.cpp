@@ -43,11 +43,11 @@ Table lengths_table(const Report& report) {
         const bool known = mean.length_m > 0;
         table.rows.push_back(
             {name,
-             say.km(lengths.deteriorated_m, longest_m),
-             say.km(lengths.unchanged_m, longest_m),
-             say.km(lengths.improved_m, longest_m),
-             say.km(lengths.before_alone_m, longest_m),
-             say.km(lengths.since_alone_m, longest_m),
+             say.road_length(lengths.deteriorated_m, longest_m),
+             say.road_length(lengths.unchanged_m, longest_m),
+             say.road_length(lengths.improved_m, longest_m),
+             say.road_length(lengths.before_alone_m, longest_m),
+             say.road_length(lengths.since_alone_m, longest_m),
              known ? say.iri_change(mean.mm_per_m) : "–",
              known ? say.change_interval(mean.mm_per_m - reach, mean.mm_per_m + reach) : "–"});
     };
@@ -80,7 +80,7 @@ Table stretches_table(const Report& report,
             {RichText{{{fmt::format("{}", rank), SpanLook::plain, false, id_of(side, rank)}}},
              road_name(report, changed.stretch),
              say.or_else("heading." + heading, heading),
-             say.whole(changed.stretch.length_m),
+             say.short_length(changed.stretch.length_m),
              say.iri(changed.before.iri),
              say.iri(changed.after.iri),
              say.iri_change(changed.difference.mm_per_m),
@@ -109,7 +109,7 @@ Card card_of(const Report& report,
                      {{"interval", say.change_interval(of.stretch.low, of.stretch.high)},
                       {"before", say.iri(of.stretch.before.iri)},
                       {"since", say.iri(of.stretch.after.iri)},
-                      {"length", say.whole(stretch.length_m)}})},
+                      {"length", say.short_length(stretch.length_m)}})},
                 {"\n" + say("stretch.place",
                             {{"reference", reference_text(report, stretch)},
                              {"lat", fmt::format("{:.5f}", stretch.middle.lat_deg)},
@@ -122,9 +122,9 @@ void add_stretches(DocumentSection& section,
                    const std::string& side) {
     const auto& say = report.wording;
     if (stretches.empty()) {
-        section.blocks.emplace_back(
-            Paragraph{say("change." + side + ".none",
-                          {{"least", say.whole(report.change->change.config.min_length_m)}})});
+        section.blocks.emplace_back(Paragraph{
+            say("change." + side + ".none",
+                {{"least", say.short_length(report.change->change.config.min_length_m)}})});
         return;
     }
     section.blocks.emplace_back(stretches_table(report, stretches, side));

@@ -106,7 +106,10 @@ document::MapFigure map_figure(const Report& report,
     constexpr double max_percent = 30;
     document::MapFigure figure{picture, words, 0, "", report.attribution};
     if (width_m > 0) {
-        const auto bar = scale_bar(width_m / 100, max_percent, false); // in percent, not pixels
+        const auto bar =
+            scale_bar(width_m / 100,
+                      max_percent,
+                      report.wording.unit == IriUnit::in_per_mi); // in percent, not pixels
         figure.scale_percent = bar.width_px;
         figure.scale = report.wording("map.scale", {{"length", bar.label}});
     }

@@ -24,7 +24,7 @@ std::vector<Cell> row_of(const Localisation& say,
         vehicle.method,
         say.count(vehicle.trips),
         say.count(vehicle.undated_trips),
-        say.number(vehicle.km, 1),
+        say.number(say.long_length(1000 * vehicle.km), 1),
         say.percent(vehicle.matched_km, vehicle.km),
         say.percent(static_cast<double>(vehicle.rows_used), static_cast<double>(vehicle.rows_read)),
         say.count(vehicle.passes)};
@@ -44,7 +44,7 @@ Table vehicle_table(const Report& report) {
                  {say("column.method")},
                  {say("column.trips"), true},
                  {say("column.undated"), true},
-                 {"km", true},
+                 {say.long_unit(), true},
                  {say("column.matched"), true},
                  {say("column.rows_used"), true},
                  {say("column.passes"), true}},
@@ -78,13 +78,13 @@ Table quality_table(const Report& report) {
     Table table{say("quality.caption"),
                 {{say("column.basis")},
                  {say("column.segments"), true},
-                 {"km", true},
+                 {say.long_unit(), true},
                  {say("column.share_of_km"), true}},
                 {}};
     const auto add = [&](const char* name, const SegmentCount& count) {
         table.rows.push_back({say(name),
                               say.count(count.segments),
-                              say.km(count.length_m, quality.measured.length_m),
+                              say.road_length(count.length_m, quality.measured.length_m),
                               say.percent(count.length_m, quality.measured.length_m)});
     };
     add("quality.both_tracks", quality.both_tracks);
@@ -168,12 +168,13 @@ DocumentSection data_section(const Report& report) {
         section.blocks.emplace_back(Paragraph{say("data.own")});
     }
     if (const auto& crowd = report.publication) {
-        section.blocks.emplace_back(Paragraph{
-            crowd->month.empty() ? say("data.crowd.nothing")
-                                 : say("data.crowd",
-                                       {{"month", crowd->month},
-                                        {"segments", say.count(crowd->left_out)},
-                                        {"km", say.number(crowd->left_out_m / 1000, 1)}})});
+        section.blocks.emplace_back(
+            Paragraph{crowd->month.empty()
+                          ? say("data.crowd.nothing")
+                          : say("data.crowd",
+                                {{"month", crowd->month},
+                                 {"segments", say.count(crowd->left_out)},
+                                 {"km", say.number(say.long_length(crowd->left_out_m), 1)}})});
         add_quality(section, report);
         return section;
     }

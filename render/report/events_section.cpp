@@ -11,9 +11,9 @@ namespace {
 
 std::string position_text(const Report& report, const ReportEvent& event) {
     const bool of_osm = report.attribution.find("OpenStreetMap") != std::string::npos;
-    return report.wording(
-        of_osm ? "event.place_osm" : "event.place",
-        {{"way", fmt::format("{}", event.way_id)}, {"at", report.wording.whole(event.at_m)}});
+    return report.wording(of_osm ? "event.place_osm" : "event.place",
+                          {{"way", fmt::format("{}", event.way_id)},
+                           {"at", report.wording.short_length(event.at_m)}});
 }
 
 Table table_of(const Report& report) {
@@ -29,7 +29,8 @@ Table table_of(const Report& report) {
                  {say("event.last_seen"), true, true}},
                 {}};
     for (const auto& event : report.events) {
-        const auto size = fmt::format("{} ± {}", say.whole(event.size_mm), say.whole(event.sd_mm));
+        const auto size =
+            fmt::format("{} ± {}", say.small_size(event.size_mm), say.small_size(event.sd_mm));
         table.rows.push_back({say(fmt::format("event.{}", name_of(event.kind))),
                               say(fmt::format("event.{}", name_of(severity_of(event.size_mm)))),
                               size,

@@ -31,17 +31,17 @@ double sum_of(const std::vector<double>& values) {
 /// Axes of the figure.
 struct Axes {
     double max_iri; ///< mm/m
-    double max_km;
+    double max_km;  ///< or mi
     double step_km;
 
     double x(double iri) const { return left + (right - left) * std::min(iri / max_iri, 1.0); }
     double y(double km) const { return bottom - (bottom - top) * km / max_km; }
 };
 
-Axes axes_of(const IriHistogram& histogram) {
+Axes axes_of(const IriHistogram& histogram, const Localisation& say) {
     double max_km = 0;
     for (const auto& bin : histogram.length_m) {
-        max_km = std::max(max_km, sum_of(bin) / 1000);
+        max_km = std::max(max_km, say.long_length(sum_of(bin)));
     }
     const double step_km = nice_step(std::max(max_km, 0.001), 4);
     return {histogram.step_mm_per_m * static_cast<double>(histogram.length_m.size()),
@@ -80,7 +80,7 @@ void add_grid(Drawing& drawing, const Axes& axes, const Localisation& say) {
               bottom + 36,
               Anchor::middle,
               say("histogram.axis", {{"unit", std::string{say.iri_unit()}}})});
-    drawing.shapes.emplace_back(Label{2, 12, Anchor::start, "km"});
+    drawing.shapes.emplace_back(Label{2, 12, Anchor::start, say.long_unit()});
 }
 
 void add_bars(Drawing& drawing, const Axes& axes, const Report& report) {
@@ -89,7 +89,7 @@ void add_bars(Drawing& drawing, const Axes& axes, const Report& report) {
     for (std::size_t bin = 0; bin < bins.size(); ++bin) {
         double below_km = 0;
         for (std::size_t c = 0; c < report.colours.size(); ++c) {
-            const double km = bins[bin][c] / 1000;
+            const double km = report.wording.long_length(bins[bin][c]);
             if (km > 0) {
                 drawing.shapes.emplace_back(Bar{left + bar * static_cast<double>(bin) + 0.5,
                                                 axes.y(below_km + km),
@@ -131,15 +131,16 @@ Cell share_bar(const Report& report, const RoadSummary& roads) {
 
 Drawing histogram_drawing(const Report& report) {
     const auto& say = report.wording;
-    const auto axes = axes_of(report.histogram);
+    const auto axes = axes_of(report.histogram, say);
     const double mean = report.summary.all.mean.iri;
     Drawing drawing{width, height, say("histogram.words", {{"iri", say.iri(mean)}}), {}};
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         double km = 0;
         for (const auto& bin : report.histogram.length_m) {
-            km += bin[c] / 1000;
+            km += say.long_length(bin[c]);
         }
-        drawing.words += fmt::format(", {} {} km", class_name(report, c), say.number(km, 2));
+        drawing.words +=
+            fmt::format(", {} {} {}", class_name(report, c), say.number(km, 2), say.long_unit());
     }
     add_grid(drawing, axes, say);
     add_bars(drawing, axes, report);

@@ -95,7 +95,7 @@ DocumentSection surveys_section(const ReferenceReport& report) {
                  {say("reference.column.good_to"), true, true},
                  {say("reference.column.rows_m"), true, true},
                  {say("column.segments"), true, true},
-                 {"km", true},
+                 {say.long_unit(), true},
                  {say("reference.column.bias"), true},
                  {"RMSE", true}},
                 {}};
@@ -103,9 +103,9 @@ DocumentSection surveys_section(const ReferenceReport& report) {
         table.rows.push_back({(survey.name),
                               survey.day.empty() ? say("reference.not_known") : say.day(survey.day),
                               say.shortest(100 * survey.relative_sd) + " %",
-                              say.whole(survey.row_m),
+                              say.short_length(survey.row_m),
                               say.count(survey.segments),
-                              say.number(survey.km, 2),
+                              say.number(say.long_length(1000 * survey.km), 2),
                               change_text(say, survey.score.bias),
                               iri_text(say, survey.score.rmse)});
     }
@@ -146,7 +146,10 @@ DocumentSection pieces_section(const ReferenceReport& report) {
     if (!short_pairs.empty()) {
         section.blocks.emplace_back(scores_table(
             say,
-            say("reference.pieces.segments", {{"length", say.shortest(report.segment_length_m)}}),
+            say("reference.pieces.segments",
+                {{"length",
+                  say.unit == IriUnit::in_per_mi ? say.short_length(report.segment_length_m)
+                                                 : say.shortest(report.segment_length_m)}}),
             report.segments.headline));
         add_tracks(section, say, report.segments);
     } else {

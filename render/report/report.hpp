@@ -110,6 +110,7 @@ struct Report {
     Localisation wording{};
     std::string title;
     ReportDays period;
+    std::string selection{};    ///< of segments and passes, as options; "" = all
     std::string network_source; ///< source of the roads; "" = traced from the trips
     std::string attribution;    ///< copyright notice of the map data, with the licence
     double segment_length_m = 20;

@@ -54,10 +54,10 @@ KeyNumber measured_key(const Report& report) {
     const auto& say = report.wording;
     const auto& all = report.summary.all;
     return {say("key.measured"),
-            say.km(all.covered_m, all.covered_m) + " km",
+            say.road_length(all.covered_m, all.covered_m) + " " + say.long_unit(),
             say("key.measured.more",
                 {{"share", say.percent(all.covered_m, all.network_m)},
-                 {"km", say.km(all.network_m, all.network_m)}})};
+                 {"km", say.road_length(all.network_m, all.network_m)}})};
 }
 
 KeyNumber mean_key(const Report& report) {
@@ -77,7 +77,7 @@ KeyNumber poor_key(const Report& report) {
     return {poor_words(report),
             say.percent(poor_m(report), all.covered_m),
             say("key.poor.more",
-                {{"km", say.km(poor_m(report), all.covered_m)},
+                {{"km", say.road_length(poor_m(report), all.covered_m)},
                  {"border", say.iri_with_unit(report.poor_above_mm_per_m)}})};
 }
 
@@ -86,8 +86,8 @@ KeyNumber stretches_key(const Report& report) {
     return {say("key.stretches"),
             say.count(report.stretches),
             say("key.stretches.more",
-                {{"least", say.whole(report.min_stretch_m)},
-                 {"km", say.km(report.stretches_m, report.summary.all.covered_m)}})};
+                {{"least", say.short_length(report.min_stretch_m)},
+                 {"km", say.road_length(report.stretches_m, report.summary.all.covered_m)}})};
 }
 
 KeyNumber cars_key(const Report& report) {
@@ -117,7 +117,7 @@ Table classes_table(const Report& report) {
     }
     table.columns.insert(
         table.columns.end(),
-        {{"km", true}, {say("column.share"), true}, {say("column.range_of_km"), true}});
+        {{say.long_unit(), true}, {say("column.share"), true}, {say("column.range_of_km"), true}});
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         const auto& range = all.classes[c];
         Cell name{RichText{{{class_name(report, c), SpanLook::plain, true}}}};
@@ -126,10 +126,11 @@ Table classes_table(const Report& report) {
         if (says_both_units(report)) {
             row.emplace_back(class_range(report, in_inches(say), c));
         }
-        row.emplace_back(say.km(range.length_m, all.covered_m));
+        row.emplace_back(say.road_length(range.length_m, all.covered_m));
         row.emplace_back(say.percent(range.length_m, all.covered_m));
-        row.emplace_back(fmt::format(
-            "{} – {}", say.km(range.low_m, all.covered_m), say.km(range.high_m, all.covered_m)));
+        row.emplace_back(fmt::format("{} – {}",
+                                     say.road_length(range.low_m, all.covered_m),
+                                     say.road_length(range.high_m, all.covered_m)));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -140,7 +141,7 @@ Table kinds_table(const Report& report) {
     const auto& all = report.summary.all;
     Table table{say("kinds.caption", {{"unit", std::string{say.iri_unit()}}}),
                 {{say("column.kind")},
-                 {"km", true},
+                 {say.long_unit(), true},
                  {say("column.mean"), true},
                  {say("column.interval"), true},
                  {say("column.median"), true},
@@ -150,7 +151,7 @@ Table kinds_table(const Report& report) {
                 {}};
     const auto add = [&](const RoadSummary& roads, const std::string& name) {
         table.rows.push_back({name,
-                              say.km(roads.covered_m, all.covered_m),
+                              say.road_length(roads.covered_m, all.covered_m),
                               say.iri(roads.mean.iri),
                               say.interval(roads.mean),
                               say.iri(roads.p50),
@@ -180,10 +181,10 @@ Table kind_classes_table(const Report& report) {
     const auto add = [&](const RoadSummary& roads, const std::string& name) {
         std::vector<Cell> row{name};
         for (const auto& range : roads.classes) {
-            row.emplace_back(RichText{{{say.km(range.length_m, all.covered_m) + " "},
+            row.emplace_back(RichText{{{say.road_length(range.length_m, all.covered_m) + " "},
                                        {fmt::format("({} – {})",
-                                                    say.km(range.low_m, all.covered_m),
-                                                    say.km(range.high_m, all.covered_m)),
+                                                    say.road_length(range.low_m, all.covered_m),
+                                                    say.road_length(range.high_m, all.covered_m)),
                                         SpanLook::quiet,
                                         true}}});
         }
@@ -211,11 +212,14 @@ RichText subtitle_of(const Report& report) {
     if (is_empty) {
         return about + say("head.nothing");
     }
-    if (period.empty()) {
-        return about + say("head.undated");
+    std::vector<Span> text{{about + say(period.empty() ? "head.undated" : "head.driven")}};
+    if (!period.empty()) {
+        text.insert(text.end(), {{" "}, {period, SpanLook::plain, true}, {"."}});
     }
-    return std::vector<Span>{
-        {about + say("head.driven") + " "}, {period, SpanLook::plain, true}, {"."}};
+    if (!report.selection.empty()) {
+        text.push_back({" " + say("head.selection", {{"options", report.selection}})});
+    }
+    return text;
 }
 
 KeyNumbers key_numbers(const Report& report) {
@@ -249,10 +253,11 @@ DocumentSection map_section(const Report& report) {
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         const auto name = class_name(report, c);
         legend.entries.push_back({report.colours[c], name, class_range(report, say, c)});
-        words += fmt::format("{} {} {} km",
+        words += fmt::format("{} {} {} {}",
                              c == 0 ? say("map.words.classes") : ",",
                              name,
-                             say.km(all.classes[c].length_m, all.covered_m));
+                             say.road_length(all.classes[c].length_m, all.covered_m),
+                             say.long_unit());
     }
     if (const auto& few = report.few_passes) {
         legend.entries.push_back({few->rgb, few_passes_words(report), "", few->dark_rgb});
@@ -277,10 +282,10 @@ DocumentSection coverage_section(const Report& report) {
                 {}};
     const auto add = [&](const RoadSummary& roads, const std::string& name) {
         table.rows.push_back({name,
-                              say.km(roads.network_m, all.network_m),
-                              say.km(roads.covered_m, all.network_m),
+                              say.road_length(roads.network_m, all.network_m),
+                              say.road_length(roads.covered_m, all.network_m),
                               say.percent(roads.covered_m, roads.network_m),
-                              say.km(roads.thrice_m, all.network_m),
+                              say.road_length(roads.thrice_m, all.network_m),
                               say.percent(roads.thrice_m, roads.network_m)});
     };
     for (const auto& roads : report.summary.kinds) {
@@ -288,13 +293,16 @@ DocumentSection coverage_section(const Report& report) {
     }
     add(all, say("all"));
     table.sum = true;
-    return {say("coverage"),
-            {table,
-             Paragraph{say("coverage.remark",
-                           {{"passed", say.count(report.segments_with_passes)},
-                            {"segments", say.count(report.segments)},
-                            {"length", say.shortest(report.segment_length_m)}}),
-                       true}}};
+    return {
+        say("coverage"),
+        {table,
+         Paragraph{say("coverage.remark",
+                       {{"passed", say.count(report.segments_with_passes)},
+                        {"segments", say.count(report.segments)},
+                        {"length",
+                         say.unit == IriUnit::in_per_mi ? say.short_length(report.segment_length_m)
+                                                        : say.shortest(report.segment_length_m)}}),
+                   true}}};
 }
 
 } // namespace macadam

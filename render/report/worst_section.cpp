@@ -32,7 +32,7 @@ Table table_of(const Report& report) {
             {RichText{{{fmt::format("{}", rank), SpanLook::plain, false, id_of(rank)}}},
              road_name(report, stretch),
              say.or_else("heading." + heading, heading),
-             say.whole(stretch.length_m),
+             say.short_length(stretch.length_m),
              say.iri(stretch.mean.iri),
              say.interval(stretch.mean),
              say.iri(stretch.worst_iri),
@@ -59,7 +59,7 @@ Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
                 {"IRI " + say.iri(stretch.mean.iri), SpanLook::strong},
                 {say("stretch.mean",
                      {{"interval", say.interval(stretch.mean)},
-                      {"length", say.whole(stretch.length_m)}})},
+                      {"length", say.short_length(stretch.length_m)}})},
                 {say(stretch.median_passes == 1 ? "stretch.phone.one" : "stretch.phone.other",
                      {{"worst", say.iri(stretch.worst_iri)},
                       {"passes", passes},
@@ -80,7 +80,7 @@ Card card_of(const Report& report, const ReportStretch& of, std::size_t rank) {
 DocumentSection worst_section(const Report& report) {
     const auto& say = report.wording;
     DocumentSection section{say("worst"), {}};
-    const Values values{{"least", say.whole(report.min_stretch_m)},
+    const Values values{{"least", say.short_length(report.min_stretch_m)},
                         {"border", say.iri_with_unit(report.poor_above_mm_per_m)}};
     if (report.worst.empty()) {
         section.blocks.emplace_back(Paragraph{say("worst.none", values)});

@@ -174,29 +174,39 @@ std::string kml_text(const Events& events, const std::string& attribution) {
     return text + "</Document>\n</kml>\n";
 }
 
-std::string geojson_text(const Events& events, const std::string& attribution) {
+std::string feature_of(const EventRecord& record, const Columns<EventRecord>& columns) {
+    return geojson_feature(record.at, json_object(columns, record));
+}
+
+std::string geojson_text(const Events& events,
+                         const std::string& attribution,
+                         const Columns<EventRecord>& columns) {
     auto text = R"({"type":"FeatureCollection","name":"events","attribution":)" +
                 json_text(attribution) + ",\"features\":[";
     const char* separator = "\n";
     for (const auto& record : events) {
-        text += separator + geojson_feature(record);
+        text += separator + feature_of(record, columns);
         separator = ",\n";
     }
     return text + "\n]}\n";
 }
 
-std::string text_as(std::string_view suffix, const Events& events, const std::string& attribution) {
+std::string text_as(std::string_view suffix,
+                    const Events& events,
+                    const std::string& attribution,
+                    const TextExport& how) {
+    const auto columns = in_units(fields, how.units);
     if (suffix == ".geojson") {
-        return geojson_text(events, attribution);
+        return geojson_text(events, attribution, columns);
     }
     if (suffix == ".kml") {
         return kml_text(events, attribution);
     }
-    std::string text = suffix == ".csv" ? csv_header(fields) : std::string{};
+    std::string text = suffix == ".csv" ? csv_header(columns) : std::string{};
     for (const auto& record : events) {
-        text += suffix == ".csv" ? csv_line(fields, record) : geojson_feature(record) + "\n";
+        text += suffix == ".csv" ? csv_line(columns, record) : feature_of(record, columns) + "\n";
     }
-    return text;
+    return how.excel && suffix == ".csv" ? ExcelCsv{*how.excel}(text) : text;
 }
 
 } // namespace
@@ -226,7 +236,8 @@ std::span<const std::string_view> event_export_suffixes() {
 
 std::size_t export_events(const StoreReader& store,
                           const SegmentFilter& filter,
-                          const std::filesystem::path& file) {
+                          const std::filesystem::path& file,
+                          const TextExport& text) {
     const auto suffix = file.extension().string();
     if (std::ranges::find(suffixes, suffix) == suffixes.end()) {
         throw InputError{fmt::format("{}: suffix '{}', expected one of {} for events",
@@ -239,8 +250,14 @@ std::size_t export_events(const StoreReader& store,
         write_geopackage(store, events, file);
         return events.size();
     }
+    const auto content = text_as(suffix, events, store.settings().attribution, text);
+    if (text.put) {
+        store.expect_in_place();
+        text.put(content);
+        return events.size();
+    }
     AtomicFile out{file};
-    out.write(text_as(suffix, events, store.settings().attribution));
+    out.write(content);
     store.expect_in_place();
     out.commit();
     return events.size();

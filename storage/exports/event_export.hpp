@@ -1,5 +1,6 @@
 #pragma once
 
+#include "storage/exports/text_export.hpp"
 #include "storage/store/reader/store_reader.hpp"
 #include "storage/text/columns.hpp"
 
@@ -27,7 +28,8 @@ std::string geojson_feature(const EventRecord& record);
 /// \throws InputError  for an unknown suffix, or if the file cannot be written.
 std::size_t export_events(const StoreReader& store,
                           const SegmentFilter& filter,
-                          const std::filesystem::path& file);
+                          const std::filesystem::path& file,
+                          const TextExport& text = {});
 
 /// Suffixes supported by export_events.
 std::span<const std::string_view> event_export_suffixes();

@@ -1,6 +1,7 @@
 #include "storage/exports/export.hpp"
 
 #include "estimator/common/error.hpp"
+#include "storage/atomic/atomic_file.hpp"
 #include "storage/exports/segment_export.hpp"
 #include "storage/exports/style_files.hpp"
 #include "storage/text/json.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 
 namespace macadam {
@@ -17,46 +19,56 @@ namespace {
 constexpr std::array<std::string_view, 7> suffixes{
     ".geojson", ".geojsonl", ".csv", ".gpkg", ".fgb", ".shp", ".kml"};
 
-std::size_t write_geojson(const SegmentExport& what, AtomicFile& file) {
-    file.write(R"({"type":"FeatureCollection","name":"roughness","attribution":)" +
-               json_text(what.store.settings().attribution) + ",\"features\":[");
+std::size_t write_geojson(const SegmentExport& what, const PutText& put) {
+    put(R"({"type":"FeatureCollection","name":"roughness","attribution":)" +
+        json_text(what.store.settings().attribution) + ",\"features\":[");
     const char* separator = "\n";
     const auto written = each_segment(what, [&](const SegmentRecord& record) {
-        file.write(separator + geojson_feature({record, what.classes}));
+        put(separator + geojson_feature({record, what.classes}, what.columns));
         separator = ",\n";
     });
-    file.write("\n]}\n");
+    put("\n]}\n");
     return written;
 }
 
-std::size_t write_geojson_lines(const SegmentExport& what, AtomicFile& file) {
+std::size_t write_geojson_lines(const SegmentExport& what, const PutText& put) {
     return each_segment(what, [&](const SegmentRecord& record) {
-        file.write(geojson_feature({record, what.classes}) + "\n");
+        put(geojson_feature({record, what.classes}, what.columns) + "\n");
     });
 }
 
-std::size_t write_csv(const SegmentExport& what, AtomicFile& file) {
-    const auto& columns = segment_columns();
-    file.write(csv_header(columns));
+std::size_t write_csv(const SegmentExport& what, const PutText& put) {
+    const auto& columns = what.columns;
+    put(csv_header(columns));
     return each_segment(what, [&](const SegmentRecord& record) {
-        file.write(csv_line(columns, {record, what.classes}));
+        put(csv_line(columns, {record, what.classes}));
     });
 }
 
-std::size_t write_as(std::string_view suffix, const SegmentExport& what, AtomicFile& file) {
+/// Returns `put` behind the dialect of a CSV file.
+PutText in_dialect(const PutText& put, std::string_view suffix, const TextExport& text) {
+    if (!text.excel || suffix != ".csv") {
+        return put;
+    }
+    return [put, excel = std::make_shared<ExcelCsv>(*text.excel)](std::string_view csv) {
+        put((*excel)(csv));
+    };
+}
+
+std::size_t write_as(std::string_view suffix, const SegmentExport& what, const PutText& put) {
     if (suffix == ".geojson") {
-        return write_geojson(what, file);
+        return write_geojson(what, put);
     }
     if (suffix == ".geojsonl") {
-        return write_geojson_lines(what, file);
+        return write_geojson_lines(what, put);
     }
     if (suffix == ".csv") {
-        return write_csv(what, file);
+        return write_csv(what, put);
     }
-    return write_kml(what, file);
+    return write_kml(what, put);
 }
 
-std::size_t export_as(std::string_view suffix, const SegmentExport& what) {
+std::size_t export_as(std::string_view suffix, const SegmentExport& what, const TextExport& text) {
     if (suffix == ".fgb") {
         return export_flatgeobuf(what);
     }
@@ -66,10 +78,16 @@ std::size_t export_as(std::string_view suffix, const SegmentExport& what) {
     if (suffix == ".gpkg") {
         return export_geopackage(what);
     }
+    if (text.put) {
+        const auto written = write_as(suffix, what, in_dialect(text.put, suffix, text));
+        what.store.expect_in_place();
+        return written;
+    }
     AtomicFile out{what.file};
-    const auto written = write_as(suffix, what, out);
+    const auto written = write_as(
+        suffix, what, in_dialect([&](std::string_view more) { out.write(more); }, suffix, text));
     what.store.expect_in_place();
-    if (suffix == ".geojson") {
+    if (suffix == ".geojson" && text.units == UnitSystem::si) { // a style names the fields
         write_style_files(what.file, what.file.parent_path(), what.classes);
     }
     out.commit();
@@ -98,6 +116,11 @@ std::string description_of(const SegmentExport& what) {
     return fmt::format("Roughness (IRI, mm/m). {}", what.store.settings().attribution);
 }
 
+bool is_text_suffix(std::string_view suffix) {
+    constexpr std::array<std::string_view, 4> texts{".geojson", ".geojsonl", ".csv", ".kml"};
+    return std::ranges::find(texts, suffix) != texts.end();
+}
+
 std::span<const std::string_view> export_suffixes() {
     return suffixes;
 }
@@ -105,7 +128,8 @@ std::span<const std::string_view> export_suffixes() {
 std::size_t export_segments(const StoreReader& store,
                             const SegmentFilter& filter,
                             const std::filesystem::path& file,
-                            const Progress& progress) {
+                            const Progress& progress,
+                            const TextExport& text) {
     const auto suffix = file.extension().string();
     if (std::find(suffixes.begin(), suffixes.end(), suffix) == suffixes.end()) {
         throw InputError{fmt::format("{}: suffix '{}', expected one of {}",
@@ -113,9 +137,13 @@ std::size_t export_segments(const StoreReader& store,
                                      suffix,
                                      fmt::join(suffixes, ", "))};
     }
-    const SegmentExport what{
-        store, filter, file, progress, *class_table(store.settings().class_table)};
-    return export_as(suffix, what);
+    const SegmentExport what{store,
+                             filter,
+                             file,
+                             progress,
+                             *class_table(store.settings().class_table),
+                             in_units(segment_columns(), text.units)};
+    return export_as(suffix, what, text);
 }
 
 } // namespace macadam

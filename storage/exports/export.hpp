@@ -2,8 +2,8 @@
 
 #include "estimator/common/progress.hpp"
 #include "mapping/style/iri_class.hpp"
+#include "storage/exports/text_export.hpp"
 #include "storage/store/reader/store_reader.hpp"
-#include "storage/text/columns.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -32,7 +32,9 @@ std::vector<std::optional<std::string>> attribute_texts(const ClassedSegment& se
 
 /// Formats a segment as a GeoJSON Feature on one line (RFC 7946: longitude first, 7 decimals; `id`
 /// = segment). A line across the antimeridian becomes a MultiLineString that is cut there.
-std::string geojson_feature(const ClassedSegment& segment);
+/// \param columns  segment_columns(), in any units
+std::string geojson_feature(const ClassedSegment& segment,
+                            const Columns<ClassedSegment>& columns = segment_columns());
 
 /// Formats a Feature in the same way.
 /// \param line  empty: the geometry is null
@@ -54,7 +56,11 @@ std::string geojson_geometry(const std::vector<GeoPoint>& line);
 std::size_t export_segments(const StoreReader& store,
                             const SegmentFilter& filter,
                             const std::filesystem::path& file,
-                            const Progress& progress = {});
+                            const Progress& progress = {},
+                            const TextExport& text = {});
+
+/// Tests whether a suffix is that of a text file, which TextExport::put takes.
+bool is_text_suffix(std::string_view suffix);
 
 /// Suffixes supported by export_segments.
 std::span<const std::string_view> export_suffixes();

@@ -119,16 +119,15 @@ std::string placemark(const SegmentRecord& record, const ClassTable& classes) {
 
 } // namespace
 
-std::size_t write_kml(const SegmentExport& what, AtomicFile& file) {
-    file.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-               "<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n"
-               "<Document id=\"macadam\"><name>roughness</name>\n" +
-               fmt::format("<description>{}</description>\n", xml_text(description_of(what))) +
-               styles(what.classes) + schema() +
-               "<Folder id=\"segments\"><name>roughness</name>\n");
+std::size_t write_kml(const SegmentExport& what, const PutText& put) {
+    put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n"
+        "<Document id=\"macadam\"><name>roughness</name>\n" +
+        fmt::format("<description>{}</description>\n", xml_text(description_of(what))) +
+        styles(what.classes) + schema() + "<Folder id=\"segments\"><name>roughness</name>\n");
     const auto written = each_segment(
-        what, [&](const SegmentRecord& record) { file.write(placemark(record, what.classes)); });
-    file.write("</Folder>\n</Document>\n</kml>\n");
+        what, [&](const SegmentRecord& record) { put(placemark(record, what.classes)); });
+    put("</Folder>\n</Document>\n</kml>\n");
     return written;
 }
 

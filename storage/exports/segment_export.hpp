@@ -1,6 +1,5 @@
 #pragma once
 
-#include "storage/atomic/atomic_file.hpp"
 #include "storage/exports/export.hpp"
 
 #include <cstddef>
@@ -16,7 +15,8 @@ struct SegmentExport {
     const SegmentFilter& filter;
     const std::filesystem::path& file; ///< as named by the user
     const Progress& progress;
-    const ClassTable& classes; ///< of the database
+    const ClassTable& classes;         ///< of the database
+    Columns<ClassedSegment> columns{}; ///< of text formats, in the requested units
 };
 
 /// Visits the segments and reports progress. \returns the number of segments.
@@ -29,7 +29,7 @@ std::size_t each_segment(const SegmentExport& what,
 std::string description_of(const SegmentExport& what);
 
 std::size_t export_geopackage(const SegmentExport& what);
-std::size_t write_kml(const SegmentExport& what, AtomicFile& file);
+std::size_t write_kml(const SegmentExport& what, const PutText& put);
 
 /// Written by GDAL, in a folder beside the output file.
 std::size_t export_flatgeobuf(const SegmentExport& what);

@@ -2,6 +2,7 @@
 
 #include "mapping/geometry/antimeridian.hpp"
 #include "storage/store/rows/segment_row.hpp"
+#include "storage/text/unit_system.hpp"
 #include "storage/text/utc.hpp"
 
 #include <fmt/format.h>
@@ -111,12 +112,12 @@ const Columns<Row> columns{
      [](auto& r) { return r.record.segment.key.forward ? "forward" : "backward"; }},
     {"from_m", as::required(as::metres(2)), [](auto& r) { return r.record.segment.from_m; }},
     {"to_m", as::required(as::metres(2)), [](auto& r) { return r.record.segment.to_m; }},
-    {"", as::text, road_interval_of, {"from-to m", " {:>17}"}},
+    {"", as::numbers_in("m"), road_interval_of, {"from-to m", " {:>17}"}},
     {"iri", as::iri(3), [](auto& r) { return iri_of(r, &State::iri_um); }, {"IRI", " {:>6}", 2}},
     {"iri_sd", as::iri(3), [](auto& r) { return iri_of(r, &State::sd_um); }},
     {"iri_low", as::iri(3), [](auto& r) { return iri_of(r, &State::low_um); }},
     {"iri_high", as::iri(3), [](auto& r) { return iri_of(r, &State::high_um); }},
-    {"", as::text, iri_interval_of, {"90 %", " {:>13}"}},
+    {"", as::numbers_in("mm/m"), iri_interval_of, {"90 %", " {:>13}"}},
     {"iri_left", as::iri(3), [](auto& r) { return iri_of(r, &State::left_um); }},
     {"iri_right", as::iri(3), [](auto& r) { return iri_of(r, &State::right_um); }},
     {"index", as::text,
@@ -192,10 +193,10 @@ std::string geojson_feature(const std::optional<JsonValue>& id,
     return feature.text();
 }
 
-std::string geojson_feature(const ClassedSegment& segment) {
+std::string geojson_feature(const ClassedSegment& segment, const Columns<ClassedSegment>& fields) {
     return geojson_feature(name_of(segment.record.segment.key),
                            segment.record.segment.line,
-                           json_object(columns, segment));
+                           json_object(fields, segment));
 }
 
 } // namespace macadam

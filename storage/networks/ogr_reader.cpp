@@ -1,9 +1,9 @@
 #include "storage/networks/ogr_reader.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/gdal/coordinate_system.hpp"
 #include "storage/gdal/gdal_access.hpp"
 #include "storage/gdal/gdal_errors.hpp"
+#include "storage/gdal/layer_coordinates.hpp"
 #include "storage/networks/osm_tags.hpp"
 #include "storage/text/text.hpp"
 
@@ -24,14 +24,6 @@
 namespace macadam {
 
 namespace {
-
-/// Maximum number of points per byte, for formats that store an arc in a few bytes and expand it to
-/// points.
-constexpr std::uintmax_t max_points_per_byte = 4;
-
-/// Maximum absolute coordinate in the units of any map. GDAL wraps an x of spherical Mercator one
-/// revolution at a time, which would never end for huge values.
-constexpr double farthest = 1e10;
 
 bool is_of_lines(OGRLayer& layer) {
     const auto kind = wkbFlatten(layer.GetGeomType());
@@ -189,32 +181,17 @@ struct Columns {
 
 class LayerReader {
 public:
-    /// \param max_points  limit for a plausible map.
-    LayerReader(std::string file,
+    LayerReader(const std::string& file,
                 OGRLayer& layer,
                 const LayerColumns& asked,
-                std::uintmax_t max_points)
-        : file_{std::move(file)}, layer_{layer}, points_left_{max_points},
+                std::uintmax_t bytes)
+        : layer_{layer}, coordinates_{file, layer, bytes},
           columns_{
-              .id = column(layer, asked.id, {}, file_),
+              .id = column(layer, asked.id, {}, file),
               .name =
-                  column(layer, asked.name, {"name", "namn", "road_name", "street", "ref"}, file_),
-              .highway = column(layer, asked.highway, {"highway", "fclass", "road_class"}, file_),
-              .oneway = column(layer, asked.oneway, {"oneway", "one_way"}, file_)} {
-        auto* const system = layer.GetSpatialRef();
-        if (system == nullptr) {
-            return; // taken for degrees; invalid values are detected below
-        }
-        expect_grids_of_proj(*system, file_);
-        OGRSpatialReference wgs84;
-        wgs84.importFromEPSG(4326);
-        wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-        system->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-        to_wgs84_.reset(OGRCreateCoordinateTransformation(system, &wgs84));
-        if (!to_wgs84_) {
-            fail(fmt::format("its coordinates cannot be converted: {}", gdal_error("not known")));
-        }
-    }
+                  column(layer, asked.name, {"name", "namn", "road_name", "street", "ref"}, file),
+              .highway = column(layer, asked.highway, {"highway", "fclass", "road_class"}, file),
+              .oneway = column(layer, asked.oneway, {"oneway", "one_way"}, file)} {}
 
     void read(const std::function<void(Way)>& take) {
         layer_.ResetReading();
@@ -232,9 +209,7 @@ public:
     }
 
 private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw InputError{fmt::format("{}: layer '{}': {}", file_, layer_.GetName(), what)};
-    }
+    [[noreturn]] void fail(const std::string& what) const { coordinates_.fail(what); }
 
     void read(const OGRFeature& feature, const std::function<void(Way)>& take) {
         auto way = attributes_of(feature);
@@ -315,8 +290,7 @@ private:
         if (!ids_.insert(way.id).second) {
             fail(fmt::format("the id {} occurs twice, expected once", way.id));
         }
-        expect_points(static_cast<std::uintmax_t>(line.getNumPoints()));
-        for (const auto& point : places_of(line)) {
+        for (const auto& point : coordinates_.places_of(line)) {
             const auto node = nodes_.node_at(point);
             if (way.node_ids.empty() || way.node_ids.back() != node.number) {
                 way.node_ids.push_back(node.number);
@@ -326,42 +300,9 @@ private:
         take(std::move(way));
     }
 
-    void expect_points(std::uintmax_t count) {
-        if (count > points_left_) {
-            fail("has more points than bytes, expected a plain map file");
-        }
-        points_left_ -= count;
-    }
-
-    std::vector<GeoPoint> places_of(const OGRLineString& line) const {
-        std::vector<GeoPoint> places;
-        for (int i = 0; i < line.getNumPoints(); ++i) {
-            double lon_deg = line.getX(i);
-            double lat_deg = line.getY(i);
-            const bool is_near = std::abs(lon_deg) <= farthest && std::abs(lat_deg) <= farthest;
-            if (to_wgs84_ && !(is_near && to_wgs84_->Transform(1, &lon_deg, &lat_deg))) {
-                fail(fmt::format(
-                    "{}, {} cannot be converted to degrees", line.getX(i), line.getY(i)));
-            }
-            if (!(std::abs(lat_deg) <= 90 && std::abs(lon_deg) <= 180)) {
-                fail(fmt::format(
-                    "{}, {} is not a valid position in degrees", line.getX(i), line.getY(i)));
-            }
-            places.push_back({lat_deg, lon_deg});
-        }
-        return places;
-    }
-
-    std::string file_;
     OGRLayer& layer_;
-    std::uintmax_t points_left_;
+    LayerCoordinates coordinates_;
     Columns columns_;
-    struct Free {
-        void operator()(OGRCoordinateTransformation* transformation) const {
-            OGRCoordinateTransformation::DestroyCT(transformation);
-        }
-    };
-    std::unique_ptr<OGRCoordinateTransformation, Free> to_wgs84_;
     Nodes nodes_;
     std::unordered_set<std::int64_t> ids_;
 };
@@ -376,6 +317,5 @@ extern "C" void macadam_ogr_read_lines(const std::filesystem::path& file,
     const macadam::GdalErrorScope quiet;
     const auto opened = macadam::open_lines(file);
     auto& layer = macadam::layer_of(*opened.dataset, columns.layer, file.string());
-    const auto max_points = macadam::max_points_per_byte * opened.bytes;
-    macadam::LayerReader{file.string(), layer, columns, max_points}.read(take);
+    macadam::LayerReader{file.string(), layer, columns, opened.bytes}.read(take);
 }

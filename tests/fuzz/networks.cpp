@@ -5,6 +5,7 @@
 
 #include "mapping/network/segment.hpp"
 #include "storage/networks/network_reader.hpp"
+#include "storage/surveys/area_file.hpp"
 #include "support/files/sealed_image.hpp"
 
 #include <algorithm>
@@ -71,6 +72,18 @@ Answer read(const std::filesystem::path& file, const LayerColumns& columns = {})
     });
 }
 
+/// Reads the polygons of a layer, if it has some.
+std::optional<Answer> area_in(const std::filesystem::path& file) {
+    const auto answer = may_refuse([&] {
+        const auto area = read_area(file);
+        const auto& [west_deg, south_deg, east_deg, north_deg] = area.box();
+        expect(is_on_globe({south_deg, west_deg}) && is_on_globe({north_deg, east_deg}),
+               "an area is on the globe");
+        area.contains({(south_deg + north_deg) / 2, (west_deg + east_deg) / 2});
+    });
+    return answer == Answer::accepted ? std::optional{answer} : std::nullopt;
+}
+
 Answer read_as(const std::string& name, std::string_view input) {
     return read(input_file(name, input));
 }
@@ -92,6 +105,9 @@ Answer line_layer(std::string_view input) {
     const auto file = input_file("a.geojson", input);
     read(file, {.layer = "roads", .id = {}, .name = {}, .highway = {}, .oneway = {}});
     read(file, {.layer = {}, .id = "number", .name = "called", .highway = "kind", .oneway = "way"});
+    if (const auto area = area_in(file)) {
+        return *area;
+    }
     return read(file);
 }
 

@@ -33,6 +33,7 @@ _OPTIONS = {
     "radius_m": "--radius",
     "rate_hz": "--rate",
     "step_m": "--step",
+    "unit": "--units",
     "wheelbase_m": "--wheelbase",
 }
 

@@ -16,6 +16,29 @@ int iri_decimals(IriUnit unit) {
     return unit == IriUnit::mm_per_m ? 2 : 0;
 }
 
+constexpr double m_per_mi = 1609.344, m_per_ft = 0.3048, mm_per_in = 25.4;
+
+/// Adds the values of placeholders for units: words, and round lengths and speeds of the method.
+Values with_units(const Localisation& say, Values values) {
+    const bool us = say.unit == IriUnit::in_per_mi;
+    const auto word = [&](std::string_view name) {
+        return say.or_else(fmt::format("unit.{}.{}", name, us ? "us" : "si"), "");
+    };
+    values.insert(values.end(),
+                  {{"long_unit", us ? "mi" : "km"},
+                   {"short_unit", us ? "ft" : "m"},
+                   {"small_unit", us ? "in" : "mm"},
+                   {"20_m", us ? "66 ft" : "20 m"},
+                   {"100_m", us ? "328 ft" : "100 m"},
+                   {"100_m_of", us ? "328\u00A0ft" : "100\u00A0m"},
+                   {"80_kmh", us ? "50 mph" : "80 km/h"},
+                   {"18_kmh", us ? "11 mph" : "18 km/h"},
+                   {"one_long", word("one_long")},
+                   {"long_plural", word("long_plural")},
+                   {"short_plural", word("short_plural")}});
+    return values;
+}
+
 } // namespace
 
 double in_unit(double mm_per_m, IriUnit unit) {
@@ -23,7 +46,7 @@ double in_unit(double mm_per_m, IriUnit unit) {
 }
 
 std::string Localisation::operator()(std::string_view key, const Values& values) const {
-    return say(*language, key, values);
+    return say(*language, key, with_units(*this, values));
 }
 
 std::string Localisation::or_else(const std::string& key, std::string_view text) const {
@@ -33,7 +56,8 @@ std::string Localisation::or_else(const std::string& key, std::string_view text)
 
 std::string Localisation::counted(std::string_view key, std::size_t number, Values values) const {
     values.emplace_back("count", count(number));
-    return say(*language, fmt::format("{}.{}", key, language->plural(number)), values);
+    return say(
+        *language, fmt::format("{}.{}", key, language->plural(number)), with_units(*this, values));
 }
 
 std::string Localisation::number(double value, int decimals) const {
@@ -76,9 +100,26 @@ std::string Localisation::count(std::size_t count) const {
     return text;
 }
 
-std::string Localisation::km(double length_m, double longest_m) const {
-    const int decimals = longest_m < 10e3 ? 2 : longest_m < 1000e3 ? 1 : 0;
-    return number(length_m / 1000, decimals);
+double Localisation::long_length(double length_m) const {
+    return length_m / (unit == IriUnit::in_per_mi ? m_per_mi : 1000);
+}
+
+std::string Localisation::road_length(double length_m, double longest_m) const {
+    const double longest = long_length(longest_m);
+    const int decimals = longest < 10 ? 2 : longest < 1000 ? 1 : 0;
+    return number(long_length(length_m), decimals);
+}
+
+std::string Localisation::short_length(double length_m) const {
+    return whole(length_m / (unit == IriUnit::in_per_mi ? m_per_ft : 1));
+}
+
+std::string Localisation::small_size(double size_mm) const {
+    return unit == IriUnit::in_per_mi ? number(size_mm / mm_per_in, 2) : whole(size_mm);
+}
+
+std::string Localisation::long_unit() const {
+    return unit == IriUnit::in_per_mi ? "mi" : "km";
 }
 
 std::string Localisation::percent(double part, double whole) const {

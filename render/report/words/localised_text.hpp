@@ -10,6 +10,7 @@
 
 namespace macadam {
 
+/// Unit of roughness, which stands for a system of units: in_per_mi has miles, feet and inches.
 enum class IriUnit { mm_per_m, in_per_mi };
 
 /// Formatting of words, numbers, days and roughness in a report. Input values are mm/m in every
@@ -33,9 +34,14 @@ struct Localisation {
     std::string
     count(std::size_t count) const; ///< thousands separated by narrow spaces from 10 000 on
 
-    /// Formats kilometres of road with the decimals that suit the longest of them: 2 below 10 km, 1
-    /// below 1000 km, then none.
-    std::string km(double length_m, double longest_m) const;
+    /// Formats a length of road in km or mi with the decimals that suit the longest of them: 2
+    /// below 10 km, 1 below 1000 km, then none.
+    std::string road_length(double length_m, double longest_m) const;
+
+    double long_length(double length_m) const;       ///< in km or mi
+    std::string short_length(double length_m) const; ///< whole m or ft
+    std::string small_size(double size_mm) const;    ///< whole mm, or hundredths of an inch
+    std::string long_unit() const;                   ///< "km"
 
     /// Returns "34.1 %"; "0 %" only for exactly 0, "< 0.1 %" for very small parts. A dash if
     /// `whole` is 0.

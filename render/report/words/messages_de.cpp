@@ -73,7 +73,7 @@ constexpr std::array messages{
     Message{"column.classes", "Klassen"},
     Message{"column.iri_in", "IRI, {unit}"},
     Message{"column.share", "Anteil"},
-    Message{"column.range_of_km", "90-%-Bereich der km"},
+    Message{"column.range_of_km", "90-%-Bereich der {long_unit}"},
     Message{"column.kind", "Straßenart"},
     Message{"column.mean", "Mittel"},
     Message{"column.interval", "90-%-Intervall"},
@@ -82,15 +82,15 @@ constexpr std::array messages{
     Message{"column.one_pass", "Mindestens 1 Überfahrt"},
     Message{"column.three_passes", "Mindestens 3 Überfahrten"},
     Message{"column.section", "Strecke"},
-    Message{"column.from_m", "Von, m"},
-    Message{"column.to_m", "Bis, m"},
-    Message{"column.excluded_m", "Ausgenommen, m"},
+    Message{"column.from_m", "Von, {short_unit}"},
+    Message{"column.to_m", "Bis, {short_unit}"},
+    Message{"column.excluded_m", "Ausgenommen, {short_unit}"},
     Message{"column.covered", "Gemessen"},
     Message{"column.passes", "Überfahrten"},
     Message{"column.rank", "Rang"},
     Message{"column.road", "Straße"},
     Message{"column.towards", "Richtung"},
-    Message{"column.length_m", "Länge, m"},
+    Message{"column.length_m", "Länge, {short_unit}"},
     Message{"column.worst_segment", "Schlechtester Abschnitt"},
     Message{"column.cars", "Fahrzeuge"},
     Message{"column.car", "Fahrzeug"},
@@ -102,7 +102,7 @@ constexpr std::array messages{
     Message{"column.rows_used", "Zeilen genutzt"},
     Message{"column.basis", "Grundlage"},
     Message{"column.segments", "Abschnitte"},
-    Message{"column.share_of_km", "Anteil der km"},
+    Message{"column.share_of_km", "Anteil der {long_unit}"},
     Message{"column.reason", "Grund"},
     Message{"column.rows", "Zeilen"},
     Message{"column.share_of_rows", "Anteil aller Zeilen"},
@@ -116,18 +116,27 @@ constexpr std::array messages{
     Message{"column.since", "Seither"},
     Message{"column.change", "Änderung"},
 
+    Message{"unit.one_long.si", "einem Kilometer"},
+    Message{"unit.one_long.us", "einer Meile"},
+    Message{"unit.long_plural.si", "Kilometer"},
+    Message{"unit.long_plural.us", "Meilen"},
+    Message{"unit.short_plural.si", "Meter"},
+    Message{"unit.short_plural.us", "Fuß"},
     Message{"head.about", "Unebenheit der Straßen (IRI) aus den Sensoren gewöhnlicher Autos."},
     Message{"head.nothing", "Noch wurde nichts gemessen. „macadam import“ fügt Fahrten hinzu."},
     Message{"head.undated", "Die Fahrten tragen kein Datum."},
     Message{"head.driven", "Gefahren"},
+    Message{"head.selection",
+            "Ausgewählt durch {options}; Autos, Fahrten und verwendete Daten sind die der "
+            "ganzen Datenbank."},
     Message{"key.measured", "Gemessen"},
-    Message{"key.measured.more", "{share} des Netzes von {km} km, jede Richtung gezählt"},
+    Message{"key.measured.more", "{share} des Netzes von {km} {long_unit}, jede Richtung gezählt"},
     Message{"key.mean", "Mittlerer IRI"},
     Message{"key.mean.more", "90-%-Intervall"},
     Message{"key.poor.or_worse", "{class} oder schlechter"},
-    Message{"key.poor.more", "{km} km über {border}"},
+    Message{"key.poor.more", "{km} {long_unit} über {border}"},
     Message{"key.stretches", "Schlechte Stellen"},
-    Message{"key.stretches.more", "von mindestens {least} m, zusammen {km} km"},
+    Message{"key.stretches.more", "von mindestens {least} {short_unit}, zusammen {km} {long_unit}"},
     Message{"key.cars", "Gefahren von"},
     Message{"key.cars.more", "{trips}, {passes}"},
     Message{"key.cars.least", "mindestens {cars}"},
@@ -136,7 +145,7 @@ constexpr std::array messages{
     Message{"classes.caption", "Straßenlänge nach Klasse der Unebenheit"},
     Message{"kinds.caption", "Unebenheit nach Straßenart, IRI ({unit})"},
     Message{"kind_classes.caption",
-            "Kilometer jeder Klasse nach Straßenart, mit ihren 90-%-Bereichen"},
+            "{long_plural} jeder Klasse nach Straßenart, mit ihren 90-%-Bereichen"},
     Message{"condition.remark",
             "P85: 85 % der Länge sind mindestens so eben. Der Bereich einer Klasse sagt, wie "
             "viel Straße in ihr läge, wenn alle Werte dieselbe systematische Abweichung "
@@ -177,7 +186,7 @@ constexpr std::array messages{
             "Überfahrten: Anzahl derer, die das Ereignis melden, von allen dort durchsuchten."},
     Message{"event.kind", "Art"},
     Message{"event.severity", "Schwere"},
-    Message{"event.size_mm", "Größe, mm"},
+    Message{"event.size_mm", "Größe, {small_unit}"},
     Message{"event.chainage", "Station"},
     Message{"event.position", "Position"},
     Message{"event.last_seen", "Zuletzt"},
@@ -189,30 +198,33 @@ constexpr std::array messages{
     Message{"event.moderate", "mittel"},
     Message{"event.high", "hoch"},
     Message{"event.share", "{passes} von {over}"},
-    Message{"event.place", "Weg {way}, {at} m"},
-    Message{"event.place_osm", "OSM-Weg {way}, {at} m"},
+    Message{"event.place", "Weg {way}, {at} {short_unit}"},
+    Message{"event.place_osm", "OSM-Weg {way}, {at} {short_unit}"},
 
     Message{"worst", "Schlechteste Stellen"},
-    Message{"worst.none",
-            "Keine Stelle von mindestens {least} m hat einen mittleren IRI über {border}."},
+    Message{
+        "worst.none",
+        "Keine Stelle von mindestens {least} {short_unit} hat einen mittleren IRI über {border}."},
     Message{"worst.about",
             "Schlechte Abschnitte, die auf einer Straße in einer Richtung aufeinander folgen, sind "
             "eine Stelle; sie reicht so weit, wie ihr Mittel über {border} bleibt."},
-    Message{"worst.found.one", "{count} Stelle von mindestens {least} m wurde gefunden;"},
-    Message{"worst.found.other", "{count} Stellen von mindestens {least} m wurden gefunden;"},
+    Message{"worst.found.one",
+            "{count} Stelle von mindestens {least} {short_unit} wurde gefunden;"},
+    Message{"worst.found.other",
+            "{count} Stellen von mindestens {least} {short_unit} wurden gefunden;"},
     Message{"worst.listed.one", "die nach mittlerem IRI schlechteste ist aufgeführt."},
     Message{"worst.listed.other", "die nach mittlerem IRI schlechtesten {count} sind aufgeführt."},
     Message{"worst.caption", "Schlechteste Stellen, IRI ({unit})"},
     Message{"worst.remark",
             "Überfahrten je Abschnitt: Minimum – Median. Fahrzeuge: das Maximum eines "
             "Abschnitts. Die Karten zeigen die Stelle in den Farben ihrer Abschnitte, alle "
-            "anderen Straßen grau, Norden oben. Station: Meter entlang des Wegs ab seinem "
+            "anderen Straßen grau, Norden oben. Station: {short_plural} entlang des Wegs ab seinem "
             "ersten Knoten, in Fahrtrichtung."},
-    Message{"stretch.part", "Weg {way}, Station {from}–{to} m"},
-    Message{"stretch.part_osm", "OSM-Weg {way}, Station {from}–{to} m"},
+    Message{"stretch.part", "Weg {way}, Station {from}–{to} {short_unit}"},
+    Message{"stretch.part_osm", "OSM-Weg {way}, Station {from}–{to} {short_unit}"},
     Message{"stretch.words", "Karte der Stelle {rank}: {road}"},
     Message{"stretch.title", "{rank} · {road}, Richtung {heading}"},
-    Message{"stretch.mean", " ({interval}) auf {length} m"},
+    Message{"stretch.mean", " ({interval}) auf {length} {short_unit}"},
     Message{"stretch.phone.one", ", höchstens {worst}\n{passes} Überfahrt von {cars}"},
     Message{"stretch.phone.other", ", höchstens {worst}\n{passes} Überfahrten von {cars}"},
     Message{"stretch.place", "{reference}\nMittelpunkt {lat}, {lon}"},
@@ -229,8 +241,9 @@ constexpr std::array messages{
             "Standardabweichungen; hätte sich nirgends etwas geändert, wären es etwa {chance}. "
             "Geändert genannt werden darum weniger: nur so viele, dass unter ihnen höchstens etwa "
             "{share} Zufall zu erwarten sind (Benjamini und Hochberg)."},
-    Message{"change.caption",
-            "Kilometer nach Änderung; mittlere Änderung des IRI ({unit}), positiv ist unebener"},
+    Message{
+        "change.caption",
+        "{long_plural} nach Änderung; mittlere Änderung des IRI ({unit}), positiv ist unebener"},
     Message{"change.remark",
             "Keine Änderung gezeigt: Der Unterschied kann Zufall sein; das heißt nicht, dass sich "
             "nichts geändert hat. Nur vorher, nur seither: Überfahrten nur auf einer Seite des "
@@ -239,13 +252,13 @@ constexpr std::array messages{
     Message{"change.legend", "Änderung des IRI:"},
     Message{"change.not_comparable", "Nicht vergleichbar"},
     Message{"change.words", "Karte der Änderungen seit {day}"},
-    Message{"change.mean", " ({interval}), von {before} auf {since} auf {length} m"},
+    Message{"change.mean", " ({interval}), von {before} auf {since} auf {length} {short_unit}"},
     Message{"change.worse.caption", "Am stärksten verschlechterte Stellen, IRI ({unit})"},
     Message{"change.better.caption", "Am stärksten verbesserte Stellen, IRI ({unit})"},
     Message{"change.worse.none",
-            "Keine Stelle von mindestens {least} m hat sich als unebener erwiesen."},
+            "Keine Stelle von mindestens {least} {short_unit} hat sich als unebener erwiesen."},
     Message{"change.better.none",
-            "Keine Stelle von mindestens {least} m hat sich als ebener erwiesen."},
+            "Keine Stelle von mindestens {least} {short_unit} hat sich als ebener erwiesen."},
 
     Message{"sections", "Strecken"},
     Message{"sections.about",
@@ -255,11 +268,12 @@ constexpr std::array messages{
     Message{"sections.caption", "Strecken, IRI ({unit})"},
 
     Message{"coverage", "Abdeckung"},
-    Message{"coverage.caption", "Kilometer nach Straßenart, jede Richtung gezählt"},
-    Message{"coverage.remark",
-            "{passed} von {segments} Abschnitten von etwa {length} m haben eine Überfahrt. "
-            "Rampen zählen zu ihrer Straße. Die befahrenen Straßen sind keine "
-            "Zufallsstichprobe des Netzes."},
+    Message{"coverage.caption", "{long_plural} nach Straßenart, jede Richtung gezählt"},
+    Message{
+        "coverage.remark",
+        "{passed} von {segments} Abschnitten von etwa {length} {short_unit} haben eine Überfahrt. "
+        "Rampen zählen zu ihrer Straße. Die befahrenen Straßen sind keine "
+        "Zufallsstichprobe des Netzes."},
 
     Message{"data", "Fahrzeuge und Daten"},
     Message{
@@ -270,7 +284,7 @@ constexpr std::array messages{
             "Fahrzeuge Dritter haben diese Straßen befahren. Alle Werte stammen aus der "
             "Veröffentlichung vom {month} und beruhen auf mindestens fünf Fahrzeugen; Zahlen von "
             "Fahrten, Fahrzeugen und Überfahrten sind abgerundet, Zeiten sind Monate. Ausgelassen: "
-            "bis zu {segments} Segmente ({km} km), die zu wenige Fahrzeuge befuhren."},
+            "bis zu {segments} Segmente ({km} {long_unit}), die zu wenige Fahrzeuge befuhren."},
     Message{"data.crowd.nothing",
             "Fahrzeuge Dritter haben diese Straßen befahren; veröffentlicht ist davon noch "
             "nichts."},
@@ -334,7 +348,7 @@ constexpr std::array messages{
             "zählen als Unebenheit."},
     Message{"reading.iri.in_per_mi",
             "Der International Roughness Index (IRI, ASTM E1926) ist der aufsummierte "
-            "Federweg eines Referenz-Viertelfahrzeugs bei 80 km/h je Fahrstrecke, hier in "
+            "Federweg eines Referenz-Viertelfahrzeugs bei {80_kmh} je Fahrstrecke, hier in "
             "Zoll je Meile (in/mi). Eine neue Autobahn hat etwa {new}, eine abgenutzte "
             "Stadtstraße {worn} bis {worn_to}, eine zerstörte Straße {broken} in/mi. "
             "Flickstellen, Fugen, Schachtdeckel, Schienen und Bodenschwellen zählen als "
@@ -377,10 +391,10 @@ constexpr std::array messages{
             "unterscheiden unebene von ebenen Straßen und zeigen Änderungen; sie ersetzen keinen "
             "Inertialprofilometer (ASTM E950), etwa bei der Abnahme."},
     Message{"limits.tracks",
-            "Ein Wert gilt für die Spuren, die die Räder nahmen. Unter 18 km/h wird nichts "
+            "Ein Wert gilt für die Spuren, die die Räder nahmen. Unter {18_kmh} wird nichts "
             "gemessen, und wenig von Löchern, denen Fahrer ausweichen."},
     Message{"limits.segments",
-            "Auf 20 m streut die Unebenheit mehr als auf 100 m oder einem Kilometer: Extreme "
+            "Auf {20_m} streut die Unebenheit mehr als auf {100_m} oder {one_long}: Extreme "
             "einzelner Abschnitte sind zum Teil Zufall; darum sind die schlechtesten Straßen als "
             "Stellen aufgeführt."},
     Message{"limits.smoother",

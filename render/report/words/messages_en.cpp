@@ -73,7 +73,7 @@ constexpr std::array messages{
     Message{"column.classes", "Classes"},
     Message{"column.iri_in", "IRI, {unit}"},
     Message{"column.share", "Share"},
-    Message{"column.range_of_km", "90\u00A0% range of km"},
+    Message{"column.range_of_km", "90\u00A0% range of {long_unit}"},
     Message{"column.kind", "Kind of road"},
     Message{"column.mean", "Mean"},
     Message{"column.interval", "90\u00A0% interval"},
@@ -82,15 +82,15 @@ constexpr std::array messages{
     Message{"column.one_pass", "At least 1 pass"},
     Message{"column.three_passes", "At least 3 passes"},
     Message{"column.section", "Section"},
-    Message{"column.from_m", "From, m"},
-    Message{"column.to_m", "To, m"},
-    Message{"column.excluded_m", "Excluded, m"},
+    Message{"column.from_m", "From, {short_unit}"},
+    Message{"column.to_m", "To, {short_unit}"},
+    Message{"column.excluded_m", "Excluded, {short_unit}"},
     Message{"column.covered", "Covered"},
     Message{"column.passes", "Passes"},
     Message{"column.rank", "Rank"},
     Message{"column.road", "Road"},
     Message{"column.towards", "Towards"},
-    Message{"column.length_m", "Length, m"},
+    Message{"column.length_m", "Length, {short_unit}"},
     Message{"column.worst_segment", "Worst segment"},
     Message{"column.cars", "Cars"},
     Message{"column.car", "Car"},
@@ -102,7 +102,7 @@ constexpr std::array messages{
     Message{"column.rows_used", "Rows used"},
     Message{"column.basis", "Basis"},
     Message{"column.segments", "Segments"},
-    Message{"column.share_of_km", "Share of km"},
+    Message{"column.share_of_km", "Share of {long_unit}"},
     Message{"column.reason", "Reason"},
     Message{"column.rows", "Rows"},
     Message{"column.share_of_rows", "Share of all rows"},
@@ -116,18 +116,28 @@ constexpr std::array messages{
     Message{"column.since", "Since"},
     Message{"column.change", "Change"},
 
+    Message{"unit.one_long.si", "a kilometre"},
+    Message{"unit.one_long.us", "a mile"},
+    Message{"unit.long_plural.si", "Kilometres"},
+    Message{"unit.long_plural.us", "Miles"},
+    Message{"unit.short_plural.si", "metres"},
+    Message{"unit.short_plural.us", "feet"},
     Message{"head.about", "Road roughness (IRI) from the sensors of ordinary cars."},
     Message{"head.nothing", "No measurements yet. 'macadam import' adds trips."},
     Message{"head.undated", "The trips are undated."},
     Message{"head.driven", "Driven"},
+    Message{"head.selection",
+            "Selected by {options}; cars, trips and data used are those of the whole "
+            "database."},
     Message{"key.measured", "Measured"},
-    Message{"key.measured.more", "{share} of the network of {km} km, each direction counted"},
+    Message{"key.measured.more",
+            "{share} of the network of {km} {long_unit}, each direction counted"},
     Message{"key.mean", "Mean IRI"},
     Message{"key.mean.more", "90 % interval"},
     Message{"key.poor.or_worse", "{class} or worse"},
-    Message{"key.poor.more", "{km} km above {border}"},
+    Message{"key.poor.more", "{km} {long_unit} above {border}"},
     Message{"key.stretches", "Poor sections"},
-    Message{"key.stretches.more", "of {least} m or more, {km} km in total"},
+    Message{"key.stretches.more", "of {least} {short_unit} or more, {km} {long_unit} in total"},
     Message{"key.cars", "Driven by"},
     Message{"key.cars.more", "{trips}, {passes}"},
     Message{"key.cars.least", "at least {cars}"},
@@ -136,7 +146,7 @@ constexpr std::array messages{
     Message{"classes.caption", "Length of road by class of roughness"},
     Message{"kinds.caption", "Roughness by kind of road, IRI ({unit})"},
     Message{"kind_classes.caption",
-            "Kilometres of each class by kind of road, with their 90 % ranges"},
+            "{long_plural} of each class by kind of road, with their 90 % ranges"},
     Message{"condition.remark",
             "P85: 85 % of the length is at least this smooth. The range of a class says how "
             "much road would be in it if all values shared one bias."},
@@ -175,7 +185,7 @@ constexpr std::array messages{
             "report the event, of all searched there."},
     Message{"event.kind", "Kind"},
     Message{"event.severity", "Severity"},
-    Message{"event.size_mm", "Size, mm"},
+    Message{"event.size_mm", "Size, {small_unit}"},
     Message{"event.chainage", "Chainage"},
     Message{"event.position", "Position"},
     Message{"event.last_seen", "Last seen"},
@@ -187,29 +197,30 @@ constexpr std::array messages{
     Message{"event.moderate", "moderate"},
     Message{"event.high", "high"},
     Message{"event.share", "{passes} of {over}"},
-    Message{"event.place", "way {way}, {at} m"},
-    Message{"event.place_osm", "OSM way {way}, {at} m"},
+    Message{"event.place", "way {way}, {at} {short_unit}"},
+    Message{"event.place_osm", "OSM way {way}, {at} {short_unit}"},
 
     Message{"worst", "Worst sections"},
-    Message{"worst.none", "No section of {least} m or more has a mean IRI above {border}."},
+    Message{"worst.none",
+            "No section of {least} {short_unit} or more has a mean IRI above {border}."},
     Message{"worst.about",
             "Consecutive poor segments of one road in one direction form one section, which "
             "extends as far as its mean stays above {border}."},
-    Message{"worst.found.one", "{count} section of {least} m or more was found;"},
-    Message{"worst.found.other", "{count} sections of {least} m or more were found;"},
+    Message{"worst.found.one", "{count} section of {least} {short_unit} or more was found;"},
+    Message{"worst.found.other", "{count} sections of {least} {short_unit} or more were found;"},
     Message{"worst.listed.one", "the worst by mean IRI is listed."},
     Message{"worst.listed.other", "the worst {count} by mean IRI are listed."},
     Message{"worst.caption", "Worst sections, IRI ({unit})"},
     Message{"worst.remark",
             "Passes per segment: minimum – median. Cars: the maximum of one segment. The maps "
             "show the section in the colours of its segments and all other roads in grey, "
-            "north up. Chainage: metres along the way from its first node, in driving "
+            "north up. Chainage: {short_plural} along the way from its first node, in driving "
             "direction."},
-    Message{"stretch.part", "Way {way}, chainage {from}–{to} m"},
-    Message{"stretch.part_osm", "OSM way {way}, chainage {from}–{to} m"},
+    Message{"stretch.part", "Way {way}, chainage {from}–{to} {short_unit}"},
+    Message{"stretch.part_osm", "OSM way {way}, chainage {from}–{to} {short_unit}"},
     Message{"stretch.words", "Map of section {rank}: {road}"},
     Message{"stretch.title", "{rank} · {road}, towards {heading}"},
-    Message{"stretch.mean", " ({interval}) over {length} m"},
+    Message{"stretch.mean", " ({interval}) over {length} {short_unit}"},
     Message{"stretch.phone.one", ", at worst {worst}\n{passes} pass by {cars}"},
     Message{"stretch.phone.other", ", at worst {worst}\n{passes} passes by {cars}"},
     Message{"stretch.place", "{reference}\nMidpoint {lat}, {lon}"},
@@ -227,7 +238,7 @@ constexpr std::array messages{
             "therefore reported as changed: only so many that at most about {share} of them "
             "are expected to be chance (Benjamini and Hochberg)."},
     Message{"change.caption",
-            "Kilometres by change; mean change of IRI ({unit}), positive is rougher"},
+            "{long_plural} by change; mean change of IRI ({unit}), positive is rougher"},
     Message{"change.remark",
             "No change shown: the difference may be chance; this does not mean that nothing "
             "has changed. Before only, since only: passes on one side of the day only, so no "
@@ -235,14 +246,14 @@ constexpr std::array messages{
     Message{"change.legend", "Change of IRI:"},
     Message{"change.not_comparable", "Not comparable"},
     Message{"change.words", "Map of changes since {day}"},
-    Message{"change.mean", " ({interval}), from {before} to {since} over {length} m"},
+    Message{"change.mean", " ({interval}), from {before} to {since} over {length} {short_unit}"},
     Message{"change.worse.caption", "Most deteriorated sections, IRI ({unit})"},
     Message{"change.better.caption", "Most improved sections, IRI ({unit})"},
     Message{"change.worse.none",
-            "No section of {least} m or more has become demonstrably "
+            "No section of {least} {short_unit} or more has become demonstrably "
             "rougher."},
     Message{"change.better.none",
-            "No section of {least} m or more has become demonstrably "
+            "No section of {least} {short_unit} or more has become demonstrably "
             "smoother."},
 
     Message{"sections", "Sections"},
@@ -253,9 +264,10 @@ constexpr std::array messages{
     Message{"sections.caption", "Sections, IRI ({unit})"},
 
     Message{"coverage", "Coverage"},
-    Message{"coverage.caption", "Kilometres by kind of road, each direction counted"},
+    Message{"coverage.caption", "{long_plural} by kind of road, each direction counted"},
     Message{"coverage.remark",
-            "{passed} of {segments} segments of about {length} m have a pass. Slip roads are "
+            "{passed} of {segments} segments of about {length} {short_unit} have a pass. Slip "
+            "roads are "
             "counted with their road. The roads driven are not a random sample of the network."},
 
     Message{"data", "Cars and data"},
@@ -266,7 +278,7 @@ constexpr std::array messages{
             "Other people's cars drove these roads. All values are those of the publication "
             "of {month} and are based on five cars or more; numbers of trips, cars and passes "
             "are rounded down, dates are months. Left out: up to {segments} segments ({km} "
-            "km) driven by too few cars."},
+            "{long_unit}) driven by too few cars."},
     Message{"data.crowd.nothing",
             "Other people's cars drove these roads; nothing has been published yet."},
     Message{"data.nothing", "No trips imported yet."},
@@ -326,7 +338,7 @@ constexpr std::array messages{
             "Patches, joints, manhole covers, rails and speed humps count as roughness."},
     Message{"reading.iri.in_per_mi",
             "The International Roughness Index (IRI, ASTM E1926) is the accumulated "
-            "suspension travel of a reference quarter car at 80 km/h per distance, here in "
+            "suspension travel of a reference quarter car at {80_kmh} per distance, here in "
             "inches per mile (in/mi). A new motorway has about {new}, a worn town street "
             "{worn} to {worn_to}, a broken road {broken} in/mi. Patches, joints, manhole "
             "covers, rails and speed humps count as roughness."},
@@ -365,10 +377,10 @@ constexpr std::array messages{
             "distinguish rough roads from smooth ones and show changes; they do not replace "
             "an inertial profiler (ASTM E950), for example for acceptance."},
     Message{"limits.tracks",
-            "A value is for the tracks that the wheels took. Nothing is measured below 18 "
-            "km/h, and potholes that drivers avoid are mostly missed."},
+            "A value is for the tracks that the wheels took. Nothing is measured below "
+            "{18_kmh}, and potholes that drivers avoid are mostly missed."},
     Message{"limits.segments",
-            "Roughness varies more over 20 m than over 100 m or a kilometre: extremes of "
+            "Roughness varies more over {20_m} than over {100_m} or {one_long}: extremes of "
             "single segments are partly chance, which is why the worst roads are listed as "
             "sections."},
     Message{"limits.smoother",

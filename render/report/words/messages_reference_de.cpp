@@ -10,17 +10,17 @@ namespace {
 constexpr std::array messages{
     Message{"reference.title", "Fahrzeuge und Referenzmessungen"},
     Message{"reference.subtitle.one",
-            "Auf {count} Stück von 100\u00A0m weichen die Fahrzeuge allein im Mittel um {bias} "
+            "Auf {count} Stück von {100_m_of} weichen die Fahrzeuge allein im Mittel um {bias} "
             "{unit} ab und je Stück um {rmse} (RMSE); {coverage} der Referenzwerte liegen in ihrem "
             "90-%-Intervall."},
     Message{"reference.subtitle.other",
-            "Auf {count} Stücken von 100\u00A0m weichen die Fahrzeuge allein im Mittel um {bias} "
+            "Auf {count} Stücken von {100_m_of} weichen die Fahrzeuge allein im Mittel um {bias} "
             "{unit} ab und je Stück um {rmse} (RMSE); {coverage} der Referenzwerte liegen in ihrem "
             "90-%-Intervall."},
 
     Message{"reference.surveys", "Referenzmessungen"},
     Message{"reference.surveys.caption",
-            "Messungen, IRI in {unit}; verglichen auf Stücken von 100 m"},
+            "Messungen, IRI in {unit}; verglichen auf Stücken von {100_m}"},
     Message{"reference.driven", "Befahren"},
     Message{"reference.surveyed", "; gemessen"},
     Message{"reference.days_not_known", "an unbekannten Tagen"},
@@ -37,7 +37,7 @@ constexpr std::array messages{
     Message{"reference.column.survey", "Messung"},
     Message{"reference.column.measured", "Gemessen"},
     Message{"reference.column.good_to", "Genauigkeit"},
-    Message{"reference.column.rows_m", "Zeilenlänge, m"},
+    Message{"reference.column.rows_m", "Zeilenlänge, {short_unit}"},
     Message{"reference.not_known", "unbekannt"},
 
     Message{"reference.pieces", "Fahrzeuge neben Referenzen"},
@@ -46,8 +46,8 @@ constexpr std::array messages{
     Message{"reference.pieces.about",
             "Abweichung: Fahrzeuge weniger Referenz. Das Intervall ist das der Fahrzeuge allein: "
             "Fehler der Referenz selbst zählen gegen das Intervall."},
-    Message{"reference.pieces.hundreds", "Stücke von 100 m"},
-    Message{"reference.pieces.segments", "Abschnitte von {length} m"},
+    Message{"reference.pieces.hundreds", "Stücke von {100_m}"},
+    Message{"reference.pieces.segments", "Abschnitte von {length} {short_unit}"},
     Message{"reference.pieces.left", "Linke Spur, wo beide sie kennen"},
     Message{"reference.pieces.right", "Rechte Spur, wo beide sie kennen"},
     Message{"reference.pieces.too_long",

@@ -10,16 +10,16 @@ namespace {
 constexpr std::array messages{
     Message{"reference.title", "Cars compared with reference surveys"},
     Message{"reference.subtitle.one",
-            "Over {count} section of 100\u00A0m the cars have a mean bias of {bias} {unit} "
+            "Over {count} section of {100_m_of} the cars have a mean bias of {bias} {unit} "
             "and an RMSE of {rmse}; {coverage} of the references are within their 90\u00A0% "
             "interval."},
     Message{"reference.subtitle.other",
-            "Over {count} sections of 100\u00A0m the cars have a mean bias of {bias} {unit} "
+            "Over {count} sections of {100_m_of} the cars have a mean bias of {bias} {unit} "
             "and an RMSE of {rmse}; {coverage} of the references are within their 90\u00A0% "
             "interval."},
 
     Message{"reference.surveys", "References"},
-    Message{"reference.surveys.caption", "Surveys, IRI in {unit}; scores of sections of 100 m"},
+    Message{"reference.surveys.caption", "Surveys, IRI in {unit}; scores of sections of {100_m}"},
     Message{"reference.driven", "Cars drove there"},
     Message{"reference.surveyed", "; surveyed"},
     Message{"reference.days_not_known", "on unknown days"},
@@ -36,7 +36,7 @@ constexpr std::array messages{
     Message{"reference.column.survey", "Survey"},
     Message{"reference.column.measured", "Measured"},
     Message{"reference.column.good_to", "Accuracy"},
-    Message{"reference.column.rows_m", "Row length, m"},
+    Message{"reference.column.rows_m", "Row length, {short_unit}"},
     Message{"reference.not_known", "unknown"},
 
     Message{"reference.pieces", "Cars and references"},
@@ -44,8 +44,8 @@ constexpr std::array messages{
     Message{"reference.pieces.about",
             "Bias is cars minus reference. The interval is that of the cars only: errors of "
             "the reference itself count against it."},
-    Message{"reference.pieces.hundreds", "Sections of 100 m"},
-    Message{"reference.pieces.segments", "Segments of {length} m"},
+    Message{"reference.pieces.hundreds", "Sections of {100_m}"},
+    Message{"reference.pieces.segments", "Segments of {length} {short_unit}"},
     Message{"reference.pieces.left", "Left track, where both have it"},
     Message{"reference.pieces.right", "Right track, where both have it"},
     Message{"reference.pieces.too_long",

@@ -16,6 +16,7 @@ bool is_in(const Period& period, const std::optional<std::int64_t>& utc_ms) {
 
 bool is_chosen(const PassChoice& choice, const FusionInput& input) {
     return !(choice.cars_alone && input.reference) &&
+           (!choice.vehicle || input.vehicle == *choice.vehicle) &&
            (!choice.period || is_in(*choice.period, input.utc_ms));
 }
 

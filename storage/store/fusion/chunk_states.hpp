@@ -29,8 +29,9 @@ struct FusedChunk {
 
 /// Selection of the passes from which a state is fused.
 struct PassChoice {
-    std::optional<Period> period; ///< only dated passes within it
-    bool cars_alone;              ///< without references
+    std::optional<Period> period;          ///< only dated passes within it
+    bool cars_alone;                       ///< without references
+    std::optional<std::int64_t> vehicle{}; ///< row of a car: only its passes
 };
 
 /// Drives of passes.

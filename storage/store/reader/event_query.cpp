@@ -2,6 +2,7 @@
 #include "mapping/geometry/point_along.hpp"
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/fusion/chunk_events.hpp"
+#include "storage/store/reader/pass_choice.hpp"
 #include "storage/store/reader/store_reader.hpp"
 #include "storage/store/rows/event_row.hpp"
 #include "storage/store/rows/segment_row.hpp"
@@ -118,9 +119,11 @@ std::vector<EventRecord> StoreReader::events(const SegmentFilter& filter) const 
         return published_events(database,
                                 places_of(*this, filter, segments_in(database, "published_event")));
     }
+    auto choice = pass_choice(database, filter);
+    choice.cars_alone = true;
     const auto keys = with_neighbours(segments_in(database, "event"));
     return fused_events(places_of(*this, filter, keys),
-                        {database, store_->segments_per_chunk(), {filter.period, true}});
+                        {database, store_->segments_per_chunk(), choice});
 }
 
 } // namespace macadam

@@ -1,7 +1,10 @@
 #include "estimator/common/error.hpp"
+#include "mapping/geometry/antimeridian.hpp"
+#include "mapping/geometry/area.hpp"
 #include "mapping/privacy/release_batches.hpp"
 #include "storage/store/connection/store_connection.hpp"
 #include "storage/store/fusion/chunk_states.hpp"
+#include "storage/store/reader/pass_choice.hpp"
 #include "storage/store/reader/store_reader.hpp"
 #include "storage/store/rows/segment_query.hpp"
 #include "storage/store/rows/segment_row.hpp"
@@ -46,6 +49,20 @@ bool meets(const GeoBox& box, const std::vector<GeoPoint>& line) {
         }
     }
     return false;
+}
+
+/// Parts of a filter's box on the globe, in which segments lie without crossing its edges.
+std::vector<GeoBox> boxes_of(const SegmentFilter& filter) {
+    return filter.box ? parts_on_globe(*filter.box) : std::vector<GeoBox>{};
+}
+
+/// Tests whether a line, which may cross the antimeridian, intersects one of the boxes.
+bool meets_any(const std::vector<GeoBox>& boxes, const std::vector<GeoPoint>& line) {
+    const auto meets_one = [&](const std::vector<GeoPoint>& part) {
+        return std::ranges::any_of(boxes, [&](const GeoBox& box) { return meets(box, part); });
+    };
+    return crosses_antimeridian(line) ? std::ranges::any_of(cut_at_antimeridian(line), meets_one)
+                                      : meets_one(line);
 }
 
 // -------------------------------------------------------------------------------------- records
@@ -194,17 +211,20 @@ private:
 class Conditions {
 public:
     Conditions(const SegmentFilter& filter, const ClassTable& classes)
-        : filter_{&filter}, classes_{&classes}, name_part_{case_folded(filter.name_part)} {}
+        : filter_{&filter}, classes_{&classes}, boxes_{boxes_of(filter)}, name_part_{case_folded(
+                                                                              filter.name_part)} {}
 
     bool hold_for(const SegmentRecord& record) const {
         const auto& key = record.segment.key;
         return (!filter_->with_state_only || record.state) &&
-               (!filter_->box || meets(*filter_->box, record.segment.line)) &&
+               (boxes_.empty() || meets_any(boxes_, record.segment.line)) &&
+               (!filter_->area || filter_->area->intersects(record.segment.line)) &&
                (!filter_->way_id || *filter_->way_id == key.way_id) &&
                (!filter_->key || *filter_->key == key) &&
                (name_part_.empty() ||
                 case_folded(record.name).find(name_part_) != std::string::npos) &&
                passes_of(record) >= filter_->min_passes &&
+               (record.state ? record.state->vehicles : 0) >= filter_->min_vehicles &&
                (filter_->class_name.empty() || filter_->class_name == class_of(record));
     }
 
@@ -220,6 +240,7 @@ private:
 
     const SegmentFilter* filter_;
     const ClassTable* classes_;
+    std::vector<GeoBox> boxes_; ///< empty: everywhere
     std::string name_part_;
 };
 
@@ -273,13 +294,16 @@ void each_record(StoreConnection& store,
     std::optional<ChosenStates> chosen;
     std::optional<PublishedFigures> figures;
     if (store.published_alone) { // published values are of cars only
+        if (!filter.vehicle.empty()) {
+            throw InputError{fmt::format("{}: is a crowd database, which tells no cars apart",
+                                         store.database.file().string())};
+        }
         if (filter.period) {
             figures.emplace(store.database, *filter.period);
         }
-    } else if (filter.period || filter.cars_alone) {
-        chosen.emplace(store.database,
-                       store.settings.segment_length_m,
-                       PassChoice{filter.period, filter.cars_alone});
+    } else if (selects_passes(filter)) {
+        chosen.emplace(
+            store.database, store.settings.segment_length_m, pass_choice(store.database, filter));
     }
     const Conditions conditions{filter, store.classes()};
     Roughest roughest{filter.worst};
@@ -339,7 +363,8 @@ void StoreReader::visit(const SegmentFilter& filter,
 void StoreReader::visit_summaries(const SegmentFilter& filter,
                                   const std::function<void(const SegmentSummary&)>& visitor) const {
     each_record(*store_,
-                {summary_columns, put_summary_in},
+                filter.min_vehicles > 0 ? Detail{tile_columns, put_tile_record_in}
+                                        : Detail{summary_columns, put_summary_in},
                 filter,
                 [&](const SegmentRecord& record) { visitor(summary_of(record)); });
 }

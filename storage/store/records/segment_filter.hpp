@@ -5,11 +5,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace macadam {
+
+class Area;
 
 /// Interval of time, ms since 1970 UTC: from <= t < until. `std::nullopt`: unbounded on that side.
 struct Period {
@@ -20,7 +23,7 @@ struct Period {
 
 /// Filter for segments; all conditions must hold.
 struct SegmentFilter {
-    std::optional<GeoBox> box;
+    std::optional<GeoBox> box; ///< its east may lie beyond 180 degrees, over the antimeridian
     std::optional<std::int64_t> way_id;
     std::optional<SegmentKey> key;
     std::string name_part;       ///< substring of the road's name, ignoring case; "" = any
@@ -33,6 +36,9 @@ struct SegmentFilter {
     std::int32_t min_passes = 0;    ///< > 0: excludes segments without a pass
     std::optional<Period> period{}; ///< fuses states only from passes dated within it
     bool cars_alone = false;        ///< fuses states only from passes of cars, without references
+    std::shared_ptr<const Area> area{}; ///< null: everywhere
+    std::int32_t min_vehicles = 0;      ///< > 0: excludes segments without a pass
+    std::string vehicle{}; ///< pseudonym: fuses states only from passes of this car; "" = all cars
 };
 
 /// Amount of detail in the states given to visit(); less is faster.

@@ -1,5 +1,7 @@
 #include "storage/store/rows/segment_query.hpp"
 
+#include "mapping/geometry/antimeridian.hpp"
+#include "mapping/geometry/area.hpp"
 #include "storage/store/schema/store_schema.hpp"
 #include "storage/text/case_folding.hpp"
 
@@ -17,11 +19,17 @@ namespace {
 /// Access paths to the rows, each with its own index.
 enum class AccessPath { range, way, box, all };
 
+/// Returns the box in which all segments of a filter lie, if it has one.
+std::optional<GeoBox> box_of(const SegmentFilter& filter) {
+    return filter.box ? filter.box : filter.area ? std::optional{filter.area->box()} : std::nullopt;
+}
+
 AccessPath road_to(const SegmentFilter& filter) {
-    return filter.ranges || filter.key                                   ? AccessPath::range
-           : filter.way_id || (!filter.name_part.empty() && !filter.box) ? AccessPath::way
-           : filter.box                                                  ? AccessPath::box
-                                                                         : AccessPath::all;
+    const bool is_in_box = box_of(filter).has_value();
+    return filter.ranges || filter.key                                  ? AccessPath::range
+           : filter.way_id || (!filter.name_part.empty() && !is_in_box) ? AccessPath::way
+           : is_in_box                                                  ? AccessPath::box
+                                                                        : AccessPath::all;
 }
 
 /// Tests for a scan in row order, which is the order of keys: then rows are visited; otherwise they
@@ -98,10 +106,14 @@ std::vector<RowRange> rows_near(StatementCache& statements, const GeoBox& box, b
                     rows_in_order ? "0" : "segment.way_id",
                     rows_in_order ? "" : "CROSS JOIN segment ON segment.fid = place.id")};
     std::vector<std::pair<std::int64_t, std::int64_t>> rows; // way, row
-    for (select->bind(box.west_deg, box.east_deg, box.south_deg, box.north_deg); select->step();) {
-        rows.emplace_back(select->integer(1), select->integer(0));
+    for (const auto& [west_deg, south_deg, east_deg, north_deg] : parts_on_globe(box)) {
+        for (select->bind(west_deg, east_deg, south_deg, north_deg); select->step();) {
+            rows.emplace_back(select->integer(1), select->integer(0));
+        }
+        select->reset();
     }
     std::ranges::sort(rows);
+    rows.erase(std::ranges::unique(rows).begin(), rows.end());
     std::vector<RowRange> ranges;
     std::int64_t way = 0;
     for (const auto& [way_of_row, row] : rows) {
@@ -154,7 +166,7 @@ void each_segment_row(StatementCache& statements,
         }
         return;
     case AccessPath::box:
-        for (const auto& [first, last] : rows_near(statements, *filter.box, rows_in_order)) {
+        for (const auto& [first, last] : rows_near(statements, *box_of(filter), rows_in_order)) {
             run(first, last);
         }
         return;

@@ -82,9 +82,9 @@ TEST(Program, TakesEarlierSpellingsOfOptionsWithANoteAndRefusesThoseThatMeantSom
     EXPECT_EQ(earlier.out, present.out);
     EXPECT_EQ(earlier.err, "macadam: note: --name is called --road now\n" + present.err);
     EXPECT_EQ(expect_done({"query", store, "--name", "none", "--json", "--quiet"}).err, "");
-    const auto refused = run_macadam({"render", store, "-o", "a.png", "--min-passes", "2"});
+    const auto refused = run_macadam({"iri", "a.csv", "--from", "2"});
     EXPECT_EQ(refused.exit_status, 2);
-    EXPECT_THAT(refused.err, HasSubstr("--min-passes is called --grey-below here now"));
+    EXPECT_THAT(refused.err, HasSubstr("--from is called --from-m here now"));
 }
 
 TEST(Program, WritesRowsToAFileInTheFormatOfItsSuffix) {

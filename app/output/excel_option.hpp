@@ -1,0 +1,20 @@
+#pragma once
+
+#include "app/cli/arguments.hpp"
+#include "storage/text/excel_csv.hpp"
+
+#include <optional>
+
+namespace macadam {
+
+inline constexpr Option excel_option{
+    "--excel",
+    "[LOCALE]",
+    "CSV that Excel opens with a double click: separator and decimal mark of a language, such as "
+    "de or en; by default that of LANG."};
+
+/// Parses --excel.
+/// \throws UsageError  for an unknown language.
+std::optional<CsvDialect> parse_excel(const Arguments& arguments);
+
+} // namespace macadam

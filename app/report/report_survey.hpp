@@ -1,0 +1,23 @@
+#pragma once
+
+#include "storage/store/reader/store_reader.hpp"
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Measured segments of a selection, and the roads on which they lie.
+struct Survey {
+    std::vector<SegmentRecord> measured;
+    std::size_t segments = 0;                ///< on these roads
+    std::map<std::string, double> network_m; ///< by highway tag
+};
+
+/// Reads the measured segments that a filter selects, and the length of the roads that meet its
+/// conditions on places.
+Survey survey_of(const StoreReader& store, const SegmentFilter& filter);
+
+} // namespace macadam

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "storage/text/excel_csv.hpp"
+#include "storage/text/unit_system.hpp"
+
+#include <functional>
+#include <optional>
+#include <string_view>
+
+namespace macadam {
+
+using PutText = std::function<void(std::string_view)>;
+
+/// How text files are exported: .geojson, .geojsonl, .csv and .kml.
+struct TextExport {
+    UnitSystem units = UnitSystem::si; ///< of .geojson, .geojsonl and .csv
+    std::optional<CsvDialect> excel{}; ///< of .csv; `std::nullopt`: commas and points
+    PutText put{};                     ///< takes the text instead of the file, whose name then
+                                       ///< selects the format; empty: the file
+};
+
+} // namespace macadam
