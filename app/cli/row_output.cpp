@@ -44,7 +44,10 @@ std::string row_format_of(const Arguments& arguments) {
 std::optional<std::filesystem::path> row_file_of(const Arguments& arguments,
                                                  std::initializer_list<std::string_view> others) {
     const bool is_format_given = arguments.value("--format") || arguments.flag("--json");
-    const auto& choices = arguments.choices("--format");
+    auto choices = arguments.choices("--format");
+    std::erase_if(choices, [&](std::string_view choice) {
+        return std::ranges::find(others, "." + std::string{choice}) != others.end();
+    });
     std::optional<std::filesystem::path> row_file;
     for (const auto& file : arguments.values("--output")) {
         const auto suffix = suffix_of(file);

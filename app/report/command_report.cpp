@@ -151,10 +151,10 @@ ReferenceOutput parse_reference_output(const Arguments& arguments) {
     ReferenceOutput output{.page = {},
                            .rows = row_file_of(arguments, {".html", ".pdf"}),
                            .format = row_format_of(arguments)};
-    if (output.format == "html" || output.format == "pdf") {
+    if (const auto format = arguments.value("--format"); format == "html" || format == "pdf") {
         throw UsageError{fmt::format("--against-reference has --format table, csv or json, and "
                                      "-o FILE.{}",
-                                     output.format)};
+                                     *format)};
     }
     if (!output.rows && !is_to_standard_output(arguments)) {
         output.page = arguments.value("--output");

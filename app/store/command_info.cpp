@@ -6,6 +6,7 @@
 #include "app/database/publication_messages.hpp"
 #include "app/database/segment_options.hpp"
 #include "app/import/alignment_summary.hpp"
+#include "app/output/units_option.hpp"
 #include "app/query/audit_output.hpp"
 #include "app/report/control_monitoring.hpp"
 #include "app/store/info_tables.hpp"
@@ -124,24 +125,28 @@ std::string trips_of(const StoreInfo& info) {
                        counted(info.passes, "pass"));
 }
 
-std::string text_of(const StoreInfo& info, bool operates) {
-    auto text = fmt::format(
-        "network     {}, {:.1f} km counting each direction, {} segments of about {:g} m\n"
-        "trips       {}\n"
-        "period      {}\n"
-        "covered     {:.2f} km, {} segments ({:.1f} % of the network)\n"
-        "privacy     {}; vehicle key {}\n",
-        info.settings.network_source,
-        info.network_km,
-        info.segments,
-        info.settings.segment_length_m,
-        trips_of(info),
-        period_of(info),
-        info.km,
-        info.segments_with_passes,
-        100 * share(info.km, info.network_km),
-        words_for(info.settings.privacy),
-        operates ? "present" : "absent");
+std::string km_text(double km, int decimals, UnitSystem units) {
+    const bool us = units == UnitSystem::us;
+    return fmt::format("{:.{}f} {}", us ? 1000 * km * mi_of_m : km, decimals, us ? "mi" : "km");
+}
+
+std::string text_of(const StoreInfo& info, bool operates, UnitSystem units) {
+    auto text = fmt::format("network     {}, {} counting each direction, {} segments of about {}\n"
+                            "trips       {}\n"
+                            "period      {}\n"
+                            "covered     {}, {} segments ({:.1f} % of the network)\n"
+                            "privacy     {}; vehicle key {}\n",
+                            info.settings.network_source,
+                            km_text(info.network_km, 1, units),
+                            info.segments,
+                            length_words(info.settings.segment_length_m, units),
+                            trips_of(info),
+                            period_of(info),
+                            km_text(info.km, 2, units),
+                            info.segments_with_passes,
+                            100 * share(info.km, info.network_km),
+                            words_for(info.settings.privacy),
+                            operates ? "present" : "absent");
     if (info.settings.privacy == PrivacyProfile::crowd) {
         text += fmt::format("published   {}\n",
                             info.publication ? words_for(*info.publication) : "nothing yet");
@@ -155,32 +160,39 @@ std::string text_of(const StoreInfo& info, bool operates) {
         text += fmt::format("passes      {}\n", words);
     }
     for (const auto& [name, km] : info.classes) {
-        text += fmt::format("{:<12}{:.2f} km, {:.1f} %\n", name, km, 100 * share(km, info.km));
+        text += fmt::format(
+            "{:<12}{}, {:.1f} %\n", name, km_text(km, 2, units), 100 * share(km, info.km));
     }
     return text;
 }
 
 /// Formats the one table that --table names.
-std::string one_table(const StoreReader& store, std::string_view name, const std::string& format) {
+std::string one_table(const StoreReader& store,
+                      std::string_view name,
+                      const std::string& format,
+                      UnitSystem units) {
     if (name == "classes") {
         const auto info = store.info();
-        return rows_text(class_columns(info.km), info.classes, format);
+        return rows_text(in_units(class_columns(info.km), units), info.classes, format);
     }
     if (name == "surveys") {
-        return rows_text(survey_columns(), store.surveys(), format);
+        return rows_text(in_units(survey_columns(), units), store.surveys(), format);
     }
     if (name == "control-sections") {
-        return rows_text(control_section_columns(), watched_sections(store), format);
+        return rows_text(
+            in_units(control_section_columns(), units), watched_sections(store), format);
     }
     const auto tables = info_tables(store);
-    return name == "cars"           ? rows_text(car_columns(), tables.cars, format)
-           : name == "road-classes" ? rows_text(road_class_columns(), tables.road_classes, format)
+    return name == "cars" ? rows_text(car_columns(units), tables.cars, format)
+           : name == "road-classes"
+               ? rows_text(in_units(road_class_columns(), units), tables.road_classes, format)
            : name == "months" ? rows_text(usage_columns("month"), months_of(tables.days), format)
                               : rows_text(usage_columns("day"), tables.days, format);
 }
 
 void print_info(const StoreReader& store, const Arguments& arguments, const std::string& format) {
     const auto print_rows = format == "table" ? print_words : print;
+    const auto units = parse_units(arguments);
     if (arguments.flag("--digest")) {
         print(store.digest() + "\n");
         return;
@@ -191,7 +203,7 @@ void print_info(const StoreReader& store, const Arguments& arguments, const std:
         return;
     }
     if (const auto table = arguments.choice("--table"); table != all_tables) {
-        print_rows(one_table(store, table, format));
+        print_rows(one_table(store, table, format, units));
         return;
     }
     std::optional<TruthComparison> truth;
@@ -213,8 +225,8 @@ void print_info(const StoreReader& store, const Arguments& arguments, const std:
                       store.digest(),
                       truth ? json_of(*truth) : ""));
     } else {
-        print_words(text_of(info, store.is_operator()) + text_of(tables) + text_of(known) +
-                    (truth ? "\n" + text_of(*truth) : ""));
+        print_words(text_of(info, store.is_operator(), units) + text_of(tables, units) +
+                    text_of(known) + (truth ? "\n" + text_of(*truth) : ""));
     }
 }
 
@@ -239,6 +251,11 @@ void run_info(const Arguments& arguments, const Console& console) {
     const auto file = store_file(arguments);
     const auto format = row_format_of(arguments);
     expect_one_result(arguments, format);
+    if (format == "json" && arguments.choice("--table") == all_tables &&
+        parse_units(arguments) == UnitSystem::us) {
+        throw UsageError{"the JSON of all tables is in SI units; expected --table NAME with "
+                         "--units us"};
+    }
     const auto row_file = row_file_of(arguments);
     if (row_file) {
         refuse_to_replace(*row_file, {file});
@@ -260,6 +277,7 @@ constexpr std::array options{
            {"--format", "NAME", "table, json (with the digest), or csv of one table.", "table"}),
     row_output_option,
     json_option,
+    units_option,
     Option{"--truth",
            "FILE.csv",
            "Compare with true values: a truth.csv of 'macadam simulate' or of a profiler."},

@@ -3,6 +3,7 @@
 #include "app/cli/text_table.hpp"
 #include "app/store/car_change_output.hpp"
 
+#include "mapping/style/iri_class.hpp"
 #include "storage/networks/network_file.hpp"
 #include "storage/text/json.hpp"
 
@@ -85,12 +86,15 @@ std::vector<CarInfo> cars_of(const StoreUsage& usage) {
     return cars;
 }
 
-std::string km_words(const CarInfo& car) {
-    auto words = fmt::format("{:>9.1f}", car.km);
+std::string km_words(const CarInfo& car, UnitSystem units) {
+    const bool us = units == UnitSystem::us;
+    auto words = fmt::format("{:>9.1f}", us ? 1000 * car.km * mi_of_m : car.km);
     if (const auto& calibration = car.calibration) {
-        words += fmt::format("  reads {:.3f} x IRI {:+.2f} mm/m, sd {:.1f} %",
+        const double offset = calibration->offset_um / 1000;
+        words += fmt::format("  reads {:.3f} x IRI {}, sd {:.1f} %",
                              calibration->gain,
-                             calibration->offset_um / 1000,
+                             us ? fmt::format("{:+.0f} in/mi", offset * in_per_mi_of_mm_per_m)
+                                : fmt::format("{:+.2f} mm/m", offset),
                              100 * calibration->relative_sd);
     }
     return words;
@@ -113,7 +117,8 @@ Cell calibrated(const CarInfo& car, double CarCalibration::*value, double unit =
 }
 
 // clang-format off
-const Columns<CarInfo> of_cars{
+Columns<CarInfo> of_cars(UnitSystem units) {
+    return in_units<CarInfo>({
     {"", as::integer, number_of, {"no.", "{:>4}"}},
     {"vehicle", as::text, [](auto& r) { return r.vehicle; }, {"car", " {:<34}"}},
     {"number", as::integer, number_of},
@@ -123,14 +128,16 @@ const Columns<CarInfo> of_cars{
     {"", as::text, [](auto& r) { return fmt::format("{:.1f} %", 100 * r.share); },
      {"share", " {:>7}"}},
     {"km", as::real(3, "km"), [](auto& r) { return r.km; }},
-    {"", as::text, km_words, {"km", " {:>9}"}},
+    {"", as::text, [units](auto& r) { return km_words(r, units); },
+     {units == UnitSystem::us ? "mi" : "km", " {:>9}"}},
     {"gain", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::gain); }},
     {"offset_mm_per_m", as::iri(3),
      [](auto& r) { return calibrated(r, &CarCalibration::offset_um, 1000); }},
     {"relative_sd", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::relative_sd); }},
     {"scatter", as::real(4), [](auto& r) { return calibrated(r, &CarCalibration::scatter); }},
     {"changes", as::json_only(as::raw), [](auto& r) { return changes_json(r.periods); }},
-};
+    }, units);
+}
 
 const Columns<RoadClassInfo> of_road_classes{
     {"highway", as::text, [](auto& r) { return r.highway.empty() ? Cell{} : Cell{r.highway}; },
@@ -145,9 +152,9 @@ const Columns<RoadClassInfo> of_road_classes{
 };
 // clang-format on
 
-std::string car_lines(std::span<const CarInfo> cars) {
+std::string car_lines(std::span<const CarInfo> cars, UnitSystem units) {
     const auto count = std::min(cars.size(), max_rows);
-    const auto text = fmt::format("\n{}", table_text(of_cars, cars.first(count)));
+    const auto text = fmt::format("\n{}", table_text(of_cars(units), cars.first(count)));
     return cars.size() > count ? text + fmt::format("and {} more\n", cars.size() - count) : text;
 }
 
@@ -177,8 +184,8 @@ const Columns<RoadClassInfo>& road_class_columns() {
     return of_road_classes;
 }
 
-const Columns<CarInfo>& car_columns() {
-    return of_cars;
+Columns<CarInfo> car_columns(UnitSystem units) {
+    return of_cars(units);
 }
 
 Columns<DailyUsage> usage_columns(std::string_view period) {
@@ -210,9 +217,9 @@ std::vector<DailyUsage> months_of(const std::vector<DailyUsage>& days) {
     return rows;
 }
 
-std::string text_of(const InfoTables& tables) {
-    return fmt::format("\n{}", table_text(of_road_classes, tables.road_classes)) +
-           (tables.cars.empty() ? "" : car_lines(tables.cars)) + change_lines(tables.cars) +
+std::string text_of(const InfoTables& tables, UnitSystem units) {
+    return fmt::format("\n{}", table_text(in_units(of_road_classes, units), tables.road_classes)) +
+           (tables.cars.empty() ? "" : car_lines(tables.cars, units)) + change_lines(tables.cars) +
            (tables.days.empty() ? "" : month_lines(months_of(tables.days)));
 }
 
@@ -222,7 +229,7 @@ std::string class_lengths_json(const std::vector<ClassLength>& lengths, double k
 
 void add_to(JsonObject& object, const InfoTables& tables) {
     object.add("road_classes", JsonRaw{json_rows(of_road_classes, tables.road_classes)})
-        .add("cars", JsonRaw{json_rows(of_cars, tables.cars)})
+        .add("cars", JsonRaw{json_rows(of_cars(UnitSystem::si), tables.cars)})
         .add("passes_per_month", JsonRaw{json_rows(usage_columns("month"), months_of(tables.days))})
         .add("passes_per_day", JsonRaw{json_rows(usage_columns("day"), tables.days)});
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "storage/store/reader/store_reader.hpp"
-#include "storage/text/columns.hpp"
+#include "storage/text/unit_system.hpp"
 
 #include <optional>
 #include <string>
@@ -47,14 +47,14 @@ std::string class_lengths_json(const std::vector<ClassLength>& lengths, double k
 /// \name Columns of these tables
 /// @{
 const Columns<RoadClassInfo>& road_class_columns();
-const Columns<CarInfo>& car_columns();
+Columns<CarInfo> car_columns(UnitSystem units = UnitSystem::si);
 /// \param period  heading: "day" or "month"
 Columns<DailyUsage> usage_columns(std::string_view period);
 /// Columns of lengths by class, with their shares of `km`.
 Columns<ClassLength> class_columns(double km);
 /// @}
 
-std::string text_of(const InfoTables& tables);
+std::string text_of(const InfoTables& tables, UnitSystem units = UnitSystem::si);
 void add_to(JsonObject& object, const InfoTables& tables);
 
 } // namespace macadam

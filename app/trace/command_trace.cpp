@@ -2,6 +2,7 @@
 #include "app/cli/overwrite_guard.hpp"
 #include "app/cli/row_output.hpp"
 #include "app/cli/row_writer.hpp"
+#include "app/output/units_option.hpp"
 #include "app/pipeline/column_mapping_option.hpp"
 #include "app/pipeline/estimation_options.hpp"
 #include "app/pipeline/pipeline.hpp"
@@ -38,6 +39,7 @@ struct TraceOptions {
     std::filesystem::path trip;
     double length_m;
     bool json;
+    UnitSystem units;                             ///< of the rows
     std::optional<std::filesystem::path> profile; ///< file to write
     std::optional<std::filesystem::path> events;  ///< file to write
     std::optional<std::filesystem::path> survey;  ///< reference for the trip
@@ -70,6 +72,9 @@ std::optional<std::filesystem::path> events_file(const Arguments& arguments) {
 
 std::optional<std::filesystem::path> output_file(const Arguments& arguments) {
     const auto file = arguments.value("--output");
+    if (file == standard_output) {
+        return std::nullopt;
+    }
     constexpr std::array<std::string_view, 3> suffixes{".csv", ".json", ".svg"};
     if (file && std::ranges::find(suffixes, std::filesystem::path{*file}.extension().string()) ==
                     suffixes.end()) {
@@ -118,6 +123,7 @@ TraceOptions parse_trace(const Arguments& arguments) {
     TraceOptions options{.trip = arguments.operand("TRIP"),
                          .length_m = arguments.number("--length", default_length_m),
                          .json = row_format_of(arguments) == "json",
+                         .units = parse_units(arguments),
                          .profile = profile_file(arguments),
                          .events = events_file(arguments),
                          .survey = {},
@@ -182,8 +188,9 @@ void print_rows(const TripLog& trip,
                                      whole_m,
                                      options.length_m)};
     }
+    const auto columns = in_units(trace_columns(), options.units);
     RowWriter<TraceRow> writer{
-        options.json ? "json" : "csv", trace_columns(), [](std::string_view text) { print(text); }};
+        options.json ? "json" : "csv", columns, [](std::string_view text) { print(text); }};
     each_trace_row(trace, options.length_m, TripPositions{trip}, vehicle, [&](const TraceRow& row) {
         writer.add(row);
     });
@@ -193,7 +200,13 @@ void print_rows(const TripLog& trip,
 /// Rejects options that need the whole trip or another reader.
 void expect_live(const Arguments& arguments) {
     for (const auto* const option :
-         {"--mapping", "--positions", "--profile", "--events", "--against", "--output"}) {
+         {"--mapping",
+          "--positions",
+          "--profile",
+          "--events",
+          "--against",
+          "--output",
+          "--units"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("--live and {} cannot be combined", option)};
         }
@@ -318,7 +331,8 @@ constexpr std::array options{
     Option{"-o,--output",
            "FILE",
            "Write the rows to a .csv or .json file; with --against, .svg: plot survey and trip."},
-    json_option};
+    json_option,
+    units_option};
 
 } // namespace
 

@@ -119,7 +119,9 @@ struct XlsxWorkbook::State {
         if (format == nullptr) {
             format = workbook_add_format(book);
             format_set_bg_color(format, rgb);
+            if (ink_on(rgb) != 0) { // black is the default
             format_set_font_color(format, ink_on(rgb));
+        }
         }
         return format;
     }
@@ -162,7 +164,7 @@ struct XlsxWorkbook::State {
 XlsxWorkbook::XlsxWorkbook(const std::filesystem::path& file, const Properties& properties)
     : state_{std::make_unique<State>(file)} {
     lxw_workbook_options options{
-        .constant_memory = LXW_TRUE, .tmpdir = state_->folder.data(), .use_zip64 = LXW_TRUE};
+        .constant_memory = LXW_TRUE, .tmpdir = state_->folder.data(), .use_zip64 = LXW_FALSE};
     state_->book = workbook_new_opt(state_->target.c_str(), &options);
     if (state_->book == nullptr) {
         throw InputError{fmt::format("{}: cannot be written: no memory", file.string())};

@@ -219,7 +219,8 @@ void measure_map(const fs::path& file) {
                      std::lerp(town.south_deg, town.north_deg, 0.65)};
     MapScene scene;
     Image image;
-    MapRequest request{.box = box, .title = "Town", .width_px = 4096, .height_px = 4096};
+    MapRequest request{.title = "Town", .width_px = 4096, .height_px = 4096};
+    request.filter.box = box;
     request.style.classes = class_table("fhwa");
     const double query_ms = cost_ms([&] { scene = load_map(store, request).scene(); });
     const double draw_ms = cost_ms([&] { image = render_map(scene, {}, 4096, 4096); });

@@ -55,13 +55,13 @@ TEST_F(ConfigProgram, TakesTheCommandLineBeforeVariablesBeforeTheFile) {
         words.insert(words.end(), more.begin(), more.end());
         return run_macadam(words).err;
     };
-    EXPECT_THAT(settings({}), Not(HasSubstr("--unit")));
+    EXPECT_THAT(settings({}), Not(HasSubstr("--units")));
     configure("unit = \"in/mi\"\n");
-    EXPECT_THAT(settings({}), HasSubstr("--unit in/mi ("));
+    EXPECT_THAT(settings({}), HasSubstr("--units in/mi ("));
     EXPECT_THAT(settings({}), HasSubstr("macadam/config.toml:1)\n"));
     setenv("MACADAM_UNIT", "mm/m", 1);
-    EXPECT_THAT(settings({}), HasSubstr("--unit mm/m (MACADAM_UNIT)\n"));
-    EXPECT_THAT(settings({"--unit", "in/mi"}), HasSubstr("--unit in/mi (command line)\n"));
+    EXPECT_THAT(settings({}), HasSubstr("--units mm/m (MACADAM_UNIT)\n"));
+    EXPECT_THAT(settings({"--unit", "in/mi"}), HasSubstr("--units in/mi (command line)\n"));
 }
 
 TEST_F(ConfigProgram, LeavesRowsForProgramsInTheirUnit) {
@@ -72,14 +72,14 @@ TEST_F(ConfigProgram, LeavesRowsForProgramsInTheirUnit) {
 }
 
 TEST_F(ConfigProgram, RefusesAMistakeInTheFileWithItsLine) {
-    configure("[render]\nunits = \"in/mi\"\n");
+    configure("[render]\nunitss = \"in/mi\"\n");
     const auto run = iri();
     EXPECT_EQ(run.exit_status, 2);
     EXPECT_THAT(
         run.err,
-        HasSubstr("config.toml:2: 'units' is no option with a default; did you mean unit?"));
+        HasSubstr("config.toml:2: 'unitss' is no option with a default; did you mean units?"));
     EXPECT_EQ(run_macadam({"iri", "--help"}).exit_status, 0);
-    EXPECT_THAT(run_macadam({"help", "config"}).out, HasSubstr("config.toml:2: 'units'"));
+    EXPECT_THAT(run_macadam({"help", "config"}).out, HasSubstr("config.toml:2: 'unitss'"));
 }
 
 TEST_F(ConfigProgram, RunsWithoutAnyEnvironment) {

@@ -55,12 +55,13 @@ TEST(Preferences, AreNoOptionsThatDeleteSelectOrChangeWhatIsComputed) {
                                   "json"}) {
         EXPECT_FALSE(preferences().contains(key)) << key;
     }
-    EXPECT_TRUE(preferences().contains("unit"));
+    EXPECT_TRUE(preferences().contains("units"));
+    EXPECT_TRUE(preferences().contains("unit")); // its earlier name
     EXPECT_TRUE(preferences().contains("left_hand"));
 }
 
 TEST(Preferences, OfUnitsConcernResultsAndNotWhatIsRead) {
-    EXPECT_THAT(preferences().find("unit")->second.commands, ElementsAre("render", "report"));
+    EXPECT_THAT(preferences().find("units")->second.commands, ElementsAre("render", "report"));
 }
 
 TEST(ConfigFile, SetsDefaultsForAllCommandsAndForOne) {
@@ -113,7 +114,7 @@ protected:
     void TearDown() override {
         setenv("XDG_CONFIG_HOME", "/dev/null", 1);
         for (const auto* const name :
-             {"MACADAM_UNIT", "MACADAM_UNITS", "MACADAM_QUIET", "MACADAM_VERBOSE"}) {
+             {"MACADAM_UNIT", "MACADAM_UNITSS", "MACADAM_QUIET", "MACADAM_VERBOSE"}) {
             unsetenv(name);
         }
     }
@@ -143,12 +144,12 @@ TEST_F(UserDefaults, AreNoneWithoutFileAndVariables) {
 TEST_F(UserDefaults, OfVariablesOutrankThoseOfTheFile) {
     configure("unit = \"in/mi\"\n");
     const auto file = (folder_ / "macadam/config.toml").string();
-    EXPECT_THAT(in_force(), ElementsAre("--unit in/mi from " + file + ":1"));
+    EXPECT_THAT(in_force(), ElementsAre("--units in/mi from " + file + ":1"));
     setenv("MACADAM_UNIT", "mm/m", 1);
-    EXPECT_THAT(in_force(), ElementsAre("--unit mm/m from MACADAM_UNIT"));
-    EXPECT_THAT(config_help(), HasSubstr("--unit mm/m  (MACADAM_UNIT)  in render, report"));
+    EXPECT_THAT(in_force(), ElementsAre("--units mm/m from MACADAM_UNIT"));
+    EXPECT_THAT(config_help(), HasSubstr("--units mm/m  (MACADAM_UNIT)  in render, report"));
     setenv("MACADAM_UNIT", "", 1);
-    EXPECT_THAT(in_force(), ElementsAre("--unit in/mi from " + file + ":1"));
+    EXPECT_THAT(in_force(), ElementsAre("--units in/mi from " + file + ":1"));
 }
 
 TEST_F(UserDefaults, OfTheUnitOfResultsAreNotTakenForTheUnitOfAFileThatIsRead) {
@@ -174,11 +175,11 @@ TEST_F(UserDefaults, OfQuietAndVerboseExcludeEachOtherByRank) {
 }
 
 TEST_F(UserDefaults, RefuseMisspelledVariablesAndInvalidValues) {
-    setenv("MACADAM_UNITS", "mm/m", 1);
-    EXPECT_EQ(refusal(), "unknown variable MACADAM_UNITS; did you mean MACADAM_UNIT?");
-    unsetenv("MACADAM_UNITS");
+    setenv("MACADAM_UNITSS", "us", 1);
+    EXPECT_EQ(refusal(), "unknown variable MACADAM_UNITSS; did you mean MACADAM_UNITS?");
+    unsetenv("MACADAM_UNITSS");
     setenv("MACADAM_UNIT", "furlong", 1);
-    EXPECT_EQ(refusal(), "MACADAM_UNIT is 'furlong', expected mm/m or in/mi");
+    EXPECT_EQ(refusal(), "MACADAM_UNIT is 'furlong', expected si or us or mm/m or in/mi");
     EXPECT_THAT(config_help(), HasSubstr("error\n  MACADAM_UNIT is 'furlong'"));
 }
 

@@ -210,7 +210,7 @@ TEST_F(Reference, ReportsInTheLanguageAndUnitThatItIsAskedFor) {
     EXPECT_THAT(html, HasSubstr("<html lang=\"de\">"));
     for (const auto* words : {"<h1>Fahrzeuge und Referenzmessungen</h1>",
                               "Fahrzeuge neben Referenzen",
-                              "Stücke von 100 m",
+                              "Stücke von 328 ft",
                               "01.05.2026",
                               "Referenz, in/mi",
                               "63 – 127",
@@ -236,7 +236,7 @@ TEST_F(Reference, GivesProgramsMillimetresWhateverIsAskedFor) {
         const auto run = run_macadam(words);
         EXPECT_EQ(run.exit_status, 2) << file;
         EXPECT_THAT(run.err,
-                    HasSubstr("with --against-reference, --unit requires -o FILE.html or .pdf"));
+                    HasSubstr("with --against-reference, --units requires -o FILE.html or .pdf"));
     }
 }
 

@@ -158,7 +158,7 @@ TEST_F(ReportProgram, IsMisusedByAnotherNameANumberOrAClassTableThatIsNone) {
              {{"-o", "a.doc"}, "-o is 'a.doc', expected a name that ends in .html or .pdf"},
              {{"-o", "a.html", "--paper", "A4"}, "--paper requires -o FILE.pdf"},
              {{"-o", "a.pdf", "--paper", "A3"}, "--paper is 'A3', expected A4 or letter"},
-             {{"-o", "a.pdf", "--unit", "m/km"}, "--unit is 'm/km', expected mm/m or in/mi"},
+             {{"-o", "a.pdf", "--unit", "m/km"}, "--units is 'm/km', expected si or us or mm/m or in/mi"},
              {{"-o", "a.pdf", "--language", "xx"}, "--language is 'xx', expected en or de"},
              {{"-o", "a.pdf", "--compare-since", "spring"},
               "--compare-since is 'spring', expected a time such as"},

@@ -281,9 +281,9 @@ TEST(Html, EncodesTheVectorsOfRfc4648) {
 
 TEST(ReportNumbers, HaveTheDecimalsThatFit) {
     const Localisation say;
-    EXPECT_EQ(say.km(1234, 9999), "1.23");
-    EXPECT_EQ(say.km(1234, 50000), "1.2");
-    EXPECT_EQ(say.km(1234567, 2e6), "1235");
+    EXPECT_EQ(say.road_length(1234, 9999), "1.23");
+    EXPECT_EQ(say.road_length(1234, 50000), "1.2");
+    EXPECT_EQ(say.road_length(1234567, 2e6), "1235");
     EXPECT_EQ(say.count(9999), "9999");
     EXPECT_EQ(say.count(1234567), "1\u202F234\u202F567");
     EXPECT_EQ(say.percent(0, 5), "0 %");
@@ -292,6 +292,20 @@ TEST(ReportNumbers, HaveTheDecimalsThatFit) {
     EXPECT_EQ(say.percent(0, 0), "–");
     EXPECT_EQ(say.iri_change(-0.516), "\u22120.52");
     EXPECT_EQ(say.iri_change(0.004), "±0.00"); // no sign of what rounds to nothing
+}
+
+TEST(ReportNumbers, AreMilesFeetAndInchesInAmericanReports) {
+    const Localisation say{.unit = IriUnit::in_per_mi};
+    EXPECT_EQ(say.road_length(1609.344, 1609.344), "1.00");
+    EXPECT_EQ(say.road_length(16093.44, 16093.44), "10.0"); // the longest decides, in miles
+    EXPECT_EQ(say.short_length(100), "328");
+    EXPECT_EQ(say.small_size(25.4), "1.00");
+    EXPECT_EQ(say.long_unit(), "mi");
+    EXPECT_THAT(say("limits.segments"), AllOf(HasSubstr("66 ft"), HasSubstr("a mile")));
+    const Localisation metric;
+    EXPECT_EQ(metric.short_length(100), "100");
+    EXPECT_EQ(metric.small_size(25.4), "25");
+    EXPECT_THAT(metric("limits.segments"), HasSubstr("over 20 m than over 100 m or a kilometre"));
 }
 
 TEST(ReportNumbers, SayTheBordersOfTheClassesInBothUnits) {

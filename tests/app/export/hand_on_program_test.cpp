@@ -1,0 +1,234 @@
+// What `query`, `export`, `render` and `report` hand on to other programs: standard output, CSV for
+// Excel, workbooks, and units of the United States.
+
+#include "storage/store/road_store.hpp"
+#include "support/files/xlsx_reader.hpp"
+#include "support/program/program.hpp"
+#include "support/program/shell.hpp"
+#include "support/roads/store_world.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace macadam::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+class HandingOn : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fresh_folder();
+        store_ = (folder_ / "roads.gpkg").string();
+        auto store = new_store(store_);
+        import_trips(store, 6);
+    }
+
+    macadam::testing::Run run(const std::string& command, std::vector<std::string> words) const {
+        words.insert(words.begin(), {command, store_});
+        return run_macadam(words);
+    }
+
+    std::string done(const std::string& command, const std::vector<std::string>& words) const {
+        const auto result = run(command, words);
+        EXPECT_EQ(result.exit_status, 0) << result.err;
+        return result.out;
+    }
+
+    std::string file_of(const std::string& command,
+                        const std::string& name,
+                        std::vector<std::string> words = {}) const {
+        const auto file = (folder_ / name).string();
+        words.insert(words.end(), {"-o", file});
+        done(command, words);
+        return file;
+    }
+
+    std::string refusal(const std::string& command, const std::vector<std::string>& words) const {
+        const auto result = run(command, words);
+        EXPECT_EQ(result.exit_status, 2) << result.err;
+        return result.err;
+    }
+
+    std::filesystem::path folder_;
+    std::string store_;
+};
+
+TEST_F(HandingOn, ToStandardOutputGivesTheBytesOfAFile) {
+    for (const auto* format : {"geojson", "geojsonl", "csv", "kml"}) {
+        const auto file = file_of("export", fmt::format("a.{}", format));
+        EXPECT_TRUE(done("export", {"-o", "-", "--format", format}) == read_file(file)) << format;
+    }
+    const auto events = file_of("export", "events.csv", {"--events"});
+    EXPECT_EQ(done("export", {"-o", "-", "--format", "csv", "--events"}), read_file(events));
+    for (const auto* format : {"png", "pdf"}) {
+        const std::vector<std::string> size{format == std::string{"png"} ? "--size=400x300"
+                                                                         : "--paper=A5"};
+        const auto file = file_of("render", fmt::format("a.{}", format), size);
+        EXPECT_TRUE(done("render", {"-o", "-", "--format", format, size[0]}) == read_file(file));
+    }
+    const auto page = file_of("report", "a.html", {"--worst", "0"});
+    EXPECT_TRUE(done("report", {"-o", "-", "--worst", "0"}) == read_file(page));
+    EXPECT_EQ(done("query", {"--way", "1", "--json", "-o", "-"}),
+              done("query", {"--way", "1", "--json"}));
+}
+
+TEST_F(HandingOn, ToStandardOutputIsRefusedWhereAFormatNeedsAFile) {
+    EXPECT_THAT(
+        refusal("export", {"-o", "-", "--format", "gpkg"}),
+        HasSubstr("-o - cannot write .gpkg, which needs a file; expected --format geojson"));
+    EXPECT_THAT(refusal("render", {"-o", "-", "--format", "tif"}),
+                HasSubstr("-o - cannot write a .tif or a world file"));
+    EXPECT_THAT(refusal("export", {"-o", "a.csv", "--format", "csv"}),
+                HasSubstr("--format is for -o -; the name of a file tells its format"));
+    EXPECT_THAT(refusal("report", {"-o", "a.html", "--format", "html"}),
+                HasSubstr("--format html is for -o -"));
+    EXPECT_THAT(refusal("report", {"-o", "-", "--format", "csv"}),
+                HasSubstr("--format csv requires --against-reference"));
+}
+
+TEST_F(HandingOn, ToExcelInGermanHasSemicolonsAndCommas) {
+    const auto english = read_file(file_of("export", "a.csv"));
+    const auto german = read_file(file_of("export", "de.csv", {"--excel", "de"}));
+    EXPECT_THAT(german, StartsWith("\xEF\xBB\xBFsegment;way_id;name;"));
+    EXPECT_EQ(std::ranges::count(german, '\n'), std::ranges::count(english, '\n'));
+    EXPECT_THAT(german, Not(HasSubstr("20.00")));
+    EXPECT_THAT(german, HasSubstr(";20,00;"));
+    EXPECT_EQ(done("query", {"--way", "1", "--format", "csv", "--excel", "de"}), german);
+    EXPECT_EQ(read_file(file_of("export", "en.csv", {"--excel=en"})), "\xEF\xBB\xBF" + english);
+    EXPECT_THAT(refusal("export", {"-o", "a.csv", "--excel", "tlh"}),
+                HasSubstr("--excel is 'tlh', expected a language such as en, "));
+    EXPECT_THAT(refusal("export", {"-o", "a.kml", "--excel", "de"}),
+                HasSubstr("--excel requires -o FILE.csv"));
+    EXPECT_THAT(refusal("query", {"--way", "1", "--excel", "de"}),
+                HasSubstr("--excel requires --format csv"));
+}
+
+TEST_F(HandingOn, AsAWorkbookHasSegmentsWorstSectionsAndADictionary) {
+    const auto sections = (folder_ / "sections.csv").string();
+    write_file(sections, "way_id,from_m,to_m\n1,0,100\n");
+    const auto file = file_of("export", "a.xlsx");
+    const auto sheets = read_xlsx(file);
+    ASSERT_EQ(sheets.size(), 3U);
+    EXPECT_EQ(sheets[0].name, "segments");
+    EXPECT_EQ(sheets[0].rows.size(), 21U); // with the header
+    EXPECT_EQ(sheets[0].rows[1].at("A").text, "1+0000");
+    EXPECT_EQ(sheets[1].name, "worst");
+    EXPECT_EQ(sheets[2].name, "columns");
+    for (std::size_t i = 1; i < sheets[2].rows.size(); ++i) {
+        EXPECT_TRUE(sheets[2].rows[i].contains("D")) // the meaning
+            << sheets[2].rows[i].at("B").text;
+    }
+    const auto with_sections = file_of("export", "b.xlsx", {"--sections", sections});
+    EXPECT_EQ(read_xlsx(with_sections)[1].name, "sections");
+    EXPECT_EQ(read_xlsx(with_sections)[1].rows.size(), 2U);
+    EXPECT_TRUE(read_file(file) == read_file(file_of("export", "again.xlsx")));
+}
+
+TEST_F(HandingOn, InUsUnitsSaysTheUnitInTheNamesOfColumns) {
+    const auto si = Json::parse(done("query", {"--way", "1", "--json"})).at(0);
+    const auto us = Json::parse(done("query", {"--way", "1", "--json", "--units", "us"})).at(0);
+    EXPECT_NEAR(us.at("iri_in_per_mi"), 63.36 * double(si.at("iri")), 0.1);
+    EXPECT_NEAR(us.at("to_ft"), double(si.at("to_m")) / 0.3048, 0.05);
+    EXPECT_FALSE(us.contains("iri"));
+    const auto geojson =
+        Json::parse(done("export", {"-o", "-", "--units", "us"})).at("features").at(0);
+    EXPECT_TRUE(geojson.at("properties").contains("iri_in_per_mi"));
+    const auto sheet = read_xlsx(file_of("export", "us.xlsx", {"--units", "us"})).back();
+    std::vector<std::string> units;
+    for (const auto& row : sheet.rows) {
+        units.push_back(row.contains("C") ? row.at("C").text : "");
+    }
+    EXPECT_THAT(
+        units, AllOf(Contains("in/mi"), Contains("ft"), Not(Contains("m")), Not(Contains("mm/m"))));
+    EXPECT_THAT(refusal("export", {"-o", "a.gpkg", "--units", "us"}),
+                HasSubstr("--units us is for .csv, .geojson, .geojsonl and .xlsx"));
+    EXPECT_THAT(done("info", {"--units", "us"}), AllOf(HasSubstr(" mi"), Not(HasSubstr("km"))));
+}
+
+/// Text of a page: without its style, tags and their attributes other than descriptions.
+std::string text_of_html(const std::string& html) {
+    std::string text;
+    for (std::size_t at = 0; at < html.size();) {
+        if (html[at] != '<') {
+            text += html[at++];
+            continue;
+        }
+        if (html.compare(at, 6, "<style") == 0) {
+            at = html.find("</style>", at);
+        }
+        const auto end = html.find('>', at);
+        const auto tag = html.substr(at, end - at);
+        for (const auto* attribute : {" alt=\"", " aria-label=\"", " title=\""}) {
+            if (const auto found = tag.find(attribute); found != std::string::npos) {
+                const auto begin = tag.find('"', found) + 1;
+                text += " " + tag.substr(begin, tag.find('"', begin) - begin);
+            }
+        }
+        text += ' ';
+        at = end + 1;
+    }
+    return text;
+}
+
+/// What no report for an American agency has.
+const std::regex metric{
+    R"((^|[^A-Za-z/])(mm/m|m/km|km/h|km|mm|cm|m|metres?|kilometres?)($|[^A-Za-z0-9]))"};
+
+std::string metric_units_in(const std::string& text) {
+    std::string found;
+    for (std::sregex_iterator hit{text.begin(), text.end(), metric}, end; hit != end; ++hit) {
+        const auto at = static_cast<std::size_t>(hit->position());
+        found += "..." + text.substr(at > 30 ? at - 30 : 0, 60) + "\n";
+    }
+    return found;
+}
+
+TEST_F(HandingOn, InUsUnitsIsAReportWithoutAMetricUnit) {
+    const auto sections = (folder_ / "sections.csv").string();
+    write_file(sections, "way_id,from_m,to_m\n1,0,100\n");
+    const std::vector<std::string> words{
+        "--units", "us", "--compare-since", "2026-01", "--sections", sections};
+    const auto html = read_file(file_of("report", "us.html", words));
+    EXPECT_EQ(metric_units_in(text_of_html(html)), "");
+    EXPECT_THAT(text_of_html(html), AllOf(HasSubstr("in/mi"), HasSubstr(" mi"), HasSubstr("ft")));
+    const auto pdf = file_of("report", "us.pdf", words);
+    EXPECT_EQ(metric_units_in(output_of(folder_, "pdftotext " + pdf + " -")), "");
+    EXPECT_NE(metric_units_in(text_of_html(read_file(file_of("report", "si.html")))), "");
+}
+
+TEST_F(HandingOn, TakesTheEarlierNameOfUnitsWithANote) {
+    const auto now = run("report", {"-o", (folder_ / "a.html").string(), "--units", "us"});
+    const auto earlier = run("report", {"-o", (folder_ / "b.html").string(), "--unit", "in/mi"});
+    EXPECT_THAT(earlier.err, HasSubstr("--unit is called --units now"));
+    EXPECT_TRUE(read_file(folder_ / "a.html") == read_file(folder_ / "b.html"));
+    EXPECT_EQ(now.exit_status, 0);
+}
+
+TEST_F(HandingOn, ShowsASelectionInAReportAndOnAMap) {
+    const auto page = text_of_html(read_file(
+        file_of("report", "way.html", {"--way", "1", "--min-cars", "2", "--worst", "0"})));
+    EXPECT_THAT(page, HasSubstr("Selected by --way 1 --min-cars 2; cars, trips and data used"));
+    const auto none = run("render", {"-o", (folder_ / "a.png").string(), "--min-passes", "99"});
+    EXPECT_EQ(none.exit_status, 1);
+    EXPECT_THAT(none.err, HasSubstr("the selection contains no measured segment"));
+    EXPECT_THAT(refusal("render", {"-o", "a.png", "--compare-since", "2026", "--ramp", "viridis"}),
+                HasSubstr("--compare-since is '2026', expected a time"));
+    EXPECT_THAT(
+        refusal("render", {"-o", "a.png", "--compare-since", "2026-01", "--ramp", "viridis"}),
+        HasSubstr("--compare-since and --ramp cannot be combined"));
+}
+
+} // namespace
+} // namespace macadam::testing
