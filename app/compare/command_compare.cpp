@@ -5,6 +5,7 @@
 #include "app/compare/source_comparison.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/output/units_option.hpp"
 
 #include "mapping/style/iri_class.hpp"
 #include "render/report/document/pdf.hpp"
@@ -120,6 +121,7 @@ CompareOptions parse_compare(const Arguments& arguments) {
         .a = parse_source(arguments, "A", "--car-a"),
         .b = parse_source(arguments, "B", "--car-b"),
         .filter = parse_selection(arguments),
+        .speeds_in_mph = parse_units(arguments) == UnitSystem::us,
         .roads = arguments.value("--roads"),
         .mm_per_m_of_one = arguments.choice("--unit") == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1,
         .step_m = arguments.number("--step"),
@@ -173,7 +175,9 @@ void run_compare(const Arguments& arguments, const Console& console) {
     const auto output = parse_output(arguments);
     const auto options = parse_compare(arguments);
     expect_replaceable(output, options);
-    const auto comparison = compare_sources(options, console);
+    const auto units = parse_units(arguments);
+    const auto metric = compare_sources(options, console);
+    const auto comparison = units == UnitSystem::us ? in_per_mi(metric) : metric;
     if (comparison.pairs.empty()) {
         console.warn(comparison.shared ? "the sources share no segment with a measurement"
                                        : "the profiles share less than one interval of --length");
@@ -185,7 +189,8 @@ void run_compare(const Arguments& arguments, const Console& console) {
     if (output.format == "table") {
         print_words(comparison_text(comparison));
     } else {
-        print(output.format == "json" ? comparison_json(comparison) : comparison_csv(comparison));
+        print(output.format == "json" ? comparison_json(comparison)
+                                      : comparison_csv(metric, units));
     }
     rows.commit();
 }
@@ -211,6 +216,7 @@ constexpr std::array options{
     until_option,
     Option{"--roads", "STORE", "Road database on whose roads two surveys are compared."},
     one_of("mm/m|in/mi", {"--unit", "UNIT", "IRI unit of surveys: mm/m or in/mi.", "mm/m"}),
+    units_option,
     Option{"--step", "METRES", "Spacing of the points of profiles, as in 'macadam iri'."},
     Option{"--length", "METRES", "Interval of profiles whose IRI is compared.", "20"},
     Option{"--max-lag", "METRES", "Largest shift of one profile along the other.", "5"}};

@@ -163,11 +163,12 @@ const Columns<BandRow> band_columns{
 };
 // clang-format on
 
-std::string bands_csv(const std::vector<ComparedTrack>& tracks) {
-    auto csv = csv_header(band_columns);
+std::string bands_csv(const std::vector<ComparedTrack>& tracks, UnitSystem units) {
+    const auto columns = in_units(band_columns, units);
+    auto csv = csv_header(columns);
     for (const auto& [name, agreement] : tracks) {
         for (const auto& band : agreement.bands) {
-            csv += csv_line(band_columns, {name, agreement, band});
+            csv += csv_line(columns, {name, agreement, band});
         }
     }
     return csv;
@@ -235,30 +236,37 @@ std::string source_line(const char* letter, const SourceName& source) {
                        source.car);
 }
 
-std::string track_text(const ComparedTrack& track) {
+std::string track_text(const ComparedTrack& track, const Localisation& say) {
     const auto& agreement = track.agreement;
-    auto text = fmt::format("\ntrack {}: {:.0f} m shared, IRI {:.2f} (A) and {:.2f} mm/m (B)\n"
+    const bool us = say.unit == IriUnit::in_per_mi;
+    const double in_unit = us ? ft_of_m : 1;
+    const auto* const length = us ? "ft" : "m";
+    auto text = fmt::format("\ntrack {}: {:.0f} {} shared, IRI {:.2f} (A) and {:.2f} {} (B)\n"
                             "{:<24}{:>14}{:>8}{:>13}{:>8}{:>9}\n",
                             track.name,
-                            agreement.shared_m,
+                            agreement.shared_m * in_unit,
+                            length,
                             agreement.iri_a,
                             agreement.iri_b,
+                            say.iri_unit(),
                             "band",
                             "wavelengths",
                             "score",
                             "correlation",
                             "gain",
-                            "lag, m");
+                            us ? "lag, ft" : "lag, m");
     for (const auto& band : agreement.bands) {
         text += fmt::format("{:<24}{:>14}{:>8.3f}{:>13.3f}{:>8.3f}{:>+9.2f}\n",
                             band.band.name,
-                            band.band.to_m == 0
-                                ? "golden car"
-                                : fmt::format("{:g} to {:g} m", band.band.from_m, band.band.to_m),
+                            band.band.to_m == 0 ? "golden car"
+                                                : fmt::format("{:.3g} to {:.3g} {}",
+                                                              band.band.from_m * in_unit,
+                                                              band.band.to_m * in_unit,
+                                                              length),
                             band.score,
                             band.correlation,
                             band.gain,
-                            band.lag_m);
+                            band.lag_m * in_unit);
     }
     const double score = agreement.bands.front().score;
     return text + fmt::format("AASHTO R 56: repeatability ({:.2f}) {}, accuracy ({:.2f}) {}\n",
@@ -275,7 +283,7 @@ std::string comparison_json(const SourceComparison& comparison) {
     JsonObject object;
     object.add("a", JsonRaw{json_of(comparison.a)})
         .add("b", JsonRaw{json_of(comparison.b)})
-        .add("unit", "mm/m")
+        .add("unit", std::string{Localisation{.unit = comparison.unit}.iri_unit()})
         .add("shared",
              comparison.shared ? JsonValue{JsonRaw{json_of(*comparison.shared)}}
                                : JsonValue{nullptr})
@@ -287,26 +295,29 @@ std::string comparison_json(const SourceComparison& comparison) {
     return object.text() + "\n";
 }
 
-std::string comparison_csv(const SourceComparison& comparison) {
+std::string comparison_csv(const SourceComparison& comparison, UnitSystem units) {
     if (!comparison.shared) {
-        return bands_csv(comparison.tracks);
+        return bands_csv(comparison.tracks, units);
     }
-    auto csv = csv_header(group_columns) + csv_line(group_columns, {"", "all", comparison.all});
+    const auto columns = in_units(group_columns, units);
+    auto csv = csv_header(columns) + csv_line(columns, {"", "all", comparison.all});
     for (const auto& [property, groups] : comparison.groups) {
         for (const auto& [name, agreement] : groups) {
-            csv += csv_line(group_columns, {property, name, agreement});
+            csv += csv_line(columns, {property, name, agreement});
         }
     }
     return csv;
 }
 
 std::string comparison_text(const SourceComparison& comparison) {
+    const Localisation say{.unit = comparison.unit};
     auto text = source_line("A", comparison.a) + source_line("B", comparison.b);
     if (comparison.shared) {
         const auto& shared = *comparison.shared;
-        text += fmt::format("{} shared segments, {:.2f} km; {} in A alone, {} in B alone",
+        text += fmt::format("{} shared segments, {:.2f} {}; {} in A alone, {} in B alone",
                             comparison.all.pairs,
-                            shared.km,
+                            say.long_length(1000 * shared.km),
+                            say.long_unit(),
                             shared.only_a,
                             shared.only_b);
         text += shared.cut_differently > 0
@@ -314,14 +325,19 @@ std::string comparison_text(const SourceComparison& comparison) {
                     : "\n";
     }
     for (const auto& track : comparison.tracks) {
-        text += track_text(track);
+        text += track_text(track, say);
     }
     if (comparison.pairs.empty()) {
         return text;
     }
-    text += agreement_head(comparison.shared
-                               ? "IRI, mm/m"
-                               : fmt::format("IRI of {:g} m, mm/m", comparison.interval_m)) +
+    text += agreement_head(
+                comparison.shared
+                    ? fmt::format("IRI, {}", say.iri_unit())
+                    : fmt::format("IRI of {}, {}",
+                                  length_words(comparison.interval_m,
+                                               say.unit == IriUnit::in_per_mi ? UnitSystem::us
+                                                                              : UnitSystem::si),
+                                  say.iri_unit())) +
             agreement_line("all", comparison.all);
     for (const auto& [property, groups] : comparison.groups) {
         text += agreement_head(property);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/report/comparison/comparison_page.hpp"
+#include "storage/text/unit_system.hpp"
 
 #include <string>
 
@@ -14,6 +15,7 @@ std::string comparison_json(const SourceComparison& comparison);
 
 /// Formats rows: a group each, or a waveband of a track of profiles each
 /// (docs/reference/compare.md).
-std::string comparison_csv(const SourceComparison& comparison);
+/// \param comparison  in mm/m, whatever the units of the rows
+std::string comparison_csv(const SourceComparison& comparison, UnitSystem units = UnitSystem::si);
 
 } // namespace macadam

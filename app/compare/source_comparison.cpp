@@ -174,15 +174,20 @@ std::vector<GroupName> roughness_names(const std::vector<AgreementPair>& pairs,
     return names;
 }
 
-std::vector<GroupName> speed_names(const std::vector<std::optional<double>>& speed_kmh) {
-    constexpr std::array borders{0, 30, 50, 70, 90, 110};
+std::vector<GroupName> speed_names(const std::vector<std::optional<double>>& speed_kmh,
+                                   bool in_mph) {
+    constexpr double kmh_of_mph = 1.609344;
+    constexpr std::array of_kmh{0, 30, 50, 70, 90, 110};
+    constexpr std::array of_mph{0, 20, 30, 45, 55, 70};
+    const auto& borders = in_mph ? of_mph : of_kmh;
     std::vector<GroupName> names;
     for (const auto& speed : speed_kmh) {
         if (!speed) {
             names.push_back({0, {}});
             continue;
         }
-        const auto band = std::ranges::upper_bound(borders, *speed) - borders.begin() - 1;
+        const auto band = std::ranges::upper_bound(borders, in_mph ? *speed / kmh_of_mph : *speed) -
+                          borders.begin() - 1;
         const auto from = borders[static_cast<std::size_t>(band)];
         names.push_back(
             {static_cast<int>(band),
@@ -226,18 +231,20 @@ bool is_own(const SegmentSource& source) {
 void add_cars(SourceComparison& comparison,
               const SegmentSource& a,
               const SegmentSource& b,
-              const std::optional<Period>& period) {
+              const CompareOptions& options) {
+    const bool in_mph = options.speeds_in_mph;
     const auto* const source = is_own(a) ? &a : is_own(b) ? &b : nullptr;
-    const auto passes =
-        source == nullptr
-            ? std::nullopt
-            : passes_of_cars(*source->store, comparison.pairs, {period, source->pseudonym});
+    const auto passes = source == nullptr
+                            ? std::nullopt
+                            : passes_of_cars(*source->store,
+                                             comparison.pairs,
+                                             {options.filter.period, source->pseudonym});
     if (!passes) {
         return;
     }
     add_groups(comparison,
-               "Speed, km/h",
-               agreement_by_group(comparison.pairs, speed_names(passes->speed_kmh)));
+               in_mph ? "Speed, mph" : "Speed, km/h",
+               agreement_by_group(comparison.pairs, speed_names(passes->speed_kmh, in_mph)));
     if (source == &a && a.car.empty()) {
         add_groups(comparison, "Car of A", agreement_by_car(comparison.pairs, *passes, *a.store));
     }
@@ -294,7 +301,7 @@ SourceComparison compare_segments(const CompareOptions& options, const Console& 
                agreement_by_group(
                    comparison.pairs,
                    roughness_names(comparison.pairs, *class_table(roads.settings().class_table))));
-    add_cars(comparison, a, b, options.filter.period);
+    add_cars(comparison, a, b, options);
     return comparison;
 }
 

@@ -30,6 +30,7 @@ struct CompareOptions {
     SourceOption a;
     SourceOption b;
     SegmentFilter filter;
+    bool speeds_in_mph = false;                 ///< groups of speed by round mph
     std::optional<std::filesystem::path> roads; ///< database on whose roads two surveys are placed
     double mm_per_m_of_one = 1;                 ///< mm/m of an IRI of 1 in a survey
     std::optional<double> step_m;               ///< of the profiles' points

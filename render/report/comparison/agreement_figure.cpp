@@ -26,7 +26,7 @@ constexpr double plot_top = 26;
 constexpr double plot_bottom = 270;
 constexpr double label_height = 13;
 
-/// Frame of the plot in mm/m.
+/// Frame of the plot in the unit of the pairs.
 struct AgreementFrame {
     double from, to;        ///< of the mean
     double lowest, highest; ///< of the difference
@@ -64,7 +64,7 @@ std::pair<double, double> shown_differences(std::span<const AgreementPair> pairs
 }
 
 AgreementFrame frame_of(std::span<const AgreementPair> pairs, const LimitsOfAgreement& limits) {
-    constexpr double min_reach = 0.05; // mm/m
+    constexpr double min_reach = 0.05; // mm/m or in/mi
     double from = (pairs.front().a + pairs.front().b) / 2, to = from;
     for (const auto& pair : pairs) {
         from = std::min(from, (pair.a + pair.b) / 2);
@@ -110,9 +110,12 @@ void add_axes(Drawing& drawing, const AgreementFrame& frame, const Localisation&
         drawing.shapes.emplace_back(
             Label{frame.x(mean), plot_bottom + 16, Anchor::middle, say.shortest(mean)});
     }
-    drawing.shapes.emplace_back(Label{6, 12, Anchor::start, "Difference A − B, mm/m"});
-    drawing.shapes.emplace_back(Label{
-        (plot_left + plot_right) / 2, plot_bottom + 36, Anchor::middle, "Mean of A and B, mm/m"});
+    drawing.shapes.emplace_back(
+        Label{6, 12, Anchor::start, fmt::format("Difference A − B, {}", say.iri_unit())});
+    drawing.shapes.emplace_back(Label{(plot_left + plot_right) / 2,
+                                      plot_bottom + 36,
+                                      Anchor::middle,
+                                      fmt::format("Mean of A and B, {}", say.iri_unit())});
 }
 
 /// Adds the dots on a grid of half a unit, without duplicates. \returns the number outside.
@@ -179,15 +182,17 @@ AgreementFigure agreement_figure(std::span<const AgreementPair> pairs,
     const auto frame = frame_of(pairs, limits);
     AgreementFigure figure{{480,
                             plot_bottom + 44,
-                            fmt::format("Bland–Altman plot of {} pairs: bias {} mm/m",
+                            fmt::format("Bland–Altman plot of {} pairs: bias {} {}",
                                         say.count(pairs.size()),
-                                        say.signed_number(limits.bias.value, 2)),
+                                        say.signed_number(limits.bias.value, 2),
+                                        say.iri_unit()),
                             {}},
                            0};
     if (std::isfinite(limits.sd)) {
-        figure.drawing.words += fmt::format(", limits of agreement {} and {} mm/m",
+        figure.drawing.words += fmt::format(", limits of agreement {} and {} {}",
                                             say.signed_number(limits.lower.value, 2),
-                                            say.signed_number(limits.upper.value, 2));
+                                            say.signed_number(limits.upper.value, 2),
+                                            say.iri_unit());
     }
     add_axes(figure.drawing, frame, say);
     figure.outside = add_dots(figure.drawing, pairs, frame);

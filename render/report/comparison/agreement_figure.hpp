@@ -18,7 +18,7 @@ struct AgreementFigure {
 /// Draws the difference a - b of each pair over the mean of both, with bias and limits of agreement
 /// and their 95 % intervals. Rare differences far beyond the limits are outside the frame.
 ///
-/// \param pairs      at least one.
+/// \param pairs      at least one; in the unit of `say`.
 /// \param agreement  of these pairs.
 AgreementFigure agreement_figure(std::span<const AgreementPair> pairs,
                                  const MethodAgreement& agreement,

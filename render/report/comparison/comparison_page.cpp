@@ -15,9 +15,35 @@ namespace {
 
 constexpr const char* no_value = "–";
 
-/// Returns the wording of the page: English, mm/m.
-Localisation english() {
-    return {};
+/// Returns the wording of the page.
+Localisation english(IriUnit unit = IriUnit::mm_per_m) {
+    return {.unit = unit};
+}
+
+std::string unit_of(const SourceComparison& comparison) {
+    return std::string{english(comparison.unit).iri_unit()};
+}
+
+void scale(LimitsOfAgreement& limits, double factor) {
+    for (auto* estimate : {&limits.bias, &limits.lower, &limits.upper}) {
+        estimate->value *= factor;
+        estimate->low *= factor;
+        estimate->high *= factor;
+    }
+    limits.sd *= factor;
+}
+
+void scale(MethodAgreement& agreement, double factor) {
+    agreement.mean_a *= factor;
+    agreement.mean_b *= factor;
+    scale(agreement.difference, factor);
+}
+
+/// Formats a length on the road of some metres: "20 m", "66 ft".
+std::string length_text(double length_m, const SourceComparison& comparison) {
+    return comparison.unit == IriUnit::mm_per_m
+               ? fmt::format("{:g} m", length_m)
+               : english(comparison.unit).short_length(length_m) + " ft";
 }
 
 std::string signed_text(double value, int decimals = 2) {
@@ -61,8 +87,13 @@ std::string limits_text(const LimitsOfAgreement& limits, int decimals) {
 KeyNumbers keys_of(const SourceComparison& comparison) {
     const auto& [pairs, mean_a, mean_b, difference, relative] = comparison.all;
     const auto length =
-        comparison.shared ? fmt::format("{} km of road", english().number(comparison.shared->km, 2))
-                          : fmt::format("of {:g} m", comparison.interval_m);
+        comparison.shared
+            ? fmt::format(
+                  "{} {} of road",
+                  english().number(
+                      english(comparison.unit).long_length(1000 * comparison.shared->km), 2),
+                  english(comparison.unit).long_unit())
+            : "of " + length_text(comparison.interval_m, comparison);
     KeyNumbers keys{
         {{fmt::format("Shared {}", piece_word(comparison)), english().count(pairs), length}}};
     if (pairs == 0) {
@@ -72,9 +103,10 @@ KeyNumbers keys_of(const SourceComparison& comparison) {
     if (const auto interval = interval_text(difference.bias, 2); !interval.empty()) {
         bias = fmt::format("95 %: {}\n{}", interval, bias);
     }
-    keys.numbers.push_back({"Bias A − B, mm/m", signed_text(difference.bias.value), bias});
+    keys.numbers.push_back(
+        {"Bias A − B, " + unit_of(comparison), signed_text(difference.bias.value), bias});
     if (std::isfinite(difference.sd)) {
-        keys.numbers.push_back({"Limits of agreement, mm/m",
+        keys.numbers.push_back({"Limits of agreement, " + unit_of(comparison),
                                 limits_text(difference, 2),
                                 "about 95 % of differences\n" + limits_text(relative, 1) + " %"});
     }
@@ -115,7 +147,8 @@ DocumentSection agreement_section(const SourceComparison& comparison) {
                                               std::string{piece_word(comparison)} + " in common."});
         return section;
     }
-    auto [drawing, outside] = agreement_figure(comparison.pairs, comparison.all, english());
+    auto [drawing, outside] =
+        agreement_figure(comparison.pairs, comparison.all, english(comparison.unit));
     section.blocks.emplace_back(Paragraph{fmt::format(
         "Each dot is one of the {}: the difference of both IRI over their mean. Dashed lines are "
         "the bias and the limits of agreement, between which about 95 % of the differences lie; "
@@ -132,7 +165,7 @@ DocumentSection agreement_section(const SourceComparison& comparison) {
 }
 
 DocumentSection groups_section(const SourceComparison& comparison) {
-    Table table{"IRI in mm/m; 95 % intervals below the values",
+    Table table{fmt::format("IRI in {}; 95 % intervals below the values", unit_of(comparison)),
                 agreement_columns(comparison),
                 {agreement_row("All", comparison.all)}};
     table.stacks = true;
@@ -147,8 +180,13 @@ DocumentSection groups_section(const SourceComparison& comparison) {
     return {"In numbers", {std::move(table)}};
 }
 
-std::string waves_text(const ProfileBand& band) {
-    return band.to_m == 0 ? "golden car" : fmt::format("{:g} – {:g} m", band.from_m, band.to_m);
+std::string waves_text(const ProfileBand& band, const SourceComparison& comparison) {
+    if (band.to_m == 0) {
+        return "golden car";
+    }
+    return comparison.unit == IriUnit::mm_per_m
+               ? fmt::format("{:g} – {:g} m", band.from_m, band.to_m)
+               : fmt::format("{:.1f} – {:.1f} ft", band.from_m / 0.3048, band.to_m / 0.3048);
 }
 
 std::string verdict_text(const TrackAgreement& track) {
@@ -165,27 +203,30 @@ std::string verdict_text(const TrackAgreement& track) {
                        min_accuracy_score);
 }
 
-DocumentSection track_section(const ComparedTrack& track) {
+DocumentSection track_section(const ComparedTrack& track, const SourceComparison& comparison) {
+    const bool is_us = comparison.unit == IriUnit::in_per_mi;
     const auto& agreement = track.agreement;
-    Table table{fmt::format("Track {}, {} m: IRI {} (A) and {} mm/m (B)",
+    Table table{fmt::format("Track {}, {} {}: IRI {} (A) and {} {} (B)",
                             track.name,
-                            english().whole(agreement.shared_m),
+                            english(comparison.unit).short_length(agreement.shared_m),
+                            is_us ? "ft" : "m",
                             plain_text(agreement.iri_a),
-                            plain_text(agreement.iri_b)),
+                            plain_text(agreement.iri_b),
+                            unit_of(comparison)),
                 {{"Band"},
                  {"Wavelengths"},
                  {"Score", true},
                  {"Correlation", true},
                  {"Gain A/B", true, true},
-                 {"Lag, m", true}},
+                 {is_us ? "Lag, ft" : "Lag, m", true}},
                 {}};
     for (const auto& band : agreement.bands) {
         table.rows.push_back({std::string{band.band.name},
-                              waves_text(band.band),
+                              waves_text(band.band, comparison),
                               plain_text(band.score, 3),
                               plain_text(band.correlation, 3),
                               plain_text(band.gain, 3),
-                              signed_text(band.lag_m)});
+                              signed_text(is_us ? band.lag_m / 0.3048 : band.lag_m)});
     }
     return {"Profiles: " + track.name, {Paragraph{verdict_text(agreement)}, std::move(table)}};
 }
@@ -229,6 +270,26 @@ DocumentSection method_section(const SourceComparison& comparison) {
 
 } // namespace
 
+SourceComparison in_per_mi(SourceComparison comparison) {
+    constexpr double factor = in_per_mi_of_mm_per_m;
+    for (auto& pair : comparison.pairs) {
+        pair.a *= factor;
+        pair.b *= factor;
+    }
+    scale(comparison.all, factor);
+    for (auto& property : comparison.groups) {
+        for (auto& group : property.groups) {
+            scale(group.agreement, factor);
+        }
+    }
+    for (auto& track : comparison.tracks) {
+        track.agreement.iri_a *= factor;
+        track.agreement.iri_b *= factor;
+    }
+    comparison.unit = IriUnit::in_per_mi;
+    return comparison;
+}
+
 Document comparison_document(const SourceComparison& comparison) {
     const auto title = fmt::format("{} and {}", described(comparison.a), described(comparison.b));
     Document document{.language = "en",
@@ -246,7 +307,7 @@ Document comparison_document(const SourceComparison& comparison) {
                       .sections = {},
                       .end = {method_section(comparison)}};
     for (const auto& track : comparison.tracks) {
-        document.sections.push_back(track_section(track));
+        document.sections.push_back(track_section(track, comparison));
     }
     document.sections.push_back(agreement_section(comparison));
     if (!comparison.pairs.empty()) {

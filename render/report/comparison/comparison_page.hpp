@@ -3,6 +3,7 @@
 #include "mapping/comparison/method_agreement.hpp"
 #include "mapping/comparison/profile_agreement.hpp"
 #include "render/report/document/document.hpp"
+#include "render/report/words/localised_text.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -49,9 +50,13 @@ struct SourceComparison {
     std::vector<ComparedTrack> tracks;    ///< of profiles
     double interval_m = 20;               ///< of profiles
     bool is_own = false;                  ///< a database of the operator's own cars is compared
+    IriUnit unit = IriUnit::mm_per_m;     ///< of all IRI; in_per_mi: other lengths are shown as US
 };
 
-/// Builds the document, in English and mm/m.
+/// Converts the IRI of a comparison in mm/m.
+SourceComparison in_per_mi(SourceComparison comparison);
+
+/// Builds the document, in English.
 Document comparison_document(const SourceComparison& comparison);
 
 } // namespace macadam

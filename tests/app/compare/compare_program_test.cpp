@@ -267,6 +267,23 @@ TEST_F(Compare, GroupsThePassesOfTheChosenCarAndTimeOnly) {
     EXPECT_EQ(cars[0]["pairs"], june["all"]["pairs"]);
 }
 
+TEST_F(Compare, InUsUnitsIsTheSameTimes63) {
+    const auto si = compared({store_, truth_});
+    const auto us = compared({store_, truth_, "--units", "us"});
+    EXPECT_EQ(us["unit"], "in/mi");
+    EXPECT_EQ(us["all"]["pairs"], si["all"]["pairs"]);
+    EXPECT_NEAR(us["all"]["mean_a"], 63.36 * double(si["all"]["mean_a"]), 0.01);
+    EXPECT_NEAR(us["all"]["difference"]["sd"], 63.36 * double(si["all"]["difference"]["sd"]), 0.01);
+    EXPECT_EQ(us["all"]["relative_percent"], si["all"]["relative_percent"]);
+    const auto page = (folder_ / "us.html").string();
+    const auto text = run_macadam({"compare", store_, truth_, "--units", "us", "-o", page}).out;
+    for (const auto& shown : {text, read_file(page)}) {
+        EXPECT_THAT(shown, HasSubstr("in/mi"));
+        EXPECT_THAT(shown, Not(HasSubstr("mm/m")));
+        EXPECT_THAT(shown, Not(HasSubstr(" km")));
+    }
+}
+
 TEST_F(Compare, OfTwoSurveysFindsTheirRatioOnTheRoadsOfADatabase) {
     const std::string head{"way_id,direction,from_m,to_m,mri\n"};
     std::string first{head}, second{head};
