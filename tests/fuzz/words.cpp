@@ -66,7 +66,7 @@ void parse_as(const Command& command, const Arguments& arguments) {
     const auto takes = [&](std::string_view name) {
         return std::ranges::find(command.options, name, &Option::name) != command.options.end();
     };
-    if (command.name == "query") {
+    if (command.name == "query" && !arguments.value("--area")) { // which names a file to read
         parse_query(arguments);
     } else if (takes(sections_option.name)) {
         parse_sections(arguments, false);
