@@ -15,6 +15,6 @@ inline constexpr Option excel_option{
 
 /// Parses --excel.
 /// \throws UsageError  for an unknown language.
-std::optional<CsvDialect> parse_excel(const Arguments& arguments);
+std::optional<ExcelDialect> parse_excel(const Arguments& arguments);
 
 } // namespace macadam

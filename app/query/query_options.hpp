@@ -42,7 +42,7 @@ struct QueryOptions {
     bool events;                                 ///< potholes and others instead of segments
     WorstOptions worst;
     UnitSystem units = UnitSystem::si;
-    std::optional<CsvDialect> excel{}; ///< of CSV
+    std::optional<ExcelDialect> excel{}; ///< of CSV
 };
 
 /// Parses the options of `query`.

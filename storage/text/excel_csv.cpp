@@ -52,7 +52,7 @@ bool is_numeric(std::string_view text) {
 
 } // namespace
 
-CsvDialect csv_dialect(std::string_view locale) {
+ExcelDialect excel_dialect(std::string_view locale) {
     const auto place = locale.substr(0, locale.find_first_of(".@"));
     const auto language = place.substr(0, place.find_first_of("_-"));
     if (has(points_and_semicolons, place)) {

@@ -8,14 +8,14 @@ namespace macadam {
 
 /// Dialect of CSV that Excel opens with a double click: it takes separator and decimal mark from
 /// the country of its user.
-struct CsvDialect {
+struct ExcelDialect {
     char separator = ',';
     char decimal_mark = '.';
 };
 
 /// Returns the dialect of a locale such as "de", "en", "fr_CH.UTF-8" or "C".
 /// \throws std::invalid_argument  for a language that is not known; it names those that are.
-CsvDialect csv_dialect(std::string_view locale);
+ExcelDialect excel_dialect(std::string_view locale);
 
 /// Returns the locale of numbers of this process: LC_ALL, LC_NUMERIC or LANG; "C" if none is set.
 std::string numeric_locale();
@@ -24,14 +24,14 @@ std::string numeric_locale();
 /// replaces separators and the decimal marks of numbers. Takes the text in any pieces.
 class ExcelCsv {
 public:
-    explicit ExcelCsv(CsvDialect dialect) : dialect_{dialect} {}
+    explicit ExcelCsv(ExcelDialect dialect) : dialect_{dialect} {}
 
     std::string operator()(std::string_view csv);
 
 private:
     std::string finished_cell();
 
-    CsvDialect dialect_;
+    ExcelDialect dialect_;
     std::string cell_{};
     bool is_quoted_ = false; ///< within quotes
     bool has_begun_ = false;

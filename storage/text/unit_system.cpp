@@ -125,10 +125,12 @@ UsColumn us_column(std::string_view name, const ColumnType& type, const ShownCol
         return us;
     }
     us.factor = found->factor;
-    us.name = interned(name_in_us(name, *found));
+    const bool is_number = type.kind == Kind::real || type.kind == Kind::integer;
+    const bool says_unit = is_number || name.ends_with(found->suffix); // not a list of several
+    us.name = says_unit ? interned(name_in_us(name, *found)) : name;
     us.heading = interned(heading_in_us(shown.heading));
     us.type.unit = found->us_unit;
-    if (type.kind == Kind::real || type.kind == Kind::integer) {
+    if (is_number) {
         us.type.kind = Kind::real;
         us.type.decimals = type.decimals == ColumnType::shortest
                                ? ColumnType::shortest
