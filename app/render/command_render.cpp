@@ -62,7 +62,8 @@ RenderOptions parse_render(const Arguments& arguments, const Console& console) {
             .output = parse_picture_output(arguments),
             .filter = parse_filter(arguments),
             .selection = text_of_filter(arguments, "--bbox"),
-            .title = arguments.value("--title").value_or("Road roughness"),
+            .title = arguments.value("--title").value_or(
+                arguments.value("--compare-since") ? "Change of road roughness" : "Road roughness"),
             .style = parse_style(arguments, console),
             .base = parse_base_map(arguments),
             .events = arguments.flag("--events"),
