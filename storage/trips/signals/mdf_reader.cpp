@@ -3,7 +3,6 @@
 #include "estimator/common/error.hpp"
 #include "storage/text/spelling.hpp"
 #include "storage/text/text.hpp"
-#include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/signals/mdf_blocks.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +12,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <utility>
 
 namespace macadam {
