@@ -267,7 +267,7 @@ constexpr std::array output_options{
            {"--format",
             "NAME",
             "Of --against-reference: table, csv or json; of -o -: html or pdf.",
-            "table, html"}),
+            "table"}),
     json_option,
     Option{"--title", "TEXT", "Title of the report.", "Road roughness"},
     Option{"--compare-since", "DATE", "Report changes since this day: 2026-03-01 or 2026-03."}};

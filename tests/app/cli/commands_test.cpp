@@ -88,7 +88,10 @@ TEST(Commands, ThatPrintRowsHaveAFormatAFileAndTheShortFormOfJson) {
         const auto has = [&](std::string_view name) {
             return std::ranges::count(command.options, name, &Option::name) == 1;
         };
-        if (has("--format") && command.name != convert_command.name) { // formats of logs
+        const bool is_of_files = command.name == convert_command.name ||
+                                 command.name == export_command.name ||
+                                 command.name == render_command.name;
+        if (has("--format") && !is_of_files) {
             EXPECT_TRUE(has("-o,--output") && has("--json")) << command.name;
             found.push_back(command.name);
         }

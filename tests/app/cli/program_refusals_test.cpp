@@ -222,9 +222,9 @@ TEST_F(Refusals, OfAFullStandardOutputAreAFailure) {
 
 TEST_F(Refusals, OfABoxInDisorderAreMisuse) {
     const auto run = run_macadam(
-        {"export", store_, "-o", (folder_ / "a.csv").string(), "--bbox", "12,48,11,49"});
+        {"export", store_, "-o", (folder_ / "a.csv").string(), "--bbox", "11,49,12,48"});
     EXPECT_EQ(run.exit_status, 2);
-    EXPECT_THAT(run.err, HasSubstr("west < east"));
+    EXPECT_THAT(run.err, HasSubstr("south < north; west > east crosses the antimeridian"));
 }
 
 TEST_F(Refusals, OfSensorsThatNobodyKnowsNameThem) {
