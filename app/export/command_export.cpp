@@ -275,11 +275,10 @@ void run_export(const Arguments& arguments, const Console& console) {
 
 constexpr std::array operands{store_operand};
 constexpr std::array output_options{
-    Option{
-        "-o,--output",
-        "FILE",
-        "Output: .geojson, .geojsonl, .csv, .xlsx, .gpkg, .fgb, .shp, .kml, .mbtiles, "
-        ".pmtiles; DIR/ for tiles; .qgz: a QGIS project that shows STORE; - for standard output."},
+    Option{"-o,--output",
+           "FILE",
+           "Output: .geojson, .geojsonl, .csv, .xlsx, .gpkg, .fgb, .shp, .kml, .qgz, .mbtiles, "
+           ".pmtiles, DIR/, or -."},
     one_of("geojson|geojsonl|csv|kml|xlsx|gpkg|fgb|shp|mbtiles|pmtiles|qgz",
            {"--format", "NAME", "Format of -o -: geojson, geojsonl, csv or kml.", "geojson"}),
     units_option,

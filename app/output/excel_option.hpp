@@ -7,11 +7,10 @@
 
 namespace macadam {
 
-inline constexpr Option excel_option{
-    "--excel",
-    "[LOCALE]",
-    "CSV that Excel opens with a double click: separator and decimal mark of a language, such as "
-    "de or en; by default that of LANG."};
+inline constexpr Option excel_option{"--excel",
+                                     "[LOCALE]",
+                                     "CSV for Excel: separator and decimal mark of a language such "
+                                     "as de or en; by default of LANG."};
 
 /// Parses --excel.
 /// \throws UsageError  for an unknown language.
