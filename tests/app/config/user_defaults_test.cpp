@@ -68,9 +68,9 @@ TEST(ConfigFile, SetsDefaultsForAllCommandsAndForOne) {
     const std::string config = "unit = \"in/mi\"\n[report]\nunit = \"mm/m\"\n[render]\ntheme = "
                                "\"Dark\"\n";
     EXPECT_THAT(defaults_in(config, report_command),
-                ElementsAre("--unit mm/m from config.toml:3", "--unit in/mi from config.toml:1"));
+                ElementsAre("--units mm/m from config.toml:3", "--units in/mi from config.toml:1"));
     EXPECT_THAT(defaults_in(config, render_command),
-                ElementsAre("--theme dark from config.toml:5", "--unit in/mi from config.toml:1"));
+                ElementsAre("--theme dark from config.toml:5", "--units in/mi from config.toml:1"));
 }
 
 TEST(ConfigFile, HasFlagsNumbersAndPathsFromItsOwnFolder) {
@@ -84,8 +84,8 @@ TEST(ConfigFile, HasFlagsNumbersAndPathsFromItsOwnFolder) {
 }
 
 TEST(ConfigFile, RefusesUnknownKeysWithTheNearestOne) {
-    EXPECT_EQ(refusal_of("jobs = 1\nunits = \"mm/m\"\n"),
-              "config.toml:2: 'units' is no option with a default; did you mean unit?");
+    EXPECT_EQ(refusal_of("jobs = 1\nunitss = \"mm/m\"\n"),
+              "config.toml:2: 'unitss' is no option with a default; did you mean units?");
     EXPECT_EQ(refusal_of("[rendr]\ntheme = \"dark\"\n"),
               "config.toml:1: 'rendr' is no option with a default; did you mean render?");
     EXPECT_EQ(refusal_of("[iri]\ntheme = \"dark\"\n"),

@@ -329,7 +329,7 @@ TEST_F(QueryProgram, SaysWhatDoesNotGoTogether) {
         EXPECT_THAT(run.err, HasSubstr(says));
     }
     EXPECT_THAT(run_macadam({"export", store_, "-o", "x.gpkg", "--sections", "y"}).err,
-                HasSubstr("expected a name that ends in .csv or .geojson with --sections"));
+                HasSubstr("expected a name that ends in .csv, .geojson or .xlsx with --sections"));
 }
 
 // ----------------------------------------------------------------------------------------- info

@@ -312,7 +312,7 @@ TEST_F(Reference, RefusesWithWords) {
                 HasSubstr("-o a.html is a page, which --format and --json do not concern"));
     const auto whole = run_macadam({"report", store_, "-o", "a.html", "--format", "csv"});
     EXPECT_EQ(whole.exit_status, 2);
-    EXPECT_THAT(whole.err, HasSubstr("--format requires --against-reference"));
+    EXPECT_THAT(whole.err, HasSubstr("--format csv requires --against-reference"));
 }
 
 } // namespace
