@@ -7,6 +7,7 @@
 #include "estimator/events/event_detection.hpp"
 #include "estimator/motion/stretch.hpp"
 #include "estimator/smoother/smoothed_iri.hpp"
+#include "estimator/smoother/vibration/car_from_vibration.hpp"
 #include "mapping/passes/trip_cutting.hpp"
 
 #include <fmt/format.h>
@@ -275,9 +276,19 @@ TripTrace trace_of(const TripLog& trip,
         return make_stretch(trip, span, motion.odometer, motion.mounting, config.stretch);
     };
     std::optional<TunedCar> car;
+    auto estimator = config.estimator;
+    Resonance mount{};
     if (config.estimator.method == Method::smoother && !found.spans.empty()) {
         const auto longest = std::ranges::max(found.spans, {}, samples_in);
-        car = car_in(stretch_of(longest), vehicle, config.estimator, progress.stop);
+        VibrationSpectra spectra;
+        for (const auto& span : found.spans) {
+            add(spectra, stretch_of(span), vehicle.imu);
+        }
+        const auto vibrating = car_from_vibration(spectra, vehicle);
+        estimator.tracks = estimator.tracks && !vibrating.found_axles;
+        mount = vibrating.mount;
+        car = car_in(
+            stretch_of(longest), vibrating.vehicle, estimator, progress.stop, vibrating.mount);
     }
     IriTrace roughness{.runs = {},
                        .slow = slow_parts(motion.odometer, config.stretch.min_speed_mps)};
@@ -287,7 +298,7 @@ TripTrace trace_of(const TripLog& trip,
     for (const auto& span : found.spans) {
         const auto stretch = stretch_of(span);
         const auto part = part_of(progress, {samples_before, samples_in(span), all_samples});
-        auto run = car ? smoothed_iri(stretch, *car, config.estimator, {}, part)
+        auto run = car ? smoothed_iri(stretch, *car, estimator, {}, part)
                        : estimate_iri(stretch, vehicle, config.estimator);
         part(1, 1);
         samples_before += samples_in(span);
@@ -304,6 +315,12 @@ TripTrace trace_of(const TripLog& trip,
         }
     }
     auto warnings = lateral_text(roughness, config.estimator.channels);
+    if (mount.hz > 0) {
+        warnings.push_back(fmt::format("the sensor's holder resonates at {:.1f} Hz; this was "
+                                       "removed, and the interval is wider. Fix the sensor firmly "
+                                       "to the car",
+                                       mount.hz));
+    }
     std::ranges::move(warnings_of(trip, motion.odometer, motion.mounting),
                       std::back_inserter(warnings));
     return {.odometer = std::move(motion.odometer),

@@ -201,7 +201,7 @@ IriMean mean_over(const IriTrace& trace, double from_m, double to_m, const Vehic
     }
     const double headline = mean.mri_mm_per_m.value_or(*mean.hri_mm_per_m);
     mean.sd_mm_per_m =
-        sums.scatter.empty() || !vehicle.axles // the scatter excludes the error of one axle
+        sums.scatter.empty()
             ? sd_of_kf_mm_per_m(
                   headline, sums.covered_m, mean.speed_mps, sums.indicative_m > 0, vehicle)
             : sd_of_smoother_mm_per_m(headline, sums);

@@ -35,6 +35,10 @@ void check(const ImuRecipe& imu) {
     if (imu.lowpass_hz != 0) {
         refuse("lowpass_hz", imu.lowpass_hz, 1, 1000);
     }
+    if (imu.mount_hz != 0) {
+        refuse("mount_hz", imu.mount_hz, 1, 100);
+    }
+    refuse("mount_damping", imu.mount_damping, 0.01, 1);
 }
 
 /// Returns the rotation from vehicle to sensor: the transpose of Rz(yaw) Ry(pitch) Rx(roll).
@@ -97,18 +101,36 @@ std::vector<Imu::Section> Imu::lowpass(int order, double corner_hz, double step_
         const double norm = 1 + damping * k + k * k;
         const double b = k * k / norm;
         sections.push_back(
-            {b, 2 * b, b, 2 * (k * k - 1) / norm, (1 - damping * k + k * k) / norm, {}, {}});
+            {b, 2 * b, b, 2 * (k * k - 1) / norm, (1 - damping * k + k * k) / norm, 6, {}, {}});
     }
     if (order % 2 == 1) {
-        sections.push_back({k / (1 + k), k / (1 + k), 0, (k - 1) / (1 + k), 0, {}, {}});
+        sections.push_back({k / (1 + k), k / (1 + k), 0, (k - 1) / (1 + k), 0, 6, {}, {}});
     }
     return sections;
+}
+
+/// Designs a mass on spring and damper whose base is moved, in the same way.
+Imu::Section Imu::mount(double hz, double damping, double step_s) {
+    const double k = exact::sin(pi * hz * step_s) / exact::cos(pi * hz * step_s);
+    const double damped = 2 * damping * k;
+    const double norm = 1 + damped + k * k;
+    return {(k * k + damped) / norm,
+            2 * k * k / norm,
+            (k * k - damped) / norm,
+            2 * (k * k - 1) / norm,
+            (1 - damped + k * k) / norm,
+            3,
+            {},
+            {}};
 }
 
 Imu::Imu(const ImuRecipe& recipe, double step_s, std::uint64_t seed)
     : recipe_{recipe}, to_sensor_{to_sensor(recipe.tilt_rpy_deg)}, random_{seed} {
     check(recipe);
     sections_ = lowpass(recipe.lowpass_order, recipe.lowpass_hz, step_s);
+    if (recipe.mount_hz > 0) {
+        sections_.insert(sections_.begin(), mount(recipe.mount_hz, recipe.mount_damping, step_s));
+    }
 }
 
 void Imu::sense(const InertialSignals& signals) {
@@ -119,7 +141,7 @@ void Imu::sense(const InertialSignals& signals) {
             row[0] * signals[first] + row[1] * signals[first + 1] + row[2] * signals[first + 2];
     }
     for (Section& s : sections_) {
-        for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t i = 0; i < s.channels; ++i) {
             const double in = sensed_[i];
             const double out = s.b0 * in + s.latest[i];
             s.latest[i] = s.b1 * in - s.a1 * out + s.later[i];

@@ -36,10 +36,12 @@ private:
     /// y = b0 x + b1 x[-1] + b2 x[-2] - a1 y[-1] - a2 y[-2], transposed direct form II.
     struct Section {
         double b0, b1, b2, a1, a2;
+        std::size_t channels; ///< 3: the accelerations, 6: all
         InertialSignals later{}, latest{};
     };
 
     static std::vector<Section> lowpass(int order, double corner_hz, double step_s);
+    static Section mount(double hz, double damping, double step_s);
 
     ImuRecipe recipe_;
     std::array<std::array<double, 3>, 3> to_sensor_;

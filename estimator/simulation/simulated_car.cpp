@@ -138,7 +138,7 @@ ImuReadings simulate_imu(const CarRecipe& car,
     CarState state = standing(model, input);
     for (; step <= (samples - 1) * steps_a_sample; ++step) {
         const bool due = step >= 0 && step % steps_a_sample == 0;
-        if (due || imu.lowpass_hz > 0) {
+        if (due || imu.lowpass_hz > 0 || imu.mount_hz > 0) {
             sensor.sense(inertial_signals_at(
                 car.vehicle.imu, state, accelerations(model, state, input), now));
         }

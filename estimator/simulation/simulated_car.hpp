@@ -36,7 +36,9 @@ struct ImuRecipe {
     std::array<double, 3> tilt_rpy_deg{}; ///< sensor in the car: about z, then own y, then own x
     double lowpass_hz = 0;                ///< 0: none
     int lowpass_order = 2;
-    double quantum_mps2 = 0; ///< 0: none
+    double mount_hz = 0;         ///< resonance of a holder, in all accelerations; 0: none
+    double mount_damping = 0.08; ///< of critical
+    double quantum_mps2 = 0;     ///< 0: none
     double quantum_radps = 0;
     double jitter_s = 0; ///< of the time stamps, not of the samples, standard deviation
 };

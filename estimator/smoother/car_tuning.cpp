@@ -2,6 +2,7 @@
 
 #include "estimator/common/error.hpp"
 #include "estimator/smoother/friction.hpp"
+#include "estimator/smoother/vibration/car_from_vibration.hpp"
 
 #include <Eigen/LU>
 
@@ -53,6 +54,10 @@ void dynamic_index_times_exp(Point& point, double by) {
     point.vehicle.axles->dynamic_index *= std::exp(by);
 }
 
+void imu_x_plus(Point& point, double by) {
+    point.vehicle.imu.x_m += by * point.vehicle.axles->wheelbase_m;
+}
+
 // Mass and damping are not among them. Over a road that is not known either, their likelihood has a
 // slope where the file is exact: a heavier or less damped car explains a bend of the road's
 // spectrum or an unstated pitch inertia (docs/decisions/41-mass-and-damping-are-not-tuned.md).
@@ -60,6 +65,7 @@ constexpr std::pair<std::string_view, void (*)(Point&, double)> tuned_parameters
     {"ks_n_per_m", times_exp<&HalfCar::ks_n_per_m>},
     {"kt_n_per_m", times_exp<&HalfCar::kt_n_per_m>},
     {"dynamic_index", dynamic_index_times_exp},
+    {found_imu_x, imu_x_plus},
 };
 
 /// Relative, per relative error of a parameter: 0.45 to 0.75 in simulations.
@@ -75,7 +81,7 @@ Unknowns of_car(const Vehicle& vehicle) {
     Unknowns unknowns;
     for (const auto& [name, move] : tuned_parameters) {
         const auto found = vehicle.uncertainty.find(std::string{name});
-        const bool has_it = vehicle.axles || name != "dynamic_index";
+        const bool has_it = vehicle.axles || (name != "dynamic_index" && name != found_imu_x);
         if (has_it && found != vehicle.uncertainty.end() && found->second > 0) {
             unknowns.push_back({move, found->second, relative_step});
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/smoother/joint_smoother.hpp"
+#include "estimator/smoother/vibration/resonance.hpp"
 
 #include <stop_token>
 
@@ -12,6 +13,7 @@ struct TunedCar {
     double friction_n = 0; ///< of each suspension
     double friction_sd_n = 0;
     double iri_sd = 0; ///< relative; remaining error common to every IRI of the car
+    Resonance mount{}; ///< of the sensor; removed from its vertical acceleration
 };
 
 /// Estimates the most probable parameters of a car from a stretch of road that it drove.

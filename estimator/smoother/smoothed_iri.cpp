@@ -165,13 +165,15 @@ Piece piece_at(const DriveRecord& passage,
 TunedCar car_in(const Stretch& stretch,
                 const Vehicle& vehicle,
                 const EstimatorConfig& config,
-                const std::stop_token& stop) {
-    auto passage = passage_of(stretch, vehicle, config);
+                const std::stop_token& stop,
+                const Resonance& mount) {
+    auto passage = passage_of(stretch, vehicle, config, mount);
     if (passage.travel_m.size() < min_tuning_samples || !is_felt(passage)) {
         return {.vehicle = vehicle,
                 .friction_n =
                     vehicle.half_car.friction_n.value_or(usual_friction_n(vehicle.half_car).mean),
-                .iri_sd = untuned_sd};
+                .iri_sd = untuned_sd,
+                .mount = mount};
     }
     const std::size_t count = std::min(passage.travel_m.size(), tuning_samples);
     const std::size_t from = (passage.travel_m.size() - count) / 2;
@@ -182,6 +184,7 @@ TunedCar car_in(const Stretch& stretch,
     auto piece = piece_of(passage, from, from + count);
     piece.cars = {car_steps(linear_car(tunable), stretch.step_s)};
     auto tuned = tuned_car(piece, tunable, {}, stop);
+    tuned.mount = mount;
     tuned.vehicle.imu.height_above_roll_axis_m = vehicle.imu.height_above_roll_axis_m;
     if (tunable.uncertainty.empty()) {
         tuned.iri_sd = std::hypot(tuned.iri_sd, untuned_iri_sd(vehicle, false));
@@ -195,7 +198,7 @@ IriRun smoothed_iri(const Stretch& stretch,
                     const PieceConfig& pieces,
                     const Progress& progress) {
     SmootherConfig smoother;
-    auto passage = passage_of(stretch, car.vehicle, config);
+    auto passage = passage_of(stretch, car.vehicle, config, car.mount);
     IriRun run = empty_run(stretch, config, smoother.cell_m);
     if (!is_felt(passage) || passage.travel_m.size() < 3) {
         return run;
@@ -214,6 +217,9 @@ IriRun smoothed_iri(const Stretch& stretch,
         const auto estimate = smooth_passages(
             {{piece_of(passage, piece.first, piece.last), vehicle, car.friction_n}}, smoother);
         append(estimate, piece.from, piece.to, run);
+        if (!vehicle.axles) {
+            run.scatter_mm_per_m.clear(); // it excludes what one axle misses
+        }
         if (config.profile) {
             append(estimate, piece.from, piece.to, run.profile);
         }

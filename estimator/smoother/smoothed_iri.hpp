@@ -15,7 +15,8 @@ namespace macadam {
 TunedCar car_in(const Stretch& stretch,
                 const Vehicle& vehicle,
                 const EstimatorConfig& config,
-                const std::stop_token& stop = {});
+                const std::stop_token& stop = {},
+                const Resonance& mount = {});
 
 /// Division of a stretch into pieces for smoothing.
 struct PieceConfig {

@@ -1,7 +1,7 @@
 #include "estimator/smoother/stretch_record.hpp"
 
 #include "estimator/smoother/adaptation/box_smoothing.hpp"
-#include "estimator/smoother/lowpass_inverse.hpp"
+#include "estimator/smoother/response_inverse.hpp"
 #include "estimator/smoother/wheel_order.hpp"
 
 #include <algorithm>
@@ -147,8 +147,10 @@ variances_of(const DriveRecord& passage, const Stretch& stretch, const ImuMount&
 
 } // namespace
 
-DriveRecord
-passage_of(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig& config) {
+DriveRecord passage_of(const Stretch& stretch,
+                       const Vehicle& vehicle,
+                       const EstimatorConfig& config,
+                       const Resonance& mount) {
     const SensorSet sensors = sensors_for(stretch, vehicle, config);
     const bool yaw = sensors.yaw && !stretch.yaw_radps.empty();
     DriveRecord passage;
@@ -174,6 +176,10 @@ passage_of(const Stretch& stretch, const Vehicle& vehicle, const EstimatorConfig
             felt = inverse_lowpass(
                 felt, stretch.step_s, vehicle.imu.lowpass_hz, vehicle.imu.lowpass_order);
         }
+    }
+    if (mount.hz > 0) {
+        vertical = without_response(
+            vertical, stretch.step_s, [&](double hz) { return response(mount, hz); });
     }
     add_pulls(passage, stretch, yaw);
     if (const auto turn_m = wheel_circumference_m(passage)) {

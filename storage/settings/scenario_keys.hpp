@@ -97,6 +97,8 @@ inline constexpr std::array imu_numbers{
     NumberKey<ImuRecipe>{"noise_mps2", positive_number, [](auto& r) -> double& { return r.noise_mps2; }},
     NumberKey<ImuRecipe>{"noise_radps", positive_number, [](auto& r) -> double& { return r.noise_radps; }},
     NumberKey<ImuRecipe>{"lowpass_hz", not_negative_number, [](auto& r) -> double& { return r.lowpass_hz; }},
+    NumberKey<ImuRecipe>{"mount_hz", not_negative_number, [](auto& r) -> double& { return r.mount_hz; }},
+    NumberKey<ImuRecipe>{"mount_damping", positive_number, [](auto& r) -> double& { return r.mount_damping; }},
     NumberKey<ImuRecipe>{"quantum_mps2", not_negative_number, [](auto& r) -> double& { return r.quantum_mps2; }},
     NumberKey<ImuRecipe>{"quantum_radps", not_negative_number, [](auto& r) -> double& { return r.quantum_radps; }},
     NumberKey<ImuRecipe>{"jitter_s", not_negative_number, [](auto& r) -> double& { return r.jitter_s; }},

@@ -1,5 +1,6 @@
 // What the sensor makes of a ride: noise, bias, tilt, quanta, stamps and its own filter.
 
+#include "estimator/common/error.hpp"
 #include "estimator/simulation/simulated_car.hpp"
 #include "linear_ride.hpp"
 
@@ -114,6 +115,22 @@ TEST(SimulatedSensor, PassesHalfThePowerAtItsCorner) {
                 << order;
         }
     }
+}
+
+/// At its resonance a holder moves 1 / (2 d) times as far as the car, a quarter of a turn later:
+/// sqrt(1 + 4 d^2) / (2 d) with the force of its damper.
+TEST(SimulatedSensor, ShakesOnItsHolder) {
+    ImuRecipe imu = perfect_imu(200);
+    const auto road = sine_road(300, 2, 0.001, 0.5);
+    const auto motion = steady_motion(20, 10); // 10 Hz
+    const auto firm = measured_response(simulate_imu(linear_car(), imu, road, motion, 1), 10, 4);
+    imu.mount_hz = 10;
+    imu.mount_damping = 0.1;
+    const auto held = measured_response(simulate_imu(linear_car(), imu, road, motion, 1), 10, 4);
+    EXPECT_NEAR(std::abs(held[2]) / std::abs(firm[2]), std::hypot(1, 0.2) / 0.2, 0.03);
+    EXPECT_NEAR(std::abs(held[4]) / std::abs(firm[4]), 1, 0.01); // the gyroscope is not shaken
+    imu.mount_damping = 0;
+    EXPECT_THROW(simulate_imu(linear_car(), imu, road, motion, 1), InputError);
 }
 
 } // namespace

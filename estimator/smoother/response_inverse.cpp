@@ -1,4 +1,4 @@
-#include "estimator/smoother/lowpass_inverse.hpp"
+#include "estimator/smoother/response_inverse.hpp"
 
 #include <unsupported/Eigen/FFT>
 
@@ -49,8 +49,9 @@ std::vector<double> padded(const std::vector<double>& values, std::size_t beside
 
 } // namespace
 
-std::vector<double>
-inverse_lowpass(const std::vector<double>& values, double step_s, double corner_hz, int order) {
+std::vector<double> without_response(const std::vector<double>& values,
+                                     double step_s,
+                                     const std::function<std::complex<double>(double)>& response) {
     if (values.size() < 3) {
         return values;
     }
@@ -63,7 +64,7 @@ inverse_lowpass(const std::vector<double>& values, double step_s, double corner_
     std::vector<std::complex<double>> waves;
     fourier.fwd(waves, signal);
     for (std::size_t i = 0; i < waves.size(); ++i) {
-        const auto passed = butterworth(static_cast<double>(i) * step_hz, corner_hz, order);
+        const auto passed = response(static_cast<double>(i) * step_hz);
         waves[i] *= std::min(1.0, max_raised * std::abs(passed)) / passed;
     }
     // The component at half the rate must remain real, so its phase is not shifted.
@@ -71,6 +72,12 @@ inverse_lowpass(const std::vector<double>& values, double step_s, double corner_
     fourier.inv(signal, waves, static_cast<Eigen::Index>(signal.size()));
     return {signal.begin() + static_cast<std::ptrdiff_t>(beside),
             signal.begin() + static_cast<std::ptrdiff_t>(beside + values.size())};
+}
+
+std::vector<double>
+inverse_lowpass(const std::vector<double>& values, double step_s, double corner_hz, int order) {
+    return without_response(
+        values, step_s, [=](double hz) { return butterworth(hz, corner_hz, order); });
 }
 
 } // namespace macadam

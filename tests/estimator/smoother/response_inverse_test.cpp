@@ -1,4 +1,4 @@
-#include "estimator/smoother/lowpass_inverse.hpp"
+#include "estimator/smoother/response_inverse.hpp"
 
 #include "estimator/smoother/smoothed_iri.hpp"
 #include "worlds.hpp"
