@@ -257,6 +257,10 @@ std::optional<std::vector<RoadEvent>> events_in(const IriTrace& roughness) {
     return events;
 }
 
+bool uses_vertical(const EstimatorConfig& config) {
+    return config.channels != Channels::lateral && (!config.sensors || config.sensors->vertical);
+}
+
 } // namespace
 
 double antenna_ahead_m(const TripMeta& meta, const Vehicle& vehicle) {
@@ -282,7 +286,9 @@ TripTrace trace_of(const TripLog& trip,
         const auto longest = std::ranges::max(found.spans, {}, samples_in);
         VibrationSpectra spectra;
         for (const auto& span : found.spans) {
-            add(spectra, stretch_of(span), vehicle.imu);
+            if (uses_vertical(estimator)) {
+                add(spectra, stretch_of(span), vehicle.imu);
+            }
         }
         const auto vibrating = car_from_vibration(spectra, vehicle);
         estimator.tracks = estimator.tracks && !vibrating.found_axles;
