@@ -106,14 +106,13 @@ constexpr std::array operands{Operand{
     .help = "Any files, folders or archives: logs, maps, profiles, surveys, databases, settings.",
     .many = true}};
 
-constexpr std::array options{
-    Option{"-o,--output",
-           "FILE.toml",
-           "Write the mapping of one CSV file of another program, or of two that "
-           "hold one trip, for --mapping; otherwise it is printed."},
-    mapping_option,
-    max_members_option,
-    Option{"--json", "", "One JSON array with an object per file."}};
+constexpr std::array options{Option{"-o,--output",
+                                    "FILE.toml",
+                                    "Write the mapping of a CSV file, or of two of one trip, for "
+                                    "--mapping; otherwise print it."},
+                             mapping_option,
+                             max_members_option,
+                             Option{"--json", "", "One JSON array with an object per file."}};
 
 } // namespace
 
@@ -122,8 +121,7 @@ const Command inspect_command{
     .summary = "Recognise files: what they are, what they hold and which command takes them",
     .about =
         "Recognises trip logs, phone exports, maps, profiles, surveys, databases and settings. For "
-        "a log "
-        "it prints\n"
+        "a log it prints\n"
         "duration, rates, gaps, quality of the positions, gravity, tilt and speeds, and what can "
         "be "
         "estimated from it.\n"

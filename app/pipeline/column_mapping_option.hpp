@@ -15,12 +15,12 @@ inline constexpr Option mapping_option = in_group(
      "NAME|FILE",
      "Column mapping for files of another logger: racechrono, trackaddict or a TOML file."});
 
-inline constexpr Option positions_option = in_group(
-    "car and log",
-    {"--positions",
-     "FILE",
-     "Positions of the log, recorded by a receiver: NMEA or GPX. Without it, FILE beside the log "
-     "with its name and .nmea or .gpx."});
+inline constexpr Option positions_option =
+    in_group("car and log",
+             {"--positions",
+              "FILE",
+              "Positions of the log as NMEA or GPX; otherwise a file of its name beside it, .nmea "
+              "or .gpx."});
 
 /// Returns the mapping of --mapping; null without it.
 ///
