@@ -199,14 +199,13 @@ void print_rows(const TripLog& trip,
 
 /// Rejects options that need the whole trip or another reader.
 void expect_live(const Arguments& arguments) {
-    for (const auto* const option :
-         {"--mapping",
-          "--positions",
-          "--profile",
-          "--events",
-          "--against",
-          "--output",
-          "--units"}) {
+    for (const auto* const option : {"--mapping",
+                                     "--positions",
+                                     "--profile",
+                                     "--events",
+                                     "--against",
+                                     "--output",
+                                     "--units"}) {
         if (arguments.value(option)) {
             throw UsageError{fmt::format("--live and {} cannot be combined", option)};
         }

@@ -13,10 +13,10 @@ using PutText = std::function<void(std::string_view)>;
 
 /// How text files are exported: .geojson, .geojsonl, .csv and .kml.
 struct TextExport {
-    UnitSystem units = UnitSystem::si; ///< of .geojson, .geojsonl and .csv
+    UnitSystem units = UnitSystem::si;   ///< of .geojson, .geojsonl and .csv
     std::optional<ExcelDialect> excel{}; ///< of .csv; `std::nullopt`: commas and points
-    PutText put{};                     ///< takes the text instead of the file, whose name then
-                                       ///< selects the format; empty: the file
+    PutText put{};                       ///< takes the text instead of the file, whose name then
+                                         ///< selects the format; empty: the file
 };
 
 } // namespace macadam

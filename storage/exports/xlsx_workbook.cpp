@@ -120,8 +120,8 @@ struct XlsxWorkbook::State {
             format = workbook_add_format(book);
             format_set_bg_color(format, rgb);
             if (ink_on(rgb) != 0) { // black is the default
-            format_set_font_color(format, ink_on(rgb));
-        }
+                format_set_font_color(format, ink_on(rgb));
+            }
         }
         return format;
     }
