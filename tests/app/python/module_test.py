@@ -151,7 +151,7 @@ class Iri(Values):
                 ({"step_m": 0.1, "length_m": 5, "continuous_m": 8},
                  "length_m and continuous_m cannot be combined"),
                 ({}, "profile is of arrays, expected either step_m or its 'station_m'"),
-                ({"step_m": 0.1, "unit": "ft"}, "unit is 'ft', expected mm/m or in/mi"),
+                ({"step_m": 0.1, "unit": "ft"}, "unit is 'ft', expected si or us or mm/m or in/mi"),
         ):
             with self.assertRaises(macadam.UsageError) as raised:
                 macadam.iri(np.zeros(100), **options)
