@@ -186,7 +186,7 @@ TEST(IriProgram, OfAnErdFileInFeetAndInchesIsThatOfTheSameRoadInMetres) {
     const auto folder = fresh_folder();
     write_file(folder / "a.erd", erd);
     write_file(folder / "a.csv", csv_of(road, step_m));
-    const auto of_erd = expect_done({(folder / "a.erd").string(), "--unit", "in/mi"});
+    const auto of_erd = expect_done({(folder / "a.erd").string(), "--units", "in/mi"});
     const auto of_csv = expect_done({(folder / "a.csv").string()});
     EXPECT_THAT(of_erd, StartsWith("from_m,to_m,iri_left,iri_right,mri,hri,lead_in\n0.000,"));
     for (const char* const name : {"iri_left", "iri_right", "mri", "hri"}) {
@@ -287,7 +287,7 @@ TEST(IriProgram, ListsThePlacesThatAreTooRough) {
     EXPECT_NEAR(2 * column(places, "peak")[0], column(places, "peak")[1], 2e-4); // as printed
     // The same threshold in inches a mile.
     const auto in_per_mi = expect_done(
-        {file, "--step", "0.05", "--continuous", "--threshold", "190.08", "--unit", "in/mi"});
+        {file, "--step", "0.05", "--continuous", "--threshold", "190.08", "--units", "in/mi"});
     EXPECT_EQ(column(in_per_mi, "from_m"), column(places, "from_m"));
     EXPECT_THAT(
         expect_done({file, "--step", "0.05", "--continuous", "--threshold", "500", "--json"}),
