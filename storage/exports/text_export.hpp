@@ -11,7 +11,7 @@ namespace macadam {
 
 using PutText = std::function<void(std::string_view)>;
 
-/// How text files are exported: .geojson, .geojsonl, .csv and .kml.
+/// Options of exported text files: .geojson, .geojsonl, .csv and .kml.
 struct TextExport {
     UnitSystem units = UnitSystem::si;   ///< of .geojson, .geojsonl and .csv
     std::optional<ExcelDialect> excel{}; ///< of .csv; `std::nullopt`: commas and points

@@ -10,7 +10,7 @@ namespace macadam {
 /// wheelbase. Vehicle files do not have it.
 inline constexpr const char* found_imu_x = "imu_x_over_wheelbase";
 
-/// What a trip's spectra say about its car and the sensor's mount.
+/// Properties of a car and of its sensor's mount, found from the spectra of a trip.
 struct VibratingCar {
     Vehicle vehicle; ///< with axles, if they were found, and its wheel hop
     Resonance mount; ///< hz is 0 if none was found
