@@ -3,7 +3,7 @@
 #include "estimator/common/ascii.hpp"
 #include "storage/files/decompress.hpp"
 #include "storage/text/text.hpp"
-#include "storage/trips/foreign/dbc.hpp"
+#include "storage/trips/mappings/dbc.hpp"
 #include "storage/trips/signals/mdf_reader.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/files/archive.hpp"
 #include "storage/files/decompress.hpp"
-#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 #include "storage/trips/paired_positions.hpp"
 #include "storage/trips/source/trip_contents.hpp"
 #include "storage/trips/trip_file_names.hpp"

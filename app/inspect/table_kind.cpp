@@ -7,7 +7,7 @@
 #include "storage/surveys/truth_file.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/tables/toml.hpp"
-#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 
 #include <fmt/format.h>
 

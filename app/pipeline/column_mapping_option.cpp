@@ -1,6 +1,6 @@
 #include "app/pipeline/column_mapping_option.hpp"
 
-#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 
 #include <fmt/format.h>
 

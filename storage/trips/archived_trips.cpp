@@ -3,7 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/detection/detected_mapping.hpp"
-#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 #include "storage/trips/source/phone_export_files.hpp"
 #include "storage/trips/source/trip_contents.hpp"
 #include "storage/trips/trip_file_names.hpp"

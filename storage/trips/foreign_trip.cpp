@@ -2,12 +2,12 @@
 
 #include "estimator/common/error.hpp"
 #include "storage/files/sha256.hpp"
-#include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/foreign/phone_export.hpp"
 #include "storage/trips/foreign/table_reader.hpp"
 #include "storage/trips/foreign/text_decoding.hpp"
 #include "storage/trips/foreign/trip_files.hpp"
 #include "storage/trips/log/trip_assembly.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 #include "storage/trips/signals/can_reader.hpp"
 #include "storage/trips/signals/hdf5_reader.hpp"
 #include "storage/trips/signals/mdf_reader.hpp"

@@ -2,7 +2,7 @@
 
 #include "estimator/common/ascii.hpp"
 #include "storage/tables/csv_cells.hpp"
-#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 #include "storage/trips/rawlog/rawlog_reader.hpp"
 #include "storage/trips/source/phone_export_files.hpp"
 

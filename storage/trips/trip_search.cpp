@@ -4,7 +4,7 @@
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/archived_trips.hpp"
 #include "storage/trips/detection/detected_mapping.hpp"
-#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 #include "storage/trips/paired_positions.hpp"
 #include "storage/trips/positions/position_files.hpp"
 #include "storage/trips/source/trip_contents.hpp"

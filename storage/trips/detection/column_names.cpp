@@ -1,6 +1,6 @@
 #include "storage/trips/detection/column_names.hpp"
 
-#include "storage/trips/foreign/unit_names.hpp"
+#include "storage/trips/mappings/unit_names.hpp"
 
 #include <algorithm>
 #include <cctype>

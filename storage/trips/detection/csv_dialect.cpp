@@ -2,7 +2,7 @@
 
 #include "storage/tables/csv_cells.hpp"
 #include "storage/text/text.hpp"
-#include "storage/trips/foreign/unit_names.hpp"
+#include "storage/trips/mappings/unit_names.hpp"
 
 #include <algorithm>
 #include <cctype>

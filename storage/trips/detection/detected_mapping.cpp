@@ -2,8 +2,8 @@
 
 #include "estimator/common/utf8.hpp"
 #include "storage/tables/csv_cells.hpp"
-#include "storage/trips/foreign/built_in_mappings.hpp"
-#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/mappings/built_in_mappings.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "storage/trips/detection/inertial_detection.hpp"
 
 #include "estimator/common/gravity.hpp"
-#include "storage/trips/foreign/unit_names.hpp"
+#include "storage/trips/mappings/unit_names.hpp"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 #include "storage/tables/csv_cells.hpp"
 #include "storage/trips/detection/inertial_detection.hpp"
 #include "storage/trips/detection/position_detection.hpp"
-#include "storage/trips/foreign/built_in_mappings.hpp"
-#include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/log/trip_row.hpp"
+#include "storage/trips/mappings/built_in_mappings.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 
 #include <fmt/format.h>
 

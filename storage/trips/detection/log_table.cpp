@@ -3,7 +3,7 @@
 #include "estimator/common/statistics.hpp"
 #include "storage/tables/csv_cells.hpp"
 #include "storage/text/text.hpp"
-#include "storage/trips/foreign/unit_names.hpp"
+#include "storage/trips/mappings/unit_names.hpp"
 
 #include <algorithm>
 #include <cmath>

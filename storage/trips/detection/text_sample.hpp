@@ -1,7 +1,7 @@
 #pragma once
 
 #include "storage/files/byte_stream.hpp"
-#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 
 #include <memory>
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "storage/text/text.hpp"
 #include "storage/trips/foreign/time_parsing.hpp"
-#include "storage/trips/foreign/unit_names.hpp"
+#include "storage/trips/mappings/unit_names.hpp"
 
 #include <fmt/format.h>
 

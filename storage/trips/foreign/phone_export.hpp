@@ -1,6 +1,6 @@
 #pragma once
 
-#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 #include "storage/trips/source/trip_source.hpp"
 
 #include <string>

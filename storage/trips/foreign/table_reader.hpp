@@ -1,8 +1,8 @@
 #pragma once
 
 #include "storage/tables/text_lines.hpp"
-#include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/log/trip_row.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 
 #include <optional>
 #include <string>

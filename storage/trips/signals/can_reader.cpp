@@ -1,7 +1,7 @@
 #include "storage/trips/signals/can_reader.hpp"
 
 #include "estimator/common/error.hpp"
-#include "storage/trips/foreign/dbc.hpp"
+#include "storage/trips/mappings/dbc.hpp"
 #include "storage/trips/signals/can_frames.hpp"
 
 #include <fmt/core.h>

@@ -3,7 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/text/text.hpp"
 #include "storage/trips/foreign/axes.hpp"
-#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/mappings/column_units.hpp"
 
 #include <fmt/core.h>
 

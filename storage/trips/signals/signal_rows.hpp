@@ -1,7 +1,7 @@
 #pragma once
 
-#include "storage/trips/foreign/column_mapping.hpp"
 #include "storage/trips/log/trip_row.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 
 #include <array>
 #include <cstdint>

@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-struct TripMapping;  // storage/trips/foreign/column_mapping.hpp
+struct TripMapping;  // storage/trips/mappings/column_mapping.hpp
 struct TripContents; // storage/trips/source/trip_contents.hpp
 
 /// Measurement that a command requires.

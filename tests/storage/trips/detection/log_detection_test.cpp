@@ -1,7 +1,7 @@
 // Logs in the styles of several makers, written here from one drive.
 
 #include "storage/trips/detection/detected_mapping.hpp"
-#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "storage/trips/trip_search.hpp"
 

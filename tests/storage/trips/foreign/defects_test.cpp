@@ -1,8 +1,8 @@
 // What real logs do wrong, one sentence each; the files are in tests/data/defects. Those that only
 // show when a car drives are in tests/app/pipeline/defects_on_the_road_test.cpp.
 
-#include "storage/trips/foreign/column_mapping_file.hpp"
 #include "storage/trips/foreign/time_parsing.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 
 #include "estimator/common/error.hpp"

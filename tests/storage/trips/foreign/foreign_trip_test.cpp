@@ -1,4 +1,4 @@
-#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 
 #include "estimator/common/error.hpp"

@@ -1,7 +1,7 @@
 #include "storage/trips/signals/can_reader.hpp"
 
-#include "storage/trips/foreign/column_mapping_file.hpp"
-#include "storage/trips/foreign/dbc.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
+#include "storage/trips/mappings/dbc.hpp"
 #include "storage/trips/signals/can_frames.hpp"
 #include "storage/trips/source/trip_contents.hpp"
 #include "storage/trips/trip_reader.hpp"

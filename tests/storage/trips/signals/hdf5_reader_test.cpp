@@ -1,6 +1,6 @@
 #include "storage/trips/signals/hdf5_reader.hpp"
 
-#include "storage/trips/foreign/column_mapping_file.hpp"
+#include "storage/trips/mappings/column_mapping_file.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/files.hpp"
 #include "support/roads/walked_trips.hpp"

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "storage/trips/foreign/column_mapping.hpp"
+#include "storage/trips/mappings/column_mapping.hpp"
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,10 +18,6 @@ TripMapping read_mapping(const std::string& name_or_file);
 ///
 /// \throws InputError  as read_mapping does.
 TripMapping parse_mapping(std::string_view toml, const std::string& name);
-
-/// Factor from a unit, by any of its names ("km/h", "kph"), to that of a channel; `std::nullopt` if
-/// it is none of this channel.
-std::optional<double> unit_factor(TripColumn channel, std::string_view unit);
 
 /// Names of the built-in mappings: "racechrono" and the like.
 std::vector<std::string_view> built_in_mapping_names();

@@ -1,4 +1,4 @@
-#include "storage/trips/foreign/unit_names.hpp"
+#include "storage/trips/mappings/unit_names.hpp"
 
 #include "storage/text/text.hpp"
 

@@ -1,4 +1,4 @@
-#include "storage/trips/foreign/built_in_mappings.hpp"
+#include "storage/trips/mappings/built_in_mappings.hpp"
 
 namespace macadam {
 

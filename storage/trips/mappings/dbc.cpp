@@ -1,4 +1,4 @@
-#include "storage/trips/foreign/dbc.hpp"
+#include "storage/trips/mappings/dbc.hpp"
 
 #include "estimator/common/error.hpp"
 #include "storage/files/decompress.hpp"

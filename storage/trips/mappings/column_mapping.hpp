@@ -1,8 +1,8 @@
 #pragma once
 
 #include "estimator/common/trip.hpp"
-#include "storage/trips/foreign/dbc.hpp"
 #include "storage/trips/log/trip_row.hpp"
+#include "storage/trips/mappings/dbc.hpp"
 
 #include <array>
 #include <cstddef>
