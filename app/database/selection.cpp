@@ -61,6 +61,14 @@ bool selects_segments(const SegmentFilter& filter) {
            !filter.highway.empty() || !filter.class_name.empty();
 }
 
+void expect_whole_sections(const SegmentFilter& filter) {
+    if (selects_segments(filter)) {
+        throw UsageError{"--sections can be combined with --since, --until, --min-passes, "
+                         "--min-cars and --vehicle-id only, not with options that select "
+                         "segments"};
+    }
+}
+
 bool selects(const SegmentFilter& filter) {
     return selects_segments(filter) || filter.min_passes > 0 || filter.min_vehicles > 0 ||
            !filter.vehicle.empty() || filter.period;
@@ -73,13 +81,16 @@ std::string text_of_filter(const Arguments& arguments, std::string_view but) {
         if (!value || option.name == but) {
             continue;
         }
-        const bool is_plain = value->find_first_of(" \"'") == std::string::npos;
+        const auto shown = option.name == "--area" // no folder of the user in what is handed on
+                               ? std::filesystem::path{*value}.filename().string()
+                               : *value;
+        const bool is_plain = shown.find_first_of(" \"'") == std::string::npos;
         text += fmt::format("{}{} {}",
                             text.empty() ? "" : " ",
                             option.name,
                             option.name == "--vehicle-id" ? "..."
-                            : is_plain                    ? *value
-                                                          : fmt::format("\"{}\"", *value));
+                            : is_plain                    ? shown
+                                                          : fmt::format("\"{}\"", shown));
     }
     return text;
 }

@@ -51,6 +51,11 @@ void complete_filter(SegmentFilter& filter, const StoreReader& store);
 /// segments only, not to sections of roads.
 bool selects_segments(const SegmentFilter& filter);
 
+/// Refuses options that select segments beside --sections, which are reported whole.
+///
+/// \throws UsageError  if there is one.
+void expect_whole_sections(const SegmentFilter& filter);
+
 /// Tests for any condition.
 bool selects(const SegmentFilter& filter);
 

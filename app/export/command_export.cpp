@@ -55,13 +55,20 @@ std::string name_of_output(const ExportOptions& options) {
     return options.text.put ? "standard output" : options.output.string();
 }
 
+/// Returns how the output was asked for: "-o is 'a.kml'".
+std::string output_option(const ExportOptions& options) {
+    return options.text.put
+               ? fmt::format("--format is '{}'", options.output.extension().string().substr(1))
+               : fmt::format("-o is '{}'", options.output.string());
+}
+
 /// Rejects what has no points.
 void expect_events_alone(const ExportOptions& options) {
     const auto suffixes = event_export_suffixes();
     const auto suffix = options.output.extension().string();
     if (std::ranges::find(suffixes, suffix) == suffixes.end() || is_tile_folder(options.output)) {
-        throw UsageError{fmt::format("-o is '{}', expected a name that ends in {} with --events",
-                                     options.output.string(),
+        throw UsageError{fmt::format("{}, expected a name that ends in {} with --events",
+                                     output_option(options),
                                      fmt::join(suffixes, ", "))};
     }
     if (options.sections || !options.filter.with_state_only) {
@@ -71,16 +78,15 @@ void expect_events_alone(const ExportOptions& options) {
 
 /// Rejects other filters and formats: sections are reported completely and as text.
 void expect_sections_alone(const ExportOptions& options) {
-    if (selects_segments(options.filter) || !options.filter.with_state_only) {
-        throw UsageError{"--sections can be combined with --since, --until, --min-passes, "
-                         "--min-cars and --vehicle-id only, not with options that select "
-                         "segments"};
+    expect_whole_sections(options.filter);
+    if (!options.filter.with_state_only) {
+        throw UsageError{"--sections and --all cannot be combined"};
     }
     if (const auto suffix = options.output.extension();
         suffix != ".csv" && suffix != ".geojson" && suffix != workbook_suffix) {
-        throw UsageError{fmt::format("-o is '{}', expected a name that ends in .csv, .geojson or "
+        throw UsageError{fmt::format("{}, expected a name that ends in .csv, .geojson or "
                                      ".xlsx with --sections",
-                                     options.output.string())};
+                                     output_option(options))};
     }
 }
 
@@ -111,8 +117,8 @@ void expect_fitting(const ExportOptions& options, const Arguments& arguments) {
     const bool has_units = is_workbook(options) || (is_text_suffix(suffix) && suffix != ".kml");
     if (options.text.units != UnitSystem::si && !has_units) {
         throw UsageError{fmt::format("--units us is for .csv, .geojson, .geojsonl and .xlsx, whose "
-                                     "columns then say the unit; -o is '{}'",
-                                     options.output.string())};
+                                     "columns then say the unit; {}",
+                                     output_option(options))};
     }
     if (arguments.value("--format") && !options.text.put) {
         throw UsageError{"--format is for -o -; the name of a file tells its format"};

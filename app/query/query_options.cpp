@@ -100,6 +100,21 @@ void expect_sense(const QueryOptions& options) {
         throw UsageError{"--passes lists all passes and cannot be combined with --since or "
                          "--until"};
     }
+    if (options.passes) {
+        auto others = options.filter;
+        others.key.reset();
+        if (selects(others) || options.near) {
+            throw UsageError{"--passes requires --segment KEY and no other selection"};
+        }
+    }
+    if (options.changes) {
+        auto others = options.filter;
+        others.key.reset();
+        others.period.reset(); // refused below
+        if (options.filter.key && (selects(others) || options.near)) {
+            throw UsageError{"--changes requires --segment KEY and no other selection"};
+        }
+    }
     if (options.changes && (!options.filter.key || options.passes || options.history ||
                             options.filter.period || options.format == "geojson")) {
         throw UsageError{"--changes requires --segment KEY and no other selection, as table, "

@@ -49,7 +49,7 @@ MapStyle parse_style(const Arguments& arguments, const Console& console) {
 /// Parses --compare-since. The map of changes has classes and colours of its own.
 std::optional<std::int64_t> parse_change(const Arguments& arguments) {
     const auto since_ms = parse_begin(arguments, "--compare-since");
-    for (const auto* const option : {"--classes", "--ramp", "--grey-below"}) {
+    for (const auto* const option : {"--classes", "--ramp", "--grey-below", "--class"}) {
         if (since_ms && arguments.is_given(option)) {
             throw UsageError{fmt::format("--compare-since and {} cannot be combined", option)};
         }

@@ -104,14 +104,23 @@ ReportOptions parse_report(const Arguments& arguments, const Console& console) {
     const auto store = store_file(arguments);
     const auto look = parse_look(arguments, store, console);
     const auto wording = wording_of(look);
+    auto sections = parse_sections(arguments, false);
+    auto filter = parse_filter(arguments);
+    if (sections) {
+        expect_whole_sections(filter);
+    }
+    const auto since_ms = parse_begin(arguments, "--compare-since");
+    if (since_ms && arguments.is_given("--class")) { // the class may be what changed
+        throw UsageError{"--compare-since and --class cannot be combined"};
+    }
     return {.store = store,
             .output = *output,
             .report = {.title = arguments.value("--title").value_or(wording("title")),
                        .worst = parse_worst(arguments),
-                       .sections = parse_sections(arguments, false),
-                       .filter = parse_filter(arguments),
+                       .sections = std::move(sections),
+                       .filter = std::move(filter),
                        .selection = text_of_filter(arguments),
-                       .since_ms = parse_begin(arguments, "--compare-since"),
+                       .since_ms = since_ms,
                        .wording = wording,
                        .pictures = ending == ".pdf" ? PictureUse::paper : PictureUse::screen,
                        .style = parse_style(arguments, look.look)},
@@ -120,8 +129,16 @@ ReportOptions parse_report(const Arguments& arguments, const Console& console) {
 
 /// Rejects options that the reference report does not support.
 void refuse_beside_references(const Arguments& arguments) {
-    std::vector<std::string_view> refused{
-        "--worst", "--sections", "--classes", "--compare-since", "--style", "--grey-below"};
+    std::vector<std::string_view> refused{"--worst",
+                                          "--sections",
+                                          "--section-length",
+                                          "--homogeneous",
+                                          "--exclude",
+                                          "--exclude-radius",
+                                          "--classes",
+                                          "--compare-since",
+                                          "--style",
+                                          "--grey-below"};
     std::ranges::transform(selection_options, std::back_inserter(refused), &Option::name);
     for (const auto option : refused) {
         if (arguments.is_given(option)) {

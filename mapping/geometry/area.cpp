@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t sides_per_band = 4;
 constexpr std::size_t max_bands = 4096;
+constexpr double max_entries_per_side = 8; // in all bands together, in the mean
 
 /// Twice the signed area of a triangle, above 0 if it turns left.
 double turn(const GeoPoint& a, const GeoPoint& b, const GeoPoint& c) {
@@ -21,6 +22,21 @@ double turn(const GeoPoint& a, const GeoPoint& b, const GeoPoint& c) {
 /// points.
 bool cross(const GeoPoint& a, const GeoPoint& b, const GeoPoint& c, const GeoPoint& d) {
     return (turn(a, b, c) > 0) != (turn(a, b, d) > 0) && (turn(c, d, a) > 0) != (turn(c, d, b) > 0);
+}
+
+/// Number of bands, in which long sides stand often: some 8 entries a side at most.
+template <typename Sides>
+std::size_t band_count(const Sides& sides, double height_deg) {
+    double spans_deg = 0;
+    for (const auto& side : sides) {
+        spans_deg += std::abs(side.a.lat_deg - side.b.lat_deg);
+    }
+    const auto usual = std::clamp<std::size_t>(sides.size() / sides_per_band, 1, max_bands);
+    const double crossed = height_deg > 0 ? spans_deg / height_deg : 0; // sides in a band
+    const double most = crossed > 0
+                            ? max_entries_per_side * static_cast<double>(sides.size()) / crossed
+                            : static_cast<double>(usual);
+    return std::max<std::size_t>(1, std::min(usual, static_cast<std::size_t>(std::min(most, 1e6))));
 }
 
 } // namespace
@@ -35,7 +51,7 @@ Area::Area(const std::vector<Polygon>& polygons) {
             }
         }
     }
-    bands_.resize(std::clamp<std::size_t>(sides.size() / sides_per_band, 1, max_bands));
+    bands_.resize(band_count(sides, box_.north_deg - box_.south_deg));
     for (const auto& side : sides) {
         const auto [low, high] = std::minmax(side.a.lat_deg, side.b.lat_deg);
         for (auto band = band_of(low); band <= band_of(high); ++band) {

@@ -87,10 +87,10 @@ std::size_t export_as(std::string_view suffix, const SegmentExport& what, const 
     const auto written = write_as(
         suffix, what, in_dialect([&](std::string_view more) { out.write(more); }, suffix, text));
     what.store.expect_in_place();
+    out.commit();
     if (suffix == ".geojson" && text.units == UnitSystem::si) { // a style names the fields
         write_style_files(what.file, what.file.parent_path(), what.classes);
     }
-    out.commit();
     return written;
 }
 

@@ -3,12 +3,17 @@
 #include "estimator/common/error.hpp"
 #include "storage/atomic/atomic_file_set.hpp"
 
+#include <archive.h>
+#include <archive_entry.h>
 #include <fmt/format.h>
 #include <xlsxwriter.h>
 
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 
 namespace macadam {
@@ -77,6 +82,53 @@ std::uint32_t ink_on(std::uint32_t rgb) {
     return luma > 128 ? 0x000000 : 0xffffff;
 }
 
+/// Counts the rows of a sheet in a workbook, which is open at that sheet; `std::nullopt` if it does
+/// not end as a sheet does.
+std::optional<std::size_t> row_count(archive* workbook) {
+    constexpr std::string_view row_end = "</row>";
+    constexpr std::string_view sheet_end = "</worksheet>";
+    std::string text;
+    std::size_t count = 0;
+    const void* block = nullptr;
+    std::size_t size = 0;
+    la_int64_t offset = 0;
+    int status = ARCHIVE_OK;
+    while ((status = archive_read_data_block(workbook, &block, &size, &offset)) == ARCHIVE_OK) {
+        text.append(static_cast<const char*>(block), size);
+        std::size_t from = 0;
+        for (auto at = text.find(row_end); at != std::string::npos; at = text.find(row_end, from)) {
+            ++count;
+            from = at + row_end.size();
+        }
+        text.erase(0, std::max(from, text.size() - std::min(text.size(), sheet_end.size())));
+    }
+    return status == ARCHIVE_EOF && text.ends_with(sheet_end) ? std::optional{count} : std::nullopt;
+}
+
+/// Tests whether a workbook has all rows of its sheets: libxlsxwriter does not report that a disk
+/// was full when it wrote its temporary files.
+bool is_whole(const std::string& file, std::span<const std::size_t> rows) {
+    const std::unique_ptr<archive, int (*)(archive*)> workbook{archive_read_new(),
+                                                               &archive_read_free};
+    archive_read_support_format_zip(workbook.get());
+    constexpr std::size_t block_bytes = 1 << 16;
+    if (archive_read_open_filename(workbook.get(), file.c_str(), block_bytes) != ARCHIVE_OK) {
+        return false;
+    }
+    std::size_t whole = 0;
+    archive_entry* entry = nullptr;
+    while (archive_read_next_header(workbook.get(), &entry) == ARCHIVE_OK) {
+        const std::string name = archive_entry_pathname(entry);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (name == fmt::format("xl/worksheets/sheet{}.xml", i + 1) &&
+                row_count(workbook.get()) == rows[i]) {
+                ++whole;
+            }
+        }
+    }
+    return whole == rows.size();
+}
+
 } // namespace
 
 struct XlsxWorkbook::State {
@@ -90,6 +142,7 @@ struct XlsxWorkbook::State {
     std::vector<XlsxColumn> columns{};
     std::vector<lxw_format*> formats{};
     std::size_t rows = 0;
+    std::vector<std::size_t> rows_of_sheets{}; ///< with the header
     std::map<std::string, lxw_format*> formats_by_text{};
     std::map<std::uint32_t, lxw_format*> fills{};
 
@@ -128,6 +181,7 @@ struct XlsxWorkbook::State {
 
     void finish_sheet() {
         if (sheet != nullptr) {
+            rows_of_sheets.push_back(rows + 1);
             expect(worksheet_autofilter(sheet,
                                         0,
                                         0,
@@ -228,6 +282,10 @@ void XlsxWorkbook::add_row(const std::vector<Cell>& cells, const std::optional<F
 void XlsxWorkbook::commit() {
     state_->finish_sheet();
     state_->expect(workbook_close(std::exchange(state_->book, nullptr)));
+    if (!is_whole(state_->target, state_->rows_of_sheets)) {
+        throw InputError{
+            fmt::format("{}: cannot be written; the disk may be full", state_->file.string())};
+    }
     state_->files.commit();
 }
 

@@ -53,8 +53,9 @@ bool is_numeric(std::string_view text) {
 } // namespace
 
 ExcelDialect excel_dialect(std::string_view locale) {
-    const auto place = locale.substr(0, locale.find_first_of(".@"));
-    const auto language = place.substr(0, place.find_first_of("_-"));
+    std::string place{locale.substr(0, locale.find_first_of(".@"))};
+    std::ranges::replace(place, '-', '_'); // "de-CH" of the web is "de_CH"
+    const auto language = place.substr(0, place.find('_'));
     if (has(points_and_semicolons, place)) {
         return {';', '.'};
     }

@@ -33,6 +33,8 @@ inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEB
 inside apt-get -q update
 # shellcheck disable=SC2016
 inside bash -c '/source/run packages build | xargs apt-get -q -y install --no-install-recommends'
+# Both are drawn with, whichever of them an earlier run has left.
+inside apt-get -q -y install --no-install-recommends libosmesa6 libegl1 libgl1-mesa-dri
 inside cmake -S /source -B /build -G Ninja -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG=-O1 -D MACADAM_UNITY=ON -D BUILD_TESTING=OFF
 inside nice cmake --build /build --target macadam -j "$jobs"
 

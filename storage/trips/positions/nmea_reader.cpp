@@ -137,7 +137,11 @@ public:
         if (digits.empty()) {
             return std::nullopt;
         }
-        const auto date = static_cast<int>(std::clamp(number(i), -1.0, 1e6));
+        const double stated = number(i);
+        if (std::isnan(stated)) {
+            return std::nullopt; // noted as bad
+        }
+        const auto date = static_cast<int>(std::clamp(stated, -1.0, 1e6));
         const chr::year_month_day day{chr::year{2000 + date % 100},
                                       chr::month{static_cast<unsigned>(date / 100 % 100)},
                                       chr::day{static_cast<unsigned>(date / 10000)}};
@@ -182,10 +186,14 @@ void take_gga(FieldReader& read, Epoch& epoch) {
     epoch.hdop = read.number(8);
 }
 
+/// Takes what the RMC of the fix did not state: of a receiver that sends VTG first, the last one is
+/// that of the next fix.
 void take_vtg(FieldReader& read, Epoch& epoch) {
-    keep_known(epoch.course_deg, read.number(1));
+    const double course_deg = read.number(1);
     const double kmh = read.number(7);
-    keep_known(epoch.speed_mps, std::isnan(kmh) ? read.number(5) * knot_mps : kmh / 3.6);
+    const double speed_mps = std::isnan(kmh) ? read.number(5) * knot_mps : kmh / 3.6;
+    epoch.course_deg = std::isnan(epoch.course_deg) ? course_deg : epoch.course_deg;
+    epoch.speed_mps = std::isnan(epoch.speed_mps) ? speed_mps : epoch.speed_mps;
 }
 
 /// Collects the fixes of a recording.
@@ -229,7 +237,9 @@ private:
 
     void take_timed(FieldReader& read, Take taking) {
         const double time_s = read.day_time_s(1);
-        if (std::isnan(time_s)) {
+        if (read.is_bad()) {
+            lines.push_back({-1, RowReason::bad_number});
+        } else if (std::isnan(time_s)) {
             lines.push_back({-1, RowReason::no_time});
         } else if (!epochs.empty() && epochs.back().day_time_s == time_s) {
             take(read, taking, epochs.back(), {-1, RowReason::merged});

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <hdf5.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,6 +23,7 @@ namespace macadam {
 namespace {
 
 constexpr rlim_t max_cpu_s = 20;
+constexpr int max_wait_ms = 30'000; // for more of the numbers; the process may be stuck
 constexpr std::size_t longest_words = 4096;
 
 /// Handle of the library, closed at its end.
@@ -145,6 +147,10 @@ bool send(int to, const void* from, std::size_t size) {
 bool receive(int from, void* into, std::size_t size) {
     auto* at = static_cast<char*>(into);
     while (size > 0) {
+        pollfd ready{.fd = from, .events = POLLIN, .revents = 0};
+        if (::poll(&ready, 1, max_wait_ms) == 0) {
+            return false;
+        }
         const auto count = ::read(from, at, size);
         if (count == 0 || (count < 0 && errno != EINTR)) {
             return false;
@@ -185,6 +191,7 @@ void run_child(std::string_view bytes,
         for (const auto& dataset : datasets) {
             name = fmt::format("dataset '{}': ", dataset);
             const auto numbers = numbers_of(file, dataset, most);
+            most -= numbers.values.size() * sizeof(double);
             const Message message{.rows = numbers.rows, .columns = numbers.columns};
             send(to, &message, sizeof message);
             send(to, numbers.values.data(), numbers.values.size() * sizeof(double));
@@ -265,6 +272,8 @@ extern "C" void macadam_hdf5_read(std::string_view bytes,
     ::close(ends[1]);
     const macadam::Child child{process, ends[0]};
     for (const auto& dataset : datasets) {
-        take(macadam::received(child.from, dataset, most));
+        auto numbers = macadam::received(child.from, dataset, most);
+        most -= numbers.values.size() * sizeof(double);
+        take(std::move(numbers));
     }
 }

@@ -27,7 +27,7 @@ struct Hdf5Dataset {
 /// ends that process (a crash, 20 s of computing) is a refusal.
 ///
 /// \param bytes  the whole file
-/// \param most  bytes that the numbers of a dataset may take
+/// \param most  bytes that the numbers of all datasets together may take
 /// \throws InputError  "dataset ...: ..." (without the name of the file)
 using Hdf5Read = void(std::string_view bytes,
                       std::span<const std::string> datasets,

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t header_size = 24;
 constexpr std::size_t max_chain = 1'000'000;
-constexpr std::size_t max_text = 1 << 16;
+constexpr std::size_t max_text = 1 << 10;
 
 template <typename Number>
 Number number_at(std::string_view bytes, std::size_t offset) {
@@ -99,14 +99,22 @@ MdfBlock MdfBlocks::block(std::uint64_t at, std::string_view ids) const {
 
 std::vector<MdfBlock> MdfBlocks::chain(std::uint64_t first, std::string_view id) const {
     std::vector<MdfBlock> blocks;
-    std::set<std::uint64_t> seen;
     for (auto at = first; at != 0; at = blocks.back().link(0)) {
-        if (!seen.insert(at).second || blocks.size() >= max_chain) {
-            refuse(at, fmt::format("the list of blocks ##{} goes in a circle", id));
+        if (blocks.size() >= max_chain) {
+            refuse(at, fmt::format("the list of blocks ##{} is longer than {}", id, max_chain));
         }
+        take_once(at);
         blocks.push_back(block(at, id));
     }
     return blocks;
+}
+
+/// Refuses a block that was taken before: lists in a circle, or one that many share, would make a
+/// small file endless.
+void MdfBlocks::take_once(std::uint64_t at) const {
+    if (!taken_.insert(at).second) {
+        refuse(at, "a block is listed twice, or its list goes in a circle");
+    }
 }
 
 std::string MdfBlocks::text(std::uint64_t at) const {
@@ -132,8 +140,10 @@ void MdfBlocks::each_data(std::uint64_t at,
     }
     const auto first = block(at, "DTDZDLHL");
     if (first.id == "DT") {
+        take_once(at);
         take(first.data);
     } else if (first.id == "DZ") {
+        take_once(at);
         take(unzipped(first));
     } else if (first.id == "HL") {
         if (first.link(0) != 0) {
@@ -144,7 +154,12 @@ void MdfBlocks::each_data(std::uint64_t at,
             for (std::size_t i = 1; i < list.link_count(); ++i) {
                 if (list.link(i) != 0) {
                     const auto part = block(list.link(i), "DTDZ");
-                    take(part.id == "DT" ? std::string{part.data} : unzipped(part));
+                    take_once(part.at);
+                    if (part.id == "DT") {
+                        take(part.data);
+                    } else {
+                        take(unzipped(part));
+                    }
                 }
             }
         }

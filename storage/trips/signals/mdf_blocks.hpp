@@ -40,7 +40,8 @@ public:
 
     MdfBlock head() const { return block(64, "HD"); }
 
-    /// Blocks of a list, by the first of their links.
+    /// Blocks of a list, by the first of their links. Each block belongs to one list, which is read
+    /// once.
     std::vector<MdfBlock> chain(std::uint64_t first, std::string_view id) const;
 
     /// Text of a TX block, or of the element TX of an MD block; "" for link 0.
@@ -57,7 +58,10 @@ private:
 
     std::string_view bytes_;
     std::string name_;
+    void take_once(std::uint64_t at) const;
+
     mutable std::uint64_t unzipped_bytes_ = 0;
+    mutable std::set<std::uint64_t> taken_; ///< blocks of lists, and data
 };
 
 } // namespace macadam

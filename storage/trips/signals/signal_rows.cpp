@@ -3,6 +3,7 @@
 #include "estimator/common/error.hpp"
 #include "storage/text/text.hpp"
 #include "storage/trips/foreign/axes.hpp"
+#include "storage/trips/log/longest_increasing_subsequence.hpp"
 #include "storage/trips/mappings/column_units.hpp"
 
 #include <fmt/core.h>
@@ -33,6 +34,21 @@ std::size_t index(TripColumn column) {
 
 bool is_of_fix(TripColumn column) {
     return std::ranges::find(fix, column) != fix.end();
+}
+
+/// Drops the samples whose times go back, whichever of them are wrong.
+template <typename Series>
+void keep_increasing(Series& series) {
+    const auto kept = longest_increasing_subsequence(series.t_s);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (kept[i] != 0) {
+            series.t_s[count] = series.t_s[i];
+            series.value[count++] = series.value[i];
+        }
+    }
+    series.t_s.resize(count);
+    series.value.resize(count);
 }
 
 bool is_interpolated(TripColumn column) {
@@ -123,11 +139,14 @@ void SignalRows::finish() {
     for (const auto& record : records_) {
         for (const auto& sample : samples_of(record)) {
             auto& series = series_[index(sample.column)];
-            if (follows(sample.column) && (series.t_s.empty() || record.t_s > series.t_s.back())) {
+            if (follows(sample.column)) {
                 series.t_s.push_back(record.t_s);
                 series.value.push_back(sample.value);
             }
         }
+    }
+    for (auto& series : series_) {
+        keep_increasing(series);
     }
 }
 
@@ -138,14 +157,18 @@ double SignalRows::at(TripColumn column, double t_s) const {
     const auto after = std::ranges::lower_bound(times_s, t_s);
     const auto i = static_cast<std::size_t>(after - times_s.begin());
     const bool is_between = i > 0 && i < times_s.size();
+    const auto joined = [&](double share) {
+        const double step = values[i] - values[i - 1];
+        return column == C::lon // the short way round
+                   ? std::remainder(values[i - 1] + share * std::remainder(step, 360), 360)
+                   : values[i - 1] + share * step;
+    };
     if (i < times_s.size() && times_s[i] == t_s) {
         return values[i];
     }
     if (is_interpolated(column)) {
         return is_between && times_s[i] - times_s[i - 1] <= gap_s
-                   ? std::lerp(values[i - 1],
-                               values[i],
-                               (t_s - times_s[i - 1]) / (times_s[i] - times_s[i - 1]))
+                   ? joined((t_s - times_s[i - 1]) / (times_s[i] - times_s[i - 1]))
                    : unknown;
     }
     const bool is_before =

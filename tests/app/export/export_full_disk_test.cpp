@@ -30,7 +30,7 @@ TEST(ExportOnAFullDisk, LeavesNothingOfAnyKind) {
         std::string{MACADAM_SOURCE_DIR} + "/sample_data/comma2k19/comma2k19_rav4.trip.csv";
     ASSERT_EQ(run_macadam({"init", store, "--trace", rav4}).exit_status, 0);
     const auto out = folder / "out";
-    for (const auto* name : {"roads.fgb", "roads.shp", "roads.kml"}) {
+    for (const auto* name : {"roads.fgb", "roads.shp", "roads.kml", "roads.xlsx"}) {
         std::filesystem::create_directory(out);
         const auto file = (out / name).string();
         ASSERT_EQ(run_macadam({"export", store, "--all", "-o", file}).exit_status, 0);

@@ -163,6 +163,8 @@ TEST_F(ReportProgram, IsMisusedByAnotherNameANumberOrAClassTableThatIsNone) {
              {{"-o", "a.pdf", "--language", "xx"}, "--language is 'xx', expected en or de"},
              {{"-o", "a.pdf", "--compare-since", "spring"},
               "--compare-since is 'spring', expected a time such as"},
+             {{"-o", "a.html", "--compare-since", "2026-03", "--class", "poor"},
+              "--compare-since and --class cannot be combined"},
              {{"-o", "a.html", "--worst", "-1"}, "--worst is -1, expected 0 to 200"},
              {{"-o", "a.html", "--classes", "six"}, "--classes is 'six', expected fhwa or five"}}) {
         std::vector<std::string> call{"report", store_};

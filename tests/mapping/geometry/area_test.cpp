@@ -79,6 +79,18 @@ TEST(Area, OfManySidesIsTheSameAsAllItsSidesTested) {
     EXPECT_GT(inside, 1000);
 }
 
+TEST(Area, OfManyLongSidesTakesMemoryBySides) {
+    // A comb of 200,000 sides from south to north: in each of 4,096 bands they would take 33 GB.
+    std::vector<GeoPoint> ring;
+    for (int i = 0; i < 200'000; ++i) {
+        ring.push_back({i % 2 == 0 ? 0.0 : 1.0, i * 1e-5});
+    }
+    ring.push_back({-0.5, 1});
+    const Area area{{{ring}}};
+    EXPECT_TRUE(area.contains({-0.1, 1}));
+    EXPECT_FALSE(area.contains({0.9, 1e-7}));
+}
+
 TEST(Area, WithoutPolygonsIsEmpty) {
     EXPECT_TRUE(is_empty(Area{{}}.box()));
     EXPECT_TRUE(is_empty(Area{{{{{0, 0}, {1, 1}}}}}.box()));

@@ -34,6 +34,7 @@ TEST(ExcelCsv, KnowsCountriesThatDifferFromTheirLanguage) {
         return std::string{separator, mark};
     };
     EXPECT_EQ(dialect("de_CH"), ";.");
+    EXPECT_EQ(dialect("de-CH"), ";.");
     EXPECT_EQ(dialect("es"), ";,");
     EXPECT_EQ(dialect("es_MX.UTF-8"), ",.");
     EXPECT_EQ(dialect("C"), ",.");

@@ -47,9 +47,9 @@ TEST(Nmea, JoinsTheSentencesOfOneTimeToAFix) {
     EXPECT_DOUBLE_EQ(trip.fixes[0].at.lat_deg, 47.5);
     EXPECT_DOUBLE_EQ(trip.fixes[0].at.lon_deg, -8.25);
     EXPECT_FLOAT_EQ(trip.fixes[0].speed_mps, 18.52F / 3.6F);
-    EXPECT_FLOAT_EQ(trip.fixes[0].course_deg, 91.5F);
-    EXPECT_FLOAT_EQ(trip.fixes[0].accuracy_m, 4); // 0.8 times 5 m
-    EXPECT_EQ(trip.meta.t0_utc_s, 1777629600);    // date -d 2026-05-01T10:00:00Z +%s
+    EXPECT_FLOAT_EQ(trip.fixes[0].course_deg, 90); // of RMC, which goes before VTG
+    EXPECT_FLOAT_EQ(trip.fixes[0].accuracy_m, 4);  // 0.8 times 5 m
+    EXPECT_EQ(trip.meta.t0_utc_s, 1777629600);     // date -d 2026-05-01T10:00:00Z +%s
     EXPECT_EQ(trip.meta.trip_id, "drive");
     EXPECT_THAT(trip.rows, SizeIs(3));
     EXPECT_EQ(count_of(trip, RowReason::merged), 2U);
@@ -66,6 +66,24 @@ TEST(Nmea, CountsLinesWithAWrongChecksumOrNumberAndOtherSentences) {
     EXPECT_THAT(trip.rows, SizeIs(8));
     EXPECT_EQ(count_of(trip, RowReason::bad_number), 5U);
     EXPECT_EQ(count_of(trip, RowReason::unused_channel), 2U);
+}
+
+TEST(Nmea, TakesTheSpeedOfTheFixAlsoWhereThatOfTheNextFollows) {
+    const auto trip = read(sentence("GPVTG,90,T,,M,10.0,N,18.52,K") +
+                           sentence("GPRMC,100000,A,4730,N,00815,E,10.0,90.0,010526,,") +
+                           sentence("GPVTG,90,T,,M,20.0,N,37.04,K") +
+                           sentence("GPRMC,100001,A,4730.01,N,00815,E,20.0,90.0,010526,,"));
+    ASSERT_THAT(trip.fixes, SizeIs(2));
+    EXPECT_FLOAT_EQ(trip.fixes[0].speed_mps, 18.52F / 3.6F);
+    EXPECT_FLOAT_EQ(trip.fixes[1].speed_mps, 37.04F / 3.6F);
+}
+
+TEST(Nmea, CountsDatesAndTimesThatAreNoNumbersAsBad) {
+    const auto trip = read(sentence("GNRMC,100000,A,4730,N,00815,E,10,90,010526,,") +
+                           sentence("GNRMC,100001,A,4730,N,00815,E,10,90,abcdef,,") +
+                           sentence("GNRMC,10a002,A,4730,N,00815,E,10,90,010526,,"));
+    EXPECT_THAT(trip.fixes, SizeIs(1));
+    EXPECT_EQ(count_of(trip, RowReason::bad_number), 2U);
 }
 
 TEST(Nmea, GoesPastMidnightAndDatesWhatCameBeforeTheFirstDate) {
