@@ -2,7 +2,7 @@
 # Reads the ELF files that users run, the program, the libraries that it opens and the Python module: each must be built
 # so that an error in it is hard to use, and look for libraries in no folder but the system's.
 
-file(GLOB files "${program}" "${plugins}/macadam_*.so" ${module})
+file(GLOB files "${program}" "${plugins}/macadam_*" ${module})
 list(LENGTH files count)
 if(count LESS 5)
     message(FATAL_ERROR "${program}: ${count} files to read, expected macadam and its libraries")

@@ -39,7 +39,7 @@ GDAL_OPENING = re.compile(
 )
 
 # HDF5 is opened in one place, in a process of its own.
-HDF5_ACCESS = "storage/trips/signals/hdf5_plugin.cpp"
+HDF5_ACCESS = "storage/trips/signals/hdf5_process.cpp"
 HDF5_OPENING = re.compile(r"<hdf5|\bH5[A-Z]{1,2}[a-z]\w*\(")
 
 # Headers that are slow to compile are included by one .cpp each.

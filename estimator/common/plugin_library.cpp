@@ -55,16 +55,20 @@ std::string path_of(std::string_view library) {
     if (!library.starts_with(our_prefix)) {
         return std::string{library};
     }
-    const auto file = own_file();
-    const auto folder = file.substr(0, file.rfind('/'));
-    if (std::string_view{file}.substr(folder.size() + 1).starts_with(our_prefix)) {
-        return fmt::format("{}/{}", folder, library);
-    }
-    const auto beside = resolved(fmt::format("{}/lib/{}", folder, library).c_str());
-    return beside.empty() ? fmt::format("{}/../lib/macadam/plugins/{}", folder, library) : beside;
+    return plugin_path(library);
 }
 
 } // namespace
+
+std::string plugin_path(std::string_view name) {
+    const auto file = own_file();
+    const auto folder = file.substr(0, file.rfind('/'));
+    if (std::string_view{file}.substr(folder.size() + 1).starts_with(our_prefix)) {
+        return fmt::format("{}/{}", folder, name);
+    }
+    const auto beside = resolved(fmt::format("{}/lib/{}", folder, name).c_str());
+    return beside.empty() ? fmt::format("{}/../lib/macadam/plugins/{}", folder, name) : beside;
+}
 
 void* plugin_symbol(const char* library, const char* symbol) {
     // dlopen counts its references, so opening a library again is cheap, and it is never closed.

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <string_view>
+
 namespace macadam {
 
 /// Returns the function `symbol` of the shared object `library`, which is opened on first use and
@@ -12,6 +15,10 @@ namespace macadam {
 ///
 /// \throws InputError  if it cannot be opened or has no such function; the message names both.
 void* plugin_symbol(const char* library, const char* symbol);
+
+/// Returns the absolute path of a file of the project that is kept where its plug-ins are, such as
+/// a program.
+std::string plugin_path(std::string_view file);
 
 /// Typed version: `plugin_function<void(int)>("macadam_geodesy.so", "name")(1)`.
 template <typename Function>

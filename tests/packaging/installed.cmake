@@ -35,7 +35,7 @@ if(module)
                 "${trip}" "${folder}/maps/roads.fgb")
 endif()
 
-file(GLOB elf_files "${program}" ${module} "${folder}/moved/lib/macadam/plugins/*.so")
+file(GLOB elf_files "${program}" ${module} "${folder}/moved/lib/macadam/plugins/*")
 foreach(file IN LISTS elf_files)
     file(STRINGS "${file}" traces REGEX "${build}")
     if(traces)

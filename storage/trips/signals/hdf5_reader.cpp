@@ -1,9 +1,8 @@
 #include "storage/trips/signals/hdf5_reader.hpp"
 
 #include "estimator/common/error.hpp"
-#include "estimator/common/plugin_library.hpp"
 #include "storage/files/byte_stream.hpp"
-#include "storage/trips/signals/hdf5_plugin.hpp"
+#include "storage/trips/signals/hdf5_datasets.hpp"
 
 #include <fmt/core.h>
 
@@ -16,7 +15,7 @@
 namespace macadam {
 namespace {
 
-/// Bytes that the numbers of a dataset may take, as for compressed files
+/// Bytes that the numbers of all datasets together may take, as for compressed files
 /// (docs/reference/trip-logs.md).
 std::size_t most_bytes(std::size_t file_bytes) {
     return std::min<std::size_t>(
@@ -80,12 +79,11 @@ SignalRows read_hdf5(std::string_view bytes, const TableMapping& mapping, const 
     for (const auto& [path, dataset] : datasets) {
         wanted.push_back(path);
     }
-    auto* const read = plugin_function<Hdf5Read>("macadam_hdf5.so", hdf5_read_name);
     try {
-        std::size_t next = 0;
-        read(bytes, wanted, most_bytes(bytes.size()), [&](Hdf5Dataset dataset) {
-            datasets[wanted[next++]] = std::move(dataset);
-        });
+        auto read = read_hdf5_datasets(bytes, wanted, most_bytes(bytes.size()));
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            datasets[wanted[i]] = std::move(read[i]);
+        }
     } catch (const InputError& error) {
         throw InputError{name + ": " + error.what()};
     }

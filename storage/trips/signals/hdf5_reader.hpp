@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// Reads the datasets of an HDF5 file that a mapping names (hdf5_plugin.hpp says which are read).
+/// Reads the datasets of an HDF5 file that a mapping names (hdf5_datasets.hpp says which are read).
 /// Each line of a dataset with times is a row, with the numbers of the datasets on these times.
 ///
 /// \param bytes  the whole file

@@ -1,30 +1,33 @@
-#include "storage/trips/signals/hdf5_plugin.hpp"
+#include "storage/trips/signals/hdf5_process.hpp"
 
 #include "estimator/common/error.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <hdf5.h>
-#include <poll.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csignal>
+#include <charconv>
 #include <cstdint>
-#include <cstring>
-#include <new>
-#include <utility>
+#include <exception>
+#include <limits>
+#include <string>
+#include <string_view>
+
+// The program that reads HDF5, and the one place that opens it: the library was not made for
+// hostile files, so it runs where its crash is a refusal. Arguments: bytes that all numbers may
+// take, and the datasets; standard input: the file; standard output: what hdf5_process.hpp says.
 
 namespace macadam {
 namespace {
 
 constexpr rlim_t max_cpu_s = 20;
-constexpr int max_wait_ms = 30'000; // for more of the numbers; the process may be stuck
-constexpr std::size_t longest_words = 4096;
+constexpr rlim_t own_bytes = rlim_t{1} << 30; // addresses of the program and its libraries
 
 /// Handle of the library, closed at its end.
 class Handle {
@@ -129,151 +132,73 @@ Hdf5Dataset numbers_of(hid_t file, const std::string& name, std::size_t most) {
     return numbers;
 }
 
-// ------------------------------------------------------------------- between the two processes
-
-bool send(int to, const void* from, std::size_t size) {
+void send(const void* from, std::size_t size) {
     const auto* at = static_cast<const char*>(from);
     while (size > 0) {
-        const auto count = ::write(to, at, size);
+        const auto count = ::write(STDOUT_FILENO, at, size);
         if (count < 0 && errno != EINTR) {
-            return false;
+            ::_exit(1);
         }
         at += std::max<ssize_t>(count, 0);
         size -= static_cast<std::size_t>(std::max<ssize_t>(count, 0));
     }
-    return true;
 }
 
-bool receive(int from, void* into, std::size_t size) {
-    auto* at = static_cast<char*>(into);
-    while (size > 0) {
-        pollfd ready{.fd = from, .events = POLLIN, .revents = 0};
-        if (::poll(&ready, 1, max_wait_ms) == 0) {
-            return false;
-        }
-        const auto count = ::read(from, at, size);
-        if (count == 0 || (count < 0 && errno != EINTR)) {
-            return false;
-        }
-        at += std::max<ssize_t>(count, 0);
-        size -= static_cast<std::size_t>(std::max<ssize_t>(count, 0));
-    }
-    return true;
-}
-
-/// Sent before the numbers of a dataset, or before words.
-struct Message {
-    std::uint64_t rows;
-    std::uint64_t columns; ///< 0: `rows` bytes of words follow, a refusal
-};
-
-void send_words(int to, std::string_view words) {
-    words = words.substr(0, longest_words);
-    const Message message{.rows = words.size(), .columns = 0};
-    send(to, &message, sizeof message);
-    send(to, words.data(), words.size());
-}
-
-void run_child(std::string_view bytes,
-               std::span<const std::string> datasets,
-               std::size_t most,
-               int to) {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGINT, SIGTERM}) {
-        std::signal(signal, SIG_DFL); // handlers of the program are not for this process
-    }
+void set_limits([[maybe_unused]] std::size_t file_bytes, [[maybe_unused]] std::size_t most) {
     const rlimit cpu{max_cpu_s, max_cpu_s};
     const rlimit none{0, 0};
     setrlimit(RLIMIT_CPU, &cpu);
     setrlimit(RLIMIT_CORE, &none);
+#ifndef __SANITIZE_ADDRESS__ // which takes terabytes of addresses
+    const rlim_t bytes = own_bytes + 4 * file_bytes + 2 * most;
+    const rlimit addresses{bytes, bytes};
+    setrlimit(RLIMIT_AS, &addresses);
+#endif
+}
+
+/// The file on standard input, in memory until the process ends.
+std::string_view file_on_input() {
+    struct stat status {};
+    if (::fstat(STDIN_FILENO, &status) != 0 || status.st_size <= 0) {
+        throw InputError{"is empty"};
+    }
+    const auto size = static_cast<std::size_t>(status.st_size);
+    const void* const bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, STDIN_FILENO, 0);
+    if (bytes == MAP_FAILED) {
+        throw InputError{"cannot be read: no memory"};
+    }
+    return {static_cast<const char*>(bytes), size};
+}
+
+void send_datasets(int count, char** arguments) {
     std::string name;
     try {
+        std::size_t most = 0;
+        const std::string_view limit = count > 1 ? arguments[1] : "";
+        std::from_chars(limit.data(), limit.data() + limit.size(), most);
+        const auto bytes = file_on_input();
+        set_limits(bytes.size(), most);
         const auto file = opened(bytes);
-        for (const auto& dataset : datasets) {
-            name = fmt::format("dataset '{}': ", dataset);
-            const auto numbers = numbers_of(file, dataset, most);
+        for (int i = 2; i < count; ++i) {
+            name = fmt::format("dataset '{}': ", arguments[i]);
+            const auto numbers = numbers_of(file, arguments[i], most);
             most -= numbers.values.size() * sizeof(double);
-            const Message message{.rows = numbers.rows, .columns = numbers.columns};
-            send(to, &message, sizeof message);
-            send(to, numbers.values.data(), numbers.values.size() * sizeof(double));
+            const Hdf5Message message{.rows = numbers.rows, .columns = numbers.columns};
+            send(&message, sizeof message);
+            send(numbers.values.data(), numbers.values.size() * sizeof(double));
         }
     } catch (const std::exception& error) {
-        send_words(to, name + error.what());
+        const auto words = (name + error.what()).substr(0, max_hdf5_words);
+        const Hdf5Message message{.rows = words.size(), .columns = 0};
+        send(&message, sizeof message);
+        send(words.data(), words.size());
     }
-}
-
-/// Child process, and the end of the pipe from it; it does not outlive this object.
-class Child {
-public:
-    Child(pid_t process, int pipe_end) : from{pipe_end}, process_{process} {}
-    Child(const Child&) = delete;
-    Child& operator=(const Child&) = delete;
-    ~Child() {
-        ::close(from);
-        ::kill(process_, SIGKILL);
-        while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-        }
-    }
-
-    const int from;
-
-private:
-    pid_t process_;
-};
-
-[[noreturn]] void refuse_crash(const std::string& dataset) {
-    throw InputError{
-        fmt::format("dataset '{}': the HDF5 library cannot read it: the file is damaged", dataset)};
-}
-
-Hdf5Dataset received(int from, const std::string& dataset, std::size_t most) {
-    Message message{};
-    if (!receive(from, &message, sizeof message)) {
-        refuse_crash(dataset);
-    }
-    if (message.columns == 0) {
-        std::string words(std::min<std::uint64_t>(message.rows, longest_words), '\0');
-        receive(from, words.data(), words.size());
-        throw InputError{words};
-    }
-    if (message.rows > most / sizeof(double) / message.columns) {
-        refuse_crash(dataset);
-    }
-    Hdf5Dataset numbers{.rows = message.rows,
-                        .columns = message.columns,
-                        .values = std::vector<double>(message.rows * message.columns)};
-    if (!receive(from, numbers.values.data(), numbers.values.size() * sizeof(double))) {
-        refuse_crash(dataset);
-    }
-    return numbers;
 }
 
 } // namespace
 } // namespace macadam
 
-extern "C" void macadam_hdf5_read(std::string_view bytes,
-                                  std::span<const std::string> datasets,
-                                  std::size_t most,
-                                  const std::function<void(macadam::Hdf5Dataset)>& take) {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-        throw macadam::InputError{"cannot be read: no more files can be open"};
-    }
-    const auto process = ::fork();
-    if (process < 0) {
-        ::close(ends[0]);
-        ::close(ends[1]);
-        throw macadam::InputError{"cannot be read: no more processes can run"};
-    }
-    if (process == 0) {
-        ::close(ends[0]);
-        macadam::run_child(bytes, datasets, most, ends[1]);
-        ::_exit(0);
-    }
-    ::close(ends[1]);
-    const macadam::Child child{process, ends[0]};
-    for (const auto& dataset : datasets) {
-        auto numbers = macadam::received(child.from, dataset, most);
-        most -= numbers.values.size() * sizeof(double);
-        take(std::move(numbers));
-    }
+int main(int count, char** arguments) {
+    macadam::send_datasets(count, arguments);
+    return 0;
 }
