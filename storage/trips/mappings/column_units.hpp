@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimator/common/trip.hpp"
+#include "storage/trips/log/trip_row.hpp"
 
 #include <optional>
 #include <string_view>
