@@ -8,6 +8,7 @@ The lists come from the build itself: the headers that its compilers read, and t
 the linked files name. Licences come from the copyright files of Debian's packages.
 """
 
+import json
 import re
 import subprocess
 import sys
@@ -144,6 +145,16 @@ def table(packages):
         yield f"| {package} | {licence_of(package)} |"
 
 
+def npm_rows():
+    """Packages of the page by its lock file; those that only build and test it are left out."""
+    lock = json.loads((ROOT / "web/package-lock.json").read_text(encoding="utf-8"))
+    yield "| npm package | version | licence |"
+    yield "|---|---|---|"
+    for path, package in sorted(lock["packages"].items()):
+        if path and not package.get("dev"):
+            yield f"| {path.removeprefix('node_modules/')} | {package['version']} | {package['license']} |"
+
+
 def document(build):
     libraries = packages_of(libraries_of(build))
     compiled_in = packages_of(headers_of(build))
@@ -165,6 +176,12 @@ def document(build):
     yield "Shared libraries of Debian 12 that the program opens; they are not shipped with it."
     yield ""
     yield from table(libraries)
+    yield ""
+    yield "## In the page"
+    yield ""
+    yield "What the page of `export --format site` brings from npm, with its texts of licences in `assets/licences.txt`."
+    yield ""
+    yield from npm_rows()
     yield ""
     yield "## Shipped data"
     yield ""
