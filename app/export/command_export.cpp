@@ -7,6 +7,7 @@
 #include "app/database/publication_messages.hpp"
 #include "app/database/selection.hpp"
 #include "app/export/raster_tile_export.hpp"
+#include "app/export/site_export.hpp"
 #include "app/export/tile_export.hpp"
 #include "app/export/workbook_export.hpp"
 #include "app/output/excel_option.hpp"
@@ -40,6 +41,7 @@ struct ExportOptions {
     std::optional<SectionOptions> sections;
     std::optional<TilePlan> tiles;
     std::optional<PicturePlan> pictures;
+    std::optional<SitePlan> site;
     bool events;
     TextExport text; ///< of text formats
 };
@@ -108,6 +110,28 @@ void expect_project_alone(const Arguments& arguments) {
     }
 }
 
+bool is_site(const Arguments& arguments) {
+    return arguments.value("--format") == "site";
+}
+
+/// Parses the options of --format site.
+SitePlan parse_site(const ExportOptions& options, const Arguments& arguments) {
+    if (!is_tile_folder(options.output) && options.output.has_extension()) {
+        throw UsageError{fmt::format("{}, expected a new or empty folder with --format site, such "
+                                     "as public/",
+                                     output_option(options))};
+    }
+    for (const std::string_view refused :
+         {"--all", "--sections", "--events", "--tiles", "--theme", "--style", "--grey-below"}) {
+        if (arguments.is_given(refused)) {
+            throw UsageError{fmt::format("{} and --format site cannot be combined", refused)};
+        }
+    }
+    return {.title = arguments.value("--title").value_or(options.store.stem().string()),
+            .left_hand = arguments.flag("--left-hand"),
+            .tiles = parse_tile_plan(arguments)};
+}
+
 /// Rejects what a format cannot have.
 void expect_fitting(const ExportOptions& options, const Arguments& arguments) {
     const auto suffix = options.output.extension().string();
@@ -120,8 +144,12 @@ void expect_fitting(const ExportOptions& options, const Arguments& arguments) {
                                      "columns then say the unit; {}",
                                      output_option(options))};
     }
-    if (arguments.value("--format") && !options.text.put) {
-        throw UsageError{"--format is for -o -; the name of a file tells its format"};
+    if (arguments.value("--format") && !options.text.put && !is_site(arguments)) {
+        throw UsageError{"--format is for -o - and for 'site'; the name of a file tells its "
+                         "format"};
+    }
+    if (arguments.value("--title") && !is_site(arguments)) {
+        throw UsageError{"--title requires --format site"};
     }
 }
 
@@ -150,7 +178,7 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
     std::ranges::copy(tile_archive_suffixes(), std::back_inserter(suffixes));
     suffixes.push_back(project_suffix);
     if (std::ranges::none_of(suffixes, [&](auto suffix) { return output.ends_with(suffix); }) &&
-        !is_tile_folder(output)) {
+        !is_tile_folder(output) && !is_site(arguments)) {
         throw UsageError{fmt::format("-o is '{}', expected a name that ends in {}, or in / for a "
                                      "folder of tiles",
                                      output,
@@ -163,6 +191,7 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
         .sections = parse_sections(arguments, false),
         .tiles = {},
         .pictures = {},
+        .site = {},
         .events = arguments.flag("--events"),
         .text = {.units = parse_units(arguments), .excel = parse_excel(arguments), .put = {}}};
     if (arguments.value("--output") == standard_output) {
@@ -178,7 +207,9 @@ ExportOptions parse_export(const Arguments& arguments, const Console& console) {
     if (options.sections) {
         expect_sections_alone(options);
     }
-    if (is_tile_archive(options.output)) {
+    if (is_site(arguments)) {
+        options.site = parse_site(options, arguments);
+    } else if (is_tile_archive(options.output)) {
         options.tiles = parse_tile_plan(arguments);
         options.pictures = parse_picture_plan(arguments, *options.tiles, options.filter, console);
     } else {
@@ -250,6 +281,10 @@ void run_export(const Arguments& arguments, const Console& console) {
     warn_of_waiting(store, options.store, console);
     warn_of_empty_map(store, console);
     tell_publication(store, console);
+    if (options.site) {
+        export_site(store, options.filter, options.output, *options.site, console);
+        return;
+    }
     if (options.events) {
         const auto written = export_events(store, options.filter, options.output, options.text);
         console.say(fmt::format("{}: {}", name_of_output(options), counted(written, "event")));
@@ -285,8 +320,11 @@ constexpr std::array output_options{
            "FILE",
            "Output: .geojson, .geojsonl, .csv, .xlsx, .gpkg, .fgb, .shp, .kml, .qgz, .mbtiles, "
            ".pmtiles, DIR/, or -."},
-    one_of("geojson|geojsonl|csv|kml|xlsx|gpkg|fgb|shp|mbtiles|pmtiles|qgz",
-           {"--format", "NAME", "Format of -o -: geojson, geojsonl, csv or kml.", "geojson"}),
+    one_of("geojson|geojsonl|csv|kml|xlsx|gpkg|fgb|shp|mbtiles|pmtiles|qgz|site",
+           {"--format",
+            "NAME",
+            "Format of -o -: geojson, geojsonl, csv or kml; or site: DIR/ becomes a web page.",
+            "geojson"}),
     units_option,
     excel_option,
     zoom_option,
@@ -297,7 +335,8 @@ constexpr std::array output_options{
     rare(in_group("tiles", style_option)),
     rare(in_group("tiles", grey_below_option)),
     tile_left_hand_option,
-    tile_no_labels_option};
+    tile_no_labels_option,
+    site_title_option};
 constexpr std::array section_options{
     sections_option,
     section_length_option,
@@ -333,7 +372,8 @@ const Command export_command{
         "  macadam export roads.gpkg -o potholes.gpkg --events\n"
         "  macadam export roads.gpkg -o roads.pmtiles --zoom 6-16 --jobs 2\n"
         "  macadam export roads.gpkg -o pictures.mbtiles --tiles picture --tile-size 512\n"
-        "  macadam export roads.gpkg -o tiles/                   z/x/y.pbf and metadata.json",
+        "  macadam export roads.gpkg -o tiles/                   z/x/y.pbf and metadata.json\n"
+        "  macadam export roads.gpkg -o public/ --format site    a map as web page, on any server",
     .operands = operands,
     .options = options,
     .run = run_export};

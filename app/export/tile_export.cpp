@@ -107,17 +107,11 @@ void expect_no_tile_options(const Arguments& arguments) {
     }
 }
 
-void export_tiles(const StoreReader& store,
-                  const SegmentFilter& filter,
-                  const std::filesystem::path& file,
-                  const TilePlan& plan,
-                  const Console& console) {
-    if (!filter.with_state_only) {
-        throw UsageError{"--all is for segment files: tiles show measured segments only"};
-    }
-    if (is_tile_folder(file)) {
-        expect_new_or_empty(file.has_filename() ? file : file.parent_path()); // fails early
-    }
+WrittenTiles write_vector_tiles(const StoreReader& store,
+                                const SegmentFilter& filter,
+                                const std::filesystem::path& file,
+                                const TilePlan& plan,
+                                const Console& console) {
     TileSource source{beside_tiles(file)};
     read_tile_source(store, filter, source, console.progress("reading segments"));
     if (source.count == 0) {
@@ -134,10 +128,25 @@ void export_tiles(const StoreReader& store,
         console.progress("drawing tiles"));
     store.expect_in_place();
     archive.commit(console.progress("writing tiles"));
+    return {source.count, count};
+}
+
+void export_tiles(const StoreReader& store,
+                  const SegmentFilter& filter,
+                  const std::filesystem::path& file,
+                  const TilePlan& plan,
+                  const Console& console) {
+    if (!filter.with_state_only) {
+        throw UsageError{"--all is for segment files: tiles show measured segments only"};
+    }
+    if (is_tile_folder(file)) {
+        expect_new_or_empty(file.has_filename() ? file : file.parent_path()); // fails early
+    }
+    const auto [segments, count] = write_vector_tiles(store, filter, file, plan, console);
     console.say(fmt::format("{}: {} of {}, zooms {} to {}, largest {} gzipped",
                             file.string(),
                             counted(count.tiles, "tile"),
-                            counted(source.count, "segment"),
+                            counted(segments, "segment"),
                             plan.min_zoom,
                             plan.max_zoom,
                             size_text(count.largest_bytes)));

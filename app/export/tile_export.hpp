@@ -6,6 +6,7 @@
 #include "app/parallel/jobs_option.hpp"
 #include "storage/store/reader/store_reader.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -33,6 +34,19 @@ TilePlan parse_tile_plan(const Arguments& arguments);
 /// Rejects options of tiles.
 /// \throws UsageError  if --zoom or --jobs is given; both apply to tiles only.
 void expect_no_tile_options(const Arguments& arguments);
+
+/// Statistics of an archive of vector tiles.
+struct WrittenTiles {
+    std::size_t segments = 0;
+    TileCount count;
+};
+
+/// Writes vector tiles of the measured segments into an archive or a folder.
+WrittenTiles write_vector_tiles(const StoreReader& store,
+                                const SegmentFilter& filter,
+                                const std::filesystem::path& file,
+                                const TilePlan& plan,
+                                const Console& console);
 
 /// Writes vector tiles of the measured segments into an archive or a folder
 /// (docs/reference/vector-tiles.md) and reports their number.

@@ -1,1 +1,293 @@
-export {};
+// The page of a site: docs/reference/site.md says what it asks for.
+import { onBusy, openSite, parseId } from './data.js';
+import { choice, neighbour, runDetail, segmentDetail } from './drawer.js';
+import { el, option, replace } from './dom.js';
+import { hasWebGl, openMap } from './map.js';
+import { openPanel } from './panel.js';
+import { choose, link, onState, readState, state } from './state.js';
+import { day, iri, iriUnit, month, roadLength, speak, w } from './words.js';
+
+const narrow = matchMedia('(max-width: 760px)');
+let data, map, panel, parts;
+let openedBy = null; // where the focus returns
+let shownSegment = null;
+
+const keysAreOff = () => localStorage.getItem('macadam.keys') === 'off';
+
+function applyTheme() {
+  document.documentElement.dataset.theme = state.theme;
+}
+
+function failure(error, retry) {
+  const reason = error.status === 'offline' ? w('site.offline') : w('site.failed', { what: error.url ?? '', why: String(error.status ?? error.message ?? '') });
+  replace(parts.notice, el('p', {}, reason), el('button', { type: 'button', onclick: () => { clearNotice(); retry(); } }, w('site.retry')));
+  parts.notice.hidden = false;
+}
+const clearNotice = () => { parts.notice.hidden = true; };
+
+async function copy(text, button) {
+  const before = button.textContent;
+  try {
+    await navigator.clipboard.writeText(text);
+    button.textContent = w('site.copied');
+  } catch {
+    prompt(w('site.copy_link'), text); // without leave to the clipboard
+  }
+  setTimeout(() => { button.textContent = before; }, 2000);
+}
+
+function showDrawer(content, label) {
+  const close = el('button', { type: 'button', class: 'close', 'aria-label': w('site.close'), onclick: closeDrawer }, '×');
+  if (parts.drawer.hidden) openedBy = document.activeElement;
+  replace(parts.drawer, close, ...content);
+  parts.drawer.hidden = false;
+  document.body.classList.add('has-drawer');
+  if (label) parts.drawer.querySelector('#drawer-title')?.focus({ preventScroll: true });
+  if (narrow.matches && parts.sheet.dataset.height === 'low') setSheet('half');
+}
+
+function closeDrawer() {
+  if (parts.drawer.hidden) return;
+  parts.drawer.hidden = true;
+  document.body.classList.remove('has-drawer');
+  shownSegment = null;
+  choose({ s: '' });
+  map?.markPicked([]);
+  panel.markWorst('');
+  if (openedBy?.isConnected && openedBy !== document.body) openedBy.focus(); else map?.focus();
+  openedBy = null;
+}
+
+async function openSegment(id, { fit = false, focus = true } = {}) {
+  try {
+    const segment = await data.segment(id);
+    if (!segment) return false;
+    shownSegment = segment;
+    choose({ s: id });
+    map?.markPicked([segment.line]);
+    if (fit && map && !(map.sees(segment.line[0]) && map.hasSegments())) {
+      const [lon, lat] = segment.line[0];
+      map.fit([lon, lat, lon, lat], 16);
+    }
+    showDrawer(segmentDetail(segment, data.site, { copy, step: stepAlong }), focus);
+    panel.markWorst(id);
+    return true;
+  } catch (error) {
+    failure(error, () => openSegment(id, { fit, focus }));
+    return false;
+  }
+}
+
+async function stepAlong(step) {
+  const next = shownSegment && neighbour(shownSegment.segment, step);
+  if (next) await openSegment(next, { fit: true, focus: false });
+}
+
+function openFeature(feature, at) {
+  if (feature.segment) openSegment(feature.segment);
+  else showDrawer(runDetail(feature, { zoomIn: () => map.zoomIn(at) }), true);
+}
+
+function picked(found, at) {
+  if (found.length === 0) return;
+  if (found.length === 1) openFeature(found[0], at);
+  else showDrawer(choice(found, { open: (each) => openFeature(each, at) }), true);
+}
+
+function openWorst(section) {
+  map?.fit(section.bounds);
+  openSegment(section.segments[Math.floor(section.segments.length / 2)]);
+}
+
+function toData() {
+  choose({ c: '', h: '', p: 1, q: 2 });
+  map?.fit(data.site.bounds, 15);
+}
+
+function setSheet(height) {
+  parts.sheet.dataset.height = height;
+  parts.handle.setAttribute('aria-expanded', String(height !== 'low'));
+}
+const raise = { low: 'half', half: 'high', high: 'low' };
+
+function search() {
+  const list = el('ul', { id: 'found', role: 'listbox', 'aria-label': w('site.search'), hidden: true });
+  let found = [];
+  let at = -1;
+  const close = () => { list.hidden = true; input.setAttribute('aria-expanded', 'false'); input.removeAttribute('aria-activedescendant'); at = -1; };
+  const take = (road) => {
+    close();
+    input.value = road.name;
+    map?.fit(road.bounds);
+    openSegment(road.segment);
+  };
+  const mark = (to) => {
+    at = to;
+    [...list.children].forEach((item, i) => item.setAttribute('aria-selected', String(i === at)));
+    if (at >= 0) input.setAttribute('aria-activedescendant', `found-${at}`);
+  };
+  const look = async () => {
+    const text = input.value.trim();
+    if (!text) return close();
+    if (parseId(text)) found = [{ name: text, segment: text, bounds: null }];
+    else {
+      try {
+        const asked = await data.names(text);
+        if (input.value.trim() !== text) return undefined;
+        found = asked;
+      } catch (error) {
+        return failure(error, look);
+      }
+    }
+    replace(list, found.length === 0 ? el('li', { class: 'quiet', role: 'option', 'aria-selected': 'false' }, w('site.no_road'))
+      : found.map((road, i) => el('li', { id: `found-${i}`, role: 'option', 'aria-selected': 'false', onmousedown: (event) => { event.preventDefault(); chosen(road); } },
+        road.name, road.km !== undefined && el('span', { class: 'quiet' }, ` ${roadLength(road.km)} · ${iri(road.iri)}`))));
+    list.hidden = false;
+    input.setAttribute('aria-expanded', 'true');
+    at = -1;
+    return undefined;
+  };
+  const chosen = (road) => (road.bounds ? take(road) : (close(), openSegment(road.segment, { fit: true })));
+  const input = el('input', { type: 'search', id: 'search', role: 'combobox', 'aria-controls': 'found', 'aria-expanded': 'false', 'aria-autocomplete': 'list', autocomplete: 'off',
+    'aria-label': w('site.search'), placeholder: w('site.search'), maxlength: '80', oninput: look, onblur: close,
+    onkeydown: (event) => {
+      if (event.key === 'ArrowDown' || event.key === 'ArrowUp') {
+        event.preventDefault();
+        if (found.length > 0) mark((at + (event.key === 'ArrowDown' ? 1 : found.length - (at < 0 ? 0 : 1))) % found.length);
+      } else if (event.key === 'Enter' && found.length > 0) chosen(found[Math.max(at, 0)]);
+      else if (event.key === 'Escape' && !list.hidden) { event.stopPropagation(); close(); }
+    } });
+  return el('div', { class: 'search' }, input, list);
+}
+
+function settings() {
+  const select = (key, label, values) => el('label', {}, el('span', { class: 'hidden' }, label), el('select', { 'aria-label': label, onchange: (event) => choose({ [key]: event.target.value }) },
+    ...values.map(([value, text]) => option(value, text, state[key] || (key === 'lang' ? document.documentElement.lang : '')))));
+  const keys = el('input', { type: 'checkbox', checked: !keysAreOff(), onchange: (event) => { localStorage.setItem('macadam.keys', event.target.checked ? 'on' : 'off'); } });
+  return el('details', { class: 'settings' }, el('summary', {}, w('site.settings')), el('div', { class: 'menu' },
+    select('unit', w('site.unit'), [['mm/m', 'mm/m'], ['in/mi', 'in/mi']]),
+    select('lang', w('site.language'), data.site.languages.map((code) => [code, { en: 'English', de: 'Deutsch' }[code] ?? code])),
+    select('theme', w('site.theme'), ['auto', 'light', 'dark', 'contrast'].map((name) => [name, w(`site.theme.${name}`)])),
+    el('label', {}, keys, w('site.single_keys')),
+    el('p', { class: 'quiet' }, w('site.keys'))));
+}
+
+function footer({ site }) {
+  const fresh = site.published ? w('site.published', { month: month(site.published.month) }) : site.last_seen ? w('site.fresh', { day: day(site.last_seen) }) : '';
+  return el('footer', {}, el('span', {}, fresh), el('span', {}, w('site.indicative')), site.attribution && el('span', {}, site.attribution),
+    el('a', { href: 'assets/licences.txt' }, w('site.licences')));
+}
+
+function pressed(event) {
+  if (event.key === 'Escape') { closeDrawer(); return; }
+  if (keysAreOff() || event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.('input:not([type=checkbox],[type=radio]), select, textarea')) return;
+  const go = {
+    '/': () => document.getElementById('search').focus(),
+    '[': () => stepAlong(-1),
+    ']': () => stepAlong(1),
+    w: () => { openSheetFor('worst'); document.querySelector('#worst-table button')?.focus(); },
+    c: () => choose({ mode: state.mode === 'change' ? 'roughness' : 'change' }),
+  }[event.key];
+  if (go) { event.preventDefault(); go(); }
+}
+
+function openSheetFor(id) {
+  if (narrow.matches) setSheet('high');
+  document.getElementById(id)?.scrollIntoView({ block: 'start' });
+}
+
+// Without a map: the names of the roads lead to all numbers.
+async function listNames() {
+  const names = await data.names('', 200);
+  replace(parts.map, el('div', { class: 'notice' }, el('p', {}, w('site.no_webgl'))), el('div', { class: 'scroll', tabIndex: 0, role: 'region', 'aria-label': w('site.roads') },
+    el('table', { id: 'road-table' }, el('caption', {}, w('site.roads')),
+      el('thead', {}, el('tr', {}, ...['site.road', 'site.mean', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
+      el('tbody', {}, ...names.map((road) => el('tr', {}, el('th', { scope: 'row' }, el('button', { type: 'button', class: 'plain', onclick: () => openSegment(road.segment) }, road.name)),
+        el('td', {}, iri(road.iri)), el('td', {}, roadLength(road.km))))))));
+}
+
+async function draw() {
+  const { site } = data;
+  const language = site.languages.includes(state.lang) ? state.lang : site.languages.find((code) => navigator.language.startsWith(code)) ?? 'en';
+  await speak(data, language, state.unit);
+  document.title = `${site.title} – ${w('title')}`;
+  const [totals, worst] = await Promise.all([data.totals(), data.worst()]);
+  const handle = el('button', { type: 'button', class: 'handle', 'aria-label': w('site.panel'), 'aria-expanded': 'true', onclick: () => setSheet(raise[parts.sheet.dataset.height]) });
+  const panelPlace = el('div', { class: 'panel' });
+  const drawer = el('aside', { class: 'drawer', hidden: true, 'aria-labelledby': 'drawer-title' });
+  const sheet = el('div', { class: 'sheet' }, handle, panelPlace, drawer);
+  const mapPlace = el('div', { id: 'map', class: 'map', role: 'region', 'aria-label': w('site.map') });
+  const notice = el('div', { class: 'notice', role: 'alert', hidden: true });
+  const bar = el('div', { class: 'progress', hidden: true, role: 'progressbar', 'aria-label': w('site.loading') });
+  parts = { handle, sheet, drawer, map: mapPlace, notice };
+  document.body.replaceChildren(
+    el('a', { class: 'skip', href: '#legend', onclick: (event) => { event.preventDefault(); openSheetFor('legend'); document.querySelector('#legend input')?.focus(); } }, w('site.skip')),
+    el('header', {}, el('h1', {}, site.title), search(), settings(), el('button', { type: 'button', class: 'share', onclick: (event) => copy(link(), event.currentTarget) }, w('site.share'))),
+    bar, el('main', {}, mapPlace, notice, sheet), footer(data));
+  setSheet('low');
+  onBusy((isBusy) => { bar.hidden = !isBusy; });
+  const act = {
+    openWorst, openFeature: (feature) => (feature.segment ? openSegment(feature.segment) : showDrawer(runDetail(feature, { zoomIn: () => map.fit(data.site.bounds, 15) }), true)),
+    toData, failed: (error) => failure(error, clearNotice), pointAt: (section) => map?.markPointed(section ? [section.line] : []),
+  };
+  panel = openPanel(panelPlace, data, totals, worst, act);
+  if (hasWebGl()) {
+    map = openMap(mapPlace, data, {
+      picked,
+      failed: (error) => failure(error, () => location.reload()),
+      idle: () => panel.drawView(map.inView(), map.hasSegments()),
+      compared: (counts) => panel.compared(counts),
+    });
+  } else {
+    map = undefined;
+    panel.drawView(null);
+    await listNames();
+  }
+  if (state.s) await openSegment(state.s, { fit: !state.map, focus: false });
+}
+
+function changed(keys) {
+  if (keys.includes('theme')) applyTheme();
+  if (keys.some((key) => ['lang', 'unit'].includes(key))) {
+    map?.remove();
+    draw().catch(broken);
+    return;
+  }
+  if (keys.some((key) => ['mode', 'c', 'h', 'p', 'q', 'a', 'b', 'theme'].includes(key))) {
+    if (state.mode === 'change' && !state.a && data.site.months.length > 1) {
+      choose({ a: data.site.months[0], b: data.site.months.at(-1) });
+      return;
+    }
+    map?.show();
+    panel.draw();
+  }
+}
+
+// Before there are words: in English.
+function broken(error) {
+  const isOffline = error.status === 'offline';
+  document.body.replaceChildren(el('main', { class: 'broken' }, el('h1', {}, 'Road roughness'),
+    el('p', { role: 'alert' }, isOffline ? 'There is no network, and this page has not been loaded before.' : `The map cannot be shown: ${error.message ?? error}`),
+    el('button', { type: 'button', onclick: () => location.reload() }, 'Try again')));
+}
+
+async function start() {
+  readState();
+  applyTheme();
+  document.body.append(el('p', { class: 'loading', role: 'status' }, 'Loading…'));
+  data = await openSite();
+  await draw();
+  onState(changed);
+  addEventListener('keydown', pressed);
+  addEventListener('hashchange', () => {
+    readState();
+    applyTheme();
+    map?.remove();
+    draw().catch(broken);
+  });
+  addEventListener('offline', () => failure({ status: 'offline' }, () => {}));
+  addEventListener('online', clearNotice);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => map?.show());
+}
+
+start().catch(broken);

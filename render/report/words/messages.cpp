@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -17,9 +18,11 @@ std::string_view one_or_other(std::size_t count) {
     return count == 1 ? "one" : "other";
 }
 
-std::vector<Message> joined(std::span<const Message> some, std::span<const Message> more) {
-    std::vector<Message> all{some.begin(), some.end()};
-    all.insert(all.end(), more.begin(), more.end());
+std::vector<Message> joined(std::initializer_list<std::span<const Message>> catalogues) {
+    std::vector<Message> all;
+    for (const auto& each : catalogues) {
+        all.insert(all.end(), each.begin(), each.end());
+    }
     return all;
 }
 
@@ -47,8 +50,10 @@ const Catalogue& kept_catalogue(const Language& language) {
 } // namespace
 
 std::span<const Language> languages() {
-    static const auto english = joined(english_messages(), english_reference_messages());
-    static const auto german = joined(german_messages(), german_reference_messages());
+    static const auto english =
+        joined({english_messages(), english_reference_messages(), english_site_messages()});
+    static const auto german =
+        joined({german_messages(), german_reference_messages(), german_site_messages()});
     static const std::array all{Language{"en", ".", "{year}-{month}-{day}", one_or_other, english},
                                 Language{"de", ",", "{day}.{month}.{year}", one_or_other, german}};
     return all;

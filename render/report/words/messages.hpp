@@ -16,8 +16,8 @@ struct Message {
     std::string_view text;
 };
 
-/// Properties of a language. A new language requires two files of messages (messages_en.cpp and
-/// messages_reference_en.cpp have them all) and a row in languages().
+/// Properties of a language. A new language requires three files of messages (messages_en.cpp,
+/// messages_reference_en.cpp and messages_site_en.cpp have them all) and a row in languages().
 struct Language {
     std::string_view code; ///< BCP 47: "en"
     std::string_view decimal_mark;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "app/cli/arguments.hpp"
+#include "app/cli/console.hpp"
+#include "app/export/tile_pyramid.hpp"
+#include "storage/store/reader/store_reader.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace macadam {
+
+inline constexpr Option site_title_option =
+    in_group("site", {"--title", "TEXT", "Title of --format site.", "the database's name"});
+
+/// Settings of a site.
+struct SitePlan {
+    std::string title;
+    bool left_hand = false;
+    TilePlan tiles;
+};
+
+/// Writes the measured segments as a web page with all its data (docs/reference/site.md) into a
+/// new or empty folder, and reports what it has. Files have a bounded size: lists that grow are
+/// cut into several.
+///
+/// \throws InputError  without a page in this build, and for a selection without measured segments.
+void export_site(const StoreReader& store,
+                 const SegmentFilter& filter,
+                 const std::filesystem::path& folder,
+                 const SitePlan& plan,
+                 const Console& console);
+
+} // namespace macadam

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/site/site_totals.hpp"
+#include "mapping/style/iri_class.hpp"
+#include "storage/store/reader/store_reader.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Addresses of a site's data, each a member of site.json as JSON, relative to it.
+struct SiteSources {
+    std::string tiles;
+    std::string segments;
+    std::string names;
+    std::string compare;
+};
+
+/// Description of a site (docs/reference/site.md).
+struct SiteManifest {
+    std::string title;
+    bool left_hand = false;
+    GeoBox bounds;
+    std::size_t segments = 0;        ///< measured
+    std::vector<std::string> months; ///< "2026-03", ascending
+    SiteSources sources;
+};
+
+/// Formats site.json of what a reader shows now.
+std::string
+manifest_json(const StoreReader& store, const SiteManifest& manifest, const SiteTotals& totals);
+
+/// Returns the months with trips that the reader shows, ascending; of a publication, all months
+/// from its first to its last. At most the latest 120.
+std::vector<std::string> site_months(const StoreReader& store);
+
+/// Returns the period of a month, "2026-03".
+Period period_of_month(const std::string& month);
+
+} // namespace macadam

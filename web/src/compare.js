@@ -1,0 +1,56 @@
+// Two months compared: what is shown of a segment is the difference, grey where it may be chance.
+import { parseId } from './data.js';
+import { state } from './state.js';
+
+const source = { source: 'roads', sourceLayer: 'roughness' };
+const z90 = 1.645; // 90 %, two-sided
+let shown = '';
+
+// The number of a segment's feature (docs/reference/vector-tiles.md).
+function featureId(id) {
+  const { way, backward, index } = parseId(id);
+  return way * 2 ** 19 + index * 2 + (backward ? 1 : 0);
+}
+
+export function changeColour(css) {
+  return ['case', ['==', ['feature-state', 'change'], null], css('--unknown'), ['==', ['feature-state', 'sure'], false], css('--unsure'),
+    ['interpolate', ['linear'], ['feature-state', 'change'], -1.5, '#2166ac', -0.1, '#92c5de', 0.1, '#f4a582', 1.5, '#b2182b']];
+}
+
+// Months of a segment as [month, iri, sd] to the difference of two of them.
+export function difference(months, before, after) {
+  const [a, b] = [before, after].map((sought) => months.find(([month]) => month === sought));
+  if (!a || !b) return null;
+  const sd = Math.hypot(a[2], b[2]);
+  return { change: b[1] - a[1], sd, sure: Math.abs(b[1] - a[1]) > z90 * sd };
+}
+
+export async function compareMonths(map, { site, months }, tell) {
+  const [before, after] = [state.a, state.b].map((month) => site.months.indexOf(month));
+  if (before < 0 || after < 0 || map.getZoom() < site.compare.zoom) {
+    tell(null);
+    return;
+  }
+  const bounds = map.getBounds();
+  const tiles = 2 ** site.compare.zoom;
+  const column = (lon) => Math.floor((lon + 180) / 360 * tiles);
+  const row = (lat) => Math.floor((1 - Math.asinh(Math.tan(lat * Math.PI / 180)) / Math.PI) / 2 * tiles);
+  const asked = [];
+  for (let x = column(bounds.getWest()); x <= column(bounds.getEast()) && asked.length < 64; ++x) {
+    for (let y = row(bounds.getNorth()); y <= row(bounds.getSouth()) && asked.length < 64; ++y) asked.push([x, y]);
+  }
+  const key = `${before} ${after} ${asked.join(' ')}`;
+  if (key === shown) return;
+  shown = key;
+  const found = await Promise.all(asked.map(([x, y]) => months(x, y)));
+  if (shown !== key) return;
+  map.removeFeatureState(source);
+  const counts = { better: 0, worse: 0, unsure: 0 };
+  for (const [id, each] of found.flatMap((tile) => Object.entries(tile))) {
+    const told = difference(each, before, after);
+    if (!told) continue;
+    map.setFeatureState({ ...source, id: featureId(id) }, { change: told.change, sure: told.sure });
+    counts[told.sure ? (told.change < 0 ? 'better' : 'worse') : 'unsure'] += 1;
+  }
+  tell(counts);
+}

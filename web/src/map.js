@@ -1,0 +1,181 @@
+// The map: measured roads by class, confidence or change, picked by click, touch or keyboard.
+import * as maplibre from 'maplibre-gl';
+import { Protocol } from 'pmtiles';
+import { confidenceLimits, isWide, mapFilter } from './filter.js';
+import { choose, state } from './state.js';
+import { compareMonths, changeColour } from './compare.js';
+
+const layer = 'roughness';
+const roadLayers = ['roads', 'roads-wide'];
+const segmentsFrom = 14; // zoom
+const reach = { mouse: 8, touch: 22 }; // pixels from a click
+
+export const hasWebGl = () => {
+  try {
+    return Boolean(document.createElement('canvas').getContext('webgl2'));
+  } catch {
+    return false;
+  }
+};
+
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+function colour(site) {
+  if (state.mode === 'change') return changeColour(css);
+  if (state.mode === 'confidence') {
+    return ['case', ['!', ['has', 'iri_high']], css('--mid-confidence'), isWide(confidenceLimits[1]), css('--low-confidence'),
+      isWide(confidenceLimits[0]), css('--mid-confidence'), css('--high-confidence')];
+  }
+  return ['match', ['get', 'class'], ...site.classes.flatMap(({ name, colour: value }) => [name, value]), '#999999'];
+}
+
+const width = (factor, more) => ['interpolate', ['exponential', 1.5], ['zoom'], 6, 1 * factor + more, 12, 2.5 * factor + more, 16, 6 * factor + more, 19, 14 * factor + more];
+const offset = (side) => ['interpolate', ['linear'], ['zoom'], 11.9, 0, 12, 1.6 * side, 16, 4.5 * side, 19, 10 * side];
+
+function styleOf(site) {
+  const base = new URL('.', location.href).href;
+  const { pmtiles, url } = site.tiles;
+  const side = site.left_hand ? -1 : 1;
+  const roads = { type: 'line', source: 'roads', 'source-layer': layer };
+  const cap = { 'line-cap': 'butt', 'line-join': 'round' };
+  const none = { type: 'FeatureCollection', features: [] };
+  const placed = { 'line-offset': offset(side) };
+  return {
+    version: 8,
+    sources: {
+      roads: { type: 'vector', ...(pmtiles ? { url: `pmtiles://${base}${pmtiles}` } : { tiles: [base + url], minzoom: site.tiles.min_zoom, maxzoom: site.tiles.max_zoom }),
+        attribution: '' },
+      picked: { type: 'geojson', data: none },
+      pointed: { type: 'geojson', data: none },
+    },
+    layers: [
+      { id: 'ground', type: 'background', paint: { 'background-color': css('--ground') } },
+      { id: 'pointed', type: 'line', source: 'pointed', layout: { ...cap, 'line-cap': 'round' }, paint: { ...placed, 'line-color': css('--focus'), 'line-width': width(1, 12), 'line-opacity': 0.55 } },
+      { id: 'picked', type: 'line', source: 'picked', layout: { ...cap, 'line-cap': 'round' }, paint: { ...placed, 'line-color': css('--focus'), 'line-width': width(1, 9) } },
+      { ...roads, id: 'casing', layout: cap, paint: { ...placed, 'line-color': css('--casing'), 'line-width': width(1, 1.6) } },
+      { ...roads, id: 'roads', layout: cap, paint: { ...placed, 'line-color': colour(site), 'line-width': width(1, 0) } },
+      { ...roads, id: 'roads-wide', layout: cap, paint: { ...placed, 'line-color': colour(site), 'line-width': width(1, 0), 'line-dasharray': [1.2, 0.8] } },
+      { ...roads, id: 'names', type: 'symbol', minzoom: 13, layout: { 'symbol-placement': 'line', 'text-field': ['coalesce', ['get', 'name'], ''], 'text-font': ['sans-serif'],
+        'text-size': 12, 'symbol-spacing': 350 }, paint: { 'text-color': css('--ink'), 'text-halo-color': css('--ground'), 'text-halo-width': 1.6 } },
+    ],
+  };
+}
+
+const lineOf = (coordinates) => ({ type: 'Feature', properties: {}, geometry: { type: 'LineString', coordinates } });
+
+// Distance in pixels from a point to the nearest part of a feature.
+function distance(map, { geometry }, { x, y }) {
+  const lines = geometry.type === 'LineString' ? [geometry.coordinates] : geometry.coordinates;
+  let nearest = Infinity;
+  for (const line of lines) {
+    const points = line.map((each) => map.project(each));
+    for (let i = 1; i < points.length; ++i) {
+      const [a, b] = [points[i - 1], points[i]];
+      const [dx, dy] = [b.x - a.x, b.y - a.y];
+      const along = Math.max(0, Math.min(1, ((x - a.x) * dx + (y - a.y) * dy) / (dx * dx + dy * dy || 1)));
+      nearest = Math.min(nearest, Math.hypot(a.x + along * dx - x, a.y + along * dy - y));
+    }
+  }
+  return nearest;
+}
+
+// One feature of each road and direction under the point, the nearest first; of those within reach if none is exactly there.
+function pick(map, point, by) {
+  let found = map.queryRenderedFeatures(point, { layers: roadLayers });
+  if (found.length === 0) {
+    const r = reach[by];
+    found = map.queryRenderedFeatures([[point.x - r, point.y - r], [point.x + r, point.y + r]], { layers: roadLayers });
+  }
+  const nearest = new Map();
+  for (const feature of found) {
+    const { properties } = feature;
+    const road = properties.segment ? `${properties.way_id}${properties.direction}` : `${properties.name}${properties.highway}${properties.iri}`;
+    const metres = distance(map, feature, point);
+    if (!nearest.has(road) || metres < nearest.get(road).metres) nearest.set(road, { metres, properties });
+  }
+  return [...nearest.values()].sort((a, b) => a.metres - b.metres).map(({ properties }) => properties);
+}
+
+export function openMap(container, data, tell) {
+  const { site } = data;
+  maplibre.addProtocol('pmtiles', new Protocol().tile);
+  const [zoom, latitude, longitude] = state.map.split('/').map(Number);
+  const map = new maplibre.Map({
+    container, style: styleOf(site), attributionControl: false, maxPitch: 0, dragRotate: false, pitchWithRotate: false, fadeDuration: 0,
+    ...(Number.isFinite(longitude) ? { center: [longitude, latitude], zoom } : { bounds: site.bounds, fitBoundsOptions: { padding: 30 } }),
+  });
+  map.touchZoomRotate.disableRotation();
+  map.addControl(new maplibre.NavigationControl({ showCompass: false }), 'top-right');
+  map.addControl(new maplibre.ScaleControl({ unit: state.unit === 'in/mi' ? 'imperial' : 'metric' }), 'bottom-left');
+
+  map.on('click', (event) => {
+    const found = pick(map, event.point, event.originalEvent.pointerType === 'touch' ? 'touch' : 'mouse');
+    tell.picked(found, event.lngLat);
+  });
+  map.on('mousemove', (event) => {
+    map.getCanvas().style.cursor = map.queryRenderedFeatures(event.point, { layers: roadLayers.filter((id) => map.getLayer(id)) }).length > 0 ? 'pointer' : '';
+  });
+  map.on('moveend', () => {
+    const { lng, lat } = map.getCenter();
+    choose({ map: `${map.getZoom().toFixed(2)}/${lat.toFixed(5)}/${lng.toFixed(5)}` });
+  });
+  map.on('error', ({ error }) => tell.failed(error));
+  let loaded = false;
+  map.on('load', () => { loaded = true; show(); });
+  map.on('idle', () => {
+    container.dataset.ready = 'yes';
+    tell.idle();
+    if (state.mode === 'change') compare();
+  });
+  map.on('dataloading', () => { delete container.dataset.ready; });
+
+  const compare = () => compareMonths(map, data, tell.compared);
+  function show() {
+    if (!loaded) return;
+    const filter = mapFilter();
+    const wide = isWide(confidenceLimits[1]);
+    map.setFilter('casing', filter);
+    map.setFilter('names', filter);
+    map.setFilter('roads', ['all', filter, ['!', wide]]);
+    map.setFilter('roads-wide', ['all', filter, wide]);
+    for (const id of roadLayers) map.setPaintProperty(id, 'line-color', colour(site));
+    for (const [id, property, name] of [['ground', 'background-color', '--ground'], ['casing', 'line-color', '--casing'], ['picked', 'line-color', '--focus'],
+      ['pointed', 'line-color', '--focus'], ['names', 'text-color', '--ink'], ['names', 'text-halo-color', '--ground']]) {
+      map.setPaintProperty(id, property, css(name));
+    }
+    delete container.dataset.ready;
+    if (state.mode === 'change') compare();
+  }
+  const mark = (source) => (lines) => {
+    const set = () => map.getSource(source).setData({ type: 'FeatureCollection', features: lines.map(lineOf) });
+    if (loaded) set(); else map.once('load', set);
+  };
+
+  return {
+    show,
+    remove: () => map.remove(),
+    focus: () => map.getCanvas().focus(),
+    markPicked: mark('picked'),
+    markPointed: mark('pointed'),
+    zoomIn: (at) => map.easeTo({ center: at, zoom: segmentsFrom + 1.5, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
+    fit: ([west, south, east, north], most = 17) =>
+      map.fitBounds([[west, south], [east, north]], { padding: 60, maxZoom: most, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
+    jump: (text) => {
+      const [toZoom, lat, lon] = text.split('/').map(Number);
+      if (Number.isFinite(lon)) map.jumpTo({ center: [lon, lat], zoom: toZoom });
+    },
+    sees: ([lon, lat]) => map.getBounds().contains([lon, lat]),
+    zoom: () => map.getZoom(),
+    hasSegments: () => map.getZoom() >= segmentsFrom,
+    // Features in view that pass the filter, each once.
+    inView() {
+      const found = new Map();
+      if (!loaded) return [];
+      for (const feature of map.queryRenderedFeatures({ layers: roadLayers })) {
+        const { properties } = feature;
+        found.set(properties.segment ?? JSON.stringify(properties), properties);
+      }
+      return [...found.values()];
+    },
+  };
+}
