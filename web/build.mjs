@@ -2,7 +2,7 @@
 // Our own code is one file, site.js; libraries lie beside it as their authors built them.
 import { build } from 'esbuild';
 import { copyFile, mkdir, readFile, readdir, rm, writeFile } from 'node:fs/promises';
-import { dirname, join } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -11,7 +11,7 @@ if (!out) {
   console.error('usage: node build.mjs FOLDER');
   process.exit(2);
 }
-const assets = join(out, 'assets');
+const assets = resolve(out, 'assets');
 const options = { bundle: true, minify: true, format: 'esm', target: 'es2022', legalComments: 'inline', absWorkingDir: here, logLevel: 'warning' };
 
 await rm(out, { recursive: true, force: true });

@@ -64,7 +64,7 @@ export function segmentDetail(segment, site, act) {
       row(w('site.segment'), el('code', {}, segment.segment))),
     el('h3', {}, w('site.history')),
     months.length === 0 ? el('p', { class: 'quiet' }, w('site.no_history'))
-      : [history(months, segment.changed), el('details', {}, el('summary', {}, w('site.as_table')), el('div', { class: 'scroll', tabIndex: 0, role: 'region', 'aria-label': w('site.history') }, historyTable(months)))],
+      : [history(months, segment.changed), el('details', {}, el('summary', {}, w('site.as_table')), el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.history') }, historyTable(months)))],
     el('div', { class: 'actions' },
       el('button', { type: 'button', onclick: () => act.step(-1) }, `◂ ${w('site.back_along')}`),
       el('button', { type: 'button', onclick: () => act.step(1) }, `${w('site.on_along')} ▸`),

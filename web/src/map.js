@@ -96,7 +96,7 @@ function pick(map, point, by) {
   return [...nearest.values()].sort((a, b) => a.metres - b.metres).map(({ properties }) => properties);
 }
 
-export function openMap(container, data, tell) {
+export function openMap(container, data, covered, tell) {
   const { site } = data;
   maplibre.addProtocol('pmtiles', new Protocol().tile);
   const [zoom, latitude, longitude] = state.map.split('/').map(Number);
@@ -159,12 +159,17 @@ export function openMap(container, data, tell) {
     markPointed: mark('pointed'),
     zoomIn: (at) => map.easeTo({ center: at, zoom: segmentsFrom + 1.5, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
     fit: ([west, south, east, north], most = 17) =>
-      map.fitBounds([[west, south], [east, north]], { padding: 60, maxZoom: most, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
+      map.fitBounds([[west, south], [east, north]], { padding: { top: 60, left: 60, right: 60 + covered().right, bottom: 60 + covered().bottom }, maxZoom: most, animate: !matchMedia('(prefers-reduced-motion: reduce)').matches }),
     jump: (text) => {
       const [toZoom, lat, lon] = text.split('/').map(Number);
       if (Number.isFinite(lon)) map.jumpTo({ center: [lon, lat], zoom: toZoom });
     },
-    sees: ([lon, lat]) => map.getBounds().contains([lon, lat]),
+    // Whether a place is in view, and not below the drawer.
+    sees(at) {
+      const { x, y } = map.project(at);
+      const { right, bottom } = covered();
+      return x > 0 && y > 0 && x < container.clientWidth - right && y < container.clientHeight - bottom;
+    },
     zoom: () => map.getZoom(),
     hasSegments: () => map.getZoom() >= segmentsFrom,
     // Features in view that pass the filter, each once.

@@ -127,7 +127,7 @@ export function openPanel(place, data, totals, worst, act) {
     replace(view, features.length === 0 ? el('p', {}, w('site.none_in_view'), ' ', el('button', { type: 'button', onclick: act.toData }, w('site.to_data'))) : [
       el('p', {}, w('site.in_view_total', { km: roadLength(all), iri: iri(sorted.reduce((sum, { sum: each }) => sum + each, 0) / all), unit: iriUnit() })),
       distribution(bins, totals.bin_mm_per_m, site.classes),
-      el('div', { class: 'scroll', tabIndex: 0, role: 'region', 'aria-label': w('site.in_view') }, el('table', { id: 'view-table' }, el('caption', { class: 'hidden' }, w('site.in_view')),
+      el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.in_view') }, el('table', { id: 'view-table' }, el('caption', { class: 'hidden' }, w('site.in_view')),
         el('thead', {}, el('tr', {}, ...['site.road', 'site.mean', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
         el('tbody', {}, ...sorted.slice(0, most).map((road) => el('tr', {},
           el('th', { scope: 'row' }, el('button', { type: 'button', class: 'plain', onclick: () => act.openFeature(road.target) }, roadName(road))),
@@ -136,7 +136,7 @@ export function openPanel(place, data, totals, worst, act) {
 
   replace(place,
     section('legend', w('site.legend'), legend),
-    section('worst', w('site.worst'), worst.length === 0 ? el('p', {}, w('site.no_worst')) : el('div', { class: 'scroll', tabIndex: 0, role: 'region', 'aria-label': w('site.worst') },
+    section('worst', w('site.worst'), worst.length === 0 ? el('p', {}, w('site.no_worst')) : el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.worst') },
       el('table', { id: 'worst-table' }, el('caption', { class: 'hidden' }, w('site.worst')),
         el('thead', {}, el('tr', {}, el('th', { scope: 'col' }, '#'), ...['site.road', 'site.iri', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
         el('tbody', {}, ...worstRows)))),

@@ -65,11 +65,11 @@ async function openSegment(id, { fit = false, focus = true } = {}) {
     shownSegment = segment;
     choose({ s: id });
     map?.markPicked([segment.line]);
+    showDrawer(segmentDetail(segment, data.site, { copy, step: stepAlong }), focus);
     if (fit && map && !(map.sees(segment.line[0]) && map.hasSegments())) {
       const [lon, lat] = segment.line[0];
       map.fit([lon, lat, lon, lat], 16);
     }
-    showDrawer(segmentDetail(segment, data.site, { copy, step: stepAlong }), focus);
     panel.markWorst(id);
     return true;
   } catch (error) {
@@ -95,8 +95,14 @@ function picked(found, at) {
 }
 
 function openWorst(section) {
-  map?.fit(section.bounds);
-  openSegment(section.segments[Math.floor(section.segments.length / 2)]);
+  openSegment(section.segments[Math.floor(section.segments.length / 2)]).then(() => map?.fit(section.bounds));
+}
+
+// Pixels of the map below drawer and sheet.
+function covered() {
+  const height = parts.map.clientHeight;
+  if (narrow.matches) return { right: 0, bottom: Math.min(parts.sheet.clientHeight, height * 0.5) };
+  return { right: parts.drawer.hidden ? 0 : Math.min(parts.drawer.clientWidth, parts.map.clientWidth - 200), bottom: 0 };
 }
 
 function toData() {
@@ -118,8 +124,7 @@ function search() {
   const take = (road) => {
     close();
     input.value = road.name;
-    map?.fit(road.bounds);
-    openSegment(road.segment);
+    openSegment(road.segment).then(() => map?.fit(road.bounds));
   };
   const mark = (to) => {
     at = to;
@@ -199,7 +204,7 @@ function openSheetFor(id) {
 // Without a map: the names of the roads lead to all numbers.
 async function listNames() {
   const names = await data.names('', 200);
-  replace(parts.map, el('div', { class: 'notice' }, el('p', {}, w('site.no_webgl'))), el('div', { class: 'scroll', tabIndex: 0, role: 'region', 'aria-label': w('site.roads') },
+  replace(parts.map, el('div', { class: 'notice' }, el('p', {}, w('site.no_webgl'))), el('div', { class: 'scroll', tabIndex: 0, role: 'group', 'aria-label': w('site.roads') },
     el('table', { id: 'road-table' }, el('caption', {}, w('site.roads')),
       el('thead', {}, el('tr', {}, ...['site.road', 'site.mean', 'site.length'].map((key) => el('th', { scope: 'col' }, w(key))))),
       el('tbody', {}, ...names.map((road) => el('tr', {}, el('th', { scope: 'row' }, el('button', { type: 'button', class: 'plain', onclick: () => openSegment(road.segment) }, road.name)),
@@ -232,7 +237,7 @@ async function draw() {
   };
   panel = openPanel(panelPlace, data, totals, worst, act);
   if (hasWebGl()) {
-    map = openMap(mapPlace, data, {
+    map = openMap(mapPlace, data, covered, {
       picked,
       failed: (error) => failure(error, () => location.reload()),
       idle: () => panel.drawView(map.inView(), map.hasSegments()),

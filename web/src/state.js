@@ -11,6 +11,7 @@ export function readState() {
     const text = given.get(key);
     state[key] = text === null ? value : typeof value === 'number' ? (text !== '' && Number.isFinite(Number(text)) ? Number(text) : value) : text;
   }
+  state.s = state.s.replace(' ', '+'); // as '+' in an address is read
 }
 
 function address() {

@@ -1,0 +1,77 @@
+// A site of a small simulated fleet, and pages of Debian's Chromium that show it and reach no other host.
+import { chromium } from 'playwright-core';
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { createRequire } from 'node:module';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { serve } from './static_server.mjs';
+
+const program = process.env.MACADAM_PROGRAM;
+const source = join(dirname(fileURLToPath(import.meta.url)), '../..');
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+export const macadam = (...words) => execFileSync(program, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1e8 });
+
+function simulated(folder) {
+  const fleet = join(source, 'sample_data/fleet');
+  const database = join(folder, 'roads.gpkg');
+  macadam('simulate', '-o', `${folder}/fleet`, '--network', `${fleet}/network.osm.pbf`, '--recipe', `${fleet}/recipe.toml`, '--trips', '4');
+  macadam('init', database, '--network', `${folder}/fleet/network.osm.pbf`);
+  macadam('import', database, `${folder}/fleet/trips`);
+  return database;
+}
+
+export async function world() {
+  const folder = mkdtempSync(join(tmpdir(), 'macadam-web-'));
+  const database = process.env.MACADAM_WEB_DATABASE ?? simulated(folder); // to look at one of one's own
+  macadam('export', database, '-o', `${folder}/site`, '--format', 'site', '--title', 'Krems <b>&amp;');
+  const server = await serve(join(folder, 'site'));
+  const options = { executablePath: '/usr/bin/chromium', timeout: 60_000 };
+  const noHost = ['--no-sandbox', '--disable-gpu-sandbox', '--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1'];
+  const browser = await chromium.launch({ ...options, args: [...noHost, '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+  const query = (...words) => JSON.parse(macadam('query', database, ...words, '--json'));
+
+  return {
+    server, query, folder, database,
+    site: JSON.parse(readFileSync(join(folder, 'site/site.json'), 'utf8')),
+    segments: query('--bbox', '-180,-90,180,90'),
+
+    // A page that has drawn its map. What it asks of other hosts, logs or throws is a failure when it closes.
+    async page(hash = '', { width = 1280, height = 800, ready = true, path = '', ...context } = {}) {
+      const opened = await browser.newContext({ viewport: { width, height }, locale: 'en-GB', ...context });
+      const page = await opened.newPage();
+      page.setDefaultTimeout(20_000);
+      const wrong = [];
+      page.on('request', (request) => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(server.url)) wrong.push(`asked ${request.url()}`); });
+      page.on('pageerror', (error) => wrong.push(String(error)));
+      page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) wrong.push(message.text()); });
+      if (context.before) await context.before(page);
+      await page.goto(server.url + path + hash);
+      const drawn = () => page.waitForSelector('#map[data-ready]', { timeout: 15_000 });
+      if (ready) await drawn();
+      return {
+        page, wrong, drawn,
+        text: (selector) => page.locator(selector).innerText(),
+        async close() {
+          assert.deepEqual(wrong, []);
+          await opened.close();
+        },
+        // Breaches of axe-core's rules for WCAG 2.2 AA and its best practices.
+        async breaches() {
+          await page.evaluate(axe);
+          const { violations } = await page.evaluate(() => globalThis.axe.run(document));
+          return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html, any }) => `${html.slice(0, 120)} ${any[0]?.message ?? ''}`).join(' | ')}`);
+        },
+      };
+    },
+
+    async close() {
+      await browser.close();
+      server.close();
+      rmSync(folder, { recursive: true, force: true });
+    },
+  };
+}

@@ -1,0 +1,273 @@
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { gzipSync } from 'node:zlib';
+import { after, before, describe, test } from 'node:test';
+import { join } from 'node:path';
+import { world } from './browser.mjs';
+
+let town;
+before(async () => { town = await world(); }, { timeout: 110_000 });
+after(() => town?.close());
+
+const km = (text) => Number(/([\d.]+) km/.exec(text)[1]);
+const fixed = (value) => value.toFixed(2);
+
+// The first measured segment of a road whose other direction was not measured, and the place of its middle.
+function lonely() {
+  const names = new Set(town.segments.map(({ segment }) => segment));
+  const found = town.segments.find(({ segment, from_m: from, to_m: to }) => to - from > 15 && !names.has(segment.replace(/[+-](?=\d+$)/, (sign) => (sign === '+' ? '-' : '+'))));
+  assert.ok(found, 'the fleet drives some road in one direction only');
+  const shard = JSON.parse(readFileSync(join(town.folder, 'site/segments/index.json'), 'utf8'));
+  for (let i = 0; i < shard.length; ++i) {
+    const each = JSON.parse(readFileSync(join(town.folder, `site/segments/${i}.json`), 'utf8'))[found.segment];
+    if (each) return { found, detail: each };
+  }
+  throw new Error(`no shard has ${found.segment}`);
+}
+const at = ({ line }, zoom = 18) => `map=${zoom}/${((line[0][1] + line.at(-1)[1]) / 2).toFixed(6)}/${((line[0][0] + line.at(-1)[0]) / 2).toFixed(6)}`;
+
+describe('a site in a folder', { timeout: 110_000 }, () => {
+  test('has the fields of every measured segment as query prints them', () => {
+    const index = JSON.parse(readFileSync(join(town.folder, 'site/segments/index.json'), 'utf8'));
+    const all = index.flatMap((_, i) => Object.values(JSON.parse(readFileSync(join(town.folder, `site/segments/${i}.json`), 'utf8'))));
+    assert.ok(all.length > 500);
+    assert.deepEqual(all.map(({ line, months, ...fields }) => fields), town.segments);
+    assert.ok(all.every(({ months }) => months.length > 0));
+  });
+
+  test('has as many kilometres in its totals as in its segments', () => {
+    const { rows } = JSON.parse(readFileSync(join(town.folder, 'site/totals.json'), 'utf8'));
+    const total = rows.reduce((sum, row) => sum + row[5], 0);
+    const measured = town.segments.reduce((sum, { from_m: from, to_m: to }) => sum + (to - from) / 1000, 0);
+    assert.ok(Math.abs(total - measured) < 0.05, `${total} and ${measured}: rows are rounded to 0.1 m`);
+  });
+
+  test('has own code of at most 80 kB gzipped', () => {
+    const sizes = ['site.js', 'site.css'].map((name) => gzipSync(readFileSync(join(town.folder, 'site/assets', name))).length);
+    assert.ok(sizes[0] + sizes[1] < 80_000, String(sizes));
+  });
+});
+
+describe('the page', { timeout: 280_000 }, () => {
+  test('opens the drawer with the numbers of query where the map is clicked', async () => {
+    const { found, detail } = lonely();
+    const { page, text, close } = await town.page(`#${at(detail)}`);
+    const box = await page.locator('#map canvas').boundingBox();
+    const [[lon1, lat1], [lon2, lat2]] = [detail.line[0], detail.line.at(-1)];
+    const course = Math.atan2((lon2 - lon1) * Math.cos(lat1 * Math.PI / 180), lat2 - lat1);
+    const side = 8.2; // pixels to the right in driving direction at zoom 18
+    await page.mouse.click(box.x + box.width / 2 + side * Math.cos(course), box.y + box.height / 2 + side * Math.sin(course));
+    await page.waitForSelector('.drawer dl');
+    const [asked] = town.query('--segment', await text('.drawer code'));
+    assert.equal(asked.segment, found.segment);
+    assert.equal(await text('.value strong'), fixed(asked.iri));
+    const drawer = await text('.drawer');
+    assert.ok(drawer.includes(`${fixed(asked.iri_low)} – ${fixed(asked.iri_high)}`), drawer);
+    assert.ok(drawer.includes(`${asked.passes} pass`), drawer);
+    assert.match(new URL(page.url()).hash, new RegExp(`s=${found.segment.replace('+', '\\+')}`));
+    await close();
+  });
+
+  test('finds a road within 8 pixels of a mouse and not beyond', async () => {
+    const { detail } = lonely();
+    const { page, close } = await town.page(`#${at(detail)}`);
+    const box = await page.locator('#map canvas').boundingBox();
+    const [[lon1, lat1], [lon2, lat2]] = [detail.line[0], detail.line.at(-1)];
+    const course = Math.atan2((lon2 - lon1) * Math.cos(lat1 * Math.PI / 180), lat2 - lat1);
+    const click = (side) => page.mouse.click(box.x + box.width / 2 + side * Math.cos(course), box.y + box.height / 2 + side * Math.sin(course));
+    const edge = 8.2 + 5.5; // right border of the line
+    await click(edge + 14);
+    await page.waitForTimeout(300);
+    assert.equal(await page.locator('.drawer').isVisible(), false);
+    await click(edge + 4);
+    await page.waitForSelector('.drawer h2');
+    await close();
+  });
+
+  test('filters kilometres and map by class, road class, passes and confidence', async () => {
+    const { page, text, close } = await town.page();
+    const sum = (keeps) => town.segments.filter(keeps).reduce((all, { from_m: from, to_m: to }) => all + (to - from) / 1000, 0);
+    assert.ok(Math.abs(km(await text('.total')) - sum(() => true)) < 0.06);
+    await page.getByRole('checkbox', { name: /^Poor/ }).uncheck();
+    assert.ok(Math.abs(km(await text('.total')) - sum(({ class: name }) => name !== 'poor')) < 0.06);
+    await page.getByLabel('Passes, at least').selectOption('2');
+    assert.ok(Math.abs(km(await text('.total')) - sum(({ class: name, passes }) => name !== 'poor' && passes >= 2)) < 0.06);
+    await page.getByLabel(/^Confidence/).and(page.locator('select')).selectOption('1');
+    const isNarrow = ({ iri, iri_low: low, iri_high: high }) => (high - low) / 2 <= 0.3 * iri;
+    assert.ok(Math.abs(km(await text('.total')) - sum((each) => each.class !== 'poor' && each.passes >= 2 && isNarrow(each))) < 0.08);
+    assert.match(page.url(), /c=poor&p=2&q=1|c=poor.*p=2.*q=1/);
+    await page.getByRole('button', { name: 'Reset' }).click();
+    assert.ok(Math.abs(km(await text('.total')) - sum(() => true)) < 0.06);
+    await close();
+  });
+
+  test('shows the same again from its address', async () => {
+    const { detail } = lonely();
+    const { page, text, close } = await town.page(`#${at(detail, 16)}&s=${detail.segment}&c=good&unit=in/mi&theme=dark&mode=confidence`);
+    await page.waitForSelector('.drawer dl');
+    assert.equal(await text('.value strong'), (detail.iri * 63.36).toFixed(0));
+    assert.equal(await page.getByRole('checkbox', { name: /^Good/ }).isChecked(), false);
+    assert.equal(await page.getByRole('radio', { name: 'Confidence' }).isChecked(), true);
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+    await close();
+  });
+
+  test('links the worst sections with the map both ways', async () => {
+    const { page, text, drawn, close } = await town.page();
+    const worst = town.query('--worst', '200');
+    assert.equal(await page.locator('#worst-table tbody tr').count(), worst.length);
+    await page.locator('#worst-1 button').click();
+    await page.waitForSelector('.drawer dl');
+    await drawn();
+    const parts = worst[0].parts.map(({ way_id: way }) => String(way));
+    assert.ok(parts.some((way) => page.url().includes(`s=${way}`)), page.url());
+    assert.equal(await page.locator('tr[data-picked]').first().getAttribute('id'), 'worst-1');
+    assert.ok(Number(/map=([\d.]+)/.exec(page.url())[1]) > 14, 'the map went there');
+    assert.ok((await text('.drawer')).length > 0);
+    await close();
+  });
+
+  test('finds a road by its name', async () => {
+    const { page, text, close } = await town.page();
+    const road = town.segments.find(({ name }) => name?.length > 5).name;
+    await page.keyboard.press('/');
+    await page.keyboard.type(road.slice(0, 5).toUpperCase());
+    await page.waitForSelector('#found li');
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.drawer dl');
+    assert.ok((await text('.drawer h2')).toLowerCase().startsWith(road.slice(0, 5).toLowerCase()));
+    await close();
+  });
+
+  test('is walked through by keyboard alone', async () => {
+    const { page, text, close } = await town.page();
+    await page.keyboard.press('w');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.drawer dl');
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'drawer-title');
+    const first = await text('.drawer code');
+    await page.keyboard.press(']');
+    await page.waitForFunction((before) => document.querySelector('.drawer code').textContent !== before, first);
+    await page.keyboard.press('Escape');
+    assert.equal(await page.locator('.drawer').isVisible(), false);
+    assert.equal(await page.evaluate(() => document.activeElement.closest('tr')?.id), 'worst-1', 'the focus is back');
+    await close();
+  });
+
+  test('mirrors the map in the table of roads in view', async () => {
+    const { page, close } = await town.page(`#${at(lonely().detail, 16)}`);
+    await page.waitForSelector('#view-table tbody tr');
+    const rows = await page.locator('#view-table tbody tr').count();
+    assert.ok(rows > 0);
+    await page.locator('#view-table button').first().click();
+    await page.waitForSelector('.drawer dl');
+    await close();
+  });
+
+  test('compares two months, and calls only what is beyond chance a change', async () => {
+    const { page, text, close } = await town.page(`#map=15/${(town.site.bounds[1] + town.site.bounds[3]) / 2}/${(town.site.bounds[0] + town.site.bounds[2]) / 2}`);
+    await page.keyboard.press('c');
+    await page.waitForFunction(() => /In view: \d+/.test(document.querySelector('.panel').textContent));
+    assert.match(await text('.panel'), /In view: \d+ segments smoother, \d+ rougher, \d+ without significant change/);
+    await close();
+  });
+
+  test('hands on the filtered segments as CSV, and says their number first', async () => {
+    const { page, text, close } = await town.page('#c=poor');
+    const asked = town.segments.filter(({ class: name }) => name !== 'poor').length;
+    const told = Number(/about (\d+) segments/.exec(await text('#export'))[1]);
+    assert.ok(Math.abs(told - asked) < 0.1 * asked, `${told} and ${asked}: from the kilometres`);
+    const [file] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download CSV' }).click()]);
+    const lines = readFileSync(await file.path(), 'utf8').trim().split('\n');
+    assert.equal(lines.length - 1, asked);
+    assert.match(lines[0], /^segment,way_id,name,/);
+    await close();
+  });
+
+  test('speaks German with the words of the report', async () => {
+    const { page, text, close } = await town.page('#lang=de');
+    assert.match(await text('.panel'), /Schlecht \(über 2,68\)/);
+    assert.equal(await page.evaluate(() => document.documentElement.lang), 'de');
+    assert.doesNotMatch(await text('body'), /site\./);
+    await close();
+  });
+
+  for (const theme of ['light', 'dark', 'contrast']) {
+    test(`breaks no rule of axe-core in the theme ${theme}, with drawer and without`, async () => {
+      const { page, breaches, close } = await town.page(`#theme=${theme}&lang=de`);
+      await page.locator('.settings summary').click();
+      assert.deepEqual(await breaches(), []);
+      await page.locator('#worst-2 button').click();
+      await page.waitForSelector('.drawer dl');
+      assert.deepEqual(await breaches(), []);
+      await close();
+    });
+  }
+
+  for (const width of [320, 768]) {
+    test(`fits ${width} pixels without scrolling sideways, and breaks no rule there`, async () => {
+      const { page, breaches, close } = await town.page('', { width, height: 640, hasTouch: true });
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+      await page.locator('.settings summary').click();
+      await page.locator('.settings summary').click();
+      if (width === 320) await page.locator('.handle').click();
+      assert.deepEqual(await breaches(), []);
+      await close();
+    });
+  }
+
+  test('shows names with markup as text', async () => {
+    const { page, text, close } = await town.page();
+    assert.equal(await text('h1'), 'Krems <b>&amp;');
+    assert.equal(await page.locator('h1 b').count(), 0);
+    await close();
+  });
+
+  test('says that no road passes a filter, and leads back to the data', async () => {
+    const { page, text, close } = await town.page('#p=10&q=0&c=good,fair,poor');
+    await page.waitForFunction(() => document.querySelector('#view').textContent.includes('No measured road'));
+    await page.getByRole('button', { name: 'Show all roads' }).click();
+    await page.waitForSelector('#view-table tbody tr');
+    assert.match(await text('.total'), /shown/);
+    await close();
+  });
+
+  test('has all values in lists without WebGL', async () => {
+    const opened = await town.page('', { ready: false, before: (page) => page.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; }) });
+    await opened.page.waitForSelector('#road-table tbody tr');
+    assert.match(await opened.text('#map'), /WebGL 2 is missing/);
+    await opened.page.locator('#road-table button').first().click();
+    await opened.page.waitForSelector('.drawer dl');
+    assert.deepEqual(await opened.breaches(), []);
+    await opened.close();
+  });
+
+  test('says what failed, and tries again', async () => {
+    const { detail } = lonely();
+    let isBroken = true;
+    const opened = await town.page(`#s=${detail.segment}`, { before: (page) => page.route('**/segments/*.json', (route) => (isBroken ? route.fulfill({ status: 500 }) : route.continue())) });
+    await opened.page.waitForSelector('.notice[role=alert] button');
+    assert.match(await opened.text('.notice'), /segments\/\w+\.json: 500/);
+    isBroken = false;
+    await opened.page.locator('.notice button').click();
+    await opened.page.waitForSelector('.drawer dl');
+    opened.wrong.splice(0); // the browser's own words on the failure
+    await opened.close();
+  });
+
+  test('says that there is no network', async () => {
+    const { page, text, close } = await town.page();
+    await page.context().setOffline(true);
+    await page.waitForSelector('.notice[role=alert]:not([hidden])');
+    assert.match(await text('.notice'), /No network/);
+    await page.context().setOffline(false);
+    await close();
+  });
+
+  test('leads to the data without script', async () => {
+    const { page, close } = await town.page('', { ready: false, javaScriptEnabled: false });
+    assert.match(await page.locator('noscript').innerText(), /roughest sections/);
+    await close();
+  });
+});
