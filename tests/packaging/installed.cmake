@@ -27,6 +27,14 @@ foreach(made maps/map.png maps/roads.fgb moved/share/man/man1/macadam-import.1.g
     endif()
 endforeach()
 
+# The page of a site is found wherever the tree stands, if the build has it.
+if(EXISTS "${folder}/moved/share/macadam/site")
+    run_checked("${program}" export "${folder}/maps/roads.gpkg" -o "${folder}/maps/site" --format site)
+    if(NOT EXISTS "${folder}/maps/site/assets/maplibre-gl.mjs" OR NOT EXISTS "${folder}/maps/site/roads.pmtiles")
+        message(FATAL_ERROR "${folder}/maps/site: has no page or no tiles")
+    endif()
+endif()
+
 # The Python module opens the plug-ins of the same tree (the network is read by GDAL's).
 file(GLOB module "${folder}/moved/lib/python3/dist-packages/macadam/_macadam.*.so")
 if(module)
