@@ -193,7 +193,7 @@ void add_passes(ProcessedTrip& trip,
     });
     const auto meta = log.meta;
     report.trip_id = meta.trip_id;
-    const auto chosen = context.vehicles(source.file, meta.vehicle_id);
+    const auto chosen = context.vehicles(source.file, meta);
     report.vehicle = chosen.vehicle.name;
     report.rows.read = report.rows.rejected = log.rows.size();
     auto result = with_trip_name(report.file, [&] {

@@ -350,7 +350,8 @@ TripResult passes_of(TripLog log,
     auto trace = trace_of(trip, std::move(motion), vehicle, with_profile, progress);
     std::ranges::move(trace.warnings, std::back_inserter(warnings));
     const auto events = events_in(trace.roughness);
-    const auto kept = kept_of(trip, trace.odometer, config.trim);
+    const auto trim = trim_for(trip.meta, config.trim);
+    const auto kept = kept_of(trip, trace.odometer, trim);
     const double distance_m = recorded_m(trip, trace.odometer, kept, config.odometer.max_gap_s);
     const auto within = [&](SampleUse use, const std::vector<double>& t_s, double latency_s = 0) {
         return trimmed_use(std::move(use), t_s, latency_s, trace.odometer, kept);
@@ -372,7 +373,7 @@ TripResult passes_of(TripLog log,
     const auto begin_ms = begin_of(kept, trace.odometer);
     auto cut = cut_trip(trace.roughness, kept_match, roads, vehicle, config.pass);
     if (!kept.is_whole) {
-        warnings.push_back(trim_text(kept, trace.odometer.whole_m(), config.trim));
+        warnings.push_back(trim_text(kept, trace.odometer.whole_m(), trim));
     }
     const auto outside_at = length_on_roads_m(matched) <= 0 ? middle_of(trip.fixes) : std::nullopt;
     if (cut.passes.empty() && begin_ms && !outside_at) {

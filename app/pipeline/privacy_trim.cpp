@@ -1,6 +1,7 @@
 #include "app/pipeline/privacy_trim.hpp"
 
 #include "storage/store/privacy/crowd_trim.hpp"
+#include "storage/trips/log/trip_meta.hpp"
 
 #include <fmt/format.h>
 
@@ -104,6 +105,10 @@ TrimRule trim_in(RoadStore& store, TrimRule asked) {
     auto rule = crowd_trim(*store.key());
     rule.min_m = std::max(rule.min_m, asked.min_m);
     return rule;
+}
+
+TrimRule trim_for(const TripMeta& meta, const TrimRule& rule) {
+    return trimmed_before_m(meta) >= rule.min_m ? TrimRule{} : rule;
 }
 
 KeptParts kept_of(const TripLog& trip, const Odometer& odometer, const TrimRule& rule) {

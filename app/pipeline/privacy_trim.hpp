@@ -15,6 +15,11 @@ namespace macadam {
 /// with the requested length as minimum. Creates the key if it is missing.
 TrimRule trim_in(RoadStore& store, TrimRule asked);
 
+/// Returns the rule for one trip: inactive if its log states that the recorder left out at least as
+/// much (`trimmed_m`), otherwise the rule as it is, since the log does not show where the trip
+/// began.
+TrimRule trim_for(const TripMeta& meta, const TrimRule& rule);
+
 /// Parts of a trip that enter passes, traces, distances and times; the rest is discarded.
 struct KeptParts {
     std::vector<TravelSpan> parts; ///< in order; empty: the trip is too short

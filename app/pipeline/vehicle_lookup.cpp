@@ -1,5 +1,7 @@
 #include "app/pipeline/vehicle_lookup.hpp"
 
+#include "app/pipeline/stated_car.hpp"
+
 #include "estimator/common/error.hpp"
 #include "storage/settings/vehicle_file.hpp"
 #include "storage/text/text.hpp"
@@ -7,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -148,7 +151,8 @@ std::set<std::string> VehicleChoice::names_for(const fs::path& trip_file) {
     return names;
 }
 
-ChosenVehicle VehicleChoice::operator()(const fs::path& trip_file, const std::string& vehicle_id) {
+ChosenVehicle VehicleChoice::operator()(const fs::path& trip_file, const TripMeta& meta) {
+    const auto& vehicle_id = meta.vehicle_id;
     if (for_all_) {
         return *for_all_;
     }
@@ -160,6 +164,9 @@ ChosenVehicle VehicleChoice::operator()(const fs::path& trip_file, const std::st
     }
     if (const auto* const built_in = built_in_vehicle(vehicle_id)) {
         return {*built_in, true, ""};
+    }
+    if (auto stated = stated_car(meta)) {
+        return {std::move(*stated), false, ""};
     }
     const auto who = vehicle_id.empty()
                          ? std::string{"car unknown (no vehicle_id)"}

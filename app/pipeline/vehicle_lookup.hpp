@@ -47,8 +47,8 @@ std::optional<std::string> parse_vehicle_id(const Arguments& arguments);
 std::map<std::string, Vehicle> vehicles_in(const std::filesystem::path& folder);
 
 /// Finds the car of each trip: by --vehicle; else by the trip's vehicle_id in --vehicles, in
-/// vehicles/ beside or in the trip's folder, or among the built-in cars; else `generic` with a
-/// warning. Reads each folder once. Thread-safe.
+/// vehicles/ beside or in the trip's folder, or among the built-in cars; else the one that the log
+/// describes (stated_car.hpp); else `generic` with a warning. Reads each folder once. Thread-safe.
 class VehicleChoice {
 public:
     /// Reads --vehicle, --vehicles and --vehicle-id immediately.
@@ -56,8 +56,9 @@ public:
     /// \throws InputError  for a file that is no vehicle.
     explicit VehicleChoice(const Arguments& arguments);
 
-    /// \throws InputError  if a vehicle file beside the trip is invalid.
-    ChosenVehicle operator()(const std::filesystem::path& trip_file, const std::string& vehicle_id);
+    /// \throws InputError  if a vehicle file beside the trip, or the car that the log describes, is
+    ///                     invalid.
+    ChosenVehicle operator()(const std::filesystem::path& trip_file, const TripMeta& meta);
 
     /// Returns the names of all cars among which that of a trip is looked up.
     /// \throws InputError  if a vehicle file beside the trip is invalid.

@@ -248,7 +248,7 @@ void run_identify(const Arguments& arguments, const Console& console) {
     const auto source = one_trip(options.trip, mapping_of(arguments));
     auto trip = read_trip(source, needs_of_trace(), console.progress("reading"));
     with_trip_name(source.name(), [&] { vehicles.name_car(trip.meta); });
-    const auto chosen = vehicles(options.trip, trip.meta.vehicle_id);
+    const auto chosen = vehicles(options.trip, trip.meta);
     if (!chosen.warning.empty()) {
         console.warn(chosen.warning);
     }

@@ -248,7 +248,7 @@ void run_trace(const Arguments& arguments, const Console& console) {
         one_trip(options.trip, mapping_of(arguments), arguments.value("--positions").value_or(""));
     auto log = read_trip(source, needs_of_trace(), console.progress("reading"));
     with_trip_name(source.name(), [&] { vehicles.name_car(log.meta); });
-    const auto chosen = vehicles(options.trip, log.meta.vehicle_id);
+    const auto chosen = vehicles(options.trip, log.meta);
     auto found = with_trip_name(
         source.name(), [&] { return prepared(std::move(log), options.pipeline.odometer); });
     const auto& trip = found.trip;

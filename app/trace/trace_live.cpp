@@ -125,7 +125,7 @@ void trace_live(const std::filesystem::path& trip,
     TripFollower feed{trip, needs_of_trace()};
     auto meta = feed.meta();
     with_trip_name(trip.string(), [&] { vehicles.name_car(meta); });
-    const auto chosen = vehicles(trip, meta.vehicle_id);
+    const auto chosen = vehicles(trip, meta);
     if (!chosen.warning.empty()) {
         console.warn(chosen.warning);
     }

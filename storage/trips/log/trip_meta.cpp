@@ -16,6 +16,8 @@ namespace macadam {
 
 namespace {
 
+constexpr auto trimmed_key = "trimmed_m";
+
 [[noreturn]] void refuse(const MetaLine& line, std::string_view expected) {
     throw InputError{fmt::format(
         "{}: key '{}' is {}, expected {}", line.where, line.key, in_quotes(line.value), expected)};
@@ -113,6 +115,20 @@ double latency_s(const MetaLine& line) {
     return value;
 }
 
+/// Parses a length that may be 0.
+double length_m(const MetaLine& line) {
+    const double value = number(line);
+    if (value < 0) {
+        refuse(line, "a length of 0 m or more");
+    }
+    return value;
+}
+
+/// Keeps a checked key under its name: few commands need it.
+void keep(TripMeta& meta, const MetaLine& line) {
+    meta.other[line.key] = line.value;
+}
+
 using Setter = void (*)(TripMeta&, const MetaLine&);
 
 const std::map<std::string_view, Setter>& setters() {
@@ -141,6 +157,11 @@ const std::map<std::string_view, Setter>& setters() {
          }},
         {"speed_latency_s", [](M& meta, const L& line) { meta.speed_latency_s = latency_s(line); }},
         {"speed_scale", [](M& meta, const L& line) { meta.speed_scale = positive_number(line); }},
+        {std::string_view{trimmed_key},
+         [](M& meta, const L& line) {
+             static_cast<void>(length_m(line));
+             keep(meta, line);
+         }},
     };
     return table;
 }
@@ -231,6 +252,11 @@ std::string meta_text(const TripMeta& meta) {
         add(key, value);
     }
     return text;
+}
+
+double trimmed_before_m(const TripMeta& meta) {
+    const auto stated = meta.other.find(trimmed_key);
+    return stated == meta.other.end() ? 0 : parse_number(stated->second).value_or(0);
 }
 
 TripMeta parse_meta(const std::vector<MetaLine>& lines) {

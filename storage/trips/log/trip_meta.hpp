@@ -24,4 +24,8 @@ TripMeta parse_meta(const std::vector<MetaLine>& lines);
 /// be restored exactly. Line breaks in a text become blanks.
 std::string meta_text(const TripMeta& meta);
 
+/// Length that the recorder left out at both ends of the trip and on both sides of long stops, as
+/// `trimmed_m` of the log states it; 0 if it states none.
+double trimmed_before_m(const TripMeta& meta);
+
 } // namespace macadam

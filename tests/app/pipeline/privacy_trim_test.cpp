@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace macadam {
 namespace {
@@ -35,13 +37,16 @@ protected:
         return build_network({way});
     }
 
-    static TripResult result(double trim_m) {
+    static TripResult result(double trim_m, const std::string& trimmed_before_m = "") {
         PipelineConfig config;
         config.trim.min_m = trim_m;
         const auto& car = *built_in_vehicle("golden-car");
         const auto road = testing::patched_road([](double) { return false; }, 1);
-        return passes_of(
-            testing::drive_over(road, {.length_m = length_m}, car), car, roads(), config);
+        auto trip = testing::drive_over(road, {.length_m = length_m}, car);
+        if (!trimmed_before_m.empty()) {
+            trip.meta.other["trimmed_m"] = trimmed_before_m;
+        }
+        return passes_of(std::move(trip), car, roads(), config);
     }
 
     /// How much of the drive there is on both sides of a pass's segment.
@@ -112,6 +117,25 @@ TEST_F(TrimmedTrip, GivesNothingIfItIsTooShort) {
     EXPECT_EQ(trimmed.rows.reasons.size(), 1U);
     EXPECT_THAT(trimmed.warnings,
                 Contains(HasSubstr("m long, all of it within 620 m of its ends: no pass")));
+}
+
+TEST_F(TrimmedTrip, IsNotTrimmedAgainIfTheRecorderLeftOutAsMuch) {
+    const auto once = result(300, "300");
+    EXPECT_EQ(once.passes.size(), result(0).passes.size());
+    EXPECT_FALSE(once.rows.reasons.contains("trimmed"));
+    EXPECT_THAT(once.warnings, Not(Contains(HasSubstr("were removed"))));
+}
+
+TEST_F(TrimmedTrip, IsTrimmedAsAnyIfTheRecorderLeftOutLess) {
+    EXPECT_EQ(result(300, "299").passes.size(), result(300).passes.size());
+}
+
+TEST(TrimForATrip, HoldsForTheStopsOfACrowdsCarToo) {
+    TripMeta meta;
+    meta.other["trimmed_m"] = "300";
+    const TrimRule crowd{.min_m = 300, .random_m = 200, .hides_places = true};
+    EXPECT_FALSE(trim_for(meta, crowd).is_active());
+    EXPECT_TRUE(trim_for(TripMeta{}, crowd).hides_places);
 }
 
 } // namespace

@@ -122,6 +122,8 @@ TEST(TripReader, SaysWhatAKeyExpects) {
                 HasSubstr("expected a number above 0"));
     EXPECT_THAT(refusal_of_text("# macadam-trip 1\n# gnss_latency_s: fast\nt_s\n# end rows: 0\n"),
                 HasSubstr("key 'gnss_latency_s' is 'fast', expected a number"));
+    EXPECT_THAT(refusal_of_text("# macadam-trip 1\n# trimmed_m: -1\nt_s\n# end rows: 0\n"),
+                HasSubstr("key 'trimmed_m' is '-1', expected a length of 0 m or more"));
 }
 
 TEST(TripReader, ReadsTheSameFromTextOfAnotherSystem) {

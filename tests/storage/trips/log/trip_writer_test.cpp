@@ -1,5 +1,6 @@
 #include "storage/trips/log/trip_writer.hpp"
 
+#include "storage/trips/log/trip_meta.hpp"
 #include "storage/trips/trip_reader.hpp"
 #include "support/files/compressed.hpp"
 #include "support/files/files.hpp"
@@ -228,6 +229,14 @@ TEST(TripWriter, WritesATripWithoutASample) {
 TEST(TripWriter, RefusesOtherSuffixes) {
     EXPECT_EQ(refusal_of([] { write_trip(small_trip(), "a.csv"); }),
               "a.csv: expected a name that ends in .trip.csv, .trip.csv.gz, .trip.csv.zst");
+}
+
+TEST(TripWriter, KeepsWhatTheRecorderSaysOfItsTrimming) {
+    auto trip = small_trip();
+    trip.meta.other["trimmed_m"] = "300";
+    EXPECT_THAT(written_text(trip), HasSubstr("# trimmed_m: 300\n"));
+    EXPECT_EQ(trimmed_before_m(read_again(trip).meta), 300);
+    EXPECT_EQ(trimmed_before_m(read_again(small_trip()).meta), 0);
 }
 
 TEST(TripWriter, SaysWhyAFileCannotBeWritten) {
