@@ -30,6 +30,13 @@ await build({ ...options, entryPoints: [join(here, 'src/site.css')], outfile: jo
 for (const file of ['maplibre-gl.mjs', 'maplibre-gl-worker.mjs', 'maplibre-gl.css']) {
   await copyFile(join(here, 'node_modules/maplibre-gl/dist', file), join(assets, file));
 }
+// The recorder is a page of its own in drive/, which does without libraries.
+for (const file of ['drive.js', 'drive.css']) {
+  await build({ ...options, entryPoints: [join(here, 'src/drive', file)], outfile: join(out, 'drive', file) });
+}
+for (const file of ['index.html', 'service_worker.js', 'manifest.webmanifest', 'icon.svg', 'icon-180.png', 'icon-512.png']) {
+  await copyFile(join(here, 'static/drive', file), join(out, 'drive', file));
+}
 for (const file of ['index.html', 'assets/icon.svg']) {
   await copyFile(join(here, 'static', file), join(out, file));
 }

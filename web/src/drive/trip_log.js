@@ -1,20 +1,20 @@
-import { fixTimes_ms, keptTimes, trimmed_m } from "./trimming.js";
-import { distance_m } from "./geometry.js";
-import { fixColumn, fixWidth, motionWidth, rowsOf } from "./samples.js";
+import { fixTimes_ms, keptTimes, trimmed_m } from './trimming.js';
+import { distance_m } from './geometry.js';
+import { fixColumn, fixWidth, motionWidth, rowsOf } from './samples.js';
 
-// Writes the format "macadam-trip 1" (docs/reference/trip-logs.md).
+// Writes the format 'macadam-trip 1' (docs/reference/trip-logs.md).
 
 const columns = [
-  ["acc_x_mps2", 5], ["acc_y_mps2", 5], ["acc_z_mps2", 5],
-  ["gyro_x_radps", 6], ["gyro_y_radps", 6], ["gyro_z_radps", 6],
-  ["lat_deg", 8], ["lon_deg", 8], ["alt_m", 2], ["hacc_m", 2], ["vacc_m", 2],
-  ["gnss_speed_mps", 4], ["course_deg", 4], ["gnss_utc_s", 3],
+  ['acc_x_mps2', 5], ['acc_y_mps2', 5], ['acc_z_mps2', 5],
+  ['gyro_x_radps', 6], ['gyro_y_radps', 6], ['gyro_z_radps', 6],
+  ['lat_deg', 8], ['lon_deg', 8], ['alt_m', 2], ['hacc_m', 2], ['vacc_m', 2],
+  ['gnss_speed_mps', 4], ['course_deg', 4], ['gnss_utc_s', 3],
 ];
 const motionCells = 6;
 
-const oneLine = (text) => String(text).replace(/[\r\n\0]+/g, " ").trim();
+const oneLine = (text) => String(text).replace(/[\r\n\0]+/g, ' ').trim();
 
-const cell = (value, decimals) => (Number.isFinite(value) ? value.toFixed(decimals) : "");
+const cell = (value, decimals) => (Number.isFinite(value) ? value.toFixed(decimals) : '');
 
 const isAny = (values) => values.some(Number.isFinite);
 
@@ -61,11 +61,11 @@ function length_m(rows) {
 }
 
 function headerLines(meta, t0_ms, withGravity) {
-  const lines = [["trip_id", meta.trip_id], ["vehicle_id", meta.vehicle_id], ["t0_utc", new Date(t0_ms).toISOString()],
-    ["frame", "sensor"], ["gravity", withGravity ? "included" : "removed"], ["mount", "auto"],
-    ["speed_source", "gnss"], ["trimmed_m", trimmed_m], ["car_body", meta.car?.body], ["car_mass_kg", meta.car?.mass_kg],
-    ["car_wheelbase_m", meta.car?.wheelbase_m], ["recorder", "macadam drive 1"], ["device", meta.device]];
-  return lines.filter(([, value]) => value !== undefined && value !== null && value !== "")
+  const lines = [['trip_id', meta.trip_id], ['vehicle_id', meta.vehicle_id], ['t0_utc', new Date(t0_ms).toISOString()],
+    ['frame', 'sensor'], ['gravity', withGravity ? 'included' : 'removed'], ['mount', 'auto'],
+    ['speed_source', 'gnss'], ['trimmed_m', trimmed_m], ['car_body', meta.car?.body], ['car_mass_kg', meta.car?.mass_kg],
+    ['car_wheelbase_m', meta.car?.wheelbase_m], ['recorder', 'macadam drive 1'], ['device', meta.device]];
+  return lines.filter(([, value]) => value !== undefined && value !== null && value !== '')
     .map(([key, value]) => `# ${key}: ${oneLine(value)}\n`);
 }
 
@@ -87,19 +87,19 @@ export function tripLog(recorded, meta) {
     ? motion.some((row) => Number.isFinite(row.cells[i]))
     : fixes.some((row) => Number.isFinite(row.cells[i - motionCells])));
   const used = columns.flatMap((column, i) => (isUsed[i] ? [i] : []));
-  const parts = ["# macadam-trip 1\n", ...headerLines(meta, t0_us / 1000, withGravity),
-    `${["t_s", ...used.map((i) => columns[i][0])].join(",")}\n`];
+  const parts = ['# macadam-trip 1\n', ...headerLines(meta, t0_us / 1000, withGravity),
+    `${['t_s', ...used.map((i) => columns[i][0])].join(',')}\n`];
   let count = 0;
-  let block = "";
+  let block = '';
   for (let m = 0, f = 0; m < motion.length || f < fixes.length; ++count) {
     const t_us = Math.min(motion[m]?.t_us ?? Infinity, fixes[f]?.t_us ?? Infinity);
     const acc = motion[m]?.t_us === t_us ? motion[m++].cells : [];
     const fix = fixes[f]?.t_us === t_us ? fixes[f++].cells : [];
     const cells = used.map((i) => cell(i < motionCells ? acc[i] : fix[i - motionCells], columns[i][1]));
-    block += `${((t_us - t0_us) / 1e6).toFixed(6)},${cells.join(",")}\n`;
+    block += `${((t_us - t0_us) / 1e6).toFixed(6)},${cells.join(',')}\n`;
     if (block.length > 1 << 16) {
       parts.push(block);
-      block = "";
+      block = '';
     }
   }
   parts.push(block, `# end rows: ${count}\n`);

@@ -1,23 +1,23 @@
 // Client of `PUT /v1/trips/{sha256}` (docs/reference/recorder.md).
 
 export async function sha256Hex(bytes) {
-  const digest = await crypto.subtle.digest("SHA-256", bytes);
-  return [...new Uint8Array(digest)].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+  const digest = await crypto.subtle.digest('SHA-256', bytes);
+  return [...new Uint8Array(digest)].map((byte) => byte.toString(16).padStart(2, '0')).join('');
 }
 
 const pauses_s = [5, 15, 60, 300, 900];
 
 function retryAfter_s(response, attempt) {
-  const stated = Number(response?.headers.get("Retry-After"));
+  const stated = Number(response?.headers.get('Retry-After'));
   return stated > 0 ? Math.min(stated, 3600) : pauses_s[Math.min(attempt, pauses_s.length - 1)];
 }
 
 async function reasonOf(response) {
   try {
     const body = await response.json();
-    return String(body.detail ?? body.error ?? body.title ?? "").slice(0, 300);
+    return String(body.detail ?? body.error ?? body.title ?? '').slice(0, 300);
   } catch {
-    return "";
+    return '';
   }
 }
 
@@ -25,18 +25,18 @@ const authorisation = (token) => (token ? { Authorization: `Bearer ${token}` } :
 
 async function outcomeOf(response, attempt) {
   if (response.status === 200 || response.status === 202) {
-    return { outcome: "received" };
+    return { outcome: 'received' };
   }
   if (response.status === 401 || response.status === 403) {
-    return { outcome: "no_leave" };
+    return { outcome: 'no_leave' };
   }
   if ([404, 405, 501].includes(response.status)) {
-    return { outcome: "no_server" };
+    return { outcome: 'no_server' };
   }
   if (response.status === 408 || response.status === 429 || response.status >= 500) {
-    return { outcome: "later", after_s: retryAfter_s(response, attempt) };
+    return { outcome: 'later', after_s: retryAfter_s(response, attempt) };
   }
-  return { outcome: "refused", reason: (await reasonOf(response)) || `HTTP ${response.status}` };
+  return { outcome: 'refused', reason: (await reasonOf(response)) || `HTTP ${response.status}` };
 }
 
 // Sends a log once. A trip that was tried before is asked for first: the server may have it, although its answer was
@@ -50,24 +50,24 @@ export async function sendTrip(trip, { token, base, fetch = globalThis.fetch }) 
     if (trip.attempt > 0) {
       const known = await fetch(url, { headers });
       if (known.ok) {
-        return { outcome: "received" };
+        return { outcome: 'received' };
       }
     }
     const response = await fetch(url, {
-      method: "PUT",
-      headers: { ...headers, "Content-Type": "text/csv; charset=utf-8" },
+      method: 'PUT',
+      headers: { ...headers, 'Content-Type': 'text/csv; charset=utf-8' },
       body: trip.body,
     });
     return await outcomeOf(response, trip.attempt);
   } catch {
-    return { outcome: "later", after_s: retryAfter_s(null, trip.attempt) };
+    return { outcome: 'later', after_s: retryAfter_s(null, trip.attempt) };
   }
 }
 
 // Asks for a trip to be deleted at the server. Returns whether it is gone there.
 export async function deleteAtServer(sha256, { token, base, fetch = globalThis.fetch }) {
   try {
-    const response = await fetch(new URL(`v1/trips/${sha256}`, base), { method: "DELETE", headers: authorisation(token) });
+    const response = await fetch(new URL(`v1/trips/${sha256}`, base), { method: 'DELETE', headers: authorisation(token) });
     return response.ok || response.status === 404;
   } catch {
     return false;

@@ -1,5 +1,5 @@
-import { distance_m, median } from "./geometry.js";
-import { fixColumn, fixWidth, rowsOf } from "./samples.js";
+import { distance_m, median } from './geometry.js';
+import { fixColumn, fixWidth, rowsOf } from './samples.js';
 
 // The rule that `macadam import` follows for cars of other people (docs/privacy.md): 300 m and a random 0 to
 // 200 m more are left out at both ends and on both sides of every stop, or silence, of more than five minutes.
@@ -8,22 +8,23 @@ export const trimmed_m = 300;
 const random_m = 200;
 const longStop_ms = 300_000;
 const still_m = 50; // a receiver at rest wanders
+const samePlace_m = 5; // fixes that determine the place of an end
 const fixError_m = 10; // beside the accuracy that the receiver states
 const poor_m = 50; // a worse fix proves no distance
 const fixesAway = 3; // in a row: one jump counts for nothing
-const endFixes = 5; // whose median is the place of an end
 const receiverLatency_ms = 3000; // at most: the car is further on than its fix says
 
 export const drawCount = 32;
 
 // Times of fixes on the sensors' clock. The receiver's own stamps have the better spacing, the times of arrival the
-// right clock: stamps are shifted by the least delay among the fixes near them.
+// right clock: stamps are shifted by the median delay of the fixes near them. What the delay itself is, the import
+// estimates (gnss_latency_s).
 export function fixTimes_ms(fixes) {
   const near = 30;
   const delays = [...rowsOf(fixes, fixWidth)].map((row) => row[fixColumn.t_ms] - row[fixColumn.stamp_ms]);
   return delays.map((_, i) => {
     const around = delays.slice(Math.max(0, i - near), i + near + 1).filter(Number.isFinite);
-    return fixes[i * fixWidth + fixColumn.stamp_ms] + (around.length > 0 ? Math.min(...around) : 0);
+    return fixes[i * fixWidth + fixColumn.stamp_ms] + (around.length > 0 ? median(around) : 0);
   });
 }
 
@@ -67,8 +68,8 @@ function hiddenRanges(places) {
 // Index of the first fix, going by `step` from `from`, from which the fixes stay `length_m` away; null: they never do.
 function firstAway(places, from, step, length_m) {
   const around = [];
-  for (let i = from; i >= 0 && i < places.length && around.length < endFixes; i += step) {
-    if (distance_m(places[from], places[i]) < still_m) {
+  for (let i = from; i >= 0 && i < places.length; i += step) {
+    if (distance_m(places[from], places[i]) < samePlace_m) {
       around.push(places[i]);
     } else {
       break;

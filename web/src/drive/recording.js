@@ -1,4 +1,4 @@
-import { fixRow, motionRow, upBy, uprightForce } from "./samples.js";
+import { fixRow, motionRow, upBy, uprightForce } from './samples.js';
 
 const chunk_ms = 2000; // of a trip that a crash may take, with as long again for the disk
 
@@ -12,7 +12,7 @@ export class Recording {
   #upright = 0;
   #up = null;
   #begun_ms = null;
-  #last_ms = NaN;
+  #last_ms = NaN; // of the last motion; NaN once a fix took it, as the sensors may have fallen silent
 
   constructor({ timeOrigin_ms, onChunk }) {
     this.timeOrigin_ms = timeOrigin_ms;
@@ -38,6 +38,7 @@ export class Recording {
 
   addPosition(position) {
     const row = fixRow(position, this.#last_ms);
+    this.#last_ms = NaN;
     this.#fixes.push(...row);
     this.#flushIfFull(Number.isFinite(row[0]) ? row[0] : row[1]);
     return row;

@@ -1,9 +1,9 @@
-import { fixColumn } from "./samples.js";
+import { fixColumn } from './samples.js';
 
 // Limits of what a trip can be used for.
 const minRate_hz = 45; // wheel hop at 10 to 15 Hz needs three to four readings a cycle
 const poorAccuracy_m = 20; // two roads apart
-const staleFix_ms = 5000;
+const staleFix_ms = 10_000;
 const silent_ms = 2000;
 const moved_deg = 20; // as `sensor_moved` of the import; hills and bends stay below
 const handheld_radps = 0.3; // rms about the level axes: bodies of cars stay below 0.1
@@ -44,20 +44,20 @@ export class QualityWatch {
     const span_ms = rows.length > 1 ? rows.at(-1)[0] - rows[0][0] : 0;
     const rate_hz = isSilent || span_ms <= 0 ? 0 : ((rows.length - 1) * 1000) / span_ms;
     if (isHidden) {
-      problems.push("hidden");
+      problems.push('hidden');
     }
     if (isSilent) {
-      problems.push("no_motion");
+      problems.push('no_motion');
     } else if (span_ms > window_ms / 2 && rate_hz < minRate_hz) {
-      problems.push("slow_motion");
+      problems.push('slow_motion');
     }
     const hasFix = this.#fix !== null && now_ms - this.#heard.fix_ms < staleFix_ms;
     const accuracy_m = hasFix ? this.#fix[fixColumn.accuracy] : NaN;
     const speed_mps = hasFix ? this.#fix[fixColumn.speed] : NaN;
     if (!hasFix) {
-      problems.push("no_gnss");
+      problems.push('no_gnss');
     } else if (!(accuracy_m <= poorAccuracy_m)) {
-      problems.push("poor_gnss");
+      problems.push('poor_gnss');
     }
     const mounting = this.#mounting(span_ms);
     problems.push(...(isSilent ? [] : mounting.problems));
@@ -76,11 +76,11 @@ export class QualityWatch {
       const level = turns.map((turn) => norm(turn) ** 2 - (dot(turn, up) / norm(up)) ** 2);
       const rms = Math.sqrt(Math.max(0, level.reduce((sum, value) => sum + value, 0) / level.length));
       if (rms > handheld_radps) {
-        problems.push("handheld");
+        problems.push('handheld');
       }
     }
     if (this.#reference && angle_deg(up, this.#reference) > moved_deg) {
-      problems.push("moved");
+      problems.push('moved');
     } else if (problems.length === 0) { // follows slowly: one that is put elsewhere is the new reference by a tap
       this.#reference ??= up;
     }

@@ -1,0 +1,371 @@
+// The recorder in Chromium: from the first visit to a map.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { after, before, describe, it } from 'node:test';
+
+import { chromium } from 'playwright-core';
+import { eventsOf, installPositions, playEvents, readLog, readLogFile } from './player.mjs';
+import { serveTrips } from './trip_server.mjs';
+
+const { MACADAM_PROGRAM: program, MACADAM_SITE: site } = process.env;
+const source = fileURLToPath(new URL('../../..', import.meta.url));
+const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
+const browserOptions = { executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu', '--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1'], timeout: 20_000 };
+const folder = mkdtempSync(join(tmpdir(), 'macadam-drive-'));
+const recipe = `[trips]
+count = 1
+length_km = [4, 5]
+[gnss]
+rate_hz = 1
+latency_s = [0.4, 0.4]
+[[road]]
+iri_mm_per_m = [1.5, 3.5]
+[[car]]
+id = 'phone-car'
+like = 'generic'
+wheelbase_m = 2.62
+cg_to_front_m = 1.15
+sensors = ['acc', 'gyro']
+`;
+
+let browser;
+let server;
+let drive; // a simulated drive
+let shortDrive; // its first 2.6 km, of which something is left when the ends are gone
+
+const macadam = (...words) => execFileSync(program, words, { cwd: folder, encoding: 'utf8', timeout: 60_000, stdio: ['ignore', 'pipe', 'pipe'] });
+
+// The beginning of a drive, by the receiver's speed (1 Hz).
+function beginning({ columns, rows }, length_m) {
+  const speed = columns.indexOf('gnss_speed_mps');
+  let gone_m = 0;
+  const past = rows.findIndex((row) => (gone_m += row[speed] ?? 0) > length_m);
+  return { columns, rows: rows.slice(0, past) };
+}
+
+// A new phone. `complaints` collects what the browser's console objects to, and every request to another host.
+async function phone({ language = 'en-GB', colorScheme = 'light', width = 320, url = server.url, of = browser } = {}) {
+  const context = await of.newContext({ locale: language, colorScheme, viewport: { width, height: 640 }, acceptDownloads: true });
+  const complaints = [];
+  await context.addInitScript(installPositions);
+  const page = await context.newPage();
+  page.setDefaultTimeout(10_000);
+  page.on('console', (message) => message.type() === 'error' && !/Failed to load resource|net::ERR/.test(message.text()) && complaints.push(message.text()));
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('request', (request) => new URL(request.url()).hostname !== '127.0.0.1' && !request.url().startsWith('blob:') && complaints.push(request.url()));
+  await page.goto(url);
+  return { context, page, complaints };
+}
+
+const tap = (page, name) => page.getByRole('button', { name }).first().click();
+
+async function getReady(page) {
+  await tap(page, 'Understood');
+  await tap(page, 'Keep');
+}
+
+async function start(page) {
+  await tap(page, 'Start trip');
+  await page.getByRole('button', { name: 'End trip' }).waitFor();
+}
+
+const play = (page, events, options = {}) => page.evaluate(playEvents, { events: JSON.stringify(events), begin_ms: 1000, ...options });
+
+async function recorded(page, events = eventsOf(shortDrive)) {
+  await getReady(page);
+  await start(page);
+  await play(page, events);
+  await tap(page, 'End trip');
+  await page.getByRole('button', { name: /^Save file/ }).waitFor();
+}
+
+async function savedFile(page) {
+  const [download] = await Promise.all([page.waitForEvent('download'), tap(page, /^Save file/)]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+// IRI by segment of one log, as `import` reads it.
+function iriOf(name, bytes) {
+  writeFileSync(join(folder, `${name}.trip.csv`), bytes);
+  macadam('init', `${name}.gpkg`, '--network', 'fleet/network.osm.pbf', '--quiet');
+  macadam('import', `${name}.gpkg`, `${name}.trip.csv`, '--vehicle', 'fleet/vehicles/phone-car.toml', '--quiet');
+  macadam('export', `${name}.gpkg`, '-o', `${name}.csv`, '--quiet');
+  const [head, ...rows] = readFileSync(join(folder, `${name}.csv`), 'utf8').trim().split('\n').map((line) => line.split(','));
+  const [segment, iri] = ['segment', 'iri'].map((column) => head.indexOf(column));
+  return new Map(rows.map((row) => [row[segment], Number(row[iri])]).filter(([, value]) => value > 0));
+}
+
+// Mean IRI of the segments that both have, as a ratio, and the median relative difference of single ones.
+function compared(found, expected) {
+  const both = [...found.keys()].filter((segment) => expected.has(segment));
+  const mean = (of) => both.reduce((sum, segment) => sum + of.get(segment), 0) / both.length;
+  const apart = both.map((segment) => Math.abs(found.get(segment) / expected.get(segment) - 1)).sort((a, b) => a - b);
+  return { count: both.length, ratio: mean(found) / mean(expected), median: apart[both.length >> 1] };
+}
+
+const logText = ({ columns, rows }) =>
+  `# macadam-trip 1\n# vehicle_id: phone-car\n# t0_utc: 2026-05-01T08:00:00Z\n${[columns.join(','), ...rows.map((row) => row.map((cell) => cell ?? '').join(','))].join('\n')}\n# end rows: ${rows.length}\n`;
+
+// Ends every process of the browser that has this profile, as a dead battery would.
+function kill(home) {
+  for (const id of readdirSync('/proc').filter((name) => /^\d+$/.test(name))) {
+    try {
+      if (readFileSync(`/proc/${id}/cmdline`, 'utf8').includes(`--user-data-dir=${home}`)) {
+        process.kill(Number(id), 'SIGKILL');
+      }
+    } catch { /* it ended meanwhile */ }
+  }
+}
+
+// That of the drive as a file, worked out once.
+let fileValues;
+const fileIri = () => (fileValues ??= iriOf('file', logText(drive)));
+
+describe('the recorder in the browser', () => {
+  before(async () => {
+    writeFileSync(join(folder, 'recipe.toml'), recipe);
+    macadam('simulate', '-o', 'fleet', '--network', join(source, 'sample_data/fleet/network.osm.pbf'), '--recipe', 'recipe.toml', '--quiet');
+    drive = readLogFile(join(folder, 'fleet/trips', readdirSync(join(folder, 'fleet/trips'))[0]));
+    shortDrive = beginning(drive, 2600);
+    server = await serveTrips(site);
+    browser = await chromium.launch(browserOptions);
+  });
+
+  after(async () => {
+    await browser?.close();
+    server?.close();
+    rmSync(folder, { recursive: true, force: true });
+  });
+
+  it('a drive recorded in the browser has the IRI of the same drive as a file', async () => {
+    const { context, page, complaints } = await phone();
+    await recorded(page, eventsOf(drive));
+    const { name, bytes } = await savedFile(page);
+    assert.match(name, /^\d{8}T\d{4}-drive-[0-9a-f]{16}\.trip\.csv$/);
+    const browserFile = iriOf('browser', bytes);
+    const { count, ratio, median } = compared(browserFile, fileIri());
+    console.log(`${count} segments, mean IRI ${(100 * (ratio - 1)).toFixed(2)} %, single ones ${(100 * median).toFixed(2)} % apart`);
+    assert.ok(count > 60, `${count} segments in common`);
+    assert.ok(Math.abs(ratio - 1) < 0.03, `${ratio}`);
+    assert.ok(median < 0.03, `${median}`);
+    // 300 m and more are gone at both ends: no position is near the first or the last
+    const fixes = (log) => log.rows.map((row) => [row[log.columns.indexOf('lat_deg')], row[log.columns.indexOf('lon_deg')]]).filter(([lat]) => lat !== null);
+    const apart_m = ([a, b], [c, d]) => Math.hypot(111_195 * (a - c), 111_195 * Math.cos((a * Math.PI) / 180) * (b - d));
+    const [whole, left] = [fixes(drive), fixes(readLog(bytes))];
+    assert.ok(apart_m(left[0], whole[0]) > 300 && apart_m(left.at(-1), whole.at(-1)) > 300);
+    assert.deepEqual(complaints, []);
+    await context.close();
+  });
+
+  it('a browser with 60 readings per second, rounded to 0.1 m/s2, is good enough', async () => {
+    const { context, page } = await phone();
+    await recorded(page, eventsOf(drive, { step: 1 / 61, quantum_mps2: 0.1 }));
+    const { ratio, median, count } = compared(iriOf('rounded', (await savedFile(page)).bytes), fileIri());
+    console.log(`${count} segments, mean IRI ${(100 * (ratio - 1)).toFixed(2)} %, single ones ${(100 * median).toFixed(2)} % apart`);
+    assert.ok(Math.abs(ratio - 1) < 0.05, `${ratio}`);
+    await context.close();
+  });
+
+  it('the import into a crowd\u2019s database trims no second time, and takes the car that was told', async () => {
+    const { context, page } = await phone();
+    await tap(page, 'Understood');
+    await page.getByLabel('Kind of car').selectOption('compact');
+    await page.getByLabel(/^Mass/).fill('1430');
+    await page.getByLabel(/^Wheelbase/).fill('26');
+    await tap(page, 'Keep');
+    await page.getByText('The wheelbase of such a car is 2.35 to 2.90 m.').waitFor();
+    await page.getByLabel(/^Wheelbase/).fill('2.62');
+    await tap(page, 'Keep');
+    await start(page);
+    await play(page, eventsOf(shortDrive));
+    await tap(page, 'End trip');
+    writeFileSync(join(folder, 'crowd.trip.csv'), (await savedFile(page)).bytes);
+    macadam('init', 'crowd.gpkg', '--network', 'fleet/network.osm.pbf', '--privacy', 'crowd', '--quiet');
+    const report = JSON.parse(macadam('import', 'crowd.gpkg', 'crowd.trip.csv', '--json').trim().split('\n')[0]);
+    assert.equal(report.result, 'imported');
+    assert.equal(report.vehicle, 'compact');
+    assert.ok(!('trimmed' in report.reasons), JSON.stringify(report.reasons));
+    assert.ok(!report.warnings.some((warning) => /were removed|^car/.test(warning)), report.warnings.join());
+    await context.close();
+  });
+
+  it('nothing leaves the phone without a tap; the receipt deletes the trip', async () => {
+    const { context, page } = await phone();
+    await recorded(page);
+    const { bytes } = await savedFile(page);
+    assert.ok(!server.asked.some((line) => line.includes('/v1/')), 'asked before a tap');
+    server.mood.next = 'lose_answer';
+    await context.setOffline(true);
+    await tap(page, /^Send/);
+    await page.getByText('Waits for a network').waitFor();
+    assert.ok(!server.asked.some((line) => line.includes('/v1/')));
+    await context.setOffline(false); // now it goes; the server has it, but its answer is lost; a second later it is asked for
+    await page.getByText('Received by the server and deleted here.').waitFor({ timeout: 15_000 });
+    assert.deepEqual(server.asked.filter((line) => line.includes('/v1/')).map((line) => line.split(' ')[0]), ['PUT', 'GET']);
+    assert.deepEqual([...server.trips.values()][0], bytes);
+    assert.equal(await page.getByRole('button', { name: /^Save file/ }).count(), 0);
+    page.once('dialog', (dialog) => dialog.accept());
+    await tap(page, /^Delete at the server/);
+    await page.getByText('Deleted at the server.').waitFor();
+    assert.equal(server.trips.size, 0);
+    await context.close();
+  });
+
+  it('an invitation is kept, leaves no trace in the address, and opens the server', async () => {
+    const closed = await serveTrips(site, { token: 'an-invitation-of-32-letters-0123' });
+    const { context, page } = await phone({ url: closed.url });
+    await recorded(page);
+    await tap(page, /^Send/);
+    await page.getByText('The server wants an invitation').waitFor();
+    await page.goto(`${closed.url}#invite=an-invitation-of-32-letters-0123`);
+    await page.reload();
+    await tap(page, /^Send/);
+    await page.getByText('Received by the server').waitFor();
+    assert.ok(!page.url().includes('#'));
+    await context.close();
+    closed.close();
+  });
+
+  it('a killed browser loses at most five seconds of a trip, and the trip goes on', async () => {
+    const home = mkdtempSync(join(folder, 'home-'));
+    const open = async () => {
+      const context = await chromium.launchPersistentContext(home, { ...browserOptions, viewport: { width: 320, height: 640 }, locale: 'en-GB', acceptDownloads: true });
+      await context.addInitScript(installPositions);
+      const page = context.pages()[0] ?? await context.newPage();
+      page.setDefaultTimeout(10_000);
+      await page.goto(server.url);
+      return { context, page };
+    };
+    const events = eventsOf(shortDrive);
+    const half = events.findIndex(([t_s]) => t_s > 235); // is kept, whatever is drawn
+    let { context, page } = await open();
+    await getReady(page);
+    await start(page);
+    const begun_ms = await page.evaluate(() => performance.timeOrigin);
+    await play(page, events.slice(0, half), { pause_ms: 20 });
+    // the disk has two seconds, as the promise is five
+    await page.waitForTimeout(2000);
+    kill(home);
+    await context.close().catch(() => {});
+    rmSync(join(home, 'SingletonLock'), { force: true });
+    ({ context, page } = await open());
+    await page.getByText('A trip was interrupted').waitFor();
+    const last_s = await page.evaluate(async (origin_ms) => {
+      const db = await new Promise((resolve) => { const r = indexedDB.open('macadam-drive'); r.onsuccess = () => resolve(r.result); });
+      const chunks = await new Promise((resolve) => { const r = db.transaction('chunks').objectStore('chunks').getAll(); r.onsuccess = () => resolve(r.result); });
+      db.close();
+      return (Math.max(...chunks.flatMap((chunk) => (chunk.motion.length ? [chunk.motion[chunk.motion.length - 10]] : []))) - origin_ms - 1000) / 1000;
+    }, begun_ms);
+    assert.ok(events[half - 1][0] - last_s < 5, `${events[half - 1][0]} ${last_s}`);
+    await tap(page, 'Go on recording');
+    await page.getByRole('button', { name: 'End trip' }).waitFor();
+    const shift_ms = begun_ms - await page.evaluate(() => performance.timeOrigin);
+    await play(page, events.slice(half), { begin_ms: 1000 + shift_ms });
+    await tap(page, 'End trip');
+    const { bytes } = await savedFile(page);
+    const t_s = readLog(bytes).rows.map((row) => row[0]);
+    const from_ms = Date.parse(/t0_utc: (\S+)/.exec(bytes.toString())[1]);
+    const seam_ms = begun_ms + 1000 + 1000 * events[half][0];
+    assert.ok(from_ms < seam_ms && seam_ms < from_ms + 1000 * t_s.at(-1), 'the log holds what was before and after');
+    assert.ok(Math.max(...t_s.slice(1).map((t, i) => t - t_s[i])) < 5);
+    await context.close();
+  });
+
+  it('the page opens without a network once it was seen', async () => {
+    const { context, page } = await phone();
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    await page.waitForFunction(async () => (await (await caches.open('macadam-drive')).keys()).length >= 7);
+    await context.setOffline(true);
+    await page.reload();
+    await page.getByRole('heading', { name: 'Before the first trip' }).waitFor();
+    await context.close();
+  });
+
+  it('the browser\u2019s own sensors are understood, and faults are told in words', async () => {
+    const real = await browser.newContext({ locale: 'en-GB', permissions: ['geolocation', 'accelerometer', 'gyroscope', 'magnetometer'], geolocation: { latitude: 48.41, longitude: 15.6, accuracy: 65 } });
+    const live = await real.newPage();
+    live.setDefaultTimeout(10_000);
+    await live.goto(server.url);
+    const cdp = await real.newCDPSession(live);
+    const sensors = ['accelerometer', 'linear-acceleration', 'gyroscope'];
+    const set = (type, xyz) => cdp.send('Emulation.setSensorOverrideReadings', { type, reading: { xyz } });
+    for (const type of sensors) {
+      await cdp.send('Emulation.setSensorOverrideEnabled', { enabled: true, type, metadata: { available: true, minimumFrequency: 1, maximumFrequency: 100 } });
+    }
+    await set('accelerometer', { x: 0, y: 2.04, z: 9.6 });
+    await set('linear-acceleration', { x: 0, y: 0, z: 0 });
+    await set('gyroscope', { x: 0, y: 0, z: 0 });
+    await getReady(live);
+    await start(live);
+    await live.getByText('The position is only good to 65 m').waitFor();
+    await live.getByText('tilt 12°, steady').waitFor();
+    const rate = Number.parseInt(await live.locator('#figure-rate').textContent(), 10);
+    assert.ok(rate >= 45 && rate <= 70, `${rate}`);
+    await set('gyroscope', { x: 1, y: 0, z: 0 });
+    await live.getByText('The phone is loose or in the hand').waitFor();
+    const turn = await live.evaluate(async () => {
+      await new Promise((later) => { setTimeout(later, 2500); });
+      const db = await new Promise((resolve) => { const r = indexedDB.open('macadam-drive'); r.onsuccess = () => resolve(r.result); });
+      const chunks = await new Promise((resolve) => { const r = db.transaction('chunks').objectStore('chunks').getAll(); r.onsuccess = () => resolve(r.result); });
+      return Array.from(chunks.at(-1).motion.slice(-10, chunks.at(-1).motion.length)).slice(1);
+    });
+    // Chromium rounds to 0.1 m/s2 and 0.1 degree/s
+    [0, 2.0, 9.6, 0, 0, 0, 1, 0, 0].forEach((expected, i) => assert.ok(Math.abs(turn[i] - expected) < 0.06, `${turn}`));
+    await real.close();
+  });
+
+  for (const [language, colorScheme] of [['en-GB', 'light'], ['de-AT', 'dark']]) {
+    it(`every view passes axe, fits 320 px and works by keys alone: ${language}, ${colorScheme}`, async () => {
+      const { context, page, complaints } = await phone({ language, colorScheme });
+      const words = (en, de) => (language.startsWith('de') ? de : en);
+      const axeSource = readFileSync(axe, 'utf8');
+      const look = async (name) => {
+        await page.evaluate(axeSource);
+        const { violations } = await page.evaluate(() => globalThis.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }));
+        assert.deepEqual(violations.map((found) => `${name}: ${found.id} ${found.nodes[0].html}`), []);
+        const sizes = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth, ...[...document.querySelectorAll('button, select, input[type=text]')].map((e) => e.getBoundingClientRect().height)]);
+        assert.ok(sizes[0] <= sizes[1], `${name}: ${sizes[0]} px wide`);
+        assert.ok(sizes.slice(2).every((height) => height >= 44), `${name}: ${sizes.slice(2)}`);
+        if (process.env.MACADAM_SHOTS) {
+          await page.screenshot({ path: join(process.env.MACADAM_SHOTS, `${name}-${language}-${colorScheme}.png`), fullPage: true });
+        }
+      };
+      // Tabs to a button and presses it.
+      const press = async (name) => {
+        const wanted = page.getByRole('button', { name }).first();
+        await wanted.waitFor();
+        for (let i = 0; i < 30 && !(await wanted.evaluate((e) => e === document.activeElement)); ++i) {
+          await page.keyboard.press('Tab');
+        }
+        assert.ok(await wanted.evaluate((e) => e === document.activeElement), String(name));
+        await page.keyboard.press('Enter');
+      };
+      await page.getByRole('button', { name: words('Understood', 'Verstanden') }).waitFor();
+      await look('privacy');
+      await press(words('Understood', 'Verstanden'));
+      await page.getByLabel(words('Kind of car', 'Art des Autos')).waitFor();
+      await look('car');
+      await press(words('Keep', 'Behalten'));
+      await page.getByRole('button', { name: words('Start trip', 'Fahrt beginnen') }).waitFor();
+      await look('home');
+      await press(words('Start trip', 'Fahrt beginnen'));
+      await page.getByRole('button', { name: words('End trip', 'Fahrt beenden') }).waitFor();
+      await play(page, eventsOf(shortDrive));
+      await page.waitForTimeout(1200);
+      await look('recording');
+      await press(words('End trip', 'Fahrt beenden'));
+      await page.getByRole('button', { name: words(/^Save file/, /^Datei sichern/) }).waitFor();
+      await look('trips');
+      await press(words(/^Send/, /^Senden/));
+      await page.getByText(words('Received by the server', 'Vom Server empfangen')).waitFor();
+      await look('received');
+      assert.deepEqual(complaints, []);
+      await context.close();
+    });
+  }
+});
