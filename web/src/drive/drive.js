@@ -197,7 +197,7 @@ async function deleteThere(trip) {
 
 // Sends what the driver has given leave to send. Only one page of several does it at a time.
 async function sendAll() {
-  if (isSending || !navigator.onLine) {
+  if (isSending || !navigator.onLine || !isSecureContext) {
     return;
   }
   isSending = true;

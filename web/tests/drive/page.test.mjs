@@ -15,7 +15,7 @@ import { serveTrips } from './trip_server.mjs';
 const { MACADAM_PROGRAM: program, MACADAM_SITE: site } = process.env;
 const source = fileURLToPath(new URL('../../..', import.meta.url));
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
-const browserOptions = { executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu', '--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1'], timeout: 20_000 };
+const browserOptions = { executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu', '--host-resolver-rules=MAP phone.example 127.0.0.1 , MAP * ~NOTFOUND , EXCLUDE 127.0.0.1'], timeout: 20_000 };
 const folder = mkdtempSync(join(tmpdir(), 'macadam-drive-'));
 const recipe = `[trips]
 count = 1
@@ -57,7 +57,7 @@ async function phone({ language = 'en-GB', colorScheme = 'light', width = 320, u
   page.setDefaultTimeout(10_000);
   page.on('console', (message) => message.type() === 'error' && !/Failed to load resource|net::ERR/.test(message.text()) && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(String(error)));
-  page.on('request', (request) => new URL(request.url()).hostname !== '127.0.0.1' && !request.url().startsWith('blob:') && complaints.push(request.url()));
+  page.on('request', (request) => ![new URL(url).hostname, '127.0.0.1'].includes(new URL(request.url()).hostname) && !request.url().startsWith('blob:') && complaints.push(request.url()));
   await page.goto(url);
   return { context, page, complaints };
 }
@@ -317,6 +317,35 @@ describe('the recorder in the browser', () => {
     // Chromium rounds to 0.1 m/s2 and 0.1 degree/s
     [0, 2.0, 9.6, 0, 0, 0, 1, 0, 0].forEach((expected, i) => assert.ok(Math.abs(turn[i] - expected) < 0.06, `${turn}`));
     await real.close();
+  });
+
+  it('where a phone asks by a tap, as iOS does, a refusal is told and a leave begins the trip', async () => {
+    const { context, page } = await phone();
+    await getReady(page);
+    await page.evaluate(() => {
+      globalThis.asked = [];
+      for (const type of [DeviceMotionEvent, DeviceOrientationEvent]) {
+        type.requestPermission = async () => {
+          globalThis.asked.push(navigator.userActivation.isActive);
+          return globalThis.asked.length > 2 ? 'granted' : 'denied';
+        };
+      }
+    });
+    await tap(page, 'Start trip');
+    await page.getByText('This phone gave no leave to read its sensors.').waitFor();
+    await start(page);
+    assert.deepEqual(await page.evaluate(() => globalThis.asked), [true, true, true, true]);
+    await context.close();
+  });
+
+  it('without https it says what is missing', async () => {
+    const insecure = server.url.replace('127.0.0.1', 'phone.example');
+    const { context, page, complaints } = await phone({ url: insecure });
+    await getReady(page);
+    await tap(page, 'Start trip');
+    await page.getByText('open this page by https').waitFor();
+    assert.deepEqual(complaints, []);
+    await context.close();
   });
 
   for (const [language, colorScheme] of [['en-GB', 'light'], ['de-AT', 'dark']]) {
