@@ -1,0 +1,81 @@
+#pragma once
+
+#include "app/http/http_message.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace macadam {
+
+/// Limits of a server (docs/reference/serve.md).
+struct HttpServerConfig {
+    std::string host = "127.0.0.1"; ///< an address, not a name
+    std::uint16_t port = 8080;      ///< 0: any free one
+    std::size_t workers = 2;
+    bool behind_proxy = false; ///< clients are told apart by the last address of X-Forwarded-For
+    std::vector<std::string> hosts{}; ///< accepted in the header Host, beside loopback ones
+    std::string allowed_origin{};     ///< of CORS; "" = none
+
+    std::size_t max_connections = 2000;
+    std::size_t max_per_address = 64; ///< connections; behind a proxy, requests at work
+    std::size_t max_head_bytes = 16U * 1024;
+    std::size_t max_target_bytes = 8U * 1024;
+    std::size_t max_waiting = 512; ///< requests that wait for a worker
+    std::chrono::milliseconds head_time{10'000};
+    std::chrono::milliseconds response_time{60'000}; ///< and 1 s more for each slowest_bytes
+    std::size_t slowest_bytes = 64U * 1024;          ///< a second, of a reader
+};
+
+/// Measurement of one answered request.
+struct HttpRecord {
+    std::string_view method;
+    std::string_view route; ///< pattern, never the path or query, which can be positions
+    int status;
+    std::uint64_t bytes;
+    std::chrono::microseconds duration; ///< from head to queued response
+};
+
+/// Functions that answer requests. Exceptions become a response of status 500 that tells no more.
+struct HttpHandlers {
+    /// Called by a worker of that number, less than HttpServerConfig::workers.
+    std::function<HttpResponse(const HttpRequest&, std::size_t worker)> answer;
+
+    /// Called by the thread of the network, so that no slow answer delays it; `std::nullopt`: the
+    /// request is for a worker.
+    std::function<std::optional<HttpResponse>(const HttpRequest&)> answer_at_once{};
+
+    std::function<void(const HttpRecord&)> record{}; ///< from one thread
+    std::function<void(const std::string& route, const std::string& what)> failed{};
+};
+
+/// HTTP/1.1 server for GET and HEAD on one address. One thread reads and writes all connections
+/// (epoll); workers compute the responses.
+class HttpServer {
+public:
+    /// Starts to listen.
+    /// \throws InputError  if the address cannot be listened on.
+    HttpServer(HttpServerConfig config, HttpHandlers handlers);
+    HttpServer(const HttpServer&) = delete;
+    HttpServer& operator=(const HttpServer&) = delete;
+    ~HttpServer();
+
+    std::uint16_t port() const;
+    std::size_t connections() const;
+
+    /// Stops listening, and waits until the requests at work are answered, or until the time is
+    /// over.
+    void drain(std::chrono::milliseconds at_most);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace macadam

@@ -1,0 +1,107 @@
+#include "app/http/request_check.hpp"
+
+#include "app/http/listening_socket.hpp"
+#include "storage/text/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace macadam {
+namespace {
+
+std::string lower_case(std::string_view text) {
+    std::string lower{text};
+    std::ranges::transform(lower, lower.begin(), [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    });
+    return lower;
+}
+
+/// Returns "::1" for "[::1]:8080".
+std::string_view name_of_host(std::string_view host) {
+    if (host.starts_with('[')) {
+        return host.substr(1, std::min(host.find(']'), host.size()) - 1);
+    }
+    return host.substr(0, host.find(':'));
+}
+
+bool is_known_host(const std::string& host, const HttpServerConfig& config) {
+    constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyz0123456789.-:[]";
+    if (host.find_first_not_of(allowed) != std::string::npos) {
+        return false;
+    }
+    const auto name = name_of_host(host);
+    return name == "localhost" || is_loopback(name) ||
+           std::ranges::find(config.hosts, host) != config.hosts.end();
+}
+
+std::size_t size_of(const RequestHead& head) {
+    constexpr std::size_t around_line = 12, around_header = 4; // " HTTP/1.1\r\n", ": " and "\r\n"
+    std::size_t bytes = head.method.size() + head.target.size() + around_line;
+    for (const auto& [name, value] : head.headers) {
+        bytes += name.size() + value.size() + around_header;
+    }
+    return bytes;
+}
+
+std::size_t count_of(const RequestHead& head, std::string_view name) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        head.headers, [&](const auto& header) { return lower_case(header.first) == name; }));
+}
+
+std::optional<HttpResponse> refused_body(const HttpRequest& request) {
+    if (!request.header("transfer-encoding").empty()) {
+        return http_problem(413, "requests have no body here");
+    }
+    const auto length = request.header("content-length");
+    return length.empty() || length == "0"
+               ? std::nullopt
+               : std::optional{http_problem(413, "requests have no body here")};
+}
+
+} // namespace
+
+std::optional<HttpResponse>
+decode_head(const RequestHead& head, const HttpServerConfig& config, HttpRequest& request) {
+    request.method = head.method;
+    if (head.target.size() > config.max_target_bytes) {
+        return http_problem(414, fmt::format("expected at most {} bytes", config.max_target_bytes));
+    }
+    if (size_of(head) > config.max_head_bytes) {
+        return http_problem(431, fmt::format("expected at most {} bytes", config.max_head_bytes));
+    }
+    for (const auto& [name, value] : head.headers) {
+        request.headers.emplace(lower_case(name), value);
+    }
+    if (count_of(head, "host") != 1) {
+        return http_problem(400, "expected one header Host");
+    }
+    if (count_of(head, "content-length") > 1) {
+        return http_problem(400, "expected at most one header Content-Length");
+    }
+    if (!is_known_host(lower_case(request.header("host")), config)) {
+        return http_problem(421, "the header Host names another server");
+    }
+    if (head.method != "GET" && head.method != "HEAD") {
+        auto refusal = http_problem(405, "expected GET or HEAD");
+        refusal.headers.emplace_back("Allow", "GET, HEAD");
+        return refusal;
+    }
+    if (auto refusal = refused_body(request)) {
+        return refusal;
+    }
+    if (!parse_target(head.target, request)) {
+        return http_problem(400, "the path or query is not percent-encoded text");
+    }
+    if (config.behind_proxy) { // the last address is the one that the proxy added
+        const auto forwarded = request.header("x-forwarded-for");
+        const auto comma = forwarded.rfind(',');
+        const auto last =
+            trimmed(comma == std::string_view::npos ? forwarded : forwarded.substr(comma + 1));
+        request.client = last.empty() ? request.client : std::string{last};
+    }
+    return std::nullopt;
+}
+
+} // namespace macadam

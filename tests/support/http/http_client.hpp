@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace macadam::testing {
+
+/// Response as a client reads it; header names in lower case.
+struct Answer {
+    int status = 0; ///< 0: the server closed the connection without one
+    std::map<std::string, std::string, std::less<>> headers;
+    std::string body;
+};
+
+/// Connection to a server on 127.0.0.1. Reading ends after 30 s.
+class HttpClient {
+public:
+    explicit HttpClient(std::uint16_t port);
+    HttpClient(const HttpClient&) = delete;
+    HttpClient& operator=(const HttpClient&) = delete;
+    ~HttpClient();
+
+    void send(std::string_view bytes) const;
+    Answer answer(bool has_body = true); ///< reads one response
+    bool is_closed();                    ///< waits until the server closes it
+
+private:
+    bool read_more();
+
+    int socket_;
+    std::string read_;
+};
+
+/// Asks by GET, with further header lines, each with its line end.
+Answer get(std::uint16_t port, std::string_view target, std::string_view headers = {});
+
+} // namespace macadam::testing
