@@ -1,0 +1,291 @@
+#include "app/serve/api_server.hpp"
+
+#include "app/cli/arguments.hpp"
+#include "app/http/static_folder.hpp"
+#include "app/serve/live/live_content.hpp"
+#include "app/serve/ogc/api_description.hpp"
+#include "app/serve/ogc/features_api.hpp"
+#include "app/serve/ogc/tiles_api.hpp"
+#include "app/serve/served_store.hpp"
+#include "app/serve/server_metrics.hpp"
+#include "estimator/common/error.hpp"
+#include "storage/text/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Time for requests at work when the server is told to stop; a command has 1.5 s to end
+/// (InterruptHandler).
+constexpr auto drain_time = 900ms;
+
+// -------------------------------------------------------------------------------------- routes
+
+using PathWords = std::vector<std::string>;
+
+struct Pages {
+    FeaturesApi features;
+    const LiveContent& live;
+};
+
+/// Answers with the latest tiles, whose version is that of the page; null before the first.
+template <typename Answer>
+HttpResponse with_tiles(const Pages& pages, const ApiContext& context, const Answer& answer) {
+    const auto tiles = pages.live.tiles();
+    return answer(ApiContext{.request = context.request,
+                             .store = context.store,
+                             .version = tiles ? tiles->version() : context.version,
+                             .base = context.base},
+                  tiles.get());
+}
+
+HttpResponse tile_sets(Pages& pages, const ApiContext& context, const PathWords& /*words*/) {
+    return with_tiles(pages, context, tile_sets_page);
+}
+
+HttpResponse tile_set(Pages& pages, const ApiContext& context, const PathWords& words) {
+    return with_tiles(pages, context, [&](const ApiContext& of_tiles, const TileSet* tiles) {
+        return tile_set_page(of_tiles, tiles, words[0]);
+    });
+}
+
+HttpResponse tile(Pages& pages, const ApiContext& context, const PathWords& words) {
+    return with_tiles(pages, context, [&](const ApiContext& of_tiles, const TileSet* tiles) {
+        return tile_response(of_tiles, tiles, words[0], {words[1], words[2], words[3]});
+    });
+}
+
+HttpResponse tile_json(Pages& pages, const ApiContext& context, const PathWords& /*words*/) {
+    return with_tiles(pages, context, tile_json_page);
+}
+
+/// Path of the API: words in braces stand for any.
+struct Route {
+    std::string_view pattern;
+    HttpResponse (*answer)(Pages& pages, const ApiContext& context, const PathWords& words);
+};
+
+// clang-format off
+constexpr std::array routes{
+    Route{"/", [](Pages&, const ApiContext& c, const PathWords&) { return landing_page(c); }},
+    Route{"/conformance", [](Pages&, const ApiContext& c, const PathWords&) { return conformance_page(c); }},
+    Route{"/api", [](Pages&, const ApiContext& c, const PathWords&) { return openapi_page(c); }},
+    Route{"/collections", [](Pages& p, const ApiContext& c, const PathWords&) { return p.features.collections(c); }},
+    Route{"/collections/{id}", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.collection(c, w[0]); }},
+    Route{"/collections/{id}/items", [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.items(c, w[0]); }},
+    Route{"/collections/{id}/items/{feature}",
+          [](Pages& p, const ApiContext& c, const PathWords& w) { return p.features.item(c, w[0], w[1]); }},
+    Route{"/tileMatrixSets", [](Pages&, const ApiContext& c, const PathWords&) { return matrix_sets_page(c); }},
+    Route{"/tileMatrixSets/{set}", [](Pages&, const ApiContext& c, const PathWords& w) { return matrix_set_page(c, w[0]); }},
+    Route{"/tiles", tile_sets},
+    Route{"/tiles/{set}", tile_set},
+    Route{"/tiles/{set}/{z}/{row}/{column}", tile},
+    Route{"/collections/segments/tiles", tile_sets},
+    Route{"/collections/segments/tiles/{set}", tile_set},
+    Route{"/collections/segments/tiles/{set}/{z}/{row}/{column}", tile},
+    Route{"/tiles.json", tile_json},
+};
+// clang-format on
+
+/// Matches a path; `words` are what stands for the words in braces.
+bool matches(std::string_view pattern, std::string_view path, PathWords& words) {
+    words.clear();
+    while (true) {
+        const auto wanted = pattern.substr(0, pattern.find('/'));
+        const auto given = path.substr(0, path.find('/'));
+        if (wanted.starts_with('{')) {
+            if (given.empty()) {
+                return false;
+            }
+            words.emplace_back(given);
+        } else if (wanted != given) {
+            return false;
+        }
+        const bool pattern_ends = wanted.size() == pattern.size();
+        if (pattern_ends || given.size() == path.size()) {
+            return pattern_ends && given.size() == path.size();
+        }
+        pattern.remove_prefix(wanted.size() + 1);
+        path.remove_prefix(given.size() + 1);
+    }
+}
+
+/// Tests for a browser at the first page, which gets the map rather than the landing page.
+bool wants_map(const HttpRequest& request) {
+    const auto accept = request.header("accept");
+    return request.path == "/" && !request.parameter("f") &&
+           accept.find("text/html") < accept.find("json");
+}
+
+/// Answers from the API, or else from the files of the web page.
+HttpResponse answered(Pages& pages, const ApiContext& context) {
+    if (const auto page = wants_map(context.request) ? pages.live.page() : nullptr) {
+        if (auto response = file_response(page->path() / "site", "/")) {
+            response->headers.emplace_back("Vary", "Accept");
+            return *std::move(response);
+        }
+    }
+    PathWords words;
+    for (const auto& [pattern, answer] : routes) {
+        if (!matches(pattern, context.request.path, words)) {
+            continue;
+        }
+        HttpResponse response;
+        try {
+            response = answer(pages, context, words);
+        } catch (const UsageError& error) {
+            response = http_problem(400, error.what());
+        } catch (const SelectionTooLong&) {
+            response = http_problem(503, "this selection takes too long; narrow it by bbox");
+        } catch (const InputError& error) {
+            // of the database: its file has no place in what clients see
+            auto what = std::string{error.what()};
+            const auto file = context.store.file().string() + ": ";
+            what = what.starts_with(file) ? what.substr(file.size()) : what;
+            response = http_problem(400, what);
+        }
+        response.route = pattern;
+        return response;
+    }
+    if (const auto page = pages.live.page()) {
+        if (auto response = file_response(page->path() / "site", context.request.path)) {
+            return *std::move(response);
+        }
+    }
+    return http_problem(404, "there is no such page");
+}
+
+// -------------------------------------------------------------------------------------- server
+
+/// Returns the address under which a client sees this server.
+std::string base_of(const HttpRequest& request, const ServedAddress& address) {
+    return address.base.empty() ? fmt::format("http://{}", request.header("host")) : address.base;
+}
+
+void log_request(const HttpRecord& record) {
+    const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::chrono::system_clock::now().time_since_epoch());
+    print(fmt::format("{} {} {} {} {} B {:.1f} ms\n",
+                      utc_text(now.count()),
+                      record.method == "GET" || record.method == "HEAD" ? record.method : "-",
+                      record.route,
+                      record.status,
+                      record.bytes,
+                      static_cast<double>(record.duration.count()) / 1e3));
+    flush_results();
+}
+
+/// Handlers that count and log, and answer /health and /metrics.
+HttpHandlers common_handlers(ServerMetrics& metrics,
+                             const HttpServer* const& server,
+                             const ServedAddress& address,
+                             const Console& console) {
+    HttpHandlers handlers;
+    handlers.answer_at_once = [&](const HttpRequest& request) -> std::optional<HttpResponse> {
+        if (request.path == "/health") {
+            return HttpResponse{
+                .body = "{\"status\":\"pass\"}\n", .cache_control = "no-store", .route = "/health"};
+        }
+        if (request.path == "/metrics") {
+            return HttpResponse{.type = "text/plain; version=0.0.4",
+                                .body = metrics.text(server == nullptr ? 0 : server->connections()),
+                                .cache_control = "no-store",
+                                .route = "/metrics"};
+        }
+        return std::nullopt;
+    };
+    handlers.record = [&, logs = address.has_access_log](const HttpRecord& record) {
+        metrics.add(record);
+        if (logs) {
+            log_request(record);
+        }
+    };
+    handlers.failed = [&](const std::string& /*path*/, const std::string& what) {
+        console.warn(fmt::format("a request failed: {}", what));
+    };
+    return handlers;
+}
+
+/// Waits a second, or until a stop is requested.
+void wait_for_stop(const std::stop_token& stop) {
+    std::mutex mutex;
+    std::unique_lock lock{mutex};
+    std::condition_variable_any stopped;
+    stopped.wait_for(lock, stop, 1s, [] { return false; });
+}
+
+} // namespace
+
+void serve_database(const std::filesystem::path& file,
+                    Audience audience,
+                    const HttpServerConfig& config,
+                    const ServedAddress& address,
+                    const Console& console,
+                    const std::function<void(std::uint16_t port)>& started) {
+    std::stop_source interruption; // of reading, once the time to drain is over
+    ServedStore store{file, audience, config.workers, interruption.get_token()};
+    LiveContent live{file, audience, console};
+    live.refresh(store.version());
+    Pages pages{.features = {}, .live = live};
+    ServerMetrics metrics;
+    const HttpServer* running = nullptr;
+    auto handlers = common_handlers(metrics, running, address, console);
+    handlers.answer = [&](const HttpRequest& request, std::size_t worker) {
+        const auto version = store.version();
+        return answered(pages,
+                        {.request = request,
+                         .store = store.reader(worker),
+                         .version = version,
+                         .base = base_of(request, address)});
+    };
+    HttpServer server{config, std::move(handlers)};
+    running = &server;
+    started(server.port());
+    while (!console.stop().stop_requested()) {
+        wait_for_stop(console.stop());
+        if (store.look()) {
+            console.detail("the database has changed");
+            live.refresh(store.version());
+        }
+    }
+    server.drain(drain_time);
+    interruption.request_stop();
+}
+
+void serve_folder(const std::filesystem::path& folder,
+                  const HttpServerConfig& config,
+                  const ServedAddress& address,
+                  const Console& console,
+                  const std::function<void(std::uint16_t port)>& started) {
+    ServerMetrics metrics;
+    const HttpServer* running = nullptr;
+    auto handlers = common_handlers(metrics, running, address, console);
+    handlers.answer = [&](const HttpRequest& request, std::size_t) {
+        return file_response(folder, request.path)
+            .value_or(http_problem(404, "there is no such file"));
+    };
+    HttpServer server{config, std::move(handlers)};
+    running = &server;
+    started(server.port());
+    while (!console.stop().stop_requested()) {
+        wait_for_stop(console.stop());
+    }
+    server.drain(drain_time);
+}
+
+} // namespace macadam

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "app/cli/console.hpp"
+#include "app/http/http_server.hpp"
+#include "storage/store/reader/store_reader.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace macadam {
+
+/// Where a server is reached.
+struct ServedAddress {
+    std::string base; ///< public address, without a slash at its end; "" = as the client names it
+    bool has_access_log = false; ///< a line on standard output for each request
+};
+
+/// Serves a database until a stop is requested: OGC API, tiles, /health and /metrics.
+/// \param started  called with the port when requests are answered
+/// \throws InputError  if the file is no database or the address is in use.
+void serve_database(const std::filesystem::path& file,
+                    Audience audience,
+                    const HttpServerConfig& config,
+                    const ServedAddress& address,
+                    const Console& console,
+                    const std::function<void(std::uint16_t port)>& started);
+
+/// Serves the files of a folder in the same way.
+void serve_folder(const std::filesystem::path& folder,
+                  const HttpServerConfig& config,
+                  const ServedAddress& address,
+                  const Console& console,
+                  const std::function<void(std::uint16_t port)>& started);
+
+} // namespace macadam

@@ -1,0 +1,130 @@
+#include "app/cli/serve_command.hpp"
+
+#include "app/database/publication_messages.hpp"
+#include "app/database/segment_options.hpp"
+#include "app/http/listening_socket.hpp"
+#include "app/parallel/jobs_option.hpp"
+#include "app/serve/api_server.hpp"
+
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <filesystem>
+
+namespace macadam {
+namespace {
+
+/// Parses "127.0.0.1:8080" or "[::1]:8080".
+void parse_listen(const std::string& text, HttpServerConfig& config) {
+    const auto colon = text.rfind(':');
+    const auto number = colon == std::string::npos ? "" : text.substr(colon + 1);
+    const auto* const end = number.data() + number.size();
+    const auto [stop, error] = std::from_chars(number.data(), end, config.port);
+    if (number.empty() || error != std::errc{} || stop != end) {
+        throw UsageError{fmt::format(
+            "--listen is '{}', expected an address with a port, such as 127.0.0.1:8080", text)};
+    }
+    config.host = text.substr(0, colon);
+    if (config.host.starts_with('[') && config.host.ends_with(']')) {
+        config.host = config.host.substr(1, config.host.size() - 2);
+    }
+    if (!is_loopback(config.host)) {
+        throw UsageError{fmt::format(
+            "--listen is '{}', expected an address of this machine alone, 127.0.0.1 or [::1]; "
+            "for others, put a web server such as nginx in front and give --behind-proxy",
+            text)};
+    }
+}
+
+/// Parses the public address of --behind-proxy: "https://roads.example.org/iri".
+void parse_proxy(const std::string& url, HttpServerConfig& config, ServedAddress& address) {
+    constexpr std::string_view allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_~:/[]";
+    const auto colon = url.find("://");
+    const auto scheme = url.substr(0, colon);
+    const bool is_web = colon != std::string::npos && (scheme == "https" || scheme == "http");
+    const auto host = is_web ? url.substr(colon + 3, url.find('/', colon + 3) - colon - 3) : "";
+    if (host.empty() || url.find_first_not_of(allowed) != std::string::npos) {
+        throw UsageError{fmt::format("--behind-proxy is '{}', expected the public address, such as "
+                                     "https://roads.example.org",
+                                     url)};
+    }
+    config.behind_proxy = true;
+    config.hosts.push_back(host);
+    address.base = url.substr(0, url.find_last_not_of('/') + 1);
+}
+
+void run_serve(const Arguments& arguments, const Console& console) {
+    HttpServerConfig config;
+    ServedAddress address;
+    parse_listen(arguments.value("--listen").value_or("127.0.0.1:8080"), config);
+    if (const auto url = arguments.value("--behind-proxy")) {
+        parse_proxy(*url, config, address);
+    }
+    config.allowed_origin = arguments.value("--allow-origin").value_or("");
+    config.workers = jobs_of(arguments);
+    address.has_access_log = arguments.flag("--access-log");
+    const auto started = [&](std::uint16_t port) {
+        const bool is_v6 = config.host.find(':') != std::string::npos;
+        console.say(fmt::format("serving on http://{}{}{}:{}/; Ctrl-C ends",
+                                is_v6 ? "[" : "",
+                                config.host,
+                                is_v6 ? "]" : "",
+                                port));
+    };
+    const std::filesystem::path given = arguments.operand("STORE");
+    if (std::filesystem::is_directory(given)) {
+        serve_folder(given, config, address, console, started);
+        return;
+    }
+    const auto file = store_file(arguments);
+    tell_publication(StoreReader::open(file), console);
+    serve_database(file, Audience::anyone, config, address, console, started);
+}
+
+constexpr std::array operands{
+    Operand{"STORE", "The road database, or a folder made by 'macadam export --format site'."}};
+
+constexpr std::array options{
+    Option{"--listen",
+           "HOST:PORT",
+           "Address of this machine, and port; 0 is any free one.",
+           "127.0.0.1:8080"},
+    Option{"--behind-proxy",
+           "URL",
+           "The public address, if a web server in front passes requests on; it must set "
+           "X-Forwarded-For."},
+    Option{"--allow-origin",
+           "ORIGIN",
+           "Let pages of this site, or * for all, read the answers (CORS)."},
+    Option{"--access-log", "", "Print a line for each request, without addresses and positions."},
+    preference(
+        {"--jobs", "N", "Number of requests that are worked on at once.", default_jobs_words})};
+
+} // namespace
+
+const Command serve_command{
+    .name = "serve",
+    .summary = "Serve a database to browsers and GIS programs",
+    .about =
+        "Answers on one address, until stopped: the map as a web page, OGC API - Features and "
+        "Tiles for QGIS, ArcGIS and\n"
+        "scripts, /health, and /metrics for Prometheus. A folder is served as files. Values "
+        "follow the database while\n"
+        "trips are imported; of a crowd database only the latest publication is shown. Without a "
+        "web server in front, only\n"
+        "this machine can ask; docs/reference/serve.md has a configuration for nginx. INT and "
+        "TERM (Ctrl-C) end the command\n"
+        "with exit status 0.",
+    .example = "  macadam serve roads.gpkg\n"
+               "  curl 'http://127.0.0.1:8080/collections/segments/items?class=poor&limit=10'\n"
+               "  macadam serve roads.gpkg --behind-proxy https://roads.example.org",
+    .operands = operands,
+    .options = options,
+    .run = run_serve,
+    .runs_until_stopped = true};
+
+} // namespace macadam

@@ -1,0 +1,98 @@
+#include "app/serve/live/live_content.hpp"
+
+#include "app/export/site_export.hpp"
+#include "app/site/site_page.hpp"
+#include "estimator/common/error.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Name in the system's folder for temporary files: the database's folder may be read-only.
+std::filesystem::path beside() {
+    return std::filesystem::temp_directory_path() / "macadam-serve";
+}
+
+} // namespace
+
+LiveContent::LiveContent(std::filesystem::path file, Audience audience, const Console& console)
+    : file_{std::move(file)}, audience_{audience}, console_{console},
+      thread_{[this](const std::stop_token& stop) { work(stop); }} {}
+
+void LiveContent::refresh(const std::string& version) {
+    {
+        const std::lock_guard lock{mutex_};
+        wanted_ = version;
+    }
+    asked_.notify_all();
+}
+
+std::shared_ptr<const TileSet> LiveContent::tiles() const {
+    const std::lock_guard lock{mutex_};
+    return tiles_;
+}
+
+std::shared_ptr<const TemporaryFolder> LiveContent::page() const {
+    const std::lock_guard lock{mutex_};
+    return page_;
+}
+
+void LiveContent::work(const std::stop_token& stop) {
+    std::string made;
+    while (true) {
+        std::unique_lock lock{mutex_};
+        if (!asked_.wait(lock, stop, [&] { return wanted_ != made; })) {
+            return;
+        }
+        made = wanted_;
+        lock.unlock();
+        const auto begin = Clock::now();
+        try {
+            make(made, stop);
+        } catch (const std::exception& error) {
+            if (!stop.stop_requested()) {
+                console_.warn(fmt::format("the tiles could not be made: {}", error.what()));
+            }
+        }
+        constexpr int rests = 9; // times as long as it worked
+        lock.lock();
+        asked_.wait_for(lock, stop, rests * (Clock::now() - begin), [] { return false; });
+    }
+}
+
+void LiveContent::make(const std::string& version, const std::stop_token& stop) {
+    const auto store = StoreReader::open(file_, {.stop = stop}, audience_);
+    const Progress progress{{}, stop};
+    auto tiles = std::make_shared<const TileSet>(store, version, beside(), progress);
+    {
+        const std::lock_guard lock{mutex_};
+        tiles_ = tiles;
+    }
+    if (!has_page_ || tiles->count() == 0) {
+        return;
+    }
+    try {
+        static_cast<void>(site_page_folder());
+    } catch (const InputError& no_page) {
+        has_page_ = false;
+        console_.say(no_page.what());
+        return;
+    }
+    auto folder = std::make_shared<const TemporaryFolder>(beside());
+    export_site(store,
+                {},
+                folder->path() / "site",
+                {.title = file_.stem().string(), .left_hand = false, .tiles = {}},
+                Console{Verbosity::quiet, stop});
+    const std::lock_guard lock{mutex_};
+    page_ = std::move(folder);
+}
+
+} // namespace macadam

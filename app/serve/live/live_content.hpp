@@ -1,0 +1,54 @@
+#pragma once
+
+#include "app/cli/console.hpp"
+#include "app/serve/live/tile_set.hpp"
+#include "storage/atomic/temporary_folder.hpp"
+#include "storage/store/records/publication.hpp"
+
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+namespace macadam {
+
+/// What is made from a whole version of the database, in the background: its tiles, and the web
+/// page with its data. Until a newer version is made, the one before is shown.
+class LiveContent {
+public:
+    /// \param file  the database
+    LiveContent(std::filesystem::path file, Audience audience, const Console& console);
+    ~LiveContent() = default;
+    LiveContent(const LiveContent&) = delete;
+    LiveContent& operator=(const LiveContent&) = delete;
+
+    /// Asks for the content of a version. While trips arrive all the time, a version is made at
+    /// most for a tenth of the time.
+    void refresh(const std::string& version);
+
+    /// Latest tiles; null until there are some.
+    std::shared_ptr<const TileSet> tiles() const;
+
+    /// Latest page; null until there is one, and in a build without it.
+    std::shared_ptr<const TemporaryFolder> page() const;
+
+private:
+    void work(const std::stop_token& stop);
+    void make(const std::string& version, const std::stop_token& stop);
+
+    std::filesystem::path file_;
+    Audience audience_;
+    const Console& console_;
+    bool has_page_ = true;     ///< false once it was refused
+    mutable std::mutex mutex_; ///< guards the members below
+    std::string wanted_;
+    std::shared_ptr<const TileSet> tiles_;
+    std::shared_ptr<const TemporaryFolder> page_;
+    std::condition_variable_any asked_;
+    std::jthread thread_;
+};
+
+} // namespace macadam

@@ -1,0 +1,34 @@
+#include "app/serve/live/tile_set.hpp"
+
+#include "mapping/style/iri_class.hpp"
+
+#include <string_view>
+#include <utility>
+
+namespace macadam {
+
+TileSet::TileSet(const StoreReader& store,
+                 std::string version,
+                 const std::filesystem::path& beside,
+                 const Progress& progress)
+    : version_{std::move(version)}, file_{beside} {
+    TileSource source{beside};
+    read_tile_source(store, {}, source, progress);
+    box_ = source.box;
+    const TilePlan plan{.min_zoom = min_zoom, .max_zoom = max_zoom};
+    make_vector_tiles(
+        source,
+        *class_table(store.settings().class_table),
+        plan,
+        [&](const TileId& tile, std::string_view bytes) {
+            places_.emplace(tile, file_.append(bytes));
+        },
+        progress);
+}
+
+std::optional<std::string> TileSet::tile(const TileId& id) const {
+    const auto place = places_.find(id);
+    return place == places_.end() ? std::nullopt : std::optional{file_.read(place->second)};
+}
+
+} // namespace macadam

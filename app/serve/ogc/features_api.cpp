@@ -1,0 +1,307 @@
+#include "app/serve/ogc/features_api.hpp"
+
+#include "app/cli/arguments.hpp"
+#include "estimator/common/error.hpp"
+#include "mapping/geometry/antimeridian.hpp"
+#include "mapping/geometry/area.hpp"
+#include "storage/exports/export.hpp"
+#include "storage/text/json.hpp"
+#include "storage/text/utc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+constexpr std::string_view geojson_type = "application/geo+json";
+
+struct CollectionText {
+    std::string_view id, title, description;
+};
+constexpr std::array collection_texts{
+    CollectionText{"segments",
+                   "Road segments",
+                   "About 20 m of road in one direction with its roughness (IRI, mm/m), the 90 % "
+                   "interval, passes and cars"},
+    CollectionText{"worst", "Worst sections", "Sections of poor road, roughest first"},
+    CollectionText{"events", "Potholes and other events", "Single defects, fused over passes"}};
+
+const CollectionText* text_of(std::string_view id) {
+    const auto* const found = std::ranges::find(collection_texts, id, &CollectionText::id);
+    return found == collection_texts.end() ? nullptr : found;
+}
+
+const std::vector<FeatureColumn>& columns_of(std::string_view id) {
+    static const auto segments = feature_columns(segment_columns());
+    return id == "segments" ? segments
+           : id == "worst"  ? worst_feature_columns()
+                            : event_feature_columns();
+}
+
+HttpResponse no_collection(std::string_view id) {
+    return http_problem(404, fmt::format("there is no collection '{}'", id));
+}
+
+HttpResponse no_feature(const std::string& id) {
+    return http_problem(404, fmt::format("there is no feature '{}'", id));
+}
+
+std::string day_json(const std::optional<std::int64_t>& ms) {
+    return ms ? json_text(utc_day(*ms) + "T00:00:00Z") : "null";
+}
+
+/// Page of features with its links.
+struct Page {
+    std::vector<std::string> features;
+    std::size_t matched = 0;
+    std::string next; ///< "after=..." or "offset=..."; "" = the last page
+};
+
+HttpResponse page_response(const ApiContext& context,
+                           std::string_view id,
+                           const ItemsQuery& query,
+                           const Page& page) {
+    const auto here = fmt::format("{}/collections/{}", context.base, id);
+    const auto address = [&](const std::string& position) {
+        return fmt::format("{}/items?limit={}{}{}", here, query.limit, position, query.rest);
+    };
+    const auto position = query.after        ? "&after=" + percent_encoded(*query.after)
+                          : query.offset > 0 ? fmt::format("&offset={}", query.offset)
+                                             : "";
+    std::vector<ApiLink> links{{address(position), "self", geojson_type},
+                               {address(position) + "&f=html", "alternate", "text/html"},
+                               {here, "collection", "application/json"}};
+    if (!page.next.empty()) {
+        links.push_back({address("&" + page.next), "next", geojson_type});
+    }
+    JsonObject collection;
+    collection.add("type", "FeatureCollection")
+        .add("numberMatched", static_cast<std::int64_t>(page.matched))
+        .add("numberReturned", static_cast<std::int64_t>(page.features.size()))
+        .add("links", JsonRaw{links_text(links)})
+        .add("features", JsonRaw{json_array(page.features)});
+    auto response = api_page(context, std::string{id}, collection.text(), geojson_type);
+    response.headers.emplace_back("Content-Crs", fmt::format("<{}>", uri_of(query.crs)));
+    return response;
+}
+
+HttpResponse feature_response(const ApiContext& context,
+                              std::string_view id,
+                              const Feature& feature,
+                              CoordinateReference crs) {
+    const auto here = fmt::format("{}/collections/{}", context.base, id);
+    const auto links = links_text(
+        {{fmt::format("{}/items/{}", here, percent_encoded(feature.id)), "self", geojson_type},
+         {here, "collection", "application/json"}});
+    auto response = api_page(
+        context, feature.id, feature_text(feature, columns_of(id), crs, links), geojson_type);
+    response.headers.emplace_back("Content-Crs", fmt::format("<{}>", uri_of(crs)));
+    return response;
+}
+
+Area area_of(const GeoBox& box) {
+    std::vector<Polygon> polygons;
+    for (const auto& [west, south, east, north] : parts_on_globe(box)) {
+        polygons.push_back({{{south, west}, {south, east}, {north, east}, {north, west}}});
+    }
+    return Area{polygons};
+}
+
+/// Tests whether the days between the first and the last pass of a feature meet a period.
+bool is_seen_in(const Feature& feature,
+                std::span<const FeatureColumn> columns,
+                const Period& period) {
+    const auto day = [&](std::string_view name) -> std::optional<std::string> {
+        const auto column = std::ranges::find(columns, name, &FeatureColumn::name);
+        return column == columns.end() ? std::nullopt
+                                       : plain_text(column->type, column->value(feature.row));
+    };
+    const auto first = day("first_seen"), last = day("last_seen");
+    return first && last && (!period.until_ms || *first <= utc_day(*period.until_ms - 1)) &&
+           (!period.from_ms || *last >= utc_day(*period.from_ms));
+}
+
+} // namespace
+
+std::vector<std::string_view> collection_ids() {
+    std::vector<std::string_view> ids;
+    for (const auto& text : collection_texts) {
+        ids.push_back(text.id);
+    }
+    return ids;
+}
+
+// -------------------------------------------------------------------------------- collections
+
+std::string FeaturesApi::collection_text(const ApiContext& context, std::string_view id) {
+    const auto& [name, title, description] = *text_of(id);
+    const auto extent = extent_.get(context.version, [&] {
+        return Extent{context.store.map_box(), context.store.seen()};
+    });
+    const auto& [west, south, east, north] = extent->box;
+    const auto here = fmt::format("{}/collections/{}", context.base, id);
+    std::vector<ApiLink> links{{here, "self", "application/json"},
+                               {here + "/items", "items", geojson_type},
+                               {here + "/items?f=html", "items", "text/html"}};
+    if (id == "segments") {
+        links.push_back({here + "/tiles",
+                         "http://www.opengis.net/def/rel/ogc/1.0/tilesets-vector",
+                         "application/json"});
+    }
+    JsonObject collection;
+    collection.add("id", std::string{id})
+        .add("title", std::string{title})
+        .add("description", std::string{description})
+        .add("attribution", context.store.settings().attribution)
+        .add("itemType", "feature")
+        .add("extent",
+             JsonRaw{
+                 fmt::format(R"({{"spatial":{{"bbox":[[{:.7f},{:.7f},{:.7f},{:.7f}]],"crs":"{}"}},)"
+                             R"("temporal":{{"interval":[[{},{}]]}}}})",
+                             west,
+                             south,
+                             east,
+                             north,
+                             uri_of(CoordinateReference::crs84),
+                             day_json(extent->seen.first_ms),
+                             day_json(extent->seen.last_ms))})
+        .add("crs",
+             JsonRaw{json_string_array(
+                 {coordinate_reference_uris.begin(), coordinate_reference_uris.end()})})
+        .add("storageCrs", std::string{uri_of(CoordinateReference::crs84)})
+        .add("links", JsonRaw{links_text(links)});
+    return collection.text();
+}
+
+HttpResponse FeaturesApi::collections(const ApiContext& context) {
+    expect_parameters(context.request);
+    std::vector<std::string> texts;
+    for (const auto id : collection_ids()) {
+        texts.push_back(collection_text(context, id));
+    }
+    JsonObject page;
+    page.add(
+            "links",
+            JsonRaw{links_text({{context.base + "/collections", "self", "application/json"},
+                                {context.base + "/collections?f=html", "alternate", "text/html"}})})
+        .add("crs",
+             JsonRaw{json_string_array(
+                 {coordinate_reference_uris.begin(), coordinate_reference_uris.end()})})
+        .add("collections", JsonRaw{json_array(texts)});
+    return api_page(context, "Collections", page.text());
+}
+
+HttpResponse FeaturesApi::collection(const ApiContext& context, std::string_view id) {
+    expect_parameters(context.request);
+    return text_of(id) == nullptr
+               ? no_collection(id)
+               : api_page(context, std::string{text_of(id)->title}, collection_text(context, id));
+}
+
+// -------------------------------------------------------------------------------------- items
+
+HttpResponse FeaturesApi::items(const ApiContext& context, std::string_view id) {
+    return text_of(id) == nullptr ? no_collection(id)
+           : id == "segments"     ? segment_items(context)
+                                  : list_items(context, id);
+}
+
+HttpResponse FeaturesApi::segment_items(const ApiContext& context) {
+    const auto& columns = columns_of("segments");
+    const auto query = parse_items_query(context.request, columns);
+    const auto keys = selections_.keys(context.store, context.version, query);
+    auto first = std::min(query.offset, keys->size());
+    if (query.after) {
+        const auto after = parse_segment_key(*query.after);
+        first = static_cast<std::size_t>(std::ranges::upper_bound(*keys, after) - keys->begin());
+    }
+    const auto count = std::min(query.limit, keys->size() - first);
+    const auto shown = std::span{*keys}.subspan(first, count);
+    auto filter = filter_of(query);
+    filter.box.reset(); // the keys are those of its segments
+    filter.ranges = ranges_of(shown);
+    Page page{.features = {}, .matched = keys->size(), .next = {}};
+    const auto& classes = *class_table(context.store.settings().class_table);
+    context.store.visit(filter, [&](const SegmentRecord& record) {
+        const ClassedSegment row{record, classes};
+        page.features.push_back(feature_text(
+            {.id = name_of(record.segment.key), .line = record.segment.line, .row = &row},
+            columns,
+            query.crs));
+    });
+    if (first + count < keys->size()) {
+        page.next = "after=" + percent_encoded(name_of(shown.back()));
+    }
+    return page_response(context, "segments", query, page);
+}
+
+std::shared_ptr<const FeatureList> FeaturesApi::list(const ApiContext& context,
+                                                     std::string_view id) {
+    return id == "worst"
+               ? worst_.get(context.version, [&] { return worst_features(context.store); })
+               : events_.get(context.version, [&] { return event_features(context.store); });
+}
+
+HttpResponse FeaturesApi::list_items(const ApiContext& context, std::string_view id) {
+    const auto& columns = columns_of(id);
+    const auto query = parse_items_query(context.request, columns);
+    if (query.after) {
+        throw UsageError{"after is for segments; pages of this collection have an offset"};
+    }
+    const auto all = list(context, id);
+    const auto area = query.box ? std::optional{area_of(*query.box)} : std::nullopt;
+    Page page;
+    for (const auto& feature : all->features) {
+        const bool fits =
+            (!area || area->intersects(feature.line)) &&
+            (!query.period || is_seen_in(feature, columns, *query.period)) &&
+            std::ranges::all_of(query.tests, [&](const auto& test) { return test(feature); });
+        if (fits && page.matched++ >= query.offset && page.features.size() < query.limit) {
+            page.features.push_back(feature_text(feature, columns, query.crs));
+        }
+    }
+    if (query.offset + page.features.size() < page.matched && !page.features.empty()) {
+        page.next = fmt::format("offset={}", query.offset + page.features.size());
+    }
+    return page_response(context, id, query, page);
+}
+
+HttpResponse
+FeaturesApi::item(const ApiContext& context, std::string_view id, const std::string& feature_id) {
+    expect_parameters(context.request, {"crs"});
+    const auto crs = parse_crs(context.request);
+    if (text_of(id) == nullptr) {
+        return no_collection(id);
+    }
+    if (id != "segments") {
+        const auto all = list(context, id);
+        const auto found = std::ranges::find(all->features, feature_id, &Feature::id);
+        return found == all->features.end() ? no_feature(feature_id)
+                                            : feature_response(context, id, *found, crs);
+    }
+    SegmentFilter filter;
+    try {
+        filter.key = parse_segment_key(feature_id);
+    } catch (const InputError&) {
+        return no_feature(feature_id);
+    }
+    auto response = no_feature(feature_id);
+    const auto& classes = *class_table(context.store.settings().class_table);
+    context.store.visit(filter, [&](const SegmentRecord& record) {
+        const ClassedSegment row{record, classes};
+        response = feature_response(
+            context,
+            id,
+            {.id = name_of(record.segment.key), .line = record.segment.line, .row = &row},
+            crs);
+    });
+    return response;
+}
+
+} // namespace macadam

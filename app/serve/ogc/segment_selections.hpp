@@ -1,0 +1,52 @@
+#pragma once
+
+#include "app/serve/ogc/items_query.hpp"
+#include "mapping/network/segment.hpp"
+#include "storage/store/reader/store_reader.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Selection takes longer than a request may.
+struct SelectionTooLong {};
+
+/// Keys of the segments that a request selects, in order.
+using SelectedKeys = std::shared_ptr<const std::vector<SegmentKey>>;
+
+/// Keys of recent selections. A page is a range of them, so that counts are exact, `next` neither
+/// repeats nor misses a segment, and a deep offset costs no more than the first.
+class SegmentSelections {
+public:
+    /// Returns the keys of a selection of one version of the database.
+    /// \throws SelectionTooLong, InputError
+    SelectedKeys
+    keys(const StoreReader& store, const std::string& version, const ItemsQuery& query);
+
+    static constexpr std::chrono::seconds max_time{10};
+    static constexpr std::size_t max_keys = 4'000'000; ///< of all selections, 24 bytes each
+
+private:
+    struct Selection {
+        std::string name; ///< version and selection
+        SelectedKeys keys;
+    };
+    std::mutex mutex_;
+    std::list<Selection> recent_; ///< latest first
+    std::size_t count_ = 0;       ///< of keys
+};
+
+/// Returns the filter of a request, as `query` and `export` build theirs.
+SegmentFilter filter_of(const ItemsQuery& query);
+
+/// Joins keys that follow one another to ranges.
+std::vector<SegmentRange> ranges_of(std::span<const SegmentKey> keys);
+
+} // namespace macadam

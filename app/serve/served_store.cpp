@@ -1,0 +1,103 @@
+#include "app/serve/served_store.hpp"
+
+#include "estimator/common/error.hpp"
+#include "storage/files/sha256.hpp"
+#include "storage/sqlite/sqlite.hpp"
+#include "storage/store/fusion/store_version.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include <sys/stat.h>
+
+namespace macadam {
+namespace {
+
+/// Number of a file on its file system; it changes as another file takes its name.
+std::uint64_t inode_of(const std::filesystem::path& file) {
+    struct stat status {};
+    return stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+} // namespace
+
+/// Connection that only looks for changes.
+struct ServedStore::Watch {
+    explicit Watch(const std::filesystem::path& file)
+        : inode{inode_of(file)}, database{file, Database::Access::read} {}
+
+    std::uint64_t inode;
+    Database database;
+    std::int64_t data_version = -1;
+};
+
+ServedStore::ServedStore(std::filesystem::path file,
+                         Audience audience,
+                         std::size_t readers,
+                         std::stop_token stop)
+    : file_{std::move(file)}, audience_{audience}, stop_{std::move(stop)}, readers_(readers) {
+    readers_.front().reader = open(); // refuses other files at once
+    shows_published_alone_ = readers_.front().reader->shows_published_alone();
+    look();
+}
+
+ServedStore::~ServedStore() = default;
+
+StoreReader ServedStore::open() const {
+    return StoreReader::open(file_, {.stop = stop_}, audience_);
+}
+
+StoreReader& ServedStore::reader(std::size_t worker) {
+    auto& [reader, epoch] = readers_.at(worker);
+    if (const auto now = epoch_.load(); !reader || epoch != now) {
+        reader = open();
+        epoch = now;
+    }
+    return *reader;
+}
+
+std::string ServedStore::version() const {
+    const std::lock_guard lock{mutex_};
+    return version_;
+}
+
+bool ServedStore::look() {
+    if (const auto inode = inode_of(file_); inode == 0) {
+        throw InputError{fmt::format("{}: was removed while it was served", file_.string())};
+    } else if (!watch_ || watch_->inode != inode) {
+        const bool replaced = watch_ != nullptr;
+        watch_ = std::make_unique<Watch>(file_);
+        epoch_ += replaced ? 1 : 0;
+    }
+    const auto data_version = watch_->database.number("PRAGMA data_version");
+    if (std::exchange(watch_->data_version, data_version) == data_version) {
+        return false;
+    }
+    auto version = version_now();
+    const std::lock_guard lock{mutex_};
+    return std::exchange(version_, std::move(version)) != version_;
+}
+
+std::string ServedStore::version_now() {
+    auto& database = watch_->database;
+    const Transaction one_moment{database, Transaction::Kind::read};
+    auto text = fmt::format("{}\n{}",
+                            watch_->inode,
+                            database.number("SELECT coalesce(max(number), 0) FROM publication"));
+    if (!shows_published_alone_) { // trips that are not published must not show here, either
+        const auto [maintenance, last_trip] = moment_of(database);
+        text += fmt::format("\n{}\n{}", maintenance, last_trip);
+        if (!dirty_chunks(database).empty()) { // values change without another trip
+            text +=
+                fmt::format("\n{}", std::chrono::system_clock::now().time_since_epoch().count());
+        }
+    }
+    Sha256 hash;
+    hash.add(text);
+    constexpr std::size_t letters = 16;
+    return hash.hex().substr(0, letters);
+}
+
+} // namespace macadam

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "storage/store/reader/store_reader.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// Database with a reader for each worker, and the version of its content.
+class ServedStore {
+public:
+    /// \param readers  number of workers, at least one
+    /// \param stop     interrupts reading
+    ServedStore(std::filesystem::path file,
+                Audience audience,
+                std::size_t readers,
+                std::stop_token stop);
+    ~ServedStore();
+
+    /// Reader of a worker; opened when it is first needed, and again after the file was replaced.
+    StoreReader& reader(std::size_t worker);
+
+    /// Text that changes with the content: of letters and digits, for ETag and URLs. Equal over
+    /// restarts once all passes are fused.
+    std::string version() const;
+
+    /// Looks for changes, which commits of other programs make; called every second by one thread.
+    /// \returns true if the version has changed.
+    bool look();
+
+    const std::filesystem::path& file() const { return file_; }
+
+private:
+    struct Watch;
+
+    StoreReader open() const;
+    std::string version_now();
+
+    std::filesystem::path file_;
+    Audience audience_;
+    std::stop_token stop_;
+    bool shows_published_alone_ = false;
+    struct Opened {
+        std::optional<StoreReader> reader;
+        std::size_t epoch = 0;
+    };
+    std::vector<Opened> readers_;        ///< one for each worker, touched by it alone
+    std::atomic<std::size_t> epoch_ = 0; ///< of the file, grows as it is replaced
+    std::unique_ptr<Watch> watch_;
+    mutable std::mutex mutex_; ///< guards version_
+    std::string version_;
+};
+
+} // namespace macadam

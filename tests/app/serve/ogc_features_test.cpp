@@ -1,0 +1,321 @@
+// OGC API - Features over real sockets. Numbers in brackets are those of the abstract tests of OGC
+// 17-069r4 (annex A) and 18-058r1, which these follow.
+
+#include "storage/exports/export.hpp"
+#include "support/http/served_store.hpp"
+#include "support/program/shell.hpp"
+#include "support/roads/store_world.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace macadam::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+using Served = ServedWorld;
+
+std::string link_to(const json& page, std::string_view rel) {
+    for (const auto& link : page.at("links")) {
+        if (link.at("rel") == rel) {
+            return link.at("href");
+        }
+    }
+    return "";
+}
+
+/// Ids of all features over all pages.
+std::vector<std::string> ids_over_pages(const Served& served, json page) {
+    std::vector<std::string> ids;
+    for (int pages = 0; pages < 1000; ++pages) {
+        for (const auto& feature : page.at("features")) {
+            ids.push_back(feature.at("id"));
+        }
+        const auto next = link_to(page, "next");
+        if (next.empty()) {
+            break;
+        }
+        page = served.follow(next);
+    }
+    return ids;
+}
+
+std::vector<std::string> exported_ids(const std::filesystem::path& file,
+                                      const std::optional<GeoBox>& box = {}) {
+    SegmentFilter filter;
+    filter.box = box;
+    std::vector<std::string> ids;
+    StoreReader::open(file).visit(
+        filter, [&](const SegmentRecord& record) { ids.push_back(name_of(record.segment.key)); });
+    return ids;
+}
+
+TEST(OgcFeatures, LinksFromTheLandingPage) { // A.2.2 core/root-op, root-success
+    const Served served;
+    const auto page = served.page("/");
+    for (const auto* rel : {"self", "service-desc", "service-doc", "conformance", "data"}) {
+        EXPECT_NE(link_to(page, rel), "") << rel;
+    }
+    EXPECT_EQ(served.follow(link_to(page, "service-desc")).at("openapi"), "3.0.3");     // A.2.3
+    EXPECT_GE(served.follow(link_to(page, "conformance")).at("conformsTo").size(), 5U); // A.2.4
+    EXPECT_EQ(served.follow(link_to(page, "data")).at("collections").size(), 3U);       // A.2.5
+}
+
+TEST(OgcFeatures, DescribesCollections) { // A.2.5, A.2.6 core/fc-md-success, sfc-md-success
+    const Served served;
+    const auto page = served.page("/collections");
+    for (const auto& collection : page.at("collections")) {
+        const auto id = collection.at("id").get<std::string>();
+        EXPECT_EQ(served.page("/collections/" + id), collection);
+        EXPECT_EQ(collection.at("extent").at("spatial").at("bbox")[0].size(), 4U);
+        EXPECT_THAT(collection.at("crs")[0].get<std::string>(), HasSubstr("CRS84"));
+        EXPECT_EQ(served.follow(link_to(collection, "items")).at("type"), "FeatureCollection");
+    }
+}
+
+TEST(OgcFeatures, GivesTheFeaturesThatExportsGive) { // A.2.7 core/fc-op, fc-response
+    const Served served;
+    const auto page = served.page("/collections/segments/items?limit=10000");
+    const auto ids = exported_ids(served.file);
+    ASSERT_EQ(ids.size(), 20U);
+    EXPECT_EQ(page.at("numberMatched"), ids.size());
+    EXPECT_EQ(page.at("numberReturned"), ids.size());
+    export_segments(StoreReader::open(served.file), {}, served.file.parent_path() / "all.geojson");
+    std::ifstream in{served.file.parent_path() / "all.geojson"};
+    EXPECT_EQ(page.at("features"), json::parse(in).at("features"));
+}
+
+TEST(OgcFeatures, PagesWithoutRepeatingOrMissingAFeature) { // core/fc-links, fc-limit-response-1
+    const Served served;
+    EXPECT_EQ(ids_over_pages(served, served.page("/collections/segments/items?limit=7")),
+              exported_ids(served.file));
+    EXPECT_EQ(ids_over_pages(served, served.page("/collections/segments/items?limit=7&offset=7")),
+              [&] {
+                  auto ids = exported_ids(served.file);
+                  ids.erase(ids.begin(), ids.begin() + 7);
+                  return ids;
+              }());
+    EXPECT_EQ(served.page("/collections/segments/items?offset=1000000").at("numberReturned"), 0);
+}
+
+TEST(OgcFeatures, KeepsTheFilterOverPages) { // core/fc-links
+    const Served served;
+    const auto ids = ids_over_pages(
+        served, served.page("/collections/segments/items?limit=3&direction=backward"));
+    ASSERT_GT(ids.size(), 5U);
+    for (const auto& id : ids) {
+        EXPECT_THAT(id, HasSubstr("1-"));
+    }
+}
+
+TEST(OgcFeatures, SelectsByBox) { // core/fc-bbox-definition, fc-bbox-response
+    const Served served;
+    const auto all = served.page("/collections/segments/items?limit=10000");
+    const auto first = all.at("features")[0].at("geometry").at("coordinates")[0];
+    const double lon = first[0], lat = first[1];
+    const GeoBox box{lon - 1e-4, lat - 1e-4, lon + 1e-4, lat + 1e-4};
+    const auto text =
+        fmt::format("{},{},{},{}", box.west_deg, box.south_deg, box.east_deg, box.north_deg);
+    const auto ids =
+        ids_over_pages(served, served.page("/collections/segments/items?bbox=" + text));
+    EXPECT_EQ(ids, exported_ids(served.file, box));
+    EXPECT_LT(ids.size(), all.at("features").size());
+    const auto turned = fmt::format(
+        "{},{},{},{}", box.south_deg, box.west_deg, box.north_deg, box.east_deg); // A.2.7 of Part 2
+    EXPECT_EQ(served
+                  .page("/collections/segments/items?bbox=" + turned +
+                        "&bbox-crs=http://www.opengis.net/def/crs/EPSG/0/4326")
+                  .at("numberMatched"),
+              ids.size());
+    EXPECT_EQ(served.page("/collections/segments/items?bbox=170,-50,-170,-40").at("numberMatched"),
+              0);
+}
+
+TEST(OgcFeatures, SelectsByTime) { // core/fc-time-definition, fc-time-response
+    const Served served;
+    const auto matched = [&](const std::string& time) {
+        return served.page("/collections/segments/items?datetime=" + time)
+            .at("numberMatched")
+            .get<int>();
+    };
+    const auto feature = served.page("/collections/segments/items?limit=1").at("features")[0];
+    const auto day = feature.at("properties").at("last_seen").get<std::string>();
+    EXPECT_GT(matched(day), 0);
+    EXPECT_GT(matched(day + "/.."), 0);
+    EXPECT_GT(matched("../" + day), 0);
+    EXPECT_GT(matched("2000-01-01T00:00:00Z/2100-01-01T00:00:00Z"), 0);
+    EXPECT_EQ(matched("1999-01-01/2000-01-01"), 0);
+    EXPECT_EQ(matched("2100-01-01"), 0);
+}
+
+TEST(OgcFeatures, GivesSingleFeatures) { // A.2.8 core/f-op, f-success, f-links
+    const Served served;
+    const auto feature = served.page("/collections/segments/items?limit=1").at("features")[0];
+    auto alone = served.page("/collections/segments/items/" + feature.at("id").get<std::string>());
+    EXPECT_NE(link_to(alone, "self"), "");
+    EXPECT_NE(link_to(alone, "collection"), "");
+    alone.erase("links");
+    EXPECT_EQ(alone, feature);
+    for (const auto* id : {"1+9999", "nonsense", "1%2B0", "%27;DROP%20TABLE%20segment"}) {
+        EXPECT_EQ(served.ask(fmt::format("/collections/segments/items/{}", id)).status, 404) << id;
+    }
+}
+
+TEST(OgcFeatures, TransformsCoordinates) { // 18-058r1 A.1 to A.6
+    const Served served;
+    const std::string uri = "http://www.opengis.net/def/crs/";
+    const auto in = [&](const std::string& crs) {
+        const auto answer = served.ask("/collections/segments/items?limit=1&crs=" + uri + crs);
+        EXPECT_EQ(answer.headers.at("content-crs"), "<" + uri + crs + ">");
+        return json::parse(answer.body).at("features")[0].at("geometry").at("coordinates")[0];
+    };
+    const auto degrees = in("OGC/1.3/CRS84"), turned = in("EPSG/0/4326"),
+               metres = in("EPSG/0/3857");
+    EXPECT_EQ(degrees[0], turned[1]);
+    EXPECT_EQ(degrees[1], turned[0]);
+    EXPECT_NEAR(
+        metres[0].get<double>(), degrees[0].get<double>() * 111319.4908, 0.02); // 7 decimals
+    EXPECT_EQ(served.ask("/collections/segments/items?crs=EPSG:31256").status, 400);
+    EXPECT_EQ(served.ask("/collections/segments/items?bbox=1,2,3,4&bbox-crs=x").status, 400);
+}
+
+TEST(OgcFeatures, RefusesBadParameters) { // core/query-param-unknown, query-param-invalid
+    const Served served;
+    for (const auto* query :
+         {"limit=0",        "limit=-1",         "limit=x",
+          "limit=1e3",      "offset=-1",        "bbox=1,2,3",
+          "bbox=a,b,c,d",   "bbox=nan,0,1,1",   "bbox=inf,0,1,1",
+          "bbox=1,2,3,4,5", "bbox=0,91,1,92",   "datetime=yesterday",
+          "datetime=../..", "datetime=2026-13", "datetime=2026-02-01/2026-01-01",
+          "unknown=1",      "after=x",          "f=xml",
+          "crs=EPSG:4326",  "%27%20OR%201=1",   "datetime=2026-01-01/x"}) {
+        const auto answer = served.ask(fmt::format("/collections/segments/items?{}", query));
+        EXPECT_EQ(answer.status, 400) << query;
+        EXPECT_EQ(answer.headers.at("content-type"), "application/problem+json");
+        EXPECT_THAT(answer.body, Not(HasSubstr("roads.gpkg")));
+    }
+    for (const auto* path :
+         {"/nothing", "/collections/x", "/collections/x/items", "/collections/x/items/1"}) {
+        EXPECT_EQ(served.ask(path).status, 404) << path;
+    }
+}
+
+TEST(OgcFeatures, TakesInjectionsAsText) {
+    const Served served;
+    for (const auto* text : {"'%20OR%20'1'='1",
+                             "%22;DROP%20TABLE%20segment;--",
+                             "%3Cscript%3E",
+                             "%25",
+                             "1%20UNION%20SELECT%20*%20FROM%20trip",
+                             "$(id)",
+                             "..%2F..%2Fetc%2Fpasswd"}) {
+        EXPECT_EQ(served.page(fmt::format("/collections/segments/items?name={}", text))
+                      .at("numberMatched"),
+                  0);
+        const auto html =
+            served.ask(fmt::format("/collections/segments/items?name={}&f=html", text));
+        EXPECT_EQ(html.status, 200);
+        EXPECT_THAT(html.body, Not(HasSubstr("<script>")));
+    }
+    EXPECT_GT(served.page("/collections/segments/items").at("numberMatched"), 0);
+}
+
+TEST(OgcFeatures, SelectsByProperty) { // core/fc-filter parameters
+    const Served served;
+    const auto all = served.page("/collections/segments/items?limit=10000");
+    const auto& shown = all.at("features")[3].at("properties");
+    std::size_t expected = 0;
+    for (const auto& feature : all.at("features")) {
+        expected += feature.at("properties").at("iri") == shown.at("iri") ? 1 : 0;
+    }
+    EXPECT_EQ(served.page(fmt::format("/collections/segments/items?iri={}", shown.at("iri").dump()))
+                  .at("numberMatched"),
+              expected);
+    EXPECT_EQ(served.page("/collections/segments/items?name=Rue%20de%20l%27%C3%89p%C3%A9e%20100%25")
+                  .at("numberMatched"),
+              all.at("numberMatched"));
+}
+
+TEST(OgcFeatures, ShowsPagesToBrowsers) { // html
+    const Served served;
+    const auto page = served.ask("/collections/segments/items", "Accept: text/html,*/*\r\n");
+    EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8");
+    EXPECT_THAT(page.body, HasSubstr("<a href=\"http://127.0.0.1"));
+    EXPECT_EQ(served.ask("/", "Accept: application/json\r\n").headers.at("content-type"),
+              "application/json");
+}
+
+TEST(OgcFeatures, FollowsTheDatabase) {
+    const Served served;
+    const auto before = served.ask("/collections/segments/items?limit=1");
+    EXPECT_EQ(served
+                  .ask("/collections/segments/items?limit=1",
+                       "If-None-Match: " + before.headers.at("etag") + "\r\n")
+                  .status,
+              304);
+    {
+        auto store = RoadStore::open(served.file);
+        import_trips(store, 5);
+    }
+    auto after = before;
+    while (after.headers.at("etag") == before.headers.at("etag")) { // the test's time limit ends it
+        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+        after = served.ask("/collections/segments/items?limit=1");
+    }
+    const auto passes = [](const Answer& answer) {
+        return json::parse(answer.body).at("features")[0].at("properties").at("passes").get<int>();
+    };
+    EXPECT_EQ(passes(before), 3);
+    EXPECT_EQ(passes(after), 5);
+}
+
+TEST(OgcFeatures, CountsRequestsByTheirPatterns) {
+    const Served served;
+    served.ask("/collections/segments/items?bbox=1.25,2.5,3.75,4.5");
+    const auto metrics = served.ask("/metrics").body;
+    EXPECT_THAT(metrics, HasSubstr("route=\"/collections/{id}/items\",code=\"200\"} 1"));
+    EXPECT_THAT(metrics, Not(HasSubstr("1.25")));
+}
+
+TEST(OgcFeatures, LinksToThePublicAddressBehindAProxy) {
+    const Served served{{.port = 0, .behind_proxy = true, .hosts = {"roads.example.org"}},
+                        {.base = "https://roads.example.org/iri"}};
+    const auto page = served.page("/collections");
+    EXPECT_EQ(link_to(page, "self"), "https://roads.example.org/iri/collections");
+}
+
+TEST(OgcFeatures, AreReadByGdal) {
+    const Served served;
+    const auto said = [&](const std::string& command) {
+        return output_of(served.file.parent_path(),
+                         fmt::format("{} OAPIF:http://127.0.0.1:{} segments -oo PAGE_SIZE=7",
+                                     command,
+                                     served.port));
+    };
+    EXPECT_THAT(said("ogrinfo -ro -so"),
+                AllOf(HasSubstr("Feature Count: 20"),
+                      HasSubstr("iri_low: Real"),
+                      HasSubstr("passes: Integer"),
+                      HasSubstr("last_seen: Date")));
+    const auto csv = said("ogr2ogr -f CSV /vsistdout/");
+    for (const auto& id : exported_ids(served.file)) {
+        EXPECT_THAT(csv, HasSubstr(id));
+    }
+}
+
+} // namespace
+} // namespace macadam::testing

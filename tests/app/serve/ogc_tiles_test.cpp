@@ -1,0 +1,154 @@
+// OGC API - Tiles over real sockets, after the abstract tests of OGC 20-057, annex A.
+
+#include "app/export/tile_export.hpp"
+#include "storage/files/gzip.hpp"
+#include "support/http/served_store.hpp"
+#include "support/program/shell.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace macadam::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// TileJSON, once the tiles are made.
+nlohmann::json tile_json_of(const ServedWorld& served) {
+    while (served.ask("/tiles.json").status == 503) { // the test's time limit ends it
+        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    }
+    return served.page("/tiles.json");
+}
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream in{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+TEST(OgcTiles, ServesTheTilesThatExportsHave) { // core/tc-op, tc-success
+    const ServedWorld served;
+    tile_json_of(served);
+    const auto folder = served.file.parent_path() / "tiles";
+    export_tiles(StoreReader::open(served.file),
+                 {},
+                 folder / "",
+                 {.min_zoom = 0, .max_zoom = 16},
+                 Console{Verbosity::quiet});
+    std::size_t tiles = 0;
+    for (const auto& entry : fs::recursive_directory_iterator{folder}) {
+        const auto& path = entry.path();
+        if (path.extension() != ".pbf") {
+            continue;
+        }
+        const auto zoom = path.parent_path().parent_path().filename().string();
+        const auto answer = served.ask(fmt::format("/tiles/WebMercatorQuad/{}/{}/{}",
+                                                   zoom,
+                                                   path.stem().string(),
+                                                   path.parent_path().filename().string()));
+        EXPECT_EQ(answer.status, 200) << path;
+        EXPECT_EQ(answer.body, bytes_of(path)) << path;
+        EXPECT_EQ(answer.headers.at("content-type"), "application/vnd.mapbox-vector-tile");
+        ++tiles;
+    }
+    EXPECT_GE(tiles, 17U); // one of each zoom at least
+}
+
+TEST(OgcTiles, LetsTilesOfAVersionBeKeptForEver) {
+    const ServedWorld served;
+    auto address = tile_json_of(served).at("tiles")[0].get<std::string>();
+    for (const auto& [word, value] : {std::pair{"{z}", "0"}, {"{y}", "0"}, {"{x}", "0"}}) {
+        address.replace(address.find(word), 3, value);
+    }
+    const auto tile = served.ask(served.target_of(address), "Accept-Encoding: gzip\r\n");
+    EXPECT_EQ(tile.status, 200);
+    EXPECT_THAT(tile.headers.at("cache-control"), HasSubstr("immutable"));
+    EXPECT_EQ(tile.headers.at("content-encoding"), "gzip");
+    const auto other = served.ask("/tiles/WebMercatorQuad/0/0/0?v=old");
+    EXPECT_EQ(other.headers.at("cache-control"), "no-cache");
+    EXPECT_EQ(other.body, gunzipped(tile.body));
+}
+
+TEST(OgcTiles, SaysNothingInEmptyTiles) { // core/tc-success, B: 204
+    const ServedWorld served;
+    tile_json_of(served);
+    const auto empty = served.ask("/tiles/WebMercatorQuad/16/0/0");
+    EXPECT_EQ(empty.status, 204);
+    EXPECT_TRUE(empty.body.empty());
+}
+
+TEST(OgcTiles, RefusesTilesOutsideOfTheMatrix) { // core/tc-error
+    const ServedWorld served;
+    tile_json_of(served);
+    for (const auto* path : {"0/0/1",
+                             "0/1/0",
+                             "17/0/0",
+                             "-1/0/0",
+                             "a/0/0",
+                             "0/0/x",
+                             "4294967296/0/0",
+                             "3/8/0",
+                             "3/0/8",
+                             "0/0/0/0",
+                             "40/0/0"}) {
+        EXPECT_EQ(served.ask(fmt::format("/tiles/WebMercatorQuad/{}", path)).status, 404) << path;
+    }
+    EXPECT_EQ(served.ask("/tiles/WorldCRS84Quad/0/0/0").status, 404);
+    EXPECT_EQ(served.ask("/tiles/WebMercatorQuad/0/0/0?x=1").status, 400);
+}
+
+TEST(OgcTiles, DescribesItsTileSets) { // tilesets-list, tileset, dataset- and geodata-tilesets
+    const ServedWorld served;
+    tile_json_of(served);
+    for (const auto* place : {"/tiles", "/collections/segments/tiles"}) {
+        const auto sets = served.page(place).at("tilesets");
+        ASSERT_EQ(sets.size(), 1U);
+        EXPECT_EQ(sets[0].at("dataType"), "vector");
+        EXPECT_THAT(sets[0].at("tileMatrixSetURI").get<std::string>(),
+                    HasSubstr("WebMercatorQuad"));
+        EXPECT_EQ(served.page(std::string{place} + "/WebMercatorQuad"), sets[0]);
+        EXPECT_EQ(sets[0].at("links").back().at("templated"), true);
+    }
+}
+
+TEST(OgcTiles, DefinesTheMatrixSet) { // OGC 17-083r2, D.1
+    const ServedWorld served;
+    const auto set = served.follow(
+        served.page("/tileMatrixSets").at("tileMatrixSets")[0].at("links")[0].at("href"));
+    ASSERT_EQ(set.at("tileMatrices").size(), 17U);
+    const auto& first = set.at("tileMatrices")[0];
+    EXPECT_NEAR(first.at("scaleDenominator").get<double>(), 559082264.028717, 1e-5);
+    EXPECT_NEAR(first.at("cellSize").get<double>(), 156543.033928041, 1e-8);
+    EXPECT_EQ(set.at("tileMatrices")[16].at("matrixWidth"), 65536);
+}
+
+TEST(OgcTiles, AreReadByGdal) {
+    const ServedWorld served;
+    tile_json_of(served);
+    const auto file = written(
+        served.file.parent_path(), "0.pbf", served.ask("/tiles/WebMercatorQuad/0/0/0").body);
+    EXPECT_THAT(
+        output_of(file.parent_path(), fmt::format("ogrinfo -ro -so {} roughness", file.string())),
+        HasSubstr("Feature Count: "));
+}
+
+TEST(OgcTiles, ShowsTheMapWhereTheProgramHasThePage) {
+    const ServedWorld served;
+    tile_json_of(served);
+    const auto answer = served.ask("/", "Accept: text/html\r\n");
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_EQ(answer.headers.at("content-type"), "text/html; charset=utf-8");
+}
+
+} // namespace
+} // namespace macadam::testing
