@@ -45,14 +45,33 @@ std::string classes_json(const ClassTable& classes) {
     return json_array(rows);
 }
 
-JsonValue published_json(const StoreReader& store) {
-    const auto publication =
-        store.shows_published_alone() ? store.latest_publication() : std::nullopt;
+/// Returns a text that changes with what is shown, and with nothing else: the digest of a database
+/// would tell of data that is not yet published.
+std::string digest_of(const StoreReader& store, const std::optional<Publication>& publication) {
+    return store.shows_published_alone()
+               ? fmt::format("publication-{}", publication ? publication->number : 0)
+               : store.digest();
+}
+
+JsonValue published_json(const std::optional<Publication>& publication) {
     if (!publication) {
         return nullptr;
     }
     return JsonRaw{
         JsonObject{}.add("number", publication->number).add("month", publication->month).text()};
+}
+
+/// Tests whether any segment has a value of a month; often none has, for a publication needs five
+/// cars in it.
+bool has_values(const StoreReader& store, const std::string& month) {
+    bool found = false;
+    SegmentFilter filter;
+    filter.period = period_of_month(month);
+    store.visit(
+        filter,
+        [&](const SegmentRecord& record) { found = found || record.state.has_value(); },
+        StateDetail::tiles);
+    return found;
 }
 
 } // namespace
@@ -61,6 +80,8 @@ std::string
 manifest_json(const StoreReader& store, const SiteManifest& manifest, const SiteTotals& totals) {
     const auto& settings = store.settings();
     const auto seen = store.seen();
+    const auto publication =
+        store.shows_published_alone() ? store.latest_publication() : std::nullopt;
     std::vector<std::string> codes;
     for (const auto& each : languages()) {
         codes.emplace_back(each.code);
@@ -68,8 +89,8 @@ manifest_json(const StoreReader& store, const SiteManifest& manifest, const Site
     return JsonObject{}
         .add("format", "macadam-site 1")
         .add("title", manifest.title)
-        .add("digest", store.digest())
-        .add("published", published_json(store))
+        .add("digest", digest_of(store, publication))
+        .add("published", published_json(publication))
         .add("first_seen", day(seen.first_ms))
         .add("last_seen", day(seen.last_ms))
         .add("attribution", settings.attribution)
@@ -96,10 +117,11 @@ std::vector<std::string> site_months(const StoreReader& store) {
         const auto seen = store.seen();
         if (seen.first_ms && seen.last_ms) {
             const auto last = month_of(*seen.last_ms);
-            for (auto month = month_of(*seen.first_ms);
-                 month <= last && months.size() < 12 * max_months;
+            for (auto month = month_of(*seen.first_ms); month <= last && months.size() < max_months;
                  month = month_after(month)) {
-                months.insert(month);
+                if (has_values(store, month)) {
+                    months.insert(month);
+                }
             }
         }
     } else {

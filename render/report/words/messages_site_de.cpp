@@ -73,7 +73,7 @@ constexpr std::array messages{
     Message{"site.narrow.2", "beliebig"},
     Message{"site.narrow.1", "auf 30 %"},
     Message{"site.narrow.0", "auf 15 %"},
-    Message{"site.no_history", "Keine datierten Überfahrten"},
+    Message{"site.no_history", "Keine Werte einzelner Monate"},
     Message{"site.no_map", "Die Liste der Straßen ersetzt die Karte"},
     Message{"site.no_road", "Keine gemessene Straße dieses Namens"},
     Message{"site.no_webgl",

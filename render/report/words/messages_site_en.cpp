@@ -72,7 +72,7 @@ constexpr std::array messages{
     Message{"site.narrow.2", "any"},
     Message{"site.narrow.1", "within 30 %"},
     Message{"site.narrow.0", "within 15 %"},
-    Message{"site.no_history", "No dated passes"},
+    Message{"site.no_history", "No values of single months"},
     Message{"site.no_map", "The list of roads takes the place of the map"},
     Message{"site.no_road", "No measured road of this name"},
     Message{"site.no_webgl",

@@ -230,5 +230,18 @@ TEST_F(HandingOn, ShowsASelectionInAReportAndOnAMap) {
         HasSubstr("--compare-since and --ramp cannot be combined"));
 }
 
+TEST_F(HandingOn, SiteIsAFolderAndRejectsOptionsOfOtherFormats) {
+    const auto site = (folder_ / "site").string();
+    EXPECT_THAT(refusal("export", {"-o", site + ".geojson", "--format", "site"}),
+                HasSubstr("expected a new or empty folder with --format site, such as public/"));
+    EXPECT_THAT(refusal("export", {"-o", site, "--format", "site", "--events"}),
+                HasSubstr("--events and --format site cannot be combined"));
+    EXPECT_THAT(refusal("export", {"-o", site, "--format", "site", "--tiles", "picture"}),
+                HasSubstr("--tiles and --format site cannot be combined"));
+    EXPECT_THAT(refusal("export", {"-o", site + "/", "--title", "Town"}),
+                HasSubstr("--title requires --format site"));
+    EXPECT_FALSE(std::filesystem::exists(site));
+}
+
 } // namespace
 } // namespace macadam::testing
