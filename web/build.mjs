@@ -6,12 +6,13 @@ import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [out] = process.argv.slice(2);
-if (!out) {
+const [given] = process.argv.slice(2);
+if (!given) {
   console.error('usage: node build.mjs FOLDER');
   process.exit(2);
 }
-const assets = resolve(out, 'assets');
+const out = resolve(given); // esbuild knows another current folder
+const assets = join(out, 'assets');
 const options = { bundle: true, minify: true, format: 'esm', target: 'es2022', legalComments: 'inline', absWorkingDir: here, logLevel: 'warning' };
 
 await rm(out, { recursive: true, force: true });

@@ -166,7 +166,7 @@ function search() {
 }
 
 function settings() {
-  const select = (key, label, values) => el('label', {}, el('span', { class: 'hidden' }, label), el('select', { 'aria-label': label, onchange: (event) => choose({ [key]: event.target.value }) },
+  const select = (key, label, values) => el('label', {}, el('span', {}, label), el('select', { onchange: (event) => choose({ [key]: event.target.value }) },
     ...values.map(([value, text]) => option(value, text, state[key] || (key === 'lang' ? document.documentElement.lang : '')))));
   const keys = el('input', { type: 'checkbox', checked: !keysAreOff(), onchange: (event) => { localStorage.setItem('macadam.keys', event.target.checked ? 'on' : 'off'); } });
   return el('details', { class: 'settings' }, el('summary', {}, w('site.settings')), el('div', { class: 'menu' },
