@@ -5,6 +5,7 @@
 #include "app/compare/source_comparison.hpp"
 #include "app/database/period_options.hpp"
 #include "app/database/segment_options.hpp"
+#include "app/database/selection.hpp"
 #include "app/output/units_option.hpp"
 
 #include "mapping/style/iri_class.hpp"
@@ -46,19 +47,6 @@ parse_length(const Arguments& arguments, std::string_view name, double fallback,
             fmt::format("{} is {}, expected metres above 0, up to {}", name, length_m, most)};
     }
     return length_m;
-}
-
-/// Parses the options that select segments.
-SegmentFilter parse_selection(const Arguments& arguments) {
-    SegmentFilter filter;
-    if (const auto degrees = arguments.numbers("--bbox", 4)) {
-        filter.box = box_of(*degrees);
-    }
-    filter.way_id = arguments.integer("--way");
-    filter.name_part = arguments.value("--road").value_or("");
-    filter.highway = arguments.value("--highway").value_or("");
-    filter.period = parse_period(arguments);
-    return filter;
 }
 
 void expect_two_sources(const CompareOptions& options) {
@@ -120,7 +108,7 @@ CompareOptions parse_compare(const Arguments& arguments) {
     CompareOptions options{
         .a = parse_source(arguments, "A", "--car-a"),
         .b = parse_source(arguments, "B", "--car-b"),
-        .filter = parse_selection(arguments),
+        .filter = parse_road_filter(arguments),
         .speeds_in_mph = parse_units(arguments) == UnitSystem::us,
         .roads = arguments.value("--roads"),
         .mm_per_m_of_one = arguments.choice("--unit") == "in/mi" ? 1 / in_per_mi_of_mm_per_m : 1,

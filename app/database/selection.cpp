@@ -23,20 +23,25 @@ std::int32_t parse_count(const Arguments& arguments, std::string_view name) {
 
 } // namespace
 
-SegmentFilter parse_filter(const Arguments& arguments) {
+SegmentFilter parse_road_filter(const Arguments& arguments) {
     SegmentFilter filter;
     if (const auto degrees = arguments.numbers("--bbox", 4)) {
         filter.box = box_of(*degrees);
     }
     filter.way_id = arguments.integer("--way");
     filter.name_part = arguments.value("--road").value_or("");
-    filter.with_state_only = !(arguments.has("--all") && arguments.flag("--all"));
     filter.highway = arguments.value("--highway").value_or("");
+    filter.period = parse_period(arguments);
+    return filter;
+}
+
+SegmentFilter parse_filter(const Arguments& arguments) {
+    auto filter = parse_road_filter(arguments);
+    filter.with_state_only = !(arguments.has("--all") && arguments.flag("--all"));
     filter.class_name = arguments.value("--class").value_or("");
     filter.min_passes = parse_count(arguments, "--min-passes");
     filter.min_vehicles = parse_count(arguments, "--min-cars");
     filter.vehicle = arguments.value("--vehicle-id").value_or("");
-    filter.period = parse_period(arguments);
     if (const auto file = arguments.value("--area")) {
         filter.area = std::make_shared<const Area>(read_area(*file));
     }

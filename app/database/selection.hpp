@@ -33,6 +33,10 @@ inline constexpr std::array selection_options{
     since_option,
     until_option};
 
+/// Parses --bbox, --way, --road, --highway, --since and --until.
+/// \throws UsageError  for invalid values.
+SegmentFilter parse_road_filter(const Arguments& arguments);
+
 /// Parses the selection, and --all of a command that has it. The file of --area is read.
 /// SegmentFilter::vehicle is as given until complete_filter.
 /// \throws UsageError  for invalid values.

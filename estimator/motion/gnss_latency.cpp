@@ -2,6 +2,7 @@
 
 #include "estimator/common/angle.hpp"
 #include "estimator/common/statistics.hpp"
+#include "estimator/motion/gnss_chord.hpp"
 #include "estimator/motion/turn_latency.hpp"
 
 #include <algorithm>
@@ -67,34 +68,6 @@ double deviation_mps(const TripLog& trip, double lag_s) {
 
 // ------------------------------------------------------------ from fix to fix, and turns
 
-/// Chord between two fixes, long enough that its course is known in spite of their noise.
-struct Chord {
-    double from_s; ///< time stamps
-    double to_s;
-    double speed_mps;
-    double course_rad; ///< positive to the left
-};
-
-std::vector<Chord> chords_of(const TripLog& trip) {
-    std::vector<Chord> chords;
-    const GnssFix* from = nullptr;
-    for (const auto& fix : trip.fixes) {
-        if (from == nullptr || fix.t_s - from->t_s > longest_chord_s) {
-            from = &fix;
-            continue;
-        }
-        const double way_m = distance_m(from->at, fix.at);
-        if (way_m >= min_chord_m) {
-            chords.push_back({from->t_s,
-                              fix.t_s,
-                              way_m / (fix.t_s - from->t_s),
-                              -course_deg(from->at, fix.at) * rad_per_deg});
-            from = &fix;
-        }
-    }
-    return chords;
-}
-
 /// Integrates the wheel speeds to metres at each reading's time.
 std::vector<double> wheel_travel_m(const SpeedSamples& wheels) {
     std::vector<double> travel_m(wheels.t_s.size(), 0.0);
@@ -132,7 +105,7 @@ double cost_of(std::vector<float> apart, float most) {
 }
 
 /// Returns the cost of a lag from the speeds between fixes and the wheel speeds.
-double speed_cost(const std::vector<Chord>& chords,
+double speed_cost(const std::vector<GnssChord>& chords,
                   const SpeedSamples& wheels,
                   const std::vector<double>& travel_m,
                   double lag_s) {
@@ -141,8 +114,9 @@ double speed_cost(const std::vector<Chord>& chords,
         const double way_m = travel_at(wheels, travel_m, chord.to_s - lag_s) -
                              travel_at(wheels, travel_m, chord.from_s - lag_s);
         if (std::isfinite(way_m)) {
+            const double duration_s = chord.to_s - chord.from_s;
             apart_mps.push_back(
-                static_cast<float>(chord.speed_mps - way_m / (chord.to_s - chord.from_s)));
+                static_cast<float>(chord.length_m / duration_s - way_m / duration_s));
         }
     }
     return cost_of(std::move(apart_mps), max_apart_mps);
@@ -201,7 +175,7 @@ std::optional<FoundLatency> find_gnss_latency(const TripLog& trip, const Heading
     if (const auto by_speeds_s = estimate_gnss_latency_s(trip)) {
         return FoundLatency{*by_speeds_s, latency_by_speeds_sd_s};
     }
-    const auto chords = chords_of(trip);
+    const auto chords = gnss_chords(trip, min_chord_m, longest_chord_s);
     const auto travel_m = wheel_travel_m(trip.speed);
     std::vector<double> lags_s;
     for (int i = 0; i < lags; ++i) {

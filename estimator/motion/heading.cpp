@@ -1,6 +1,7 @@
 #include "estimator/motion/heading.hpp"
 
 #include "estimator/common/angle.hpp"
+#include "estimator/motion/gnss_chord.hpp"
 #include "estimator/motion/mounting.hpp"
 
 #include <algorithm>
@@ -242,22 +243,12 @@ std::vector<Course> stated_courses(const TripLog& trip) {
 
 std::vector<Course> courses_of_chords(const TripLog& trip) {
     std::vector<Course> courses;
-    const GnssFix* from = nullptr;
-    for (const auto& fix : trip.fixes) {
-        if (from == nullptr || fix.t_s - from->t_s > longest_chord_s) {
-            from = &fix;
-            continue;
-        }
-        const double way_m = distance_m(from->at, fix.at);
-        if (way_m < min_chord_m) {
-            continue;
-        }
-        if (way_m > course_from_mps * (fix.t_s - from->t_s)) {
-            courses.push_back({(from->t_s + fix.t_s) / 2 - trip.meta.gnss_latency_s,
-                               -course_deg(from->at, fix.at) * rad_per_deg,
+    for (const auto& chord : gnss_chords(trip, min_chord_m, longest_chord_s)) {
+        if (chord.length_m > course_from_mps * (chord.to_s - chord.from_s)) {
+            courses.push_back({(chord.from_s + chord.to_s) / 2 - trip.meta.gnss_latency_s,
+                               chord.course_rad,
                                chord_sd_rad});
         }
-        from = &fix;
     }
     return courses;
 }

@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace macadam {
 
@@ -136,6 +139,20 @@ Table classes_table(const Report& report) {
     return table;
 }
 
+/// Adds a row for each kind of road that was measured, and one for all roads.
+template <typename RowOf>
+Table with_kinds(Table table, const Report& report, const RowOf& row_of) {
+    for (const auto& roads : report.summary.kinds) {
+        if (roads.covered_m > 0) {
+            table.rows.push_back(row_of(roads, kind_name(report, roads.kind)));
+        }
+    }
+    table.rows.push_back(row_of(report.summary.all, report.wording("all")));
+    table.sum = true;
+    table.stacks = true;
+    return table;
+}
+
 Table kinds_table(const Report& report) {
     const auto& say = report.wording;
     const auto& all = report.summary.all;
@@ -149,25 +166,17 @@ Table kinds_table(const Report& report) {
                  {"P95", true},
                  {say("column.classes")}},
                 {}};
-    const auto add = [&](const RoadSummary& roads, const std::string& name) {
-        table.rows.push_back({name,
-                              say.road_length(roads.covered_m, all.covered_m),
-                              say.iri(roads.mean.iri),
-                              say.interval(roads.mean),
-                              say.iri(roads.p50),
-                              say.iri(roads.p85),
-                              say.iri(roads.p95),
-                              share_bar(report, roads)});
+    const auto row_of = [&](const RoadSummary& roads, const std::string& name) {
+        return std::vector<Cell>{name,
+                                 say.road_length(roads.covered_m, all.covered_m),
+                                 say.iri(roads.mean.iri),
+                                 say.interval(roads.mean),
+                                 say.iri(roads.p50),
+                                 say.iri(roads.p85),
+                                 say.iri(roads.p95),
+                                 share_bar(report, roads)};
     };
-    for (const auto& roads : report.summary.kinds) {
-        if (roads.covered_m > 0) {
-            add(roads, kind_name(report, roads.kind));
-        }
-    }
-    add(all, say("all"));
-    table.sum = true;
-    table.stacks = true;
-    return table;
+    return with_kinds(std::move(table), report, row_of);
 }
 
 /// Builds a table of the length of each class by kind of road, with its uncertainty.
@@ -178,7 +187,7 @@ Table kind_classes_table(const Report& report) {
     for (std::size_t c = 0; c < report.colours.size(); ++c) {
         table.columns.push_back({class_name(report, c), true});
     }
-    const auto add = [&](const RoadSummary& roads, const std::string& name) {
+    const auto row_of = [&](const RoadSummary& roads, const std::string& name) {
         std::vector<Cell> row{name};
         for (const auto& range : roads.classes) {
             row.emplace_back(RichText{{{say.road_length(range.length_m, all.covered_m) + " "},
@@ -188,17 +197,9 @@ Table kind_classes_table(const Report& report) {
                                         SpanLook::quiet,
                                         true}}});
         }
-        table.rows.push_back(std::move(row));
+        return row;
     };
-    for (const auto& roads : report.summary.kinds) {
-        if (roads.covered_m > 0) {
-            add(roads, kind_name(report, roads.kind));
-        }
-    }
-    add(all, say("all"));
-    table.sum = true;
-    table.stacks = true;
-    return table;
+    return with_kinds(std::move(table), report, row_of);
 }
 
 } // namespace
@@ -264,8 +265,8 @@ DocumentSection map_section(const Report& report) {
     }
     legend.entries.push_back({std::nullopt, unmeasured_words(report), ""});
     auto figure = map_figure(report, report.map, report.map_width_m, words);
-    const auto grey = report.few_passes ? " " + say("map.few_passes.remark") : "";
-    figure.caption = say("map.remark") + grey + " " + figure.caption;
+    const auto grey = report.few_passes ? say("map.few_passes.remark") + " " : "";
+    figure.caption = fmt::format("{} {}{}", say("map.remark"), grey, figure.caption);
     return {say("map"), {legend, figure}};
 }
 

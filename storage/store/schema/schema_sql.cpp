@@ -4,8 +4,36 @@
 
 namespace macadam {
 
+namespace {
+
+/// Columns of fused values, for those of all passes and for those that a crowd publishes.
+constexpr const char* state_columns = R"(
+    fid INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
+    iri DOUBLE NOT NULL,
+    iri_sd DOUBLE NOT NULL,
+    iri_low DOUBLE NOT NULL,
+    iri_high DOUBLE NOT NULL,
+    iri_left DOUBLE,
+    iri_right DOUBLE,
+    "index" TEXT NOT NULL,
+    class TEXT NOT NULL,
+    passes INTEGER NOT NULL,
+    vehicles INTEGER NOT NULL,
+    first_seen DATE,
+    last_seen DATE,
+    trend_per_year DOUBLE,
+    trend_sd DOUBLE,
+    changed DATE,
+    change DOUBLE,
+    validity TEXT NOT NULL,
+    first_seen_ms INTEGER,
+    last_seen_ms INTEGER,
+    changed_ms INTEGER,
+    flags INTEGER NOT NULL
+)";
+
 // Column types are those of a GeoPackage; it forbids STRICT, which has other types.
-const char* const store_tables = R"(
+constexpr const char* tables = R"(
 CREATE TABLE meta (
     key TEXT PRIMARY KEY NOT NULL,
     value TEXT NOT NULL
@@ -108,30 +136,7 @@ CREATE TABLE strip_state (
     moved_far INTEGER NOT NULL,
     middle_lag_cm INTEGER NOT NULL
 );
-CREATE TABLE segment_state (
-    fid INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
-    iri DOUBLE NOT NULL,
-    iri_sd DOUBLE NOT NULL,
-    iri_low DOUBLE NOT NULL,
-    iri_high DOUBLE NOT NULL,
-    iri_left DOUBLE,
-    iri_right DOUBLE,
-    "index" TEXT NOT NULL,
-    class TEXT NOT NULL,
-    passes INTEGER NOT NULL,
-    vehicles INTEGER NOT NULL,
-    first_seen DATE,
-    last_seen DATE,
-    trend_per_year DOUBLE,
-    trend_sd DOUBLE,
-    changed DATE,
-    change DOUBLE,
-    validity TEXT NOT NULL,
-    first_seen_ms INTEGER,
-    last_seen_ms INTEGER,
-    changed_ms INTEGER,
-    flags INTEGER NOT NULL
-);
+CREATE TABLE segment_state ({0});
 CREATE TABLE control_section (
     name TEXT PRIMARY KEY NOT NULL,
     way_id INTEGER NOT NULL REFERENCES way(way_id),
@@ -219,30 +224,7 @@ CREATE TABLE publication (
     trips INTEGER NOT NULL,
     cars INTEGER NOT NULL
 );
-CREATE TABLE published_state (
-    fid INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
-    iri DOUBLE NOT NULL,
-    iri_sd DOUBLE NOT NULL,
-    iri_low DOUBLE NOT NULL,
-    iri_high DOUBLE NOT NULL,
-    iri_left DOUBLE,
-    iri_right DOUBLE,
-    "index" TEXT NOT NULL,
-    class TEXT NOT NULL,
-    passes INTEGER NOT NULL,
-    vehicles INTEGER NOT NULL,
-    first_seen DATE,
-    last_seen DATE,
-    trend_per_year DOUBLE,
-    trend_sd DOUBLE,
-    changed DATE,
-    change DOUBLE,
-    validity TEXT NOT NULL,
-    first_seen_ms INTEGER,
-    last_seen_ms INTEGER,
-    changed_ms INTEGER,
-    flags INTEGER NOT NULL
-);
+CREATE TABLE published_state ({0});
 CREATE TABLE published_until (
     segment INTEGER PRIMARY KEY NOT NULL REFERENCES segment(fid),
     last_trip INTEGER NOT NULL
@@ -290,6 +272,12 @@ CREATE TABLE published_event (
     PRIMARY KEY (segment, number)
 ) WITHOUT ROWID;
 )";
+
+} // namespace
+
+std::string store_tables() {
+    return fmt::format(tables, state_columns);
+}
 
 std::string roughness_layer(PrivacyProfile privacy) {
     const auto* const states =

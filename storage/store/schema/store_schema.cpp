@@ -78,7 +78,7 @@ void index_store_tables(Database& database) {
 
 void make_store_tables(Database& database, PrivacyProfile privacy) {
     make_geopackage(database);
-    database.run(store_tables);
+    database.run(store_tables());
     database.run(roughness_layer(privacy));
     add_style_table(database);
     index_store_tables(database);
@@ -105,7 +105,7 @@ void write_store(Database& database,
     }
     Transaction all{database, Transaction::Kind::write};
     make_geopackage(database);
-    database.run(store_tables);
+    database.run(store_tables());
     database.run(roughness_layer(settings.privacy));
     add_style_table(database);
     const auto network_hash = write_ways(database, roads);

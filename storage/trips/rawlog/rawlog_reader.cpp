@@ -229,19 +229,6 @@ private:
     Poses poses_;
 };
 
-using Named = std::pair<std::string_view, TripColumn>;
-constexpr std::array<Named, 11> column_names{{{"t_s", TripColumn::t_s},
-                                              {"acc_x_mps2", TripColumn::acc_x},
-                                              {"acc_y_mps2", TripColumn::acc_y},
-                                              {"acc_z_mps2", TripColumn::acc_z},
-                                              {"gyro_x_radps", TripColumn::gyro_x},
-                                              {"gyro_y_radps", TripColumn::gyro_y},
-                                              {"gyro_z_radps", TripColumn::gyro_z},
-                                              {"speed_mps", TripColumn::speed},
-                                              {"lat_deg", TripColumn::lat},
-                                              {"lon_deg", TripColumn::lon},
-                                              {"gnss_speed_mps", TripColumn::gnss_speed}}};
-
 /// Columns of a rawlog, which has no header row: those with a number in any row.
 class Columns {
 public:
@@ -252,8 +239,8 @@ public:
     }
 
     bool has(const std::string& name) const {
-        const auto found = std::ranges::find(column_names, name, &Named::first);
-        return found != column_names.end() && occurs_[static_cast<std::size_t>(found->second)];
+        const auto column = channel_named(name);
+        return column && occurs_[static_cast<std::size_t>(*column)];
     }
 
 private:

@@ -18,12 +18,14 @@ TEST(Commands, AreFoundByTheirNames) {
 }
 
 TEST(Commands, HaveOneNameEach) {
+    ASSERT_GT(commands().size(), 20U);
     for (const auto& command : commands()) {
         EXPECT_EQ(std::ranges::count(commands(), command.name, &Command::name), 1) << command.name;
     }
 }
 
 TEST(Help, OfEveryCommandNamesEachOptionAndGivesAnExampleOfIt) {
+    ASSERT_GT(commands().size(), 20U);
     for (const auto& command : commands()) {
         const auto help = help_of(command, HelpDetail::all);
         EXPECT_THAT(help, HasSubstr("usage: macadam " + std::string{command.name}));
@@ -118,6 +120,7 @@ TEST(Commands, ThatAreMisspelledAreAnsweredWithTheNearestOne) {
 }
 
 TEST(Help, OfAllNamesEveryCommand) {
+    ASSERT_GT(commands().size(), 20U);
     const auto help = help_of_all(1);
     for (const auto& command : commands()) {
         EXPECT_THAT(help, HasSubstr("  " + std::string{command.name} + " "));
@@ -125,6 +128,7 @@ TEST(Help, OfAllNamesEveryCommand) {
 }
 
 TEST(Help, KeepsItsLinesWithinAScreen) {
+    ASSERT_GT(commands().size(), 20U);
     constexpr std::size_t screen_columns = 132;
     for (const auto& command : commands()) {
         std::istringstream lines{help_of(command, HelpDetail::all)};
@@ -135,6 +139,7 @@ TEST(Help, KeepsItsLinesWithinAScreen) {
 }
 
 TEST(Commands, RefuseWhatTheyDoNotKnowBeforeTheyOpenAnything) {
+    ASSERT_GT(commands().size(), 20U);
     for (const auto& command : commands()) {
         EXPECT_THROW(run(command, {"--no-such-option"}), UsageError) << command.name;
     }

@@ -73,6 +73,7 @@ protected:
 const std::vector<int> ground{0xf4, 0xf4, 0xf2};
 
 TEST_F(RenderProgram, DrawsRoadsWhereTheyAreInTheWorld) {
+    ASSERT_FALSE(measured_.empty());
     for (const auto* crs : {"EPSG:3857", "EPSG:2154", "EPSG:3035"}) {
         const auto file = out("map.tif");
         expect_done({"-o", file, "--bare", "--size", "1200x900", "--crs", crs});

@@ -146,6 +146,7 @@ TEST(Colour, DifferenceMeetsThePublishedPairs) {
 }
 
 TEST(Colour, ClassesStayApartForEveryKindOfColourBlindness) {
+    ASSERT_FALSE(class_tables().empty());
     for (const auto& ramp : colour_ramps()) {
         for (const auto& table : class_tables()) {
             for (const auto& deficiency : deficiencies) {
@@ -193,6 +194,7 @@ TEST(Colour, DifferenceIsThatOfTheReferenceForEverySight) {
 }
 
 TEST(Colour, ShippedLooksNeedNoWarning) {
+    ASSERT_FALSE(class_tables().empty());
     for (const auto theme : themes) {
         for (const auto& ramp : colour_ramps()) {
             for (const auto& table : class_tables()) {
@@ -239,7 +241,9 @@ TEST(Colour, CasingStandsOutFromTheGround) {
 TEST(Colour, EveryClassStandsOutFromTheGroundOrFromItsCasing) {
     for (const auto theme : themes) {
         for (const auto* ramp : {"rdylbu", "cividis", "viridis"}) {
-            for (const auto rgb : ramp_colours(ramp, 5)) {
+            const auto classes = ramp_colours(ramp, 5);
+            ASSERT_EQ(classes.size(), 5U);
+            for (const auto rgb : classes) {
                 const auto colours = palette(theme);
                 EXPECT_GE(std::max(contrast(rgb, colours.ground), contrast(rgb, colours.casing)), 3)
                     << ramp << ' ' << std::hex << rgb;

@@ -247,6 +247,7 @@ TEST(FlatGeobufIndex, FindsWhatLiesInABox) {
                 all = including(all, point);
             }
         });
+        ASSERT_FALSE(boxes.empty());
         EXPECT_EQ(export_segments(store, choice, folder / "out.fgb"), boxes.size());
         for (const double share : {0.0, 0.3, 0.7, 1.0}) {
             const GeoBox corner{all.west_deg,

@@ -181,6 +181,7 @@ TEST(StateLayout, HoldsEveryStationUnderTheCarThroughAStep) {
     const auto passage = passage_of(lopsided_car(), everything);
     const auto layout = layout_of({passage});
     const auto& car = passage.cars.front().car;
+    ASSERT_GT(passage.travel_m.size(), 1U);
     for (std::size_t k = 1; k < passage.travel_m.size(); ++k) {
         const double last = std::floor((passage.travel_m[k] + car.front_m) / cell_m) + 1;
         const double first = std::floor((passage.travel_m[k - 1] + car.rear_m) / cell_m);

@@ -149,6 +149,7 @@ TEST(ChangingFleet, BlamesNoCarForRoadsThatChange) {
     Fleet fleet;
     fleet.road = [](auto place, double day) { return place < 200 && day > 30 ? 0.6 : 1; };
     const auto found = calibrated(fleet, drives_of(fleet, 6));
+    ASSERT_EQ(found.cars.size(), fleet.cars);
     for (const auto& periods : found.cars) {
         EXPECT_EQ(periods.size(), 1U);
     }
@@ -245,7 +246,9 @@ TEST(ChangingFleet, CountsTripsOfOneDayOnce) {
     for (std::size_t trip = 0; trip < drives.trips.car.size(); ++trip) {
         drives.trips.utc_ms[trip] = begin_ms + 60'000 * static_cast<std::int64_t>(trip);
     }
-    for (const auto& periods : calibrated(fleet, drives).cars) {
+    const auto found = calibrated(fleet, drives);
+    ASSERT_EQ(found.cars.size(), fleet.cars);
+    for (const auto& periods : found.cars) {
         EXPECT_EQ(periods.size(), 1U); // 20 trips within two hours are one load, one weather
     }
 }

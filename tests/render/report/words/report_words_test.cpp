@@ -74,6 +74,8 @@ TEST(ReportChange, IsNoPartOfAReportThatWasNotAskedForIt) {
 }
 
 TEST(Words, HaveTheSameKeysAndPlacesInEveryLanguage) {
+    ASSERT_GE(languages().size(), 2U);
+    ASSERT_FALSE(languages().front().messages.empty());
     for (const auto& other : languages()) {
         EXPECT_THAT(other.messages, SizeIs(languages().front().messages.size())) << other.code;
         for (const auto& [key, text] : languages().front().messages) {
@@ -86,6 +88,8 @@ TEST(Words, HaveTheSameKeysAndPlacesInEveryLanguage) {
 }
 
 TEST(Words, HaveEveryKeyOnce) {
+    ASSERT_GE(languages().size(), 2U);
+    ASSERT_FALSE(languages().front().messages.empty());
     for (const auto& each : languages()) {
         std::set<std::string_view> keys;
         for (const auto& message : each.messages) {

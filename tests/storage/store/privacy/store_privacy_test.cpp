@@ -166,6 +166,7 @@ TEST(VehicleIds, StandNowhereInTheStoreNorBesideIt) {
             EXPECT_THAT(bytes_of(file), Not(HasSubstr(id))) << file.path();
         }
     }
+    ASSERT_TRUE(fs::exists(folder / "a.gpkg"));
     for (const auto& file : fs::directory_iterator{folder}) {
         EXPECT_THAT(bytes_of(file), Not(HasSubstr(id))) << file.path();
     }

@@ -174,6 +174,7 @@ TEST(GpxZoo, HasNoOtherFiles) {
                   "no_trkpt",
                   "no_trkseg",
                   "test-only-wpt"});
+    ASSERT_FALSE(fs::is_empty(zoo));
     for (const auto& entry : fs::directory_iterator{zoo}) {
         if (entry.path().extension() == ".gpx") {
             EXPECT_EQ(known.count(entry.path().stem().string()), 1U) << entry.path();
